@@ -1,0 +1,86 @@
+#include "technique.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "checks.hpp"
+
+namespace detp {
+namespace {
+
+template <class... F>
+struct Overload : F... {
+  using F::operator()...;
+};
+
+}  // namespace
+
+std::string_view name(Technique technique) {
+  switch (technique) {
+    case Technique::brute_force:
+      return "brute-force";
+    case Technique::sphere_cache:
+      return "sphere-cache";
+    case Technique::sphere_cache_published:
+      return "sphere-cache-published";
+    case Technique::octree:
+      return "octree";
+    case Technique::grid:
+      return "grid";
+  }
+  throw std::logic_error("a technique without a name");
+}
+
+std::optional<Technique> technique_named(std::string_view wanted) {
+  for (const auto technique : all_techniques)
+    if (name(technique) == wanted) return technique;
+  return std::nullopt;
+}
+
+std::string_view name(SampleOrder order) { return order == SampleOrder::lebesgue ? "lebesgue" : "none"; }
+
+std::optional<SampleOrder> order_named(std::string_view wanted) {
+  for (const auto order : {SampleOrder::lebesgue, SampleOrder::none})
+    if (name(order) == wanted) return order;
+  return std::nullopt;
+}
+
+std::string describe(const Parameters& parameters) {
+  return std::visit(Overload{[](const BruteForceParameters&) { return std::string{}; },
+                             [](const SphereCacheParameters& p) {
+                               return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres,
+                                                  p.order == SampleOrder::none ? ", unsorted" : "");
+                             },
+                             [](const OctreeParameters& p) { return fmt::format("depth {}", p.depth); },
+                             [](const GridParameters& p) { return fmt::format("{} cells a side", p.cells); }},
+                    parameters);
+}
+
+void check(const Candidate& candidate) {
+  const auto want = [&]<class P>(const P*) {
+    if (!std::holds_alternative<P>(candidate.parameters))
+      throw std::invalid_argument(fmt::format("the parameters are not those of {}", name(candidate.technique)));
+    return std::get<P>(candidate.parameters);
+  };
+  switch (candidate.technique) {
+    case Technique::brute_force:
+      want(static_cast<const BruteForceParameters*>(nullptr));
+      break;
+    case Technique::sphere_cache:
+    case Technique::sphere_cache_published: {
+      const auto p = want(static_cast<const SphereCacheParameters*>(nullptr));
+      require_ratio("radius ratio Q", p.ratio);
+      require_count("number of spheres", static_cast<double>(p.spheres), 1, 1e18);
+      break;
+    }
+    case Technique::octree:
+      require_count("depth", want(static_cast<const OctreeParameters*>(nullptr)).depth, 0, 20);
+      break;
+    case Technique::grid:
+      require_count("cells a side", want(static_cast<const GridParameters*>(nullptr)).cells, 1, 1048576);
+      break;
+  }
+}
+
+}  // namespace detp

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+/// The techniques and their parameters. A new one is one line in each list here, one file in model, one in
+/// sim/technique.
+namespace detp {
+
+enum class Technique { brute_force, sphere_cache, sphere_cache_published, octree, grid };
+
+inline constexpr std::array all_techniques{Technique::brute_force, Technique::sphere_cache,
+                                           Technique::sphere_cache_published, Technique::octree, Technique::grid};
+
+/// The name on the command line and in files: "sphere-cache".
+[[nodiscard]] std::string_view name(Technique technique);
+
+/// The technique of that name, or nothing.
+[[nodiscard]] std::optional<Technique> technique_named(std::string_view name);
+
+/// The curve along which the sphere cache visits the samples.
+enum class SampleOrder {
+  lebesgue,  ///< Morton order, 16 bits a coordinate, X before Y before Z
+  none       ///< as given
+};
+
+[[nodiscard]] std::string_view name(SampleOrder order);
+[[nodiscard]] std::optional<SampleOrder> order_named(std::string_view name);
+
+/// Every disc against every ray.
+struct BruteForceParameters {
+  bool operator==(const BruteForceParameters&) const = default;
+};
+
+/// Nested spheres of radius r₀Qⁱ with their rays (sphere-cache, and sphere-cache-published).
+struct SphereCacheParameters {
+  double ratio = 0.65;                        ///< Q, in (0, 1)
+  std::int64_t spheres = 1;                   ///< k, the innermost sphere's index, >= 1
+  SampleOrder order = SampleOrder::lebesgue;  ///< in which the samples are visited
+  bool operator==(const SphereCacheParameters&) const = default;
+};
+
+/// Cube split into 8 at each of `depth` levels, empty nodes left out.
+struct OctreeParameters {
+  int depth = 6;  ///< levels below the root, 0 … 20
+  bool operator==(const OctreeParameters&) const = default;
+};
+
+/// Equal cubic cells.
+struct GridParameters {
+  int cells = 64;  ///< cells along the longest side, 1 … 1 048 576
+  bool operator==(const GridParameters&) const = default;
+};
+
+using Parameters = std::variant<BruteForceParameters, SphereCacheParameters, OctreeParameters, GridParameters>;
+
+/// One technique with its parameters.
+struct Candidate {
+  Technique technique = Technique::brute_force;
+  Parameters parameters = BruteForceParameters{};
+  bool operator==(const Candidate&) const = default;
+};
+
+/// The parameters for a reader: "Q 0.607, k 9"; empty where there are none.
+[[nodiscard]] std::string describe(const Parameters& parameters);
+
+/// Throws std::invalid_argument where a parameter is out of its range or not one of the technique's.
+void check(const Candidate& candidate);
+
+}  // namespace detp

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <array>
+
+/// What is asked of a technique, in numbers.
+namespace detp {
+
+/// n_R rays against n_P discs of radius d inside the sphere S₀.
+///
+/// The models take the rays as lines of the measure μ_ℓ through S₀, and the samples as uniform over a body of
+/// `dimension` (3: a volume, 2: surfaces) that fills the box.
+struct Workload {
+  double rays = 0;                        ///< n_R, a whole number 1 … 1e18
+  double samples = 0;                     ///< n_P, a whole number 1 … 1e18
+  double disc_radius = 0;                 ///< d, length > 0
+  double sphere_radius = 0;               ///< r₀, length > 0; S₀ holds every disc whole
+  std::array<double, 3> box = {0, 0, 0};  ///< sides of the samples' bounding box, lengths >= 0, not all 0
+  double dimension = 3;                   ///< D of the sample set, 1 … 3
+  double sample_distance = 0;             ///< mean distance between neighbouring samples, length; 0: unknown
+};
+
+/// Throws std::invalid_argument where a number is out of its range.
+void check(const Workload& workload);
+
+/// The longest side of the samples' box: s.
+[[nodiscard]] double scene_side(const Workload& workload);
+
+/// r₀ of the sphere around a cube of side s whose samples carry discs of radius d: s√3/2 + d.
+[[nodiscard]] double enclosing_radius(double side, double disc_radius);
+
+/// n_P samples in a cube of side s, or on its faces where dimension is 2.
+[[nodiscard]] Workload cube_workload(double rays, double samples, double disc_radius, double side,
+                                     double dimension = 3);
+
+}  // namespace detp

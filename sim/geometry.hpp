@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+/// The shapes the simulation works on, in double precision and scene units.
+namespace detp::sim {
+
+inline constexpr double unbounded = std::numeric_limits<double>::infinity();
+
+/// A photon path or a line.
+struct Ray {
+  glm::dvec3 origin{0.0};
+  glm::dvec3 direction{0.0, 0.0, 1.0};  ///< unit length
+  double length = unbounded;            ///< of the segment from the origin; unbounded: the whole line, both ways
+  double power = 1;                     ///< flux it carries; irradiance is the sum of powers over the disc's area
+
+  [[nodiscard]] bool is_line() const { return std::isinf(length); }
+};
+
+/// The disc of a sample, in the tangent plane.
+struct Disc {
+  glm::dvec3 centre{0.0};
+  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit length
+  double radius = 1;                 ///< > 0
+};
+
+struct Sphere {
+  glm::dvec3 centre{0.0};
+  double radius = 1;
+};
+
+/// Axis-aligned box. Starts empty; grows by `include`.
+struct Box {
+  glm::dvec3 low{unbounded};
+  glm::dvec3 high{-unbounded};
+
+  void include(const glm::dvec3& point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
+  [[nodiscard]] bool empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
+  [[nodiscard]] glm::dvec3 size() const { return high - low; }
+  [[nodiscard]] glm::dvec3 centre() const { return low + 0.5 * (high - low); }
+};
+
+/// A point of a surface where irradiance is wanted.
+struct Sample {
+  glm::dvec3 position{0.0};
+  glm::dvec3 normal{0.0, 0.0, 1.0};  ///< unit length
+};
+
+}  // namespace detp::sim

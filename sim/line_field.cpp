@@ -1,0 +1,34 @@
+#include "line_field.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "detp/model/vocabulary.hpp"
+#include "directions.hpp"
+#include "random.hpp"
+
+namespace detp::sim {
+
+LineField::LineField(const Sphere& sphere, std::uint64_t seed) : sphere_(sphere), seed_(seed) {
+  require_positive("sphere radius", sphere.radius);
+  for (int axis = 0; axis < 3; ++axis) require_finite("sphere centre", sphere.centre[axis]);
+}
+
+Ray LineField::line(std::uint64_t index) const {
+  const auto [u, v, w, phi] = uniform4(seed_, Stream::line_field, index);
+  const glm::dvec3 direction = uniform_direction(u, v);
+  const auto [first, second] = basis_around(direction);
+  const double radius = sphere_.radius * std::sqrt(w);
+  const double angle = 2.0 * std::numbers::pi * phi;
+  return {.origin = sphere_.centre + radius * (std::cos(angle) * first + std::sin(angle) * second),
+          .direction = direction};
+}
+
+std::vector<Ray> LineField::lines(std::uint64_t first, std::size_t count) const {
+  std::vector<Ray> rays;
+  rays.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) rays.push_back(line(first + i));
+  return rays;
+}
+
+}  // namespace detp::sim

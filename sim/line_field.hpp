@@ -1,0 +1,30 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geometry.hpp"
+
+namespace detp::sim {
+
+/// Uniform isotropic random lines through a sphere: the measure μ_ℓ, invariant under rotation and translation.
+///
+/// A uniform direction, and a uniform point on the disc perpendicular to it through the sphere's centre
+/// (Santaló, Integral Geometry, II.12). Line i is a function of (seed, i) alone.
+class LineField {
+ public:
+  /// Throws std::invalid_argument unless the radius is > 0 and finite and the centre finite.
+  LineField(const Sphere& sphere, std::uint64_t seed);
+
+  /// Line number `index`: unbounded, power 1, its origin the point nearest to the sphere's centre.
+  [[nodiscard]] Ray line(std::uint64_t index) const;
+
+  /// Lines first … first + count - 1.
+  [[nodiscard]] std::vector<Ray> lines(std::uint64_t first, std::size_t count) const;
+
+ private:
+  Sphere sphere_;
+  std::uint64_t seed_;
+};
+
+}  // namespace detp::sim

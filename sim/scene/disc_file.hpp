@@ -1,0 +1,21 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "detp/sim/geometry.hpp"
+
+namespace detp::sim {
+
+/// Reads discs: CSV with the header x,y,z,nx,ny,nz and optionally radius (columns in any order), or PLY with those
+/// vertex properties. Normals are normalised.
+///
+/// default_radius serves where the file gives none. Throws FileError with the line (CSV) or the element's number (PLY):
+/// unreadable or malformed, no disc at all, a number that is not finite, a zero normal, a radius <= 0 or none anywhere.
+[[nodiscard]] std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius);
+
+/// Writes discs as CSV with the header x,y,z,nx,ny,nz,radius, in digits that read back to the same doubles.
+void write_discs(const std::string& path, const std::vector<Disc>& discs);
+
+}  // namespace detp::sim

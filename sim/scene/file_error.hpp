@@ -1,0 +1,18 @@
+#pragma once
+
+#include <cstddef>
+#include <stdexcept>
+#include <string>
+
+namespace detp::sim {
+
+/// A file that cannot be read or written, or that does not hold what it should. One line: where, what is wrong, what
+/// would be right: "rays.csv:17: direction is zero; a direction needs a length".
+class FileError : public std::runtime_error {
+ public:
+  FileError(const std::string& path, const std::string& what) : std::runtime_error(path + ": " + what) {}
+  FileError(const std::string& path, std::size_t line, const std::string& what)
+      : std::runtime_error(path + ":" + std::to_string(line) + ": " + what) {}
+};
+
+}  // namespace detp::sim
