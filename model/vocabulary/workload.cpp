@@ -1,7 +1,10 @@
 #include "workload.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "checks.hpp"
 
@@ -15,7 +18,27 @@ void check(const Workload& workload) {
   for (const double side : workload.box) require_non_negative("side of the sample box", side);
   require_finite("sample dimension", workload.dimension);
   if (workload.dimension < 1 || workload.dimension > 3) require_count("sample dimension", workload.dimension, 1, 3);
+  require_non_negative("sample extent", workload.sample_extent);
   require_non_negative("sample distance", workload.sample_distance);
+  require_non_negative("path length", workload.path_length);
+  require_positive("longest side of the sample box", scene_side(workload));
+}
+
+double sample_extent(const Workload& workload) {
+  if (workload.sample_extent > 0) return workload.sample_extent;
+  // A flat box has no volume: a sliver of its longest side stands in, so that no density becomes infinite.
+  const double sliver = 1e-6 * scene_side(workload);
+  std::array<double, 3> side = workload.box;
+  for (double& length : side) length = std::max(length, sliver);
+  const double volume = side[0] * side[1] * side[2];
+  const double area = 2 * (side[0] * side[1] + side[1] * side[2] + side[2] * side[0]);
+  const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);
+  return std::pow(volume, weight) * std::pow(area, 1 - weight);
+}
+
+double sample_distance(const Workload& workload) {
+  if (workload.sample_distance > 0) return workload.sample_distance;
+  return std::pow(sample_extent(workload) / workload.samples, 1 / workload.dimension);
 }
 
 double scene_side(const Workload& workload) { return *std::max_element(workload.box.begin(), workload.box.end()); }

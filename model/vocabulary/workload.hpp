@@ -22,6 +22,12 @@ struct Workload {
 /// Throws std::invalid_argument where a number is out of its range.
 void check(const Workload& workload);
 
+/// Volume (D = 3), area (D = 2) or, between, the geometric interpolation of both, that the samples fill.
+[[nodiscard]] double sample_extent(const Workload& workload);
+
+/// Mean distance between neighbouring samples: given, or (extent / n_P)^(1/D).
+[[nodiscard]] double sample_distance(const Workload& workload);
+
 /// The longest side of the samples' box: s.
 [[nodiscard]] double scene_side(const Workload& workload);
 

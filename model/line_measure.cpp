@@ -1,0 +1,83 @@
+#include "line_measure.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+namespace detp::model {
+namespace {
+
+using std::numbers::pi;
+
+void require_inside(std::string_view what, double size, double outer) {
+  if (size > outer)
+    throw std::invalid_argument(
+        fmt::format("{} must not exceed the sphere radius {}, or it pokes out (got {})", what, outer, size));
+}
+
+/// Area common to two circles of radii a and b whose centres are c apart.
+double lens_area(double a, double b, double c) {
+  if (c >= a + b) return 0;
+  const double small = std::min(a, b);
+  if (c <= std::abs(a - b)) return pi * small * small;
+  const double from_a = (c * c + a * a - b * b) / (2 * c);
+  const double from_b = c - from_a;
+  const auto segment = [](double r, double x) {
+    const double cosine = std::clamp(x / r, -1.0, 1.0);
+    return r * r * (std::acos(cosine) - cosine * std::sqrt(1 - cosine * cosine));
+  };
+  return segment(a, from_a) + segment(b, from_b);
+}
+
+}  // namespace
+
+double sphere_hit_probability(SphereRadius inner, SphereRadius outer) {
+  require_positive("sphere radius", inner.value);
+  require_positive("sphere radius", outer.value);
+  require_inside("inner sphere radius", inner.value, outer.value);
+  const double ratio = inner.value / outer.value;
+  return ratio * ratio;
+}
+
+double disc_hit_probability(DiscRadius disc, SphereRadius outer) {
+  require_positive("disc radius", disc.value);
+  require_positive("sphere radius", outer.value);
+  require_inside("disc radius", disc.value, outer.value);
+  const double ratio = disc.value / outer.value;
+  return ratio * ratio / 2;
+}
+
+double cube_hit_probability(double side, SphereRadius outer) {
+  require_positive("cube side", side);
+  require_positive("sphere radius", outer.value);
+  require_inside("half the cube's diagonal", side * std::sqrt(0.75) * (1 - 1e-12), outer.value);
+  const double ratio = side / outer.value;
+  return 1.5 / pi * ratio * ratio;
+}
+
+double crossing_probability(const Workload& workload, double volume, double area) {
+  if (workload.path_length <= 0)
+    return std::min(1.0, area / (4 * pi * workload.sphere_radius * workload.sphere_radius));
+  double space = 1;
+  for (const double side : workload.box) space *= side + 2 * workload.disc_radius;
+  return std::min(1.0, (volume + workload.path_length * area / 4) / space);
+}
+
+double both_hit_share(double a, double b, double c) {
+  require_positive("sphere radius", a);
+  require_positive("sphere radius", b);
+  require_non_negative("distance of the centres", c);
+  if (c + b <= a) return 1;
+  constexpr int directions = 64;
+  double sum = 0;
+  for (int i = 0; i < directions; ++i) {
+    const double cosine = (i + 0.5) / directions;
+    sum += lens_area(a, b, c * std::sqrt(1 - cosine * cosine));
+  }
+  return sum / directions / (pi * b * b);
+}
+
+}  // namespace detp::model

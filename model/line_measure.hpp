@@ -1,0 +1,73 @@
+#pragma once
+
+#include "vocabulary.hpp"
+
+/// What a uniform, isotropic random line hits.
+///
+/// Every expected count here rests on one fact of integral geometry: lines distributed by the measure μ_ℓ, invariant
+/// under rotation and translation, meet a convex body in proportion to its surface area. So P(hit inner | hit outer) is
+/// a ratio of areas, whatever the position, as long as the inner body lies inside the outer one. Where it does not, the
+/// ratio is an upper bound, and `both_hit_share` tells how far it is off.
+namespace detp::model {
+
+/// Probability that a line through a sphere also crosses a smaller sphere inside it.
+///
+///     P = r₁² / r₀²
+///
+///   where  r₁   radius of the inner sphere, length
+///          r₀   radius of the outer sphere, length
+///
+/// Source     the paper's eq (3); Santaló, Integral Geometry, III.14.2.
+/// Valid      the inner sphere inside the outer one.   Accuracy  2 ulp.
+/// Throws     std::invalid_argument unless 0 < r₁ <= r₀, both finite.
+[[nodiscard]] double sphere_hit_probability(SphereRadius inner, SphereRadius outer);
+
+/// Probability that a line through a sphere crosses a disc inside it.
+///
+///     P = d² / (2 r₀²)
+///
+///   where  d    disc radius, length
+///          r₀   sphere radius, length; the disc lies inside the sphere
+///
+/// A disc is a convex body with two faces, F = 2πd²: hence the 2 that a sphere of the same radius does not have.
+///
+/// Source     Santaló, III.14.2; the paper's eq (3), for a disc: our derivation.
+/// Valid      any position and orientation inside the sphere.
+/// Limits     d → 0: 0.  d = r₀: ½.   Accuracy  2 ulp.
+/// Throws     std::invalid_argument unless 0 < d <= r₀, both finite.
+[[nodiscard]] double disc_hit_probability(DiscRadius disc, SphereRadius outer);
+
+/// Probability that a line through a sphere also crosses a cube of side s inside it: 6 s² / (4π r₀²).
+///
+/// Limits     the cube inscribed in the sphere, s = 2r₀/√3: 2/π.
+/// Throws     std::invalid_argument unless both are > 0 and finite and the cube fits: s√3/2 <= r₀ (to 1e-12).
+[[nodiscard]] double cube_hit_probability(double side, SphereRadius outer);
+
+/// Probability that a ray of the workload crosses a convex body inside S₀.
+///
+///     lines      P = F / (4π r₀²)
+///     segments   P = min(1, (V + ℓF/4) / V_box)
+///
+///   where  V, F    volume and surface area of the body
+///          ℓ       mean length of the rays;  V_box  volume of the samples' box grown by d, where the rays live
+///
+/// Source     eq (3); for segments our derivation: a segment with uniform origin meets K if its origin lies in K or if
+///            it enters through the boundary, where the flux of ℓ-long segments is ℓ/(4 V_box) per area.
+/// Valid      segments: origins uniform in the box, isotropic directions. Real paths start and end on surfaces: expect
+///            tens of percent.
+[[nodiscard]] double crossing_probability(const Workload& workload, double volume, double area);
+
+/// Share of the lines through sphere B that also cross sphere A, which need not contain B.
+///
+///     share = ∫₀¹ lens(c √(1-μ²); a, b) dμ / (π b²)
+///
+///   where  a, b   radii of A and B, length;   c   distance of their centres, length
+///          lens   area common to two circles of radii a, b: the spheres seen along a direction
+///          μ      cosine between the direction and the line of centres, uniform in [0, 1]
+///
+/// Limits     B inside A (c + b <= a): 1.  c >= a + b seen from everywhere: 0 only as c → ∞ (some lines pass both).
+/// Source     our derivation, from Santaló's projection formula.  Accuracy  1e-6 (64-point midpoint rule).
+/// Throws     std::invalid_argument unless a, b > 0 and c >= 0, all finite.
+[[nodiscard]] double both_hit_share(double a, double b, double c);
+
+}  // namespace detp::model

@@ -1,0 +1,22 @@
+#pragma once
+
+#include "detp/sim/random.hpp"
+
+namespace detp::sim::built_in {
+
+/// Uniform numbers in sequence, for growing a scene: its fixed seed makes it the same each time.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : seed_(seed) {}
+
+  /// Uniform in [low, high).
+  [[nodiscard]] double between(double low, double high) {
+    return low + (high - low) * uniform4(seed_, Stream::scene, next_++)[0];
+  }
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t next_ = 0;
+};
+
+}  // namespace detp::sim::built_in
