@@ -16,8 +16,8 @@ void check(const Workload& workload) {
   require_positive("disc radius", workload.disc_radius);
   require_positive("sphere radius", workload.sphere_radius);
   for (const double side : workload.box) require_non_negative("side of the sample box", side);
-  require_finite("sample dimension", workload.dimension);
-  if (workload.dimension < 1 || workload.dimension > 3) require_count("sample dimension", workload.dimension, 1, 3);
+  if (!(workload.dimension >= 1 && workload.dimension <= 3))
+    throw std::invalid_argument(fmt::format("sample dimension must be from 1 to 3 (got {})", workload.dimension));
   require_non_negative("sample extent", workload.sample_extent);
   require_non_negative("sample distance", workload.sample_distance);
   require_non_negative("path length", workload.path_length);
