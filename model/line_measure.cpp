@@ -66,6 +66,11 @@ double crossing_probability(const Workload& workload, double volume, double area
   return std::min(1.0, (volume + workload.path_length * area / 4) / space);
 }
 
+double expected_hits(const Workload& workload) {
+  const double d = workload.disc_radius;
+  return workload.rays * workload.samples * crossing_probability(workload, 0, 2 * pi * d * d);
+}
+
 double both_hit_share(double a, double b, double c) {
   require_positive("sphere radius", a);
   require_positive("sphere radius", b);

@@ -57,6 +57,9 @@ namespace detp::model {
 ///            tens of percent.
 [[nodiscard]] double crossing_probability(const Workload& workload, double volume, double area);
 
+/// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².
+[[nodiscard]] double expected_hits(const Workload& workload);
+
 /// Share of the lines through sphere B that also cross sphere A, which need not contain B.
 ///
 ///     share = ∫₀¹ lens(c √(1-μ²); a, b) dμ / (π b²)

@@ -1,0 +1,34 @@
+#pragma once
+
+#include <vector>
+
+#include "vocabulary.hpp"
+
+/// Which technique, with which parameters: from numbers alone.
+namespace detp::model {
+
+/// A technique with its best parameters for a workload.
+struct Ranked {
+  Candidate candidate;
+  Counts<double> counts;  ///< expected
+  CostBreakdown time;     ///< expected, in the unit of the costs
+};
+
+/// Limits of the parameters searched.
+struct SearchLimits {
+  int most_depth = 14;           ///< of an octree
+  double most_cells = 1 << 26;   ///< of a grid, all together: 8 bytes each
+  double most_references = 1e9;  ///< to discs in an index: 4 bytes each
+};
+
+/// All exact techniques, each with its best parameters, fastest first.
+///
+/// The sphere cache by best_ratio_and_stop (left out where d >= r₀); the octree over its depths; the grid over cell
+/// counts in steps of 10 %. Throws std::invalid_argument for a workload out of range.
+[[nodiscard]] std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs,
+                                       const SearchLimits& limits = {});
+
+/// One candidate as `rank` would show it.
+[[nodiscard]] Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCosts& costs);
+
+}  // namespace detp::model

@@ -1,0 +1,77 @@
+#include "disc_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "line_measure.hpp"
+
+namespace detp::model {
+namespace {
+
+constexpr double half_pi = std::numbers::pi / 2;
+
+/// Crossings of a disc with the planes across one axis, over those in endless cells: only the inner planes count.
+double inner_planes(double cells, double side, double disc) {
+  return cells <= 1 ? 0 : (cells - 1) * side / (cells * side - 2 * disc);
+}
+
+Counts<double> leaf_counts(const Workload& workload, const Cells& cells) {
+  const double references = workload.samples * cells.overlapped;
+  return {.disc_tests = workload.rays * cells.crossing * references,
+          .references = references,
+          .hits = expected_hits(workload)};
+}
+
+}  // namespace
+
+double overlapped_cells(double x) {
+  require_non_negative("disc radius over cell side", x);
+  return 1 + 3 * half_pi * x * (1 + x);
+}
+
+Cells index_cells(const Workload& workload, double parts) {
+  const double d = workload.disc_radius;
+  Cells cells{.side = (scene_side(workload) + 2 * d) / parts};
+  std::array<double, 3> f{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    cells.along[axis] = std::max(1.0, std::ceil((workload.box[axis] + 2 * d) / cells.side * (1 - 1e-12)));
+    f[axis] = inner_planes(cells.along[axis], cells.side, d);
+  }
+  const double x = d / cells.side;
+  cells.overlapped =
+      1 + half_pi * x * (f[0] + f[1] + f[2]) + half_pi * x * x * (f[0] * f[1] + f[1] * f[2] + f[2] * f[0]);
+  cells.overlapped = std::min(cells.overlapped, cells.count());
+  cells.crossing = crossing_probability(workload, std::pow(cells.side, 3), 6 * cells.side * cells.side);
+  return cells;
+}
+
+double occupied_cells(const Workload& workload, const Cells& cells) {
+  const double on_surface =
+      std::min(cells.count(), std::max(1.0, 1.5 * sample_extent(workload) / (cells.side * cells.side)));
+  const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);
+  const double reach = std::pow(cells.count(), weight) * std::pow(on_surface, 1 - weight);
+  return -reach * std::expm1(-workload.samples * cells.overlapped / reach);
+}
+
+Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters) {
+  check(workload);
+  check(Candidate{Technique::octree, parameters});
+  Counts<double> counts = leaf_counts(workload, index_cells(workload, std::ldexp(1.0, parameters.depth)));
+  for (int level = 0; level <= parameters.depth; ++level) {
+    const Cells nodes = index_cells(workload, std::ldexp(1.0, level));
+    counts.steps += workload.rays * nodes.crossing * occupied_cells(workload, nodes);
+  }
+  return counts;
+}
+
+Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters) {
+  check(workload);
+  check(Candidate{Technique::grid, parameters});
+  const Cells cells = index_cells(workload, parameters.cells);
+  Counts<double> counts = leaf_counts(workload, cells);
+  counts.steps = workload.rays * cells.crossing * cells.count();
+  return counts;
+}
+
+}  // namespace detp::model

@@ -1,0 +1,40 @@
+#include "predict.hpp"
+
+#include <stdexcept>
+
+#include "disc_index.hpp"
+#include "line_measure.hpp"
+#include "sphere_cache.hpp"
+#include "sphere_cache_published.hpp"
+
+namespace detp::model {
+namespace {
+
+/// Plain density estimation on the tangent plane: each disc against each ray.
+Counts<double> brute_force_counts(const Workload& workload) {
+  return {.disc_tests = workload.rays * workload.samples, .hits = expected_hits(workload)};
+}
+
+}  // namespace
+
+Counts<double> predict(const Workload& workload, const Candidate& candidate) {
+  check(workload);
+  check(candidate);
+  switch (candidate.technique) {
+    case Technique::brute_force:
+      return brute_force_counts(workload);
+    case Technique::sphere_cache:
+      return sphere_cache_counts(workload, std::get<SphereCacheParameters>(candidate.parameters));
+    case Technique::sphere_cache_published: {
+      const auto& parameters = std::get<SphereCacheParameters>(candidate.parameters);
+      return published::counts(workload, {parameters.ratio}, parameters.spheres);
+    }
+    case Technique::octree:
+      return octree_counts(workload, std::get<OctreeParameters>(candidate.parameters));
+    case Technique::grid:
+      return grid_counts(workload, std::get<GridParameters>(candidate.parameters));
+  }
+  throw std::logic_error("a technique without a model");
+}
+
+}  // namespace detp::model

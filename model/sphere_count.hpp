@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+
+#include "form.hpp"
+#include "vocabulary.hpp"
+
+/// How many spheres the cache nests: k.
+namespace detp::model {
+
+/// Index k of the innermost sphere, radius r_k = r₀Q^k.
+///
+///     published   k = ⌈log_Q(d/r₀)⌉     the smallest k with r_k <= d
+///     corrected   k = ⌊log_Q(d/r₀)⌋     the largest k with r_k >= d
+///
+///   where  d    disc radius, length;   r₀   radius of S₀, length;   Q   radius ratio
+///
+/// The paper asks for r_k >= d > r_{k+1} (eq 6), which its eq 7 contradicts: rounding up makes the innermost sphere
+/// smaller than the disc that it should hold.
+///
+/// Source     eq (7); corrected: eq (6).
+/// Limits     d >= r₀: 0, no sphere pays.  Q → 1: k ≈ ln(r₀/d)/(1-Q).
+/// Accuracy   exact for the given doubles, ties included: near a whole number the powers are compared in 100 digits.
+/// Throws     std::invalid_argument unless 0 < Q < 1, d and r₀ > 0 and finite; std::overflow_error above 9e18.
+[[nodiscard]] std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereRadius outer);
+
+/// The ratio at which the corrected k steps from j-1 to j: Q_j = (d/r₀)^{1/j}, where r_j = d exactly. T_I has its
+/// minima, all alike, just at these ratios (the paper's text to its fig 12 calls them peaks).
+[[nodiscard]] double step_ratio(std::int64_t spheres, DiscRadius disc, SphereRadius outer);
+
+}  // namespace detp::model
