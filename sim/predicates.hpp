@@ -19,18 +19,25 @@ namespace detp::sim {
   return glm::dot(off, off) <= sphere.radius * sphere.radius;
 }
 
+/// How far beyond its radius a ray that passes a disc is still looked at: more than the rounding of what follows.
+inline constexpr double rim = 1 + 1e-12;
+
 /// Whether the ray crosses the disc: the point where it crosses the disc's plane lies within the closed disc and on the
 /// ray. A ray parallel to the plane does not hit.
 ///
 /// Without division: with D the direction, n the normal and w the vector from the disc's centre to the origin, the
-/// crossing lies w - D (n·w)/(n·D) = (n × (w × D)) / (n·D) from the centre. Error about ε|w|/(d |n·D|).
+/// crossing lies w - D (n·w)/(n·D) = (n × (w × D)) / (n·D) from the centre. Error about ε|w|/(d |n·D|). |w × D| is the
+/// distance of the whole line from the centre: where that exceeds d nothing more need be asked, and what is decided
+/// near the edge-on view can then never be a hit far from the disc.
 [[nodiscard]] inline bool hits(const Ray& ray, const Disc& disc) {
+  const glm::dvec3 w = ray.origin - disc.centre;
+  const glm::dvec3 moment = glm::cross(w, ray.direction);
+  const double square = disc.radius * disc.radius;
+  if (!(glm::dot(moment, moment) <= square * rim)) return false;
   const double facing = glm::dot(disc.normal, ray.direction);
   if (facing == 0) return false;
-  const glm::dvec3 w = ray.origin - disc.centre;
-  const glm::dvec3 crossing = glm::cross(disc.normal, glm::cross(w, ray.direction));
-  const double reach = disc.radius * facing;
-  if (!(glm::dot(crossing, crossing) <= reach * reach)) return false;
+  const glm::dvec3 crossing = glm::cross(disc.normal, moment);
+  if (!(glm::dot(crossing, crossing) <= square * facing * facing)) return false;
   if (ray.is_line()) return true;
   const double ahead = facing < 0 ? glm::dot(disc.normal, w) : -glm::dot(disc.normal, w);
   return ahead >= 0 && ahead <= ray.length * std::abs(facing);

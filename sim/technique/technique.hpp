@@ -17,13 +17,18 @@ struct Problem {
   std::span<const Disc> discs;
   Sphere enclosing;           ///< S₀: holds every disc whole; rays may start or pass outside it
   bool front_facing = false;  ///< count only rays that arrive at a disc's front
+  double slack = 0;           ///< added to every cull, length: more than the error of any predicate (make_problem)
 };
 
 /// The smallest sphere around the box of the discs' centres, plus the largest radius.
 [[nodiscard]] Sphere enclosing_sphere(std::span<const Disc> discs);
 
 /// A problem with its S₀. Throws std::invalid_argument where there is no ray or no disc, or one is malformed: a number
-/// that is not finite, a direction or normal that is not unit (to 1e-6), a radius or length <= 0, a negative power.
+/// that is not finite, a direction or normal that is not unit (to 1e-12), a radius or length <= 0, a negative power;
+/// std::length_error for 2³² or more rays or discs.
+///
+/// The slack is 4e-12 times the distance of the farthest ray origin from the farthest point of S₀: directions unit to
+/// 1e-12 displace the nearest point of a ray by no more than a quarter of it, rounding by less than a hundredth.
 [[nodiscard]] Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing = false);
 
 struct Pair {
@@ -46,13 +51,21 @@ struct RunOptions {
   std::stop_token stop = {};  ///< asked between discs or blocks of rays
 };
 
+/// What happened to one sphere of the cache, counted.
+struct SphereCounts {
+  std::uint64_t rebuilds = 0;  ///< times it was built
+  std::uint64_t tests = 0;     ///< ray-sphere tests of all its builds
+  std::uint64_t listed = 0;    ///< rays listed by all its builds
+};
+
 /// What a technique found, per disc in the order of the problem's discs.
 struct Outcome {
   std::vector<std::uint64_t> hits;  ///< rays that cross the disc
   std::vector<double> irradiance;   ///< their power over π d², powers summed in the rays' order
   std::uint64_t total_hits = 0;
-  Counts<std::uint64_t> counts;  ///< all zero unless asked for (`hits` always holds total_hits)
-  std::vector<Pair> pairs;       ///< sorted by ray, then disc; empty unless asked for
+  Counts<std::uint64_t> counts;       ///< all zero unless asked for (`hits` always holds total_hits)
+  std::vector<SphereCounts> spheres;  ///< S₁ … S_k of a sphere cache; empty unless counting
+  std::vector<Pair> pairs;            ///< sorted by ray, then disc; empty unless asked for
   Phases seconds;
   bool stopped = false;  ///< the stop was asked for: what is here is partial
 };

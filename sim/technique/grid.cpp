@@ -1,0 +1,137 @@
+#include <array>
+#include <cmath>
+
+#include "disc_box.hpp"
+#include "indexed_search.hpp"
+#include "memory.hpp"
+#include "ray_box.hpp"
+#include "techniques.hpp"
+
+namespace detp::sim {
+namespace {
+
+using Cell = std::array<std::int64_t, 3>;
+
+/// Cubic cells over the box of the discs, and for each cell its discs, in one array (compressed rows).
+class Grid {
+ public:
+  Grid(const Problem& problem, int cells, const std::stop_token& stop) : problem_(problem), box_(index_box(problem)) {
+    const glm::dvec3 size = box_.size();
+    side_ = std::max({size.x, size.y, size.z}) / cells;
+    double total = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      along_[axis] =
+          std::clamp<std::int64_t>(static_cast<std::int64_t>(std::ceil(size[axis] / side_ * (1 - 1e-12))), 1, cells);
+      total *= static_cast<double>(along_[axis]);
+    }
+    require_memory("the grid's cells", (total + 1) * sizeof(std::size_t));
+    starts_.assign(static_cast<std::size_t>(total) + 1, 0);
+    fill(stop);
+  }
+
+  [[nodiscard]] std::size_t references() const { return references_.size(); }
+
+  /// Goes from cell to cell along the ray. The place of each plane is computed anew from its number, so that errors do
+  /// not add up; a cell missed by rounding is no loss, for the discs near its faces are in the next cell too.
+  template <bool counting>
+  void trace(std::uint32_t ray, IndexedSearch<counting>& search) const {
+    const ClippedRay clipped(problem_.rays[ray]);
+    const Box grown{box_.low - problem_.slack, box_.high + problem_.slack};
+    const Stretch stretch = clipped.inside(grown);
+    if (stretch.empty()) return;
+    Cell cell = cell_of(clipped.origin + stretch.from * problem_.rays[ray].direction);
+    for (;;) {
+      search.step();
+      const std::size_t number = index(cell);
+      search.test(ray, std::span(references_).subspan(starts_[number], starts_[number + 1] - starts_[number]));
+      int next = 0;
+      double leave = unbounded;
+      for (int axis = 0; axis < 3; ++axis)
+        if (const double t = leaving(clipped, cell, axis); t < leave) {
+          leave = t;
+          next = axis;
+        }
+      if (!(leave < stretch.to)) return;
+      cell[next] += clipped.inverse[next] > 0 ? 1 : -1;
+      if (cell[next] < 0 || cell[next] >= along_[next]) return;
+    }
+  }
+
+ private:
+  /// How far along the ray it leaves the cell across an axis.
+  double leaving(const ClippedRay& ray, const Cell& cell, int axis) const {
+    if (std::isinf(ray.inverse[axis])) return unbounded;
+    const auto plane = static_cast<double>(cell[axis] + (ray.inverse[axis] > 0 ? 1 : 0));
+    return (box_.low[axis] + plane * side_ - ray.origin[axis]) * ray.inverse[axis];
+  }
+
+  Cell cell_of(const glm::dvec3& point) const {
+    Cell cell{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double place = std::floor((point[axis] - box_.low[axis]) / side_);
+      cell[axis] = static_cast<std::int64_t>(std::clamp(place, 0.0, static_cast<double>(along_[axis] - 1)));
+    }
+    return cell;
+  }
+
+  std::size_t index(const Cell& cell) const {
+    return static_cast<std::size_t>((cell[2] * along_[1] + cell[1]) * along_[0] + cell[0]);
+  }
+
+  Box box_of(const Cell& cell) const {
+    const glm::dvec3 low = box_.low + side_ * glm::dvec3{cell[0], cell[1], cell[2]};
+    return {low, low + side_};
+  }
+
+  template <class Visit>
+  void for_each_overlapped_cell(const Disc& disc, const Visit& visit) const {
+    const Box reach = bounds(disc, problem_.slack);
+    const Cell low = cell_of(reach.low);
+    const Cell high = cell_of(reach.high);
+    for (std::int64_t z = low[2]; z <= high[2]; ++z)
+      for (std::int64_t y = low[1]; y <= high[1]; ++y)
+        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+          if (low == high || overlaps(disc, box_of({x, y, z}), problem_.slack)) visit(index({x, y, z}));
+  }
+
+  /// Counts each cell's discs, then puts them in place.
+  void fill(const std::stop_token& stop) {
+    for (const Disc& disc : problem_.discs) {
+      if (stop.stop_requested()) return;
+      for_each_overlapped_cell(disc, [this](std::size_t cell) { ++starts_[cell + 1]; });
+    }
+    for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
+    require_memory("the grid's references", static_cast<double>(starts_.back()) * sizeof(std::uint32_t));
+    references_.resize(starts_.back());
+    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
+    for (std::uint32_t i = 0; i < problem_.discs.size(); ++i)
+      for_each_overlapped_cell(problem_.discs[i], [&](std::size_t cell) { references_[next[cell]++] = i; });
+  }
+
+  const Problem& problem_;
+  Box box_;
+  double side_ = 0;
+  Cell along_{1, 1, 1};
+  std::vector<std::size_t> starts_;
+  std::vector<std::uint32_t> references_;
+};
+
+template <bool counting>
+void search_with(const Grid& grid, const Problem& problem, const RunOptions& options, Outcome& outcome) {
+  IndexedSearch<counting> search(problem, options);
+  outcome.stopped = for_each_ray(problem, options, [&](std::uint32_t ray) { grid.trace(ray, search); });
+  std::move(search).give(outcome, grid.references());
+}
+
+}  // namespace
+
+void run_grid(const Problem& problem, const GridParameters& parameters, const RunOptions& options, Outcome& outcome) {
+  Stopwatch watch;
+  const Grid grid(problem, parameters.cells, options.stop);
+  outcome.seconds.build = watch.lap();
+  options.count ? search_with<true>(grid, problem, options, outcome)
+                : search_with<false>(grid, problem, options, outcome);
+  outcome.seconds.search = watch.lap();
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,62 @@
+#pragma once
+
+#include "hit_collector.hpp"
+
+namespace detp::sim {
+
+/// Tests a ray against the discs of the cells it enters. A disc met in several cells is tested in each, but its hit is
+/// kept once (what is tested again counts again, though the answer is known).
+template <bool counting>
+class IndexedSearch {
+ public:
+  IndexedSearch(const Problem& problem, const RunOptions& options)
+      : problem_(problem), collector_(problem, options), last_ray_(problem.discs.size(), 0) {}
+
+  void step() { tally_.add(&Counts<std::uint64_t>::steps); }
+
+  void test(std::uint32_t ray, std::span<const std::uint32_t> discs) {
+    const Ray& tested = problem_.rays[ray];
+    for (const std::uint32_t disc : discs)
+      if (last_ray_[disc] != ray + 1 && collector_.decide(tested, problem_.discs[disc])) {
+        last_ray_[disc] = ray + 1;
+        collector_.keep(ray, disc);
+      }
+    tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size());
+  }
+
+  void give(Outcome& outcome, std::size_t references) && {
+    tally_.add(&Counts<std::uint64_t>::references, references);
+    outcome.counts = tally_.counts();
+    std::move(collector_).give(outcome);
+  }
+
+ private:
+  const Problem& problem_;
+  HitCollector collector_;
+  Tally<counting> tally_;
+  std::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray that hit it; 0: none yet
+};
+
+/// Shows each ray to trace(ray number), asking for a stop between blocks; whether it was stopped.
+template <class Trace>
+bool for_each_ray(const Problem& problem, const RunOptions& options, const Trace& trace) {
+  constexpr std::uint32_t block = 64;
+  for (std::uint32_t ray = 0; ray < problem.rays.size(); ++ray) {
+    if (ray % block == 0 && options.stop.stop_requested()) return true;
+    trace(ray);
+  }
+  return false;
+}
+
+/// The box around the discs' centres, grown by the largest radius: no disc pokes out.
+[[nodiscard]] inline Box index_box(const Problem& problem) {
+  Box box;
+  double largest = 0;
+  for (const Disc& disc : problem.discs) {
+    box.include(disc.centre);
+    largest = std::max(largest, disc.radius);
+  }
+  return {box.low - largest, box.high + largest};
+}
+
+}  // namespace detp::sim

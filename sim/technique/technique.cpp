@@ -1,0 +1,99 @@
+#include "technique.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "techniques.hpp"
+
+namespace detp::sim {
+namespace {
+
+void require_finite_vector(const char* what, const glm::dvec3& vector) {
+  for (int axis = 0; axis < 3; ++axis) require_finite(what, vector[axis]);
+}
+
+void require_unit(const char* what, const glm::dvec3& vector) {
+  require_finite_vector(what, vector);
+  const double length = glm::length(vector);
+  if (!(std::abs(length - 1) <= 1e-12))
+    throw std::invalid_argument(fmt::format("{} must have length 1 (got {})", what, length));
+}
+
+void check_ray(const Ray& ray) {
+  require_finite_vector("origin of a ray", ray.origin);
+  require_unit("direction of a ray", ray.direction);
+  if (!ray.is_line()) require_positive("length of a ray", ray.length);
+  require_non_negative("power of a ray", ray.power);
+}
+
+void check_disc(const Disc& disc) {
+  require_finite_vector("centre of a disc", disc.centre);
+  require_unit("normal of a disc", disc.normal);
+  require_positive("disc radius", disc.radius);
+  if (disc.radius < 1e-100) throw std::invalid_argument("disc radius must be at least 1e-100, or its square underflows");
+}
+
+void require_number(const char* what, std::size_t count) {
+  if (count == 0) throw std::invalid_argument(fmt::format("there must be at least one {}", what));
+  if (count >= UINT32_MAX)
+    throw std::length_error(fmt::format("{} {}s are too many; the most is 4294967294", count, what));
+}
+
+}  // namespace
+
+Sphere enclosing_sphere(std::span<const Disc> discs) {
+  Box box;
+  double largest = 0;
+  for (const Disc& disc : discs) {
+    box.include(disc.centre);
+    largest = std::max(largest, disc.radius);
+  }
+  const glm::dvec3 centre = box.centre();
+  // To the farther corner, as computed: half the diagonal can be an ulp short of it.
+  const double reach = std::max(glm::distance(centre, box.low), glm::distance(centre, box.high));
+  return {centre, (reach + largest) * (1 + 1e-15)};
+}
+
+Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing) {
+  require_number("ray", rays.size());
+  require_number("disc", discs.size());
+  for (const Disc& disc : discs) check_disc(disc);
+  Problem problem{rays, discs, enclosing_sphere(discs), front_facing};
+  double farthest = 0;
+  for (const Ray& ray : rays) {
+    check_ray(ray);
+    farthest = std::max(farthest, glm::distance(ray.origin, problem.enclosing.centre));
+  }
+  problem.slack = 4e-12 * (farthest + problem.enclosing.radius);
+  if (!(farthest + problem.enclosing.radius < 1e100))
+    throw std::invalid_argument("rays and discs must lie within 1e100 of each other, or their squares overflow");
+  return problem;
+}
+
+Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
+  check(candidate);
+  Outcome outcome;
+  switch (candidate.technique) {
+    case Technique::brute_force:
+      run_brute_force(problem, options, outcome);
+      break;
+    case Technique::sphere_cache:
+      run_sphere_cache(problem, std::get<SphereCacheParameters>(candidate.parameters), options, outcome);
+      break;
+    case Technique::sphere_cache_published:
+      run_sphere_cache_published(problem, std::get<SphereCacheParameters>(candidate.parameters), options, outcome);
+      break;
+    case Technique::octree:
+      run_octree(problem, std::get<OctreeParameters>(candidate.parameters), options, outcome);
+      break;
+    case Technique::grid:
+      run_grid(problem, std::get<GridParameters>(candidate.parameters), options, outcome);
+      break;
+  }
+  return outcome;
+}
+
+}  // namespace detp::sim
