@@ -1,0 +1,138 @@
+#include "mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "scene.hpp"
+#include "unit_vector.hpp"
+
+namespace detp::sim {
+namespace {
+
+/// Below this share of the product of two edges, their cross product is rounding error: the triangle has no area.
+constexpr double least_area = 8 * std::numeric_limits<double>::epsilon();
+
+/// Below this share of the areas that went into it, a sum of normals is what cancellation left.
+constexpr double least_sum = 1e-12;
+
+std::vector<bool> used_vertices(const Mesh& mesh) {
+  std::vector<bool> used(mesh.positions.size());
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle) used[corner] = true;
+  return used;
+}
+
+/// The exponent of a power of two that brings the largest used coordinate near 1, so that areas can neither vanish nor
+/// overflow; scaling by it is exact.
+int scale_exponent(const Mesh& mesh) {
+  double largest = 0;
+  for (const auto& triangle : mesh.triangles)
+    for (const std::uint32_t corner : triangle)
+      for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(mesh.positions[corner][axis]));
+  return largest == 0 ? 0 : -std::ilogb(largest);
+}
+
+glm::dvec3 scaled(const glm::dvec3& point, int exponent) {
+  return {std::scalbn(point.x, exponent), std::scalbn(point.y, exponent), std::scalbn(point.z, exponent)};
+}
+
+/// Twice the triangle's area times its unit normal; zero where it has no area. Taken at the corner between the two
+/// shorter edges, where the rounding error is least.
+glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
+  const std::array edges{corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (glm::dot(edges[i], edges[i]) > glm::dot(edges[longest], edges[longest])) longest = i;
+  const glm::dvec3& first = edges[(longest + 1) % 3];
+  const glm::dvec3& second = edges[(longest + 2) % 3];
+  const glm::dvec3 vector = glm::cross(first, second);
+  return glm::length(vector) > least_area * glm::length(first) * glm::length(second) ? vector : glm::dvec3{0.0};
+}
+
+/// The area vectors of the triangles around a vertex.
+struct Fan {
+  glm::dvec3 sum{0.0};
+  glm::dvec3 largest{0.0};
+  double area = 0;
+
+  void add(const glm::dvec3& vector) {
+    const double length = glm::length(vector);
+    sum += vector;
+    area += length;
+    if (length > glm::length(largest)) largest = vector;
+  }
+
+  /// Unit length, or zero where no triangle has an area. Where the triangles cancel, as those of a leaf that is there
+  /// once for each face, it is the largest one's.
+  [[nodiscard]] glm::dvec3 normal() const { return unit_or_zero(glm::length(sum) > least_sum * area ? sum : largest); }
+};
+
+std::vector<glm::dvec3> normals_by_area(const Mesh& mesh) {
+  std::vector<Fan> fans(mesh.positions.size());
+  const int exponent = scale_exponent(mesh);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const glm::dvec3 vector = area_vector({scaled(mesh.positions[a], exponent), scaled(mesh.positions[b], exponent),
+                                           scaled(mesh.positions[c], exponent)});
+    for (const std::uint32_t corner : {a, b, c}) fans[corner].add(vector);
+  }
+  std::vector<glm::dvec3> normals;
+  normals.reserve(fans.size());
+  for (const Fan& fan : fans) normals.push_back(fan.normal());
+  return normals;
+}
+
+std::vector<glm::dvec3> normals_given(const Mesh& mesh) {
+  std::vector<glm::dvec3> normals;
+  normals.reserve(mesh.normals.size());
+  for (const glm::dvec3& normal : mesh.normals) normals.push_back(unit_or_zero(normal));
+  return normals;
+}
+
+void note_dropped(Notices& notices, std::size_t count, const std::string& which) {
+  if (count > 0) notices.push_back(std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + which);
+}
+
+}  // namespace
+
+std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices) {
+  const std::vector<glm::dvec3> normals = mesh.normals.empty() ? normals_by_area(mesh) : normals_given(mesh);
+  const std::vector<bool> used = used_vertices(mesh);
+  std::vector<Sample> samples;
+  samples.reserve(mesh.positions.size());
+  std::size_t unreferenced = 0;
+  std::size_t without_normal = 0;
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    if (!used[i])
+      ++unreferenced;
+    else if (normals[i] == glm::dvec3{0.0})
+      ++without_normal;
+    else
+      samples.push_back({.position = mesh.positions[i], .normal = normals[i]});
+  }
+  note_dropped(notices, unreferenced, "that no triangle uses dropped");
+  note_dropped(notices, without_normal,
+               mesh.normals.empty() ? "among triangles without area dropped" : "with a zero normal dropped");
+  return samples;
+}
+
+double mean_edge_length(const Mesh& mesh) {
+  std::vector<std::array<std::uint32_t, 2>> edges;
+  edges.reserve(3 * mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    for (const auto& [from, to] : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
+      edges.push_back({std::min(from, to), std::max(from, to)});
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  double sum = 0;
+  std::size_t count = 0;
+  for (const auto& [from, to] : edges) {
+    const glm::dvec3 edge = mesh.positions[to] - mesh.positions[from];
+    if (edge == glm::dvec3{0.0}) continue;  // joins no two neighbours
+    sum += std::hypot(edge.x, edge.y, edge.z);
+    ++count;
+  }
+  return count == 0 ? 0 : sum / static_cast<double>(count);
+}
+
+}  // namespace detp::sim

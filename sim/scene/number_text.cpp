@@ -1,0 +1,53 @@
+#include "number_text.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <system_error>
+
+namespace detp::sim {
+namespace {
+
+constexpr std::string_view blanks = " \t";
+
+template <class Number>
+std::errc parse_whole(std::string_view text, Number& number) {
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return stop == end ? error : std::errc::invalid_argument;
+}
+
+}  // namespace
+
+std::optional<double> number_in(std::string_view text) {
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  double number = 0;
+  const std::errc error = parse_whole(text, number);
+  if (error == std::errc{}) return number;
+  if (error != std::errc::result_out_of_range) return std::nullopt;
+  // from_chars does not tell too large from too small; the wider type does.
+  long double wide = 0;
+  if (parse_whole(text, wide) == std::errc{}) return static_cast<double>(wide);
+  return std::nullopt;
+}
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(blanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+}
+
+std::string_view cut_until(std::string_view& text, std::string_view separators) {
+  const std::size_t end = text.find_first_of(separators);
+  const std::string_view piece = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  return piece;
+}
+
+std::string_view cut_word(std::string_view& text) {
+  text.remove_prefix(std::min(text.find_first_not_of(blanks), text.size()));
+  const std::string_view word = text.substr(0, text.find_first_of(blanks));
+  text.remove_prefix(word.size());
+  return word;
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,137 @@
+#include "ply_header.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <utility>
+
+#include "file_error.hpp"
+#include "number_text.hpp"
+
+namespace detp::sim {
+namespace {
+
+struct TypeNames {
+  std::string_view old_name;
+  std::string_view sized_name;
+  std::size_t size;
+};
+
+/// In the order of PlyType.
+constexpr std::array<TypeNames, 8> types{{{"char", "int8", 1},
+                                          {"uchar", "uint8", 1},
+                                          {"short", "int16", 2},
+                                          {"ushort", "uint16", 2},
+                                          {"int", "int32", 4},
+                                          {"uint", "uint32", 4},
+                                          {"float", "float32", 4},
+                                          {"double", "float64", 8}}};
+
+class HeaderReader {
+ public:
+  HeaderReader(const std::string& path, std::string_view content) : path_(path), content_(content), rest_(content) {}
+
+  PlyHeader read() {
+    next_line();
+    if (line_ != "ply") fail("is no PLY file, which starts with a line \"ply\"");
+    for (next_line(); line_ != "end_header"; next_line()) read_line();
+    if (!has_format_) fail("the header has no format line");
+    header_.size = content_.size() - rest_.size();
+    return std::move(header_);
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const {
+    throw FileError(path_, std::max<std::size_t>(header_.lines, 1), what);
+  }
+
+  void next_line() {
+    if (rest_.empty()) fail("the header ends early, without a line \"end_header\"");
+    line_ = cut_until(rest_, "\n");
+    if (line_.ends_with('\r')) line_.remove_suffix(1);
+    line_ = trimmed(line_);
+    ++header_.lines;
+  }
+
+  void read_line() {
+    std::string_view words = line_;
+    const std::string_view keyword = cut_word(words);
+    if (keyword.empty() || keyword == "comment" || keyword == "obj_info") return;
+    if (keyword == "format")
+      read_format(words);
+    else if (keyword == "element")
+      read_element(words);
+    else if (keyword == "property")
+      read_property(words);
+    else
+      fail("is no line of a PLY header; wanted are format, comment, obj_info, element, property or end_header");
+    if (!trimmed(words).empty()) fail("has too many words");
+  }
+
+  void read_format(std::string_view& words) {
+    constexpr std::array<std::pair<std::string_view, PlyFormat>, 3> formats{
+        {{"ascii", PlyFormat::ascii},
+         {"binary_little_endian", PlyFormat::little_endian},
+         {"binary_big_endian", PlyFormat::big_endian}}};
+    const std::string_view name = cut_word(words);
+    const auto found =
+        std::find_if(formats.begin(), formats.end(), [name](auto& known) { return known.first == name; });
+    if (found == formats.end() || cut_word(words) != "1.0")
+      fail("unknown format; known are ascii, binary_little_endian and binary_big_endian, each 1.0");
+    if (has_format_) fail("a second format line");
+    header_.format = found->second;
+    has_format_ = true;
+  }
+
+  void read_element(std::string_view& words) {
+    const std::string name(cut_word(words));
+    const std::string_view count = cut_word(words);
+    std::uint64_t rows = 0;
+    const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), rows);
+    if (count.empty() || stop != count.data() + count.size() || error != std::errc{})
+      fail("wanted is \"element NAME COUNT\", the count a whole number >= 0");
+    for (const PlyElement& element : header_.elements)
+      if (element.name == name) fail("a second element \"" + name + "\"");
+    header_.elements.push_back({.name = name, .rows = rows, .properties = {}});
+  }
+
+  void read_property(std::string_view& words) {
+    if (header_.elements.empty()) fail("a property before the first element");
+    PlyProperty property;
+    std::string_view type = cut_word(words);
+    if (type == "list") {
+      property.count_type = type_named(cut_word(words));
+      if (*property.count_type >= PlyType::float32) fail("the length of a list needs a type of whole numbers");
+      type = cut_word(words);
+    }
+    property.type = type_named(type);
+    property.name = cut_word(words);
+    if (property.name.empty()) fail("a property without a name");
+    for (const PlyProperty& other : header_.elements.back().properties)
+      if (other.name == property.name) fail("a second property \"" + property.name + "\" of the same element");
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  [[nodiscard]] PlyType type_named(std::string_view name) const {
+    for (std::size_t i = 0; i < types.size(); ++i)
+      if (name == types[i].old_name || name == types[i].sized_name) return static_cast<PlyType>(i);
+    fail("\"" + std::string(name) + "\" is no type; known are char, uchar, short, ushort, int, uint, float, double");
+  }
+
+  const std::string& path_;
+  std::string_view content_;
+  std::string_view rest_;
+  std::string_view line_;
+  PlyHeader header_;
+  bool has_format_ = false;
+};
+
+}  // namespace
+
+std::size_t size_of(PlyType type) { return types[static_cast<std::size_t>(type)].size; }
+
+PlyHeader read_ply_header(const std::string& path, std::string_view content) {
+  return HeaderReader(path, content).read();
+}
+
+}  // namespace detp::sim

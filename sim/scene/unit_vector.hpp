@@ -1,0 +1,22 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace detp::sim {
+
+/// The vector scaled to length 1, whatever its length: components of 1e-300 and 1e300 neither vanish nor overflow.
+/// Zero stays zero, and what has length 1 but for rounding stays as it is, so that files read back what was written.
+/// All components must be finite.
+[[nodiscard]] inline glm::dvec3 unit_or_zero(const glm::dvec3& vector) {
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  if (std::abs(glm::dot(vector, vector) - 1) <= rounding) return vector;
+  const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
+  if (largest == 0) return glm::dvec3{0.0};
+  return glm::normalize(vector / largest);
+}
+
+}  // namespace detp::sim

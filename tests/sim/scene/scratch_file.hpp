@@ -1,0 +1,102 @@
+#pragma once
+
+#include <doctest/doctest.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+
+#include "detp/sim/random.hpp"
+#include "detp/sim/scene/file_error.hpp"
+
+/// Files for tests of readers and writers.
+namespace detp::sim::support {
+
+/// A folder of its own, removed at the end.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    static std::atomic<int> last{0};
+    const std::string name = "detp-test-" + std::to_string(::getpid()) + "-" + std::to_string(++last);
+    path_ = std::filesystem::temp_directory_path() / name;
+    std::filesystem::create_directories(path_);
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+
+  [[nodiscard]] std::string path(const std::string& name) const { return (path_ / name).string(); }
+
+  /// Writes the file and returns its path.
+  std::string file(const std::string& name, const std::string& content) const {
+    std::ofstream(path(name), std::ios::binary) << content;
+    return path(name);
+  }
+
+  [[nodiscard]] std::size_t entries() const {
+    const std::filesystem::directory_iterator begin(path_);
+    return static_cast<std::size_t>(std::distance(begin, std::filesystem::directory_iterator()));
+  }
+
+ private:
+  std::filesystem::path path_;
+};
+
+inline std::string content_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+/// The message of the FileError that the call throws; "" where it throws none.
+inline std::string file_error_of(const std::function<void()>& call) {
+  try {
+    call();
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+/// Calls `read` with the content cut off at every length, and with `flips` random changes of 1 to 4 bytes each.
+/// It may throw FileError, but nothing else. Returns how many of the damaged files it refused.
+inline std::size_t refused_when_damaged(const std::string& name, const std::string& content, std::uint64_t flips,
+                                        const std::function<void(const std::string& path)>& read) {
+  const ScratchFolder folder;
+  std::size_t refused = 0;
+  const auto try_it = [&](const std::string& damaged) {
+    const std::string path = folder.file(name, damaged);
+    try {
+      read(path);
+    } catch (const FileError&) {
+      ++refused;
+    }
+  };
+  for (std::size_t length = 0; length < content.size(); ++length) try_it(content.substr(0, length));
+  for (std::uint64_t flip = 0; flip < flips; ++flip) {
+    std::string damaged = content;
+    const std::uint64_t changes = 1 + bits4(1, Stream::tests, flip)[0] % 4;
+    for (std::uint64_t change = 1; change <= changes; ++change) {
+      const auto bits = bits4(1, Stream::tests, flip, change);
+      damaged[bits[0] % damaged.size()] = static_cast<char>(bits[1] & 0xff);
+    }
+    try_it(damaged);
+  }
+  return refused;
+}
+
+/// The folder of the test scenes; "" where the environment does not name it, with a message.
+inline std::string scenes_folder() {
+  const char* folder = std::getenv("DETP_SCENES");
+  if (folder == nullptr) MESSAGE("skipped: DETP_SCENES is not set");
+  return folder == nullptr ? "" : folder;
+}
+
+}  // namespace detp::sim::support
