@@ -1,0 +1,49 @@
+#include "mesh_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+#include "output_file.hpp"
+
+namespace detp::sim {
+namespace {
+
+template <class Number>
+void write_little_endian(OutputFile& file, Number number) {
+  auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
+  if constexpr (std::endian::native == std::endian::big) std::reverse(bytes.begin(), bytes.end());
+  file.write({bytes.data(), bytes.size()});
+}
+
+void write_vector(OutputFile& file, const glm::dvec3& vector) {
+  for (int axis = 0; axis < 3; ++axis) write_little_endian(file, vector[axis]);
+}
+
+void write_header(OutputFile& file, const Mesh& mesh) {
+  file.write(fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n", mesh.positions.size()));
+  file.write("property double x\nproperty double y\nproperty double z\n");
+  if (!mesh.normals.empty()) file.write("property double nx\nproperty double ny\nproperty double nz\n");
+  file.write(
+      fmt::format("element face {}\nproperty list uchar int vertex_indices\nend_header\n", mesh.triangles.size()));
+}
+
+}  // namespace
+
+void write_ply(const std::string& path, const Mesh& mesh) {
+  OutputFile file(path);
+  write_header(file, mesh);
+  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    write_vector(file, mesh.positions[i]);
+    if (!mesh.normals.empty()) write_vector(file, mesh.normals[i]);
+  }
+  for (const auto& triangle : mesh.triangles) {
+    write_little_endian(file, std::uint8_t{3});
+    for (const std::uint32_t corner : triangle) write_little_endian(file, static_cast<std::int32_t>(corner));
+  }
+  file.commit();
+}
+
+}  // namespace detp::sim
