@@ -60,7 +60,8 @@ Counts<double> octree_counts(const Workload& workload, const OctreeParameters& p
   Counts<double> counts = leaf_counts(workload, index_cells(workload, std::ldexp(1.0, parameters.depth)));
   for (int level = 0; level <= parameters.depth; ++level) {
     const Cells nodes = index_cells(workload, std::ldexp(1.0, level));
-    counts.steps += workload.rays * nodes.crossing * occupied_cells(workload, nodes);
+    counts.nodes += workload.rays * nodes.crossing * occupied_cells(workload, nodes);
+    if (level > 0) counts.placements += workload.samples * nodes.overlapped;
   }
   return counts;
 }
@@ -71,6 +72,7 @@ Counts<double> grid_counts(const Workload& workload, const GridParameters& param
   const Cells cells = index_cells(workload, parameters.cells);
   Counts<double> counts = leaf_counts(workload, cells);
   counts.steps = workload.rays * cells.crossing * cells.count();
+  counts.placements = counts.references;
   return counts;
 }
 

@@ -11,7 +11,7 @@
 /// lines meet is a sum of surface areas, so for any structure
 ///
 ///     tests = n_R Σ_cells P(cell) references(cell) = n_R P(cell) n_P E
-///     steps = n_R Σ_nodes P(node)
+///     steps = n_R Σ_cells P(cell)        (a tree: nodes visited, summed over all its nodes)
 ///
 ///   where  P       crossing_probability of a cell (line_measure.hpp): for lines that hit a cube cut in 2^k along each
 ///                  side, Σ_cells P = 2^k and P = 1/4^k
@@ -46,10 +46,10 @@ struct Cells {
 /// of the samples' body: all of them (D = 3), at most 1.5 A/a² (D = 2: a random surface crosses that many).
 [[nodiscard]] double occupied_cells(const Workload& workload, const Cells& cells);
 
-/// Expected counts of an octree whose leaves all lie at one depth, empty nodes left out; each node entered is a step.
+/// Expected counts of an octree whose leaves all lie at one depth, empty nodes left out.
 [[nodiscard]] Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters);
 
-/// Expected counts of a uniform grid; each cell entered is a step, empty ones too.
+/// Expected counts of a uniform grid; empty cells are stepped through too.
 [[nodiscard]] Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters);
 
 }  // namespace detp::model

@@ -10,10 +10,12 @@ template <class T>
 struct Counts {
   T sphere_tests{};  ///< ray-sphere tests
   T disc_tests{};    ///< ray-disc tests
-  T steps{};         ///< cells or nodes of an index visited by a ray
+  T steps{};         ///< cells of a grid visited by a ray
+  T nodes{};         ///< nodes of a tree, inner ones and leaves, visited by a ray
   T copies{};        ///< rays copied into a sphere's list
   T rebuilds{};      ///< spheres built or rebuilt, the outermost not counted
   T references{};    ///< disc references stored in an index
+  T placements{};    ///< discs found to overlap a cell or node while an index is built, at all its levels
   T sorted{};        ///< samples sorted along a curve
   T hits{};          ///< (ray, disc) pairs found
 
@@ -26,9 +28,11 @@ constexpr void for_each_term(C&& counts, Visit&& visit) {
   visit(std::string_view{"sphere_tests"}, counts.sphere_tests);
   visit(std::string_view{"disc_tests"}, counts.disc_tests);
   visit(std::string_view{"steps"}, counts.steps);
+  visit(std::string_view{"nodes"}, counts.nodes);
   visit(std::string_view{"copies"}, counts.copies);
   visit(std::string_view{"rebuilds"}, counts.rebuilds);
   visit(std::string_view{"references"}, counts.references);
+  visit(std::string_view{"placements"}, counts.placements);
   visit(std::string_view{"sorted"}, counts.sorted);
   visit(std::string_view{"hits"}, counts.hits);
 }
@@ -45,9 +49,10 @@ template <class T>
 struct UnitCosts {
   double sphere_test = 1;  ///< t: one ray-sphere test
   double disc_test = 1;    ///< u: one ray-disc test
-  double step = 1;         ///< v: one step to a cell or node of an index
+  double step = 1;         ///< v: one step to a cell of a grid
+  double node = 1;         ///< v: one visit to a node of a tree
   double copy = 0;         ///< c: copying one kept ray into a list
-  double reference = 0;    ///< b: storing one disc reference while an index is built
+  double placement = 0;    ///< b: placing one disc in one cell or node while an index is built
   double sort = 0;         ///< s: ordering one sample along the curve, code and sort
   double rebuild = 0;      ///< fixed cost of one sphere rebuild, beside its tests and copies
 
@@ -69,10 +74,10 @@ struct CostBreakdown {
 /// Counts × unit costs, part by part.
 [[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs) {
   return {.order = counts.sorted * costs.sort,
-          .build = counts.references * costs.reference,
+          .build = counts.placements * costs.placement,
           .rebuild = counts.sphere_tests * costs.sphere_test + counts.rebuilds * costs.rebuild,
           .copy = counts.copies * costs.copy,
-          .traverse = counts.steps * costs.step,
+          .traverse = counts.steps * costs.step + counts.nodes * costs.node,
           .intersect = counts.disc_tests * costs.disc_test};
 }
 
@@ -82,9 +87,11 @@ template <class T>
   return {.sphere_tests = static_cast<double>(counts.sphere_tests),
           .disc_tests = static_cast<double>(counts.disc_tests),
           .steps = static_cast<double>(counts.steps),
+          .nodes = static_cast<double>(counts.nodes),
           .copies = static_cast<double>(counts.copies),
           .rebuilds = static_cast<double>(counts.rebuilds),
           .references = static_cast<double>(counts.references),
+          .placements = static_cast<double>(counts.placements),
           .sorted = static_cast<double>(counts.sorted),
           .hits = static_cast<double>(counts.hits)};
 }

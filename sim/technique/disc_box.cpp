@@ -76,6 +76,9 @@ bool overlaps(const Disc& disc, const Box& box, double slack) {
     centre_inside = centre_inside && low[axis] <= 0 && high[axis] >= 0;
   }
   if (centre_inside) return true;
+  const glm::dvec3 middle = 0.5 * (low + high);
+  const glm::dvec3 half = 0.5 * (high - low);
+  if (std::abs(glm::dot(disc.normal, middle)) > glm::dot(glm::abs(disc.normal), half)) return false;
   Polygon polygon = square_around(disc);
   for (int axis = 0; axis < 3 && polygon.count > 0; ++axis) {
     polygon = clip(polygon, axis, high[axis], 1);

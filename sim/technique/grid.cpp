@@ -24,7 +24,7 @@ class Grid {
           std::clamp<std::int64_t>(static_cast<std::int64_t>(std::ceil(size[axis] / side_ * (1 - 1e-12))), 1, cells);
       total *= static_cast<double>(along_[axis]);
     }
-    require_memory("the grid's cells", (total + 1) * sizeof(std::size_t));
+    require_memory("the grid's cells", 2 * (total + 1) * sizeof(std::size_t));
     starts_.assign(static_cast<std::size_t>(total) + 1, 0);
     fill(stop);
   }
@@ -41,7 +41,7 @@ class Grid {
     if (stretch.empty()) return;
     Cell cell = cell_of(clipped.origin + stretch.from * problem_.rays[ray].direction);
     for (;;) {
-      search.step();
+      search.visit(&Counts<std::uint64_t>::steps);
       const std::size_t number = index(cell);
       search.test(ray, std::span(references_).subspan(starts_[number], starts_[number + 1] - starts_[number]));
       int next = 0;
@@ -94,18 +94,23 @@ class Grid {
           if (low == high || overlaps(disc, box_of({x, y, z}), problem_.slack)) visit(index({x, y, z}));
   }
 
-  /// Counts each cell's discs, then puts them in place.
+  struct Placement {
+    std::size_t cell;
+    std::uint32_t disc;
+  };
+
+  /// Finds each disc's cells, and lists the discs cell by cell.
   void fill(const std::stop_token& stop) {
-    for (const Disc& disc : problem_.discs) {
-      if (stop.stop_requested()) return;
-      for_each_overlapped_cell(disc, [this](std::size_t cell) { ++starts_[cell + 1]; });
+    std::vector<Placement> placements;
+    for (std::uint32_t disc = 0; disc < problem_.discs.size() && !stop.stop_requested(); ++disc) {
+      for_each_overlapped_cell(problem_.discs[disc], [&](std::size_t cell) { placements.push_back({cell, disc}); });
+      require_memory("the grid's references", 2.0 * static_cast<double>(placements.size()) * sizeof(Placement));
     }
+    for (const Placement& placement : placements) ++starts_[placement.cell + 1];
     for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
-    require_memory("the grid's references", static_cast<double>(starts_.back()) * sizeof(std::uint32_t));
-    references_.resize(starts_.back());
+    references_.resize(placements.size());
     std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    for (std::uint32_t i = 0; i < problem_.discs.size(); ++i)
-      for_each_overlapped_cell(problem_.discs[i], [&](std::size_t cell) { references_[next[cell]++] = i; });
+    for (const Placement& placement : placements) references_[next[placement.cell]++] = placement.disc;
   }
 
   const Problem& problem_;
@@ -120,7 +125,7 @@ template <bool counting>
 void search_with(const Grid& grid, const Problem& problem, const RunOptions& options, Outcome& outcome) {
   IndexedSearch<counting> search(problem, options);
   outcome.stopped = for_each_ray(problem, options, [&](std::uint32_t ray) { grid.trace(ray, search); });
-  std::move(search).give(outcome, grid.references());
+  std::move(search).give(outcome, grid.references(), grid.references());
 }
 
 }  // namespace

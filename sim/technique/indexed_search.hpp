@@ -12,7 +12,8 @@ class IndexedSearch {
   IndexedSearch(const Problem& problem, const RunOptions& options)
       : problem_(problem), collector_(problem, options), last_ray_(problem.discs.size(), 0) {}
 
-  void step() { tally_.add(&Counts<std::uint64_t>::steps); }
+  /// Counts a visit to a cell (steps) or a node (nodes).
+  void visit(std::uint64_t Counts<std::uint64_t>::*term) { tally_.add(term); }
 
   void test(std::uint32_t ray, std::span<const std::uint32_t> discs) {
     const Ray& tested = problem_.rays[ray];
@@ -24,8 +25,9 @@ class IndexedSearch {
     tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size());
   }
 
-  void give(Outcome& outcome, std::size_t references) && {
+  void give(Outcome& outcome, std::size_t references, std::size_t placements) && {
     tally_.add(&Counts<std::uint64_t>::references, references);
+    tally_.add(&Counts<std::uint64_t>::placements, placements);
     outcome.counts = tally_.counts();
     std::move(collector_).give(outcome);
   }

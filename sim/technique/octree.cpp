@@ -36,6 +36,7 @@ class Octree {
   }
 
   [[nodiscard]] std::size_t references() const { return references_.size(); }
+  [[nodiscard]] std::size_t placements() const { return placements_; }
 
   template <bool counting>
   void trace(std::uint32_t ray, IndexedSearch<counting>& search) const {
@@ -61,6 +62,7 @@ class Octree {
       if (!parts[octant].empty()) {
         nodes_[node].octants |= static_cast<std::uint8_t>(1U << octant);
         nodes_.emplace_back();
+        placements_ += parts[octant].size();
       }
     std::uint32_t child = nodes_[node].first;
     for (unsigned octant = 0; octant < 8; ++octant)
@@ -97,7 +99,7 @@ class Octree {
   template <bool counting>
   void enter(std::uint32_t number, const Box& box, int level, std::uint32_t ray, const ClippedRay& clipped,
              IndexedSearch<counting>& search) const {
-    search.step();
+    search.visit(&Counts<std::uint64_t>::nodes);
     const Node& node = nodes_[number];
     if (level == depth_) {
       search.test(ray, std::span(references_).subspan(node.first, node.count));
@@ -118,13 +120,14 @@ class Octree {
   Box box_;
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> references_;
+  std::size_t placements_ = 0;
 };
 
 template <bool counting>
 void search_with(const Octree& octree, const Problem& problem, const RunOptions& options, Outcome& outcome) {
   IndexedSearch<counting> search(problem, options);
   outcome.stopped = for_each_ray(problem, options, [&](std::uint32_t ray) { octree.trace(ray, search); });
-  std::move(search).give(outcome, octree.references());
+  std::move(search).give(outcome, octree.references(), octree.placements());
 }
 
 }  // namespace

@@ -33,7 +33,8 @@ void check_disc(const Disc& disc) {
   require_finite_vector("centre of a disc", disc.centre);
   require_unit("normal of a disc", disc.normal);
   require_positive("disc radius", disc.radius);
-  if (disc.radius < 1e-100) throw std::invalid_argument("disc radius must be at least 1e-100, or its square underflows");
+  if (disc.radius < 1e-100)
+    throw std::invalid_argument("disc radius must be at least 1e-100, or its square underflows");
 }
 
 void require_number(const char* what, std::size_t count) {
