@@ -89,8 +89,9 @@ std::vector<glm::dvec3> normals_given(const Mesh& mesh) {
   return normals;
 }
 
-void note_dropped(Notices& notices, std::size_t count, const std::string& which) {
-  if (count > 0) notices.push_back(std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + which);
+void note_dropped(Notices& notices, std::size_t count, const std::string& kind, const std::string& why = "") {
+  if (count > 0)
+    notices.push_back(std::to_string(count) + kind + (count == 1 ? " vertex" : " vertices") + " dropped" + why);
 }
 
 }  // namespace
@@ -110,9 +111,9 @@ std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices) {
     else
       samples.push_back({.position = mesh.positions[i], .normal = normals[i]});
   }
-  note_dropped(notices, unreferenced, "that no triangle uses dropped");
-  note_dropped(notices, without_normal,
-               mesh.normals.empty() ? "among triangles without area dropped" : "with a zero normal dropped");
+  note_dropped(notices, unreferenced, " unreferenced");
+  note_dropped(notices, without_normal, "",
+               mesh.normals.empty() ? ": no triangle around has an area" : ": the normal is zero");
   return samples;
 }
 

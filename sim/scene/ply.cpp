@@ -30,8 +30,14 @@ class TextSource {
   std::optional<double> next(PlyType) {
     skip_space();
     const std::string_view word = rest_.substr(0, rest_.find_first_of(" \t\r\n"));
-    rest_.remove_prefix(word.size());
-    return number_in(word);
+    const auto number = number_in(word);
+    if (number) rest_.remove_prefix(word.size());
+    return number;
+  }
+
+  /// Why there was no next number.
+  [[nodiscard]] std::string why_none(const std::string& name) const {
+    return rest_.empty() ? "the file ends early" : "its \"" + name + "\" is not a number";
   }
 
   [[nodiscard]] bool at_end() {
@@ -83,6 +89,8 @@ class BinarySource {
     }
     return std::nullopt;
   }
+
+  [[nodiscard]] static std::string why_none(const std::string&) { return "the file ends early"; }
 
   /// What follows the last element is no concern of a binary file: many writers end it with a line feed.
   [[nodiscard]] static bool at_end() { return true; }
@@ -163,7 +171,7 @@ class BodyReader {
 
   double number(const PlyElement& element, const std::string& name, PlyType type) {
     const auto value = source_.next(type);
-    if (!value) fail(element, source_.size() <= 1 ? "the file ends early" : "its \"" + name + "\" is not a number");
+    if (!value) fail(element, source_.why_none(name));
     return *value;
   }
 

@@ -72,6 +72,7 @@ inline std::size_t refused_when_damaged(const std::string& name, const std::stri
   const ScratchFolder folder;
   std::size_t refused = 0;
   const auto try_it = [&](const std::string& damaged) {
+    std::filesystem::remove(folder.path(name));  // faster than to write over it
     const std::string path = folder.file(name, damaged);
     try {
       read(path);

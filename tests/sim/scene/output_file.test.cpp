@@ -1,0 +1,115 @@
+#include "detp/sim/scene/output_file.hpp"
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "scratch_file.hpp"
+
+using namespace detp::sim;
+using support::content_of;
+using support::ScratchFolder;
+
+namespace {
+
+void write_whole(const std::string& path, const std::string& text) {
+  OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+std::string refusal(const std::string& path, const std::string& text) {
+  return support::file_error_of([&] { write_whole(path, text); });
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("a file appears with all its content on commit, and not before") {
+    const ScratchFolder folder;
+    const std::string large(1'000'000, 'x');
+    OutputFile file(folder.path("out"));
+    file.write("first ");
+    file.write(large);
+    CHECK(!std::filesystem::exists(folder.path("out")));
+    file.commit();
+    CHECK(content_of(folder.path("out")) == "first " + large);
+    CHECK(folder.entries() == 1);
+  }
+
+  TEST_CASE("an existing file stays as it was until commit, and keeps its permissions") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("out", "old");
+    REQUIRE(::chmod(path.c_str(), 0640) == 0);
+    {
+      OutputFile abandoned(path);
+      abandoned.write(std::string(200'000, 'x'));
+      CHECK(content_of(path) == "old");
+    }
+    CHECK(content_of(path) == "old");
+    CHECK(folder.entries() == 1);
+    write_whole(path, "new");
+    CHECK(content_of(path) == "new");
+    struct stat status {};
+    REQUIRE(::stat(path.c_str(), &status) == 0);
+    CHECK((status.st_mode & 0777) == 0640);
+  }
+
+  TEST_CASE("a link is followed, also to a file that is not there yet") {
+    const ScratchFolder folder;
+    std::filesystem::create_symlink("target", folder.path("link"));
+    for (const char* text : {"first", "second"}) {
+      write_whole(folder.path("link"), text);
+      CHECK(std::filesystem::is_symlink(folder.path("link")));
+      CHECK(content_of(folder.path("target")) == text);
+    }
+  }
+
+  TEST_CASE("an open descriptor is written where it stands") {
+    const ScratchFolder folder;
+    const int descriptor = ::open(folder.path("log").c_str(), O_WRONLY | O_CREAT, 0666);
+    REQUIRE(::write(descriptor, "before ", 7) == 7);
+    write_whole("/dev/fd/" + std::to_string(descriptor), "between");
+    REQUIRE(::write(descriptor, " after", 6) == 6);
+    ::close(descriptor);
+    CHECK(content_of(folder.path("log")) == "before between after");
+  }
+
+  TEST_CASE("a device is written directly") {
+    write_whole("/dev/null", "anything");
+    CHECK(std::filesystem::is_character_file("/dev/null"));
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a full device is reported with the system's reason, at once or on commit") {
+    if (!std::filesystem::exists("/dev/full")) return;
+    for (const std::size_t size : {std::size_t{1}, std::size_t{1'000'000}})
+      CHECK(refusal("/dev/full", std::string(size, 'x')) == "/dev/full: cannot be written: No space left on device");
+  }
+
+  TEST_CASE("a folder that is not there or no folder, and a folder in place of a file, are reported") {
+    const ScratchFolder folder;
+    const std::string plain = folder.file("plain", "");
+    CHECK(refusal(folder.path("missing/out"), "x").find("cannot be written: No such file") != std::string::npos);
+    CHECK(refusal(plain + "/out", "x").find("cannot be written: Not a directory") != std::string::npos);
+    std::filesystem::create_directory(folder.path("inner"));
+    CHECK(refusal(folder.path("inner"), "x").find("cannot be written: Is a directory") != std::string::npos);
+    CHECK(refusal("", "x").find("No such file") != std::string::npos);
+    CHECK(folder.entries() == 2);
+  }
+
+  TEST_CASE("what must not be written is not, and nothing is left behind") {
+    if (::geteuid() == 0) {
+      MESSAGE("skipped: root may write everywhere");
+      return;
+    }
+    const ScratchFolder folder;
+    const std::string path = folder.file("read-only", "old");
+    REQUIRE(::chmod(path.c_str(), 0440) == 0);
+    CHECK(refusal(path, "new").find("cannot be written: Permission denied") != std::string::npos);
+    CHECK(content_of(path) == "old");
+    CHECK(folder.entries() == 1);
+  }
+}
