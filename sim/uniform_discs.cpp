@@ -1,0 +1,25 @@
+#include "uniform_discs.hpp"
+
+#include "detp/model/vocabulary.hpp"
+#include "random.hpp"
+#include "scene/built_in/built_in.hpp"
+
+namespace detp::sim {
+
+std::vector<Disc> uniform_discs(Body body, double side, std::size_t count, double radius, std::uint64_t seed) {
+  require_positive("cube side", side);
+  require_positive("disc radius", radius);
+  std::vector<Disc> discs;
+  discs.reserve(count);
+  for (const Sample& sample : built_in::uniform_samples(count, seed)) {
+    glm::dvec3 position = sample.position;
+    if (body == Body::cube_faces) {
+      const int face = static_cast<int>(6 * uniform4(seed, Stream::samples, discs.size(), 2)[0]);
+      position[face / 2] = face % 2 == 0 ? -1 : 1;
+    }
+    discs.push_back({.centre = 0.5 * side * position, .normal = sample.normal, .radius = radius});
+  }
+  return discs;
+}
+
+}  // namespace detp::sim

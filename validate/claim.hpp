@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "detp/model/form.hpp"
+#include "detp/model/vocabulary.hpp"
+#include "detp/sim/geometry.hpp"
+#include "statistics.hpp"
+
+/// A formula against what was counted.
+namespace detp::validate {
+
+/// A formula's value.
+struct Prediction {
+  model::Form form;
+  std::string source;  ///< equation of the paper, or "our derivation"
+  double value = 0;
+};
+
+/// A quantity that was counted, and what the formulas say of it.
+struct Finding {
+  std::string id;        ///< "rebuild-time"
+  std::string quantity;  ///< "T_R per ray, t = 1: geometric mean over Q = 0.3, 0.5, 0.65, 0.8"
+  std::vector<Prediction> predictions = {};
+  Estimate observed = {};
+  int batches = 0;       ///< independent batches behind the standard error; 0: exact
+  double tolerance = 0;  ///< relative deviation that still counts as agreement
+  std::uint64_t lines = 0;
+  double seconds = 0;
+};
+
+/// One prediction judged.
+struct Claim {
+  std::string id;  ///< "rebuild-time.corrected"
+  std::string quantity;
+  model::Form form;
+  std::string source;
+  double predicted = 0;
+  Estimate observed = {};
+  double relative_difference = 0;  ///< observed/predicted - 1
+  double tolerance = 0;
+  double detectable = 0;  ///< relative deviation that would have been refuted
+  Verdict verdict = Verdict::undecided;
+  double control = 0;  ///< the formula made wrong by 5 %, so as to lie farther from or nearer to the observation, …
+  Verdict control_verdict = Verdict::undecided;  ///< … whichever was judged more kindly: should be refuted
+  std::uint64_t lines = 0;
+  double seconds = 0;
+};
+
+/// What an experiment works on.
+struct Experiment {
+  Workload workload;             ///< what the formulas see
+  std::vector<sim::Disc> discs;  ///< of a scene; empty: new ones are drawn, uniform as the workload says
+  std::uint64_t seed = 1;
+  std::stop_token stop = {};
+};
+
+/// The share by which a control is made wrong.
+inline constexpr double control_error = 0.05;
+
+/// Judges all predictions of all findings, with one budget for a false verdict in the whole run.
+[[nodiscard]] std::vector<Claim> judge_all(const std::vector<Finding>& findings, double budget = 1e-3);
+
+}  // namespace detp::validate

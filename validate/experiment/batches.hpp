@@ -1,0 +1,42 @@
+#pragma once
+
+#include <tbb/parallel_for.h>
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "detp/validate/claim.hpp"
+
+namespace detp::validate {
+
+/// Independent batches behind every standard error: enough for Student's t to be close to the normal.
+inline constexpr int batch_count = 32;
+
+/// A seed for part `part` of batch `batch`, far from the user's neighbouring seeds.
+[[nodiscard]] inline std::uint64_t batch_seed(const Experiment& experiment, int part, int batch) {
+  return experiment.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(part) * 1000003ULL +
+         static_cast<std::uint64_t>(batch);
+}
+
+/// result[b] = one(b) for all batches, in parallel. Each writes its own place: the order of work does not show.
+template <class One>
+auto for_each_batch(const One& one) {
+  std::vector<decltype(one(0))> results(batch_count);
+  tbb::parallel_for(0, batch_count, [&](int batch) { results[static_cast<std::size_t>(batch)] = one(batch); });
+  return results;
+}
+
+/// Seconds since it was made.
+class Clock {
+ public:
+  [[nodiscard]] double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace detp::validate

@@ -1,0 +1,148 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "batches.hpp"
+#include "detp/model/disc_index.hpp"
+#include "detp/model/disc_index_published.hpp"
+#include "detp/model/line_measure.hpp"
+#include "detp/sim/line_field.hpp"
+#include "detp/sim/technique/ray_box.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "experiments.hpp"
+#include "samples.hpp"
+
+namespace detp::validate {
+namespace {
+
+using model::Form;
+
+constexpr double tolerance = 0.02;
+
+/// What one batch of lines did.
+struct Batch {
+  double lines = 0;
+  double hitting = 0;     ///< lines that hit the index's cube
+  double steps = 0;       ///< of a grid
+  double disc_tests = 0;  ///< of an octree
+  double hits = 0;
+  double references = 0;
+};
+
+int tested_depth(const Workload& workload) {
+  return std::clamp(model::published::octree_depth({workload.disc_radius}, scene_side(workload)), 1, 7);
+}
+
+double lines_that_hit(const std::vector<sim::Ray>& lines, const sim::Box& box) {
+  return static_cast<double>(std::count_if(
+      lines.begin(), lines.end(), [&](const sim::Ray& line) { return !sim::ClippedRay(line).inside(box).empty(); }));
+}
+
+/// The cube that the index cuts in halves: the discs' box, its sides as long as the longest.
+sim::Box index_cube(const std::vector<sim::Disc>& discs) {
+  sim::Box box;
+  double largest = 0;
+  for (const sim::Disc& disc : discs) {
+    box.include(disc.centre);
+    largest = std::max(largest, disc.radius);
+  }
+  const glm::dvec3 size = box.size();
+  const glm::dvec3 low = box.low - largest;
+  return {low, low + std::max({size.x, size.y, size.z}) + 2 * largest};
+}
+
+/// Lines through S₀, run through one technique, and what of them the discs' cube sees.
+Batch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& discs, const Candidate& candidate, int part,
+                std::size_t count, int batch) {
+  const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch)).lines(0, count);
+  const sim::Outcome outcome = sim::run(sim::make_problem(lines, discs), candidate, {.stop = experiment.stop});
+  return {.lines = static_cast<double>(count),
+          .hitting = lines_that_hit(lines, index_cube(discs)),
+          .steps = static_cast<double>(outcome.counts.steps),
+          .disc_tests = static_cast<double>(outcome.counts.disc_tests),
+          .hits = static_cast<double>(outcome.total_hits),
+          .references = static_cast<double>(outcome.counts.references)};
+}
+
+Estimate ratio(const std::vector<Batch>& batches, double Batch::*above, double Batch::*below) {
+  std::vector<double> numerators;
+  std::vector<double> denominators;
+  for (const Batch& batch : batches) {
+    numerators.push_back(batch.*above);
+    denominators.push_back(batch.*below);
+  }
+  return batch_ratio(numerators, denominators);
+}
+
+/// Two small discs in opposite corners of a cube: nothing but cells.
+Finding cells_finding(const Experiment& experiment) {
+  const Clock clock;
+  constexpr std::size_t lines = 20'000;
+  const int depth = tested_depth(experiment.workload);
+  const std::vector<sim::Disc> corners{{.centre = glm::dvec3{-1}, .radius = 1e-3},
+                                       {.centre = glm::dvec3{1}, .radius = 1e-3}};
+  const auto batches = for_each_batch([&](int batch) {
+    return run_batch(experiment, corners, {Technique::grid, GridParameters{1 << depth}}, 20, lines, batch);
+  });
+  const double cells = model::published::cells_per_line(depth);
+  return {.id = "cells-per-line",
+          .quantity = fmt::format("cells of a 2^{} grid crossed by a line that hits its cube", depth),
+          .predictions = {{Form::published, "section 4.2", cells}, {Form::corrected, "section 4.2, unchanged", cells}},
+          .observed = ratio(batches, &Batch::steps, &Batch::hitting),
+          .batches = batch_count,
+          .tolerance = tolerance,
+          .lines = lines * batch_count,
+          .seconds = clock.seconds()};
+}
+
+/// References stored per disc: by the closed form where the samples are uniform, as stored where they are a scene's.
+double expected_tests(const Experiment& experiment, const std::vector<Batch>& batches, int depth) {
+  const double cells = std::ldexp(1.0, 2 * depth);
+  if (!experiment.discs.empty()) return batches.front().references / cells;
+  return experiment.workload.samples * model::index_cells(experiment.workload, std::ldexp(1.0, depth)).overlapped /
+         cells;
+}
+
+}  // namespace
+
+std::vector<Finding> disc_index_findings(const Experiment& experiment) {
+  std::vector<Finding> findings{cells_finding(experiment)};
+  const Clock clock;
+  const Workload& workload = experiment.workload;
+  const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
+  const int depth = tested_depth(workload);
+  const std::size_t lines = std::max<std::size_t>(100, static_cast<std::size_t>(workload.rays) / batch_count);
+  const auto batches = for_each_batch([&](int batch) {
+    return run_batch(experiment, discs, {Technique::octree, OctreeParameters{depth}}, 21, lines, batch);
+  });
+  if (experiment.stop.stop_requested()) return {};
+  findings.push_back({.id = "octree-tests-per-line",
+                      .quantity = fmt::format("ray-disc tests per line that hits the cube, octree of depth {}", depth),
+                      .predictions = {{Form::published, "eq (22), n_P / 4^k",
+                                       model::published::tests_per_line(workload.samples, depth)},
+                                      {Form::corrected,
+                                       experiment.discs.empty() ? "n_P E(d/a) / 4^k, our derivation"
+                                                                : "references stored / 4^k, our derivation",
+                                       expected_tests(experiment, batches, depth)}},
+                      .observed = ratio(batches, &Batch::disc_tests, &Batch::hitting),
+                      .batches = batch_count,
+                      .tolerance = tolerance,
+                      .lines = lines * batch_count,
+                      .seconds = clock.seconds()});
+  Workload one_line = workload;
+  one_line.rays = 1;
+  one_line.sphere_radius = sim::enclosing_sphere(discs).radius;
+  findings.push_back(
+      {.id = "hits-per-line",
+       .quantity = "discs that a line through S0 hits",
+       .predictions = {{Form::corrected, "eq (3) with F = 2 pi d^2, our derivation", model::expected_hits(one_line)}},
+       .observed = ratio(batches, &Batch::hits, &Batch::lines),
+       .batches = batch_count,
+       .tolerance = tolerance,
+       .lines = lines * batch_count,
+       .seconds = clock.seconds()});
+  return findings;
+}
+
+}  // namespace detp::validate

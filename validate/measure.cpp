@@ -1,0 +1,95 @@
+#include "measure.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "detp/sim/lebesgue.hpp"
+
+namespace detp::validate {
+namespace {
+
+sim::Box box_of_centres(std::span<const sim::Disc> discs) {
+  sim::Box box;
+  for (const sim::Disc& disc : discs) box.include(disc.centre);
+  return box;
+}
+
+/// Occupied cells at each level of halving, 0 … 16.
+std::vector<double> occupied_cells(std::span<const sim::Disc> discs) {
+  const sim::Box box = box_of_centres(discs);
+  std::vector<std::uint64_t> codes;
+  codes.reserve(discs.size());
+  for (const sim::Disc& disc : discs) codes.push_back(sim::lebesgue_code(disc.centre, box));
+  std::sort(codes.begin(), codes.end());
+  std::vector<double> occupied;
+  for (int level = 0; level <= 16; ++level) {
+    const int shift = 48 - 3 * level;
+    double cells = 1;
+    for (std::size_t i = 1; i < codes.size(); ++i) cells += codes[i] >> shift != codes[i - 1] >> shift ? 1 : 0;
+    occupied.push_back(cells);
+  }
+  return occupied;
+}
+
+double mean_path_length(const sim::Problem& problem) {
+  const double chord = 4 * problem.enclosing.radius / 3;
+  double sum = 0;
+  bool segments = false;
+  for (const sim::Ray& ray : problem.rays) {
+    segments = segments || !ray.is_line();
+    sum += ray.is_line() ? chord : ray.length;
+  }
+  return segments ? sum / static_cast<double>(problem.rays.size()) : 0;
+}
+
+double rms_radius(std::span<const sim::Disc> discs) {
+  double sum = 0;
+  for (const sim::Disc& disc : discs) sum += disc.radius * disc.radius;
+  return std::sqrt(sum / static_cast<double>(discs.size()));
+}
+
+}  // namespace
+
+double sample_dimension(std::span<const sim::Disc> discs) {
+  constexpr double least_points = 4096;
+  constexpr double points_per_cell = 8;
+  const auto points = static_cast<double>(discs.size());
+  if (points < least_points) return 3;
+  const std::vector<double> occupied = occupied_cells(discs);
+  int last = 2;
+  while (last < 16 && occupied[static_cast<std::size_t>(last) + 1] * points_per_cell <= points) ++last;
+  const int levels = std::max(2, last - 1);
+  Eigen::MatrixX2d line(levels, 2);
+  Eigen::VectorXd logs(levels);
+  for (int i = 0; i < levels; ++i) {
+    line.row(i) << 1, i + 2;
+    logs[i] = std::log2(occupied[static_cast<std::size_t>(i) + 2]);
+  }
+  const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(logs);
+  return std::clamp(fit[1], 1.0, 3.0);
+}
+
+Workload measure(const sim::Problem& problem, const SurfaceFacts& surface) {
+  const glm::dvec3 size = box_of_centres(problem.discs).size();
+  Workload workload{.rays = static_cast<double>(problem.rays.size()),
+                    .samples = static_cast<double>(problem.discs.size()),
+                    .disc_radius = rms_radius(problem.discs),
+                    .sphere_radius = problem.enclosing.radius,
+                    .box = {size.x, size.y, size.z},
+                    .dimension = sample_dimension(problem.discs),
+                    .sample_distance = surface.edge_length,
+                    .path_length = mean_path_length(problem)};
+  // One sample, or all in one place: the disc itself is the only length there is.
+  if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
+  if (surface.area > 0) {
+    const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);
+    Workload volume = workload;
+    volume.dimension = 3;
+    workload.sample_extent = std::pow(sample_extent(volume), weight) * std::pow(surface.area, 1 - weight);
+  }
+  return workload;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <span>
+
+#include "detp/model/vocabulary.hpp"
+#include "detp/sim/technique/technique.hpp"
+
+/// What the models need to know of rays and discs, measured on them.
+namespace detp::validate {
+
+/// What a mesh knows of its samples; zeros where there is none.
+struct SurfaceFacts {
+  double area = 0;         ///< of all triangles
+  double edge_length = 0;  ///< mean
+};
+
+/// Dimension of a set of points by box counting: the slope of log₂(occupied cells) over the levels of halving, from the
+/// second on, as long as a cell holds eight points on average; least squares, clamped to [1, 3]. 3 for fewer than 4096
+/// points, where there is no such level range.
+///
+/// Accuracy   0.1 for 10⁵ points uniform in a cube or on its faces.
+[[nodiscard]] double sample_dimension(std::span<const sim::Disc> discs);
+
+/// The workload that the problem is: counts, S₀, the samples' box and dimension, root mean square disc radius, mean
+/// path length (unbounded lines among segments count with the mean chord of S₀, 4r₀/3).
+[[nodiscard]] Workload measure(const sim::Problem& problem, const SurfaceFacts& surface = {});
+
+}  // namespace detp::validate
