@@ -97,7 +97,7 @@ Mesh read_mesh(const std::string& path, Notices& notices) {
   check_used(mesh, mesh.positions, path, "position");
   if (!mesh.normals.empty()) check_used(mesh, mesh.normals, path, "normal");
   if (const std::size_t count = reset_not_finite(mesh.positions))
-    notices.push_back(std::to_string(count) + " unused positions that are not finite set to 0");
+    notices.push_back("unused positions that are not finite, set to 0: " + std::to_string(count));
   reset_not_finite(mesh.normals);
   return mesh;
 }
