@@ -1,0 +1,77 @@
+// Measures the defaults of validate/unit_costs.cpp: times every technique on uniform samples and isotropic lines, over
+// radii, counts and parameters, and prints the unit costs fitted to the runs, with how well they explain them.
+//
+//   cmake --build build --target unit_costs_table && build/unit_costs_table
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "detp/model/sphere_count.hpp"
+#include "detp/sim/line_field.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/sim/uniform_discs.hpp"
+#include "detp/validate/unit_costs.hpp"
+
+namespace {
+
+using namespace detp;
+
+std::vector<Candidate> candidates(double radius, double outer, double pairs) {
+  std::vector<Candidate> list;
+  if (pairs < 3e8) list.push_back({Technique::brute_force, BruteForceParameters{}});
+  for (const double ratio : {0.4, 0.65, 0.8})
+    list.push_back({Technique::sphere_cache,
+                    SphereCacheParameters{
+                        ratio, std::max<std::int64_t>(
+                                   1, model::sphere_count(model::Form::corrected, {ratio}, {radius}, {outer}) - 1)}});
+  for (const int depth : {4, 5, 6, 7}) list.push_back({Technique::octree, OctreeParameters{depth}});
+  for (const int cells : {16, 40, 100}) list.push_back({Technique::grid, GridParameters{cells}});
+  return list;
+}
+
+validate::TimedRun time(const sim::Problem& problem, const Candidate& candidate) {
+  validate::TimedRun best;
+  best.counts = as_expected(sim::run(problem, candidate).counts);
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const sim::Phases phases = sim::run(problem, candidate, {.count = false}).seconds;
+    if (repeat > 0 && phases.total() >= best.order + best.build + best.search) continue;
+    best.order = phases.order;
+    best.build = phases.build;
+    best.search = phases.search;
+  }
+  return best;
+}
+
+double total(const validate::TimedRun& run) { return run.order + run.build + run.search; }
+
+}  // namespace
+
+int main() {
+  std::vector<validate::TimedRun> runs;
+  for (const auto body : {sim::Body::cube, sim::Body::cube_faces})
+    for (const double radius : {0.005, 0.02, 0.08})
+      for (const std::size_t samples : {5'000UL, 40'000UL})
+        for (const std::size_t rays : {3'000UL, 30'000UL}) {
+          const auto discs = sim::uniform_discs(body, 2, samples, radius, 1);
+          const auto lines = sim::LineField(sim::enclosing_sphere(discs), 2).lines(0, rays);
+          const sim::Problem problem = sim::make_problem(lines, discs);
+          for (const Candidate& candidate :
+               candidates(radius, problem.enclosing.radius, static_cast<double>(samples * rays)))
+            runs.push_back(time(problem, candidate));
+        }
+  const UnitCosts costs = validate::fit_unit_costs(runs);
+  fmt::print(
+      ".sphere_test = {:.2g}, .disc_test = {:.2g}, .step = {:.2g}, .node = {:.2g}, .copy = {:.2g}, .placement = "
+      "{:.2g}, "
+      ".sort = {:.2g}, .rebuild = {:.2g}\n",
+      costs.sphere_test, costs.disc_test, costs.step, costs.node, costs.copy, costs.placement, costs.sort,
+      costs.rebuild);
+  std::vector<double> errors;
+  for (const auto& run : runs) errors.push_back(std::abs(std::log(price(run.counts, costs).total() / total(run))));
+  std::sort(errors.begin(), errors.end());
+  fmt::print("{} runs; predicted/measured off by {:.2f}x in the median, {:.2f}x at the 95th percentile\n", runs.size(),
+             std::exp(errors[errors.size() / 2]), std::exp(errors[errors.size() * 95 / 100]));
+}
