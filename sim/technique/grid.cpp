@@ -3,7 +3,7 @@
 
 #include "disc_box.hpp"
 #include "indexed_search.hpp"
-#include "memory.hpp"
+#include "detp/sim/memory.hpp"
 #include "ray_box.hpp"
 #include "techniques.hpp"
 

@@ -47,10 +47,9 @@ void add_quad(Mesh& mesh, const std::array<glm::dvec3, 4>& corners, double cell)
   const auto& [a, b, c, d] = corners;
   const double along_u = 0.5 * (glm::length(b - a) + glm::length(c - d));
   const double along_v = 0.5 * (glm::length(d - a) + glm::length(c - b));
-  add_patch(mesh, {cells_along(along_u, cell), cells_along(along_v, cell)},
-            [&corners](double u, double v) {
-              return (1 - v) * ((1 - u) * corners[0] + u * corners[1]) + v * ((1 - u) * corners[3] + u * corners[2]);
-            });
+  add_patch(mesh, {cells_along(along_u, cell), cells_along(along_v, cell)}, [&corners](double u, double v) {
+    return (1 - v) * ((1 - u) * corners[0] + u * corners[1]) + v * ((1 - u) * corners[3] + u * corners[2]);
+  });
 }
 
 void add_box(Mesh& mesh, const glm::dvec3& corner, const std::array<glm::dvec3, 3>& edges, double cell) {

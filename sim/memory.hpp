@@ -4,7 +4,7 @@
 
 namespace detp::sim {
 
-/// Bytes that an index may take: half of the machine's memory.
+/// Bytes that one array or index may take: half of the machine's memory.
 [[nodiscard]] double memory_budget();
 
 /// Throws std::length_error, naming the bytes, where `bytes` is more than the budget.

@@ -1,0 +1,195 @@
+#include "job.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "detp/sim/line_field.hpp"
+#include "detp/sim/memory.hpp"
+#include "detp/sim/scene/disc_file.hpp"
+#include "detp/sim/scene/photon_paths.hpp"
+#include "detp/sim/scene/ray_file.hpp"
+#include "detp/sim/uniform_discs.hpp"
+#include "measure.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double default_rays = 100'000;
+
+/// A count of things of that many bytes each, which must fit in memory.
+std::size_t count_in_memory(std::string_view what, double count, std::size_t bytes) {
+  require_count(fmt::format("number of {}", what), count, 1, 1e18);
+  sim::require_memory(fmt::format("{} {}", count, what), count * static_cast<double>(bytes));
+  return static_cast<std::size_t>(count);
+}
+
+double triangle_area(const sim::Mesh& mesh) {
+  double area = 0;
+  for (const auto& [a, b, c] : mesh.triangles)
+    area += 0.5 * glm::length(glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
+  return area;
+}
+
+double longest_side(const sim::Box& box) {
+  const glm::dvec3 size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
+
+double absolute(const Length& length, double side) { return length.relative ? length.value * side : length.value; }
+
+/// Half the distance between samples: of neighbouring vertices, or of points spread over a surface or a volume.
+double default_radius(const sim::Scene& scene, double side, double edge_length) {
+  const double root = scene.mesh.triangles.empty() ? 1.0 / 3 : 0.5;
+  const double spread = side / std::pow(static_cast<double>(scene.samples.size()), root);
+  return 0.5 * (edge_length > 0 ? edge_length : spread);
+}
+
+std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double radius) {
+  require_positive("disc radius", radius);
+  std::vector<sim::Disc> discs;
+  discs.reserve(samples.size());
+  for (const sim::Sample& sample : samples) discs.push_back({sample.position, sample.normal, radius});
+  return discs;
+}
+
+class JobMaker {
+ public:
+  explicit JobMaker(const JobRequest& request) : request_(request) {}
+
+  Job make() {
+    const auto start = std::chrono::steady_clock::now();
+    if (request_.numbers_alone())
+      from_numbers();
+    else
+      from_scene_and_files();
+    job_.front_facing = request_.front_facing;
+    make_rays();
+    job_.read_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    measure_workload();
+    return std::move(job_);
+  }
+
+ private:
+  void from_numbers() {
+    const Workload workload = workload_of_numbers(request_);
+    const bool faces = workload.dimension < 2.5;
+    job_.name = faces ? "uniform samples on the faces of a cube" : "uniform samples in a cube";
+    job_.discs =
+        sim::uniform_discs(faces ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
+                           count_in_memory("samples", workload.samples, sizeof(sim::Sample) + sizeof(sim::Disc)),
+                           workload.disc_radius, request_.seed);
+  }
+
+  void from_scene_and_files() {
+    if (request_.scene) open_scene();
+    if (request_.disc_file) {
+      if (request_.samples) throw std::invalid_argument("--samples is for scenes; a disc file is taken whole");
+      std::optional<double> radius;
+      if (request_.disc_radius && !request_.disc_radius->relative) radius = request_.disc_radius->value;
+      if (request_.disc_radius && request_.disc_radius->relative)
+        throw std::invalid_argument("with --discs the disc radius must be a length, not a percentage");
+      job_.discs = sim::read_discs(*request_.disc_file, radius);
+      job_.name = request_.scene ? job_.name : *request_.disc_file;
+    }
+    if (job_.discs.empty()) throw std::invalid_argument("rays alone answer nothing: name a scene or --discs FILE");
+  }
+
+  void open_scene() {
+    std::optional<std::size_t> samples;
+    if (request_.samples)
+      samples = count_in_memory("samples", *request_.samples, sizeof(sim::Sample) + sizeof(sim::Disc));
+    scene_ = sim::open_scene({*request_.scene, samples, request_.seed});
+    job_.name = scene_->name;
+    job_.notices = scene_->notices;
+    job_.triangles = scene_->mesh.triangles.size();
+    surface_ = {triangle_area(scene_->mesh), request_.samples ? 0 : sim::mean_edge_length(scene_->mesh)};
+    const double side = longest_side(scene_->box);
+    const double radius = request_.disc_radius ? absolute(*request_.disc_radius, side)
+                                               : default_radius(*scene_, side, surface_.edge_length);
+    job_.discs = discs_at(scene_->samples, radius);
+  }
+
+  void make_rays() {
+    if (request_.ray_file) {
+      if (request_.rays) throw std::invalid_argument("--rays is for fields of rays; a ray file is taken whole");
+      job_.rays = sim::read_rays(*request_.ray_file);
+      job_.field = sim::Field::photons;
+      return;
+    }
+    const std::size_t count = count_in_memory("rays", request_.rays.value_or(default_rays), sizeof(sim::Ray));
+    job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
+    if (job_.field == sim::Field::isotropic) {
+      job_.rays = sim::LineField(sim::enclosing_sphere(job_.discs), request_.seed).lines(0, count);
+      return;
+    }
+    if (!scene_) throw std::invalid_argument("photon paths take a scene; name one, or use --field isotropic");
+    job_.rays = sim::photon_paths(*scene_, count, request_.seed);
+  }
+
+  void measure_workload() {
+    job_.workload = measure(job_.problem(), surface_);
+    if (request_.numbers_alone()) {
+      const Workload numbers = workload_of_numbers(request_);
+      job_.workload.dimension = numbers.dimension;
+      job_.workload.sample_extent = numbers.sample_extent;
+    }
+    if (request_.dimension) job_.workload.dimension = *request_.dimension;
+    if (request_.sample_extent) job_.workload.sample_extent = *request_.sample_extent;
+    check(job_.workload);
+  }
+
+  const JobRequest& request_;
+  std::optional<sim::Scene> scene_;
+  SurfaceFacts surface_;
+  Job job_;
+};
+
+}  // namespace
+
+Length parse_length(std::string_view text) {
+  const bool relative = text.ends_with('%');
+  std::string_view digits = text;
+  if (relative) digits.remove_suffix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size())
+    throw std::invalid_argument(
+        fmt::format("disc radius must be a length or a percentage, as 0.02 or 4% (got {})", text));
+  require_positive("disc radius", value);
+  return {relative ? value / 100 : value, relative};
+}
+
+Workload workload_of_numbers(const JobRequest& request) {
+  if (!request.samples) throw std::invalid_argument("without a scene, the number of samples is needed: --samples N");
+  if (!request.disc_radius) throw std::invalid_argument("without a scene, the disc radius is needed: --disc-radius d");
+  if (!request.sphere_radius && !request.scene_side)
+    throw std::invalid_argument("without a scene, its size is needed: --sphere-radius r0 or --scene-side s");
+  if (request.sphere_radius) require_positive("sphere radius", *request.sphere_radius);
+  if (request.scene_side) require_positive("scene side", *request.scene_side);
+  double d = request.disc_radius->value;
+  double side = request.scene_side.value_or(0);
+  if (request.disc_radius->relative) {
+    // s from r₀ = s√3/2 + xs.
+    if (!request.scene_side) side = *request.sphere_radius / (std::sqrt(0.75) + d);
+    d *= side;
+  }
+  const double outer = request.sphere_radius.value_or(enclosing_radius(side, d));
+  // A disc as large as S₀ leaves no room for the samples' cube: then the cube inscribed in S₀.
+  if (!(side > 0)) side = (d < outer ? outer - d : outer) / std::sqrt(0.75);
+  Workload workload =
+      cube_workload(request.rays.value_or(default_rays), *request.samples, d, side, request.dimension.value_or(3));
+  workload.sphere_radius = outer;
+  workload.sample_extent = request.sample_extent.value_or(0);
+  if (request.sample_extent) require_positive("sample extent", *request.sample_extent);
+  check(workload);
+  return workload;
+}
+
+Job make_job(const JobRequest& request) { return JobMaker(request).make(); }
+
+}  // namespace detp::validate
