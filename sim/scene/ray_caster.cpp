@@ -1,0 +1,178 @@
+#include "ray_caster.hpp"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+namespace detp::sim {
+namespace {
+
+// In the caster's own units, where coordinates are below 1. Rays start inside start_radius, so that single precision
+// misplaces no point of a ray by more than 1e-6.
+constexpr float box_slack = 2e-6F;
+constexpr float distance_slack = 1e-5F;
+constexpr double start_radius = 1.5;
+/// As a share of a triangle's height: rounding shall not let rays through between two triangles.
+constexpr double edge_slack = 1e-10;
+/// A ray that starts this near a triangle's plane starts on the triangle or beside it, and does not meet it.
+constexpr double plane_slack = 1e-13;
+/// Below this share of the square of its longest edge, twice the area of a triangle is rounding error.
+constexpr double least_area = 1e-14;
+
+struct Facet {
+  glm::dvec3 corner;
+  glm::dvec3 first;   ///< edge from the corner
+  glm::dvec3 second;  ///< likewise
+  glm::dvec3 normal;  ///< unit length, or zero for a triangle without area
+};
+
+Facet make_facet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 across = glm::cross(b - a, c - a);
+  const double area = glm::length(across);
+  const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - a, c - a), glm::dot(c - b, c - b)});
+  return {a, b - a, c - a, area > least_area * longest ? across / area : glm::dvec3{0.0}};
+}
+
+/// What Embree hands back to us with each candidate; the context proper must come first.
+struct Query {
+  RTCIntersectContext context;
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+  double skipped;  ///< from the origin to where Embree's ray starts
+  std::uint32_t from;
+  std::uint32_t nearest = RTC_INVALID_GEOMETRY_ID;
+  double distance = unbounded;
+};
+
+/// How far along the query's ray it crosses the facet; unbounded where it does not.
+double crossing(const Query& query, const Facet& facet) {
+  const glm::dvec3 back = query.origin - facet.corner;
+  const double height = -glm::dot(facet.normal, back);
+  const double facing = glm::dot(facet.normal, query.direction);
+  if (facing == 0 || std::abs(height) <= plane_slack || (height < 0) != (facing < 0)) return unbounded;
+  // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", JGT 2(1), 1997.
+  const glm::dvec3 h = glm::cross(query.direction, facet.second);
+  const double determinant = glm::dot(facet.first, h);
+  const double u = glm::dot(back, h) / determinant;
+  const double v = glm::dot(query.direction, glm::cross(back, facet.first)) / determinant;
+  const bool inside = u >= -edge_slack && v >= -edge_slack && u + v <= 1 + edge_slack;
+  return inside ? height / facing : unbounded;
+}
+
+void bound(const RTCBoundsFunctionArguments* arguments) {
+  const Facet& facet = static_cast<const Facet*>(arguments->geometryUserPtr)[arguments->primID];
+  Box box;
+  for (const glm::dvec3& corner : {facet.corner, facet.corner + facet.first, facet.corner + facet.second})
+    box.include(corner);
+  RTCBounds& bounds = *arguments->bounds_o;
+  bounds.lower_x = static_cast<float>(box.low.x) - box_slack;
+  bounds.lower_y = static_cast<float>(box.low.y) - box_slack;
+  bounds.lower_z = static_cast<float>(box.low.z) - box_slack;
+  bounds.upper_x = static_cast<float>(box.high.x) + box_slack;
+  bounds.upper_y = static_cast<float>(box.high.y) + box_slack;
+  bounds.upper_z = static_cast<float>(box.high.z) + box_slack;
+}
+
+void meet(const RTCIntersectFunctionNArguments* arguments) {
+  if (arguments->valid[0] == 0) return;
+  Query& query = *reinterpret_cast<Query*>(arguments->context);
+  const std::uint32_t triangle = arguments->primID;
+  if (triangle == query.from) return;
+  const double distance = crossing(query, static_cast<const Facet*>(arguments->geometryUserPtr)[triangle]);
+  const bool nearer = distance < query.distance || (distance == query.distance && triangle < query.nearest);
+  if (!nearer || distance == unbounded) return;
+  query.distance = distance;
+  query.nearest = triangle;
+  // Embree shall still show what lies as far as this to within its own rounding.
+  const float limit = static_cast<float>(distance - query.skipped) + distance_slack;
+  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = limit;
+}
+
+/// Distance to where the ray enters the sphere around the origin that holds all; 0 if it starts within; negative if it
+/// never enters.
+double entry(const glm::dvec3& origin, const glm::dvec3& direction) {
+  if (glm::dot(origin, origin) <= start_radius * start_radius) return 0;
+  const double along = -glm::dot(origin, direction);
+  const glm::dvec3 nearest = origin + along * direction;
+  const double rest = start_radius * start_radius - glm::dot(nearest, nearest);
+  return along < 0 || rest < 0 ? -1 : along - std::sqrt(rest);
+}
+
+/// The least power of two above half the box's diagonal: scaling by it is exact.
+double own_unit(const Box& box) {
+  const glm::dvec3 half = 0.5 * box.size();
+  return std::exp2(std::ilogb(std::hypot(half.x, half.y, half.z)) + 1);
+}
+
+struct Release {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+template <class Handle>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
+
+}  // namespace
+
+struct RayCaster::Embree {
+  std::vector<Facet> facets;
+  Owned<RTCDevice> device{rtcNewDevice(nullptr)};
+  Owned<RTCScene> scene;
+
+  explicit Embree(std::vector<Facet> all) : facets(std::move(all)) {
+    require_no_error();
+    scene.reset(rtcNewScene(device.get()));
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    const Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(facets.size()));
+    rtcSetGeometryUserData(geometry.get(), facets.data());
+    rtcSetGeometryBoundsFunction(
+        geometry.get(), [](const auto* arguments) { bound(arguments); }, nullptr);
+    rtcSetGeometryIntersectFunction(geometry.get(), meet);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometry(scene.get(), geometry.get());
+    rtcCommitScene(scene.get());
+    require_no_error();
+  }
+
+  void require_no_error() const {
+    const RTCError error = rtcGetDeviceError(device.get());
+    if (error != RTC_ERROR_NONE)
+      throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
+  }
+};
+
+RayCaster::RayCaster(const Mesh& mesh, const Box& box) : centre_(box.centre()), scale_(own_unit(box)) {
+  std::vector<Facet> facets;
+  facets.reserve(mesh.triangles.size());
+  for (const auto& [a, b, c] : mesh.triangles)
+    facets.push_back(make_facet(to_own(mesh.positions[a]), to_own(mesh.positions[b]), to_own(mesh.positions[c])));
+  embree_ = std::make_unique<Embree>(std::move(facets));
+}
+
+RayCaster::~RayCaster() = default;
+
+std::optional<RayCaster::Meeting> RayCaster::first_meeting(const glm::dvec3& origin, const glm::dvec3& direction,
+                                                           std::optional<std::uint32_t> from) const {
+  const double skipped = entry(origin, direction);
+  if (skipped < 0) return std::nullopt;
+  Query query{.context = {},
+              .origin = origin,
+              .direction = direction,
+              .skipped = skipped,
+              .from = from.value_or(RTC_INVALID_GEOMETRY_ID)};
+  rtcInitIntersectContext(&query.context);
+  const glm::vec3 start(origin + skipped * direction);
+  const glm::vec3 heading(direction);
+  RTCRayHit ray{};
+  ray.ray = {start.x, start.y, start.z, 0, heading.x, heading.y, heading.z, 0, INFINITY, 0xFFFFFFFFU, 0, 0};
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(embree_->scene.get(), &query.context, &ray);
+  if (query.nearest == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return Meeting{query.distance, embree_->facets[query.nearest].normal, query.nearest};
+}
+
+}  // namespace detp::sim

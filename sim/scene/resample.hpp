@@ -1,0 +1,16 @@
+#pragma once
+
+#include <cstdint>
+
+#include "mesh.hpp"
+
+namespace detp::sim {
+
+/// A random subset of `count` <= samples.size(), each subset as likely as any other, in the same order.
+[[nodiscard]] std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t count, std::uint64_t seed);
+
+/// Adds `count` samples distributed by area over the triangles, with the triangles' normals. Adds none to a mesh whose
+/// triangles have no area.
+void add_by_area(std::vector<Sample>& samples, const Mesh& mesh, std::size_t count, std::uint64_t seed);
+
+}  // namespace detp::sim
