@@ -87,4 +87,23 @@ BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs, 
   return best;
 }
 
+BestRatio best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio) {
+  check_spheres_pay(workload);
+  constexpr std::int64_t most = 4096;
+  const std::int64_t last = sphere_count(Form::corrected, ratio, {workload.disc_radius}, {workload.sphere_radius});
+  BestRatio best{ratio.value, 1, corrected_time(workload, costs, ratio.value, 1)};
+  for (std::int64_t k = 2; k <= std::min(last, most); ++k)
+    if (const double t = corrected_time(workload, costs, ratio.value, k); t < best.time) best = {ratio.value, k, t};
+  return best;
+}
+
+BestRatio best_ratio_for(const Workload& workload, const UnitCosts& costs, std::int64_t spheres) {
+  check_spheres_pay(workload);
+  BestRatio best;
+  improve(best, piece_start(workload, spheres), most_ratio, spheres,
+          [&](double q, std::int64_t k) { return corrected_time(workload, costs, q, k); });
+  if (best.spheres == 0) best = {most_ratio, spheres, corrected_time(workload, costs, most_ratio, spheres)};
+  return best;
+}
+
 }  // namespace detp::model

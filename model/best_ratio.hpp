@@ -29,6 +29,10 @@ struct BestRatio {
 [[nodiscard]] BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs,
                                             std::int64_t most_spheres = 40);
 
+/// The fastest stop k for a given Q, and the fastest Q for a given k, by the corrected T.
+[[nodiscard]] BestRatio best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio);
+[[nodiscard]] BestRatio best_ratio_for(const Workload& workload, const UnitCosts& costs, std::int64_t spheres);
+
 /// The paper's advice: 0.6 to 0.7; its middle.
 inline constexpr double published_ratio = 0.65;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <stdexcept>
 
 #include "best_ratio.hpp"
 #include "disc_index.hpp"
@@ -32,6 +33,28 @@ class Fastest {
   std::optional<Ranked> best_;
 };
 
+std::optional<Ranked> best_cache(Technique technique, const Workload& workload, const UnitCosts& costs) {
+  if (workload.disc_radius >= workload.sphere_radius) return std::nullopt;
+  const BestRatio best = best_ratio_and_stop(workload, costs);
+  if (best.spheres == 0) return std::nullopt;
+  return assess(workload, {technique, SphereCacheParameters{best.ratio, best.spheres, SampleOrder::lebesgue}}, costs);
+}
+
+std::optional<Ranked> best_octree(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
+  Fastest fastest(workload, costs, limits);
+  for (int depth = 0; depth <= limits.most_depth; ++depth)
+    fastest.consider({Technique::octree, OctreeParameters{depth}});
+  return fastest.best();
+}
+
+std::optional<Ranked> best_grid(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
+  Fastest fastest(workload, costs, limits);
+  for (int cells = 1; cells <= 1 << 16 && index_cells(workload, cells).count() <= limits.most_cells;
+       cells = std::max(cells + 1, static_cast<int>(1.1 * cells)))
+    fastest.consider({Technique::grid, GridParameters{cells}});
+  return fastest.best();
+}
+
 }  // namespace
 
 Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCosts& costs) {
@@ -39,24 +62,28 @@ Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCo
   return {candidate, counts, price(counts, costs)};
 }
 
-std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
-  std::vector<Ranked> ranking{assess(workload, {Technique::brute_force, BruteForceParameters{}}, costs)};
-  if (workload.disc_radius < workload.sphere_radius) {
-    const BestRatio best = best_ratio_and_stop(workload, costs);
-    if (best.spheres > 0)
-      ranking.push_back(assess(
-          workload, {Technique::sphere_cache, SphereCacheParameters{best.ratio, best.spheres, SampleOrder::lebesgue}},
-          costs));
+std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
+                              const SearchLimits& limits) {
+  check(workload);
+  switch (technique) {
+    case Technique::brute_force:
+      return assess(workload, {Technique::brute_force, BruteForceParameters{}}, costs);
+    case Technique::sphere_cache:
+    case Technique::sphere_cache_published:
+      return best_cache(technique, workload, costs);
+    case Technique::octree:
+      return best_octree(workload, costs, limits);
+    case Technique::grid:
+      return best_grid(workload, costs, limits);
   }
-  Fastest octree(workload, costs, limits);
-  for (int depth = 0; depth <= limits.most_depth; ++depth)
-    octree.consider({Technique::octree, OctreeParameters{depth}});
-  if (octree.best()) ranking.push_back(*octree.best());
-  Fastest grid(workload, costs, limits);
-  for (int cells = 1; index_cells(workload, cells).count() <= limits.most_cells && cells <= 1 << 16;
-       cells = std::max(cells + 1, static_cast<int>(1.1 * cells)))
-    grid.consider({Technique::grid, GridParameters{cells}});
-  if (grid.best()) ranking.push_back(*grid.best());
+  throw std::logic_error("a technique that cannot be chosen");
+}
+
+std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
+  std::vector<Ranked> ranking;
+  for (const Technique technique : all_techniques)
+    if (technique != Technique::sphere_cache_published)  // loses hits: never chosen
+      if (auto best = best_of(technique, workload, costs, limits)) ranking.push_back(std::move(*best));
   std::stable_sort(ranking.begin(), ranking.end(),
                    [](const Ranked& a, const Ranked& b) { return a.time.total() < b.time.total(); });
   return ranking;

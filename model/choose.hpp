@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "vocabulary.hpp"
@@ -23,10 +24,15 @@ struct SearchLimits {
 
 /// All exact techniques, each with its best parameters, fastest first.
 ///
-/// The sphere cache by best_ratio_and_stop (left out where d >= r₀); the octree over its depths; the grid over cell
-/// counts in steps of 10 %. Throws std::invalid_argument for a workload out of range.
+/// The sphere caches by best_ratio_and_stop; the octree over its depths; the grid over cell counts in steps of 10 %.
+/// Throws std::invalid_argument for a workload out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs,
                                        const SearchLimits& limits = {});
+
+/// One technique with its best parameters; nothing where it has none within the limits (spheres as large as S₀, more
+/// references than allowed).
+[[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
+                                            const SearchLimits& limits = {});
 
 /// One candidate as `rank` would show it.
 [[nodiscard]] Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCosts& costs);

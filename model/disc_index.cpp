@@ -56,7 +56,7 @@ double occupied_cells(const Workload& workload, const Cells& cells) {
 
 Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters) {
   check(workload);
-  check(Candidate{Technique::octree, parameters});
+  require_count("depth", parameters.depth, 0, 300);
   Counts<double> counts = leaf_counts(workload, index_cells(workload, std::ldexp(1.0, parameters.depth)));
   for (int level = 0; level <= parameters.depth; ++level) {
     const Cells nodes = index_cells(workload, std::ldexp(1.0, level));
@@ -68,7 +68,7 @@ Counts<double> octree_counts(const Workload& workload, const OctreeParameters& p
 
 Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters) {
   check(workload);
-  check(Candidate{Technique::grid, parameters});
+  require_count("cells a side", parameters.cells, 1, 1e9);
   const Cells cells = index_cells(workload, parameters.cells);
   Counts<double> counts = leaf_counts(workload, cells);
   counts.steps = workload.rays * cells.crossing * cells.count();

@@ -1,0 +1,87 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <stdexcept>
+
+#include "choose_report.hpp"
+#include "detp/model/paper_rule.hpp"
+#include "detp/validate/unit_costs.hpp"
+#include "unit_cost_option.hpp"
+#include "workload_options.hpp"
+
+namespace detp::cli {
+namespace {
+
+struct ChooseOptions {
+  WorkloadOptions workload;
+  std::string costs;
+  std::string rigor = "estimate";
+  bool analyze = false;
+};
+
+void decide(ChooseAnswer& answer, const UnitCosts& costs) {
+  const auto start = std::chrono::steady_clock::now();
+  answer.ranking = model::rank(answer.workload, costs);
+  answer.choosing_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs);
+}
+
+std::string describe_numbers(const Workload& workload) {
+  return fmt::format("workload  {:.6g} rays, {:.6g} samples, discs of radius {:.4g}, r0 = {:.4g}, D = {:.2f}\n",
+                     workload.rays, workload.samples, workload.disc_radius, workload.sphere_radius, workload.dimension);
+}
+
+Result run_choose(const ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  if (options.rigor != "estimate")
+    throw std::invalid_argument(
+        fmt::format("rigor '{}' is not offered by this version; 'estimate' is, with --analyze to "
+                    "run the candidates",
+                    options.rigor));
+  const UnitCosts costs = parse_unit_costs(options.costs, validate::built_in_unit_costs());
+  const validate::JobRequest request = options.workload.request(common);
+  Result result;
+  ChooseAnswer answer;
+  if (request.numbers_alone() && !options.analyze) {
+    answer.workload = validate::workload_of_numbers(request);
+    decide(answer, costs);
+    result.inputs = to_json(answer.workload);
+    answer.title = describe_numbers(answer.workload);
+  } else {
+    const ProgressLine progress(common);
+    progress.show("scene and rays", 0);
+    const validate::Job job = validate::make_job(request);
+    for (const std::string& notice : job.notices) note(common, notice);
+    answer.workload = job.workload;
+    decide(answer, costs);
+    if (options.analyze)
+      answer.analysis = validate::analyse(
+          job.problem(), answer.ranking,
+          {.stop = stop, .progress = [&](std::string_view step, double done) { progress.show(step, done); }});
+    result.inputs = to_json(job);
+    answer.title = describe(job);
+  }
+  result.inputs["rigor"] = options.rigor;
+  answer.rigor = options.rigor;
+  answer.costs_given = !options.costs.empty();
+  result.json = to_json(answer);
+  result.text = to_text(answer);
+  result.csv = to_csv(answer);
+  return result;
+}
+
+}  // namespace
+
+Command choose_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("choose", "The fastest technique and its parameters, and why");
+  app->footer("Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze");
+  const auto options = std::make_shared<ChooseOptions>();
+  options->workload.add_to(*app);
+  app->add_option("--costs", options->costs, "unit costs in seconds, as t=4e-9,u=2e-9; default: built in");
+  app->add_option("--rigor", options->rigor, "estimate: closed forms only");
+  app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
+  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+            return run_choose(*options, common, stop);
+          }};
+}
+
+}  // namespace detp::cli

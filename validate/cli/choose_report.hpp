@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "detp/model/choose.hpp"
+#include "detp/validate/analysis.hpp"
+
+namespace detp::cli {
+
+/// Everything that the answer shows.
+struct ChooseAnswer {
+  std::string title;  ///< first lines of the text: scene and rays
+  Workload workload;
+  std::vector<model::Ranked> ranking;
+  model::Ranked paper;  ///< the paper's rule of thumb
+  std::optional<validate::Analysis> analysis;
+  std::string rigor = "estimate";
+  bool costs_given = false;  ///< by the user; else the built-in unit costs
+  double choosing_seconds = 0;
+};
+
+[[nodiscard]] Json to_json(const ChooseAnswer& answer);
+[[nodiscard]] std::string to_text(const ChooseAnswer& answer);
+[[nodiscard]] std::string to_csv(const ChooseAnswer& answer);
+
+}  // namespace detp::cli

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+/// What the commands share: their options, and the shape of their results.
+namespace detp::cli {
+
+using Json = nlohmann::ordered_json;
+
+enum class ExitCode { done = 0, refuted = 1, bad_input = 2, stopped = 3, internal = 4 };
+
+/// Options of every command.
+struct CommonOptions {
+  std::string format = "text";
+  std::optional<std::string> output;
+  bool quiet = false;
+  std::uint64_t seed = 1;
+  int threads = 0;        ///< 0: all cores
+  double time_limit = 0;  ///< seconds; 0: none
+};
+
+/// What a command found, in the three formats. The envelope of the JSON (schema, provenance) is added by `main`.
+struct Result {
+  Json inputs;
+  Json json;
+  std::string text;
+  std::string csv;
+  ExitCode code = ExitCode::done;
+};
+
+/// One command: its parser, and what runs once options have been parsed.
+struct Command {
+  CLI::App* app;
+  std::function<Result(const CommonOptions&, std::stop_token)> run;
+};
+
+[[nodiscard]] Command model_command(CLI::App& program);
+[[nodiscard]] Command choose_command(CLI::App& program);
+[[nodiscard]] Command run_command(CLI::App& program);
+[[nodiscard]] Command validate_command(CLI::App& program);
+[[nodiscard]] Command scene_command(CLI::App& program);
+
+/// Warns or informs on stderr, unless quiet.
+void note(const CommonOptions& common, const std::string& message);
+
+/// Shows what is being done on a terminal's last line; nothing elsewhere, or if quiet. Wiped when it goes out of scope.
+class ProgressLine {
+ public:
+  explicit ProgressLine(const CommonOptions& common);
+  ~ProgressLine();
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// `done` from 0 to 1.
+  void show(std::string_view what, double done) const;
+
+ private:
+  bool visible_;
+};
+
+}  // namespace detp::cli

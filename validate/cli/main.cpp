@@ -1,0 +1,129 @@
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "command.hpp"
+#include "detp/sim/scene/file_error.hpp"
+#include "detp/sim/scene/output_file.hpp"
+#include "interruption.hpp"
+
+namespace detp::cli {
+namespace {
+
+std::string cpu_name() {
+  std::ifstream cpus("/proc/cpuinfo");
+  for (std::string line; std::getline(cpus, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+Json envelope(const std::string& command, const CommonOptions& common, int threads, Result& result) {
+  Json json{{"schema", {{"name", "detp." + command}, {"version", 1}}}, {"inputs", std::move(result.inputs)}};
+  json.update(result.json);
+  json["provenance"] = {
+      {"program", "detp"}, {"version", DETP_VERSION}, {"seed", common.seed}, {"threads", threads}, {"cpu", cpu_name()}};
+  return json;
+}
+
+/// Throws where a number is NaN or infinite, which JSON cannot hold: a defect of ours, not of the input.
+void require_finite_numbers(const Json& json) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>()))
+    throw std::logic_error("a result is not a finite number");
+  if (json.is_structured())
+    for (const Json& part : json) require_finite_numbers(part);
+}
+
+void print(const std::string& text, const CommonOptions& common) {
+  if (common.output) {
+    sim::OutputFile file(*common.output);
+    file.write(text);
+    file.commit();
+  } else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw sim::FileError("standard output", std::strerror(errno));
+  }
+}
+
+void add_common_options(CLI::App& command, CommonOptions& common) {
+  command.add_option("--format", common.format, "text, json or csv")->check(CLI::IsMember({"text", "json", "csv"}));
+  command.add_option("--output", common.output, "write the result to a file instead of stdout");
+  command.add_flag("--quiet", common.quiet, "no notices, no progress");
+  command.add_option("--seed", common.seed, "of everything random");
+  command.add_option("--threads", common.threads, "default: all cores")->check(CLI::Range(0, 4096));
+  command.add_option("--time-limit", common.time_limit, "stop after that many seconds and show what there is")
+      ->check(CLI::NonNegativeNumber);
+}
+
+int run(const Command& command, const CommonOptions& common, Interruption& interruption) {
+  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+  const int threads = common.threads > 0 ? common.threads : cores;
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
+  interruption.limit(common.time_limit);
+  Result result = command.run(common, interruption.token());
+  if (common.format == "json") {
+    const Json json = envelope(command.app->get_name(), common, threads, result);
+    require_finite_numbers(json);
+    print(json.dump(2) + "\n", common);
+  } else {
+    print(common.format == "csv" ? result.csv : result.text, common);
+  }
+  return static_cast<int>(result.code);
+}
+
+int fail(ExitCode code, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  fmt::print(stderr, "detp: {}\n", message);
+  return static_cast<int>(code);
+}
+
+int guarded_main(int argc, char** argv) {
+  Interruption interruption;
+  CLI::App program("Predicts, runs and checks techniques that find which rays cross which discs.", "detp");
+  program.set_version_flag("--version", "detp " DETP_VERSION);
+  program.require_subcommand(1);
+  CommonOptions common;
+  const std::array commands{model_command(program), choose_command(program), run_command(program),
+                            validate_command(program), scene_command(program)};
+  for (const Command& command : commands) add_common_options(*command.app, common);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);
+    return fail(ExitCode::bad_input, std::string(error.what()) + " (detp --help tells more)");
+  }
+  for (const Command& command : commands)
+    if (command.app->parsed()) return run(command, common, interruption);
+  throw std::logic_error("no command was run");
+}
+
+}  // namespace
+}  // namespace detp::cli
+
+int main(int argc, char** argv) {
+  using namespace detp::cli;
+  try {
+    return guarded_main(argc, argv);
+  } catch (const detp::sim::FileError& error) {
+    return fail(ExitCode::bad_input, error.what());
+  } catch (const std::invalid_argument& error) {
+    return fail(ExitCode::bad_input, error.what());
+  } catch (const std::length_error& error) {
+    return fail(ExitCode::bad_input, error.what());
+  } catch (const std::overflow_error& error) {
+    return fail(ExitCode::bad_input, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::bad_input, "out of memory: fewer rays, samples or cells would fit");
+  } catch (const std::exception& error) {
+    return fail(ExitCode::internal, std::string("internal error: ") + error.what());
+  }
+}

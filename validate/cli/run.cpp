@@ -1,0 +1,197 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "command.hpp"
+#include "detp/model/best_ratio.hpp"
+#include "detp/model/choose.hpp"
+#include "detp/sim/scene/output_file.hpp"
+#include "detp/validate/unit_costs.hpp"
+#include "workload_options.hpp"
+
+namespace detp::cli {
+namespace {
+
+struct RunOptions {
+  WorkloadOptions workload;
+  CandidateOptions candidate;
+  int repeat = 0;
+  std::optional<std::string> per_disc;
+  std::optional<std::string> pairs;
+};
+
+SphereCacheParameters complete_cache(const CandidateOptions& options, const Workload& workload) {
+  const UnitCosts costs = validate::built_in_unit_costs();
+  if (options.ratio) require_ratio("radius ratio Q", *options.ratio);
+  if (options.spheres) require_count("number of spheres", static_cast<double>(*options.spheres), 1, 1e18);
+  if (options.ratio && options.spheres) return {*options.ratio, *options.spheres, options.sample_order()};
+  const model::BestRatio best = options.ratio     ? model::best_stop(workload, costs, {*options.ratio})
+                                : options.spheres ? model::best_ratio_for(workload, costs, *options.spheres)
+                                                  : model::best_ratio_and_stop(workload, costs);
+  return {best.ratio, std::max<std::int64_t>(1, best.spheres), options.sample_order()};
+}
+
+/// The technique asked for, or the one that the closed forms choose; parameters left out are the best by the same
+/// forms.
+Candidate complete(const CandidateOptions& options, const Workload& workload) {
+  const UnitCosts costs = validate::built_in_unit_costs();
+  if (!options.technique) {
+    const Candidate chosen = model::rank(workload, costs).front().candidate;
+    options.refuse_foreign(chosen.technique);
+    return chosen;
+  }
+  const Technique technique = options.technique_or(Technique::brute_force);
+  options.refuse_foreign(technique);
+  if (technique == Technique::sphere_cache || technique == Technique::sphere_cache_published)
+    return {technique, complete_cache(options, workload)};
+  if (technique == Technique::octree && options.depth) return {technique, OctreeParameters{*options.depth}};
+  if (technique == Technique::grid && options.cells) return {technique, GridParameters{*options.cells}};
+  const auto best = model::best_of(technique, workload, costs);
+  if (!best) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
+  return best->candidate;
+}
+
+std::string per_disc_csv(const sim::Outcome& outcome) {
+  std::string csv = "disc,hits,irradiance\n";
+  for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc)
+    csv += fmt::format("{},{},{}\n", disc, outcome.hits[disc], outcome.irradiance[disc]);
+  return csv;
+}
+
+void write_pairs(const std::string& path, const std::vector<sim::Pair>& pairs) {
+  sim::OutputFile file(path);
+  file.write("ray,disc\n");
+  for (const sim::Pair& pair : pairs) file.write(fmt::format("{},{}\n", pair.ray, pair.disc));
+  file.commit();
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  sim::OutputFile file(path);
+  file.write(text);
+  file.commit();
+}
+
+/// Fails before the work is done, not after, where a file cannot be written.
+void require_writable(const std::optional<std::string>& path) {
+  if (path) sim::OutputFile{*path};
+}
+
+struct Timing {
+  sim::Phases phases;
+  double prepare = 0;  ///< checking rays and discs, S₀
+  std::vector<double> all;
+
+  [[nodiscard]] double total() const { return prepare + phases.total(); }
+};
+
+/// The timed runs: of the counting one itself, or of `repeat` others that do nothing but find hits; the median of them.
+Timing time_runs(const validate::Job& job, const Candidate& candidate, const sim::Outcome& counted, double prepare,
+                 int repeat, const std::stop_token& stop) {
+  std::vector<Timing> timings{{counted.seconds, prepare, {}}};
+  if (repeat > 0) timings.clear();
+  for (int i = 0; i < repeat; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    const sim::Problem problem = job.problem();
+    const double preparing = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const sim::Outcome outcome = sim::run(problem, candidate, {.count = false, .stop = stop});
+    if (outcome.stopped) break;
+    timings.push_back({outcome.seconds, preparing, {}});
+  }
+  if (timings.empty()) timings.push_back({counted.seconds, prepare, {}});
+  std::vector<double> all;
+  for (const Timing& timing : timings) all.push_back(timing.total());
+  std::sort(timings.begin(), timings.end(), [](const Timing& a, const Timing& b) { return a.total() < b.total(); });
+  Timing median = timings[timings.size() / 2];
+  median.all = std::move(all);
+  return median;
+}
+
+Json seconds_json(const Timing& timing, int repeat) {
+  Json json{{"total", timing.total()},
+            {"prepare", timing.prepare},
+            {"order", timing.phases.order},
+            {"build", timing.phases.build},
+            {"search", timing.phases.search}};
+  if (repeat > 0) json["all"] = timing.all;
+  return json;
+}
+
+double mean_irradiance(const sim::Outcome& outcome) {
+  double sum = 0;
+  for (const double irradiance : outcome.irradiance) sum += irradiance;
+  return sum / static_cast<double>(outcome.irradiance.size());
+}
+
+std::string to_text(const validate::Job& job, const Candidate& candidate, const sim::Outcome& outcome,
+                    const Timing& timing) {
+  std::string text = describe(job);
+  text += fmt::format("technique {} {}\n", name(candidate.technique), describe(candidate.parameters));
+  text += fmt::format("hits      {}, {:.4g} a disc; mean irradiance {:.6g}\n", outcome.total_hits,
+                      static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size()),
+                      mean_irradiance(outcome));
+  text += fmt::format(
+      "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before\n",
+      timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search, job.read_seconds);
+  text += "counts    ";
+  std::string counts;
+  for_each_term(outcome.counts, [&](std::string_view term, std::uint64_t value) {
+    if (value > 0) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", term, value);
+  });
+  text += counts + "\n";
+  if (outcome.stopped) text += "stopped   before the end: what is above is partial\n";
+  return text;
+}
+
+Result run_run(const RunOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  require_count("--repeat", options.repeat, 0, 10000);
+  require_writable(options.per_disc);
+  require_writable(options.pairs);
+  const ProgressLine progress(common);
+  progress.show("scene and rays", 0);
+  const validate::Job job = validate::make_job(options.workload.request(common));
+  for (const std::string& notice : job.notices) note(common, notice);
+  const Candidate candidate = complete(options.candidate, job.workload);
+  progress.show(name(candidate.technique), 0.3);
+  const auto start = std::chrono::steady_clock::now();
+  const sim::Problem problem = job.problem();
+  const double prepare = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const sim::Outcome outcome = sim::run(problem, candidate, {.pairs = options.pairs.has_value(), .stop = stop});
+  const Timing timing = time_runs(job, candidate, outcome, prepare, outcome.stopped ? 0 : options.repeat, stop);
+  if (options.per_disc) write_text(*options.per_disc, per_disc_csv(outcome));
+  if (options.pairs) write_pairs(*options.pairs, outcome.pairs);
+
+  Result result;
+  result.code = outcome.stopped ? ExitCode::stopped : ExitCode::done;
+  result.inputs = to_json(job);
+  result.json = {{"technique", name(candidate.technique)},
+                 {"parameters", to_json(candidate.parameters)},
+                 {"hits", outcome.total_hits},
+                 {"mean_irradiance", mean_irradiance(outcome)},
+                 {"counts", to_json(outcome.counts)},
+                 {"seconds", seconds_json(timing, options.repeat)},
+                 {"read_seconds", job.read_seconds},
+                 {"stopped", outcome.stopped}};
+  result.text = to_text(job, candidate, outcome, timing);
+  result.csv = per_disc_csv(outcome);
+  return result;
+}
+
+}  // namespace
+
+Command run_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("run", "The hits and the irradiance, by one technique");
+  app->footer("Example: detp run @tree --rays 100000 --technique octree --per-disc irradiance.csv");
+  const auto options = std::make_shared<RunOptions>();
+  options->workload.add_to(*app);
+  options->candidate.add_to(*app);
+  app->add_option("--repeat", options->repeat, "time that many further runs, which do not count; the median is shown");
+  app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");
+  app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
+  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+            return run_run(*options, common, stop);
+          }};
+}
+
+}  // namespace detp::cli

@@ -1,0 +1,134 @@
+#include "workload_options.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace detp::cli {
+namespace {
+
+std::string known_techniques() {
+  std::string list;
+  for (const Technique technique : all_techniques)
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", name(technique));
+  return list;
+}
+
+std::string_view name(sim::Field field) { return field == sim::Field::isotropic ? "isotropic" : "photons"; }
+
+/// 100000 as "100 000".
+std::string spaced(double count) {
+  std::string digits = fmt::format("{:.0f}", count);
+  for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
+    digits.insert(static_cast<std::size_t>(place), " ");
+  return digits;
+}
+
+}  // namespace
+
+void WorkloadOptions::add_to(CLI::App& command) {
+  command.add_option("SCENE", request_.scene,
+                     "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell");
+  command.add_option("--discs", request_.disc_file, "discs from a CSV or PLY file");
+  command.add_option("--ray-file", request_.ray_file, "rays from a CSV or PLY file");
+  command.add_option("--rays", request_.rays, "how many rays");
+  command.add_option("--samples", request_.samples, "how many samples; default: the scene's vertices");
+  command.add_option("--disc-radius", disc_radius_, "d: a length, or a percentage of the scene's longest side");
+  command.add_option("--sphere-radius", request_.sphere_radius, "r0, of a workload in numbers");
+  command.add_option("--scene-side", request_.scene_side, "s, of a workload in numbers; r0 = s sqrt(3)/2 + d");
+  command.add_option("--dimension", request_.dimension, "D of the samples: 3 fill a volume, 2 lie on surfaces");
+  command.add_option("--sample-extent", request_.sample_extent, "volume or area that the samples fill");
+  command.add_option("--field", field_, "isotropic (lines) or photons (paths from the scene's light)")
+      ->check(CLI::IsMember({"isotropic", "photons"}));
+  command.add_flag("--front-facing", request_.front_facing, "count only rays that arrive at a disc's front");
+}
+
+validate::JobRequest WorkloadOptions::request(const CommonOptions& common) const {
+  validate::JobRequest request = request_;
+  request.seed = common.seed;
+  if (!disc_radius_.empty()) request.disc_radius = validate::parse_length(disc_radius_);
+  if (field_ == "isotropic") request.field = sim::Field::isotropic;
+  if (field_ == "photons") request.field = sim::Field::photons;
+  if (!request.numbers_alone() && (request.sphere_radius || request.scene_side))
+    throw std::invalid_argument(
+        "--sphere-radius and --scene-side describe a workload in numbers; a scene has its own size");
+  return request;
+}
+
+void CandidateOptions::add_to(CLI::App& command) {
+  command.add_option("--technique", technique, known_techniques());
+  command.add_option("--ratio", ratio, "Q of a sphere cache, between 0 and 1");
+  command.add_option("--spheres", spheres, "k of a sphere cache, its innermost sphere");
+  command.add_option("--order", order, "lebesgue or none")->check(CLI::IsMember({"lebesgue", "none"}));
+  command.add_option("--depth", depth, "levels of an octree");
+  command.add_option("--cells", cells, "cells of a grid along its longest side");
+}
+
+Technique CandidateOptions::technique_or(Technique otherwise) const {
+  if (!technique) return otherwise;
+  const auto found = technique_named(*technique);
+  if (!found)
+    throw std::invalid_argument(
+        fmt::format("there is no technique '{}'; there are {}", *technique, known_techniques()));
+  return *found;
+}
+
+SampleOrder CandidateOptions::sample_order() const { return *order_named(order); }
+
+void CandidateOptions::refuse_foreign(Technique chosen) const {
+  const bool cache = chosen == Technique::sphere_cache || chosen == Technique::sphere_cache_published;
+  const auto refuse = [&](const char* option) {
+    throw std::invalid_argument(fmt::format("{} is no parameter of {}", option, detp::name(chosen)));
+  };
+  if (ratio && !cache) refuse("--ratio");
+  if (spheres && !cache) refuse("--spheres");
+  if (order != "lebesgue" && !cache) refuse("--order");
+  if (depth && chosen != Technique::octree) refuse("--depth");
+  if (cells && chosen != Technique::grid) refuse("--cells");
+}
+
+Json to_json(const Parameters& parameters) {
+  Json json = Json::object();
+  if (const auto* cache = std::get_if<SphereCacheParameters>(&parameters))
+    json = {{"ratio", cache->ratio}, {"spheres", cache->spheres}, {"order", detp::name(cache->order)}};
+  if (const auto* octree = std::get_if<OctreeParameters>(&parameters)) json = {{"depth", octree->depth}};
+  if (const auto* grid = std::get_if<GridParameters>(&parameters)) json = {{"cells", grid->cells}};
+  return json;
+}
+
+Json to_json(const Workload& workload) {
+  return {{"rays", workload.rays},
+          {"samples", workload.samples},
+          {"disc_radius", workload.disc_radius},
+          {"sphere_radius", workload.sphere_radius},
+          {"scene_side", scene_side(workload)},
+          {"box", workload.box},
+          {"dimension", workload.dimension},
+          {"sample_extent", sample_extent(workload)},
+          {"sample_distance", sample_distance(workload)},
+          {"path_length", workload.path_length}};
+}
+
+Json to_json(const validate::Job& job) {
+  Json json{{"scene", job.name}, {"field", name(job.field)}, {"front_facing", job.front_facing}};
+  json.update(to_json(job.workload));
+  return json;
+}
+
+std::string describe(const validate::Job& job) {
+  const Workload& w = job.workload;
+  const double x = sample_distance(w) / w.disc_radius;
+  std::string text = fmt::format("scene     {}: ", job.name);
+  if (job.triangles > 0) text += fmt::format("{} triangles, ", spaced(static_cast<double>(job.triangles)));
+  text += fmt::format("{} discs of radius {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n", spaced(w.samples),
+                      w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
+  text += fmt::format("rays      {} ", spaced(w.rays));
+  if (w.path_length > 0)
+    text += fmt::format("photon paths or segments, mean length {:.2f} of the scene\n", w.path_length / scene_side(w));
+  else
+    text += "isotropic lines\n";
+  return text;
+}
+
+}  // namespace detp::cli

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <string>
+
+#include "command.hpp"
+#include "detp/validate/job.hpp"
+
+namespace detp::cli {
+
+/// The options that name rays and discs (or a workload in numbers).
+class WorkloadOptions {
+ public:
+  void add_to(CLI::App& command);
+
+  /// What was asked for. Throws std::invalid_argument for what cannot be parsed.
+  [[nodiscard]] validate::JobRequest request(const CommonOptions& common) const;
+
+ private:
+  validate::JobRequest request_;
+  std::string disc_radius_;
+  std::string field_;
+};
+
+/// The options that name a technique and its parameters; those left out are filled in.
+class CandidateOptions {
+ public:
+  void add_to(CLI::App& command);
+
+  std::optional<std::string> technique;
+  std::optional<double> ratio;
+  std::optional<std::int64_t> spheres;
+  std::string order = "lebesgue";
+  std::optional<int> depth;
+  std::optional<int> cells;
+
+  /// The technique of that name, or `otherwise`. Throws std::invalid_argument for an unknown one, naming the known.
+  [[nodiscard]] Technique technique_or(Technique otherwise) const;
+  [[nodiscard]] SampleOrder sample_order() const;
+
+  /// Throws std::invalid_argument for a parameter given that the technique does not have.
+  void refuse_foreign(Technique technique) const;
+};
+
+[[nodiscard]] Json to_json(const Parameters& parameters);
+[[nodiscard]] Json to_json(const Workload& workload);
+template <class T>
+[[nodiscard]] Json to_json(const Counts<T>& counts) {
+  Json json;
+  for_each_term(counts, [&](std::string_view term, T value) { json[std::string(term)] = value; });
+  return json;
+}
+
+/// Resolved inputs of a job.
+[[nodiscard]] Json to_json(const validate::Job& job);
+
+/// "scene" and "rays" lines of the text output.
+[[nodiscard]] std::string describe(const validate::Job& job);
+
+}  // namespace detp::cli
