@@ -87,7 +87,7 @@ Scene mesh_scene(const SceneRequest& request) {
   scene.mesh = read_mesh(request.name, scene.notices);
   put_samples(scene, request);
   scene.box = box_of(scene);
-  if (scene.box.low != scene.box.high) scene.light = light_for(scene.box);
+  if (scene.box.low != scene.box.high) scene.light = light_for(scene.mesh, scene.box);
   return scene;
 }
 

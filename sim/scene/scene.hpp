@@ -55,8 +55,9 @@ struct SceneRequest {
 ///
 /// With `samples` fewer than the vertices, keeps a random subset of them in vertex order; with more, adds points
 /// distributed by area over the triangles, with the triangles' normals. Either is a function of the seed alone.
-/// Throws FileError as read_mesh does, and for a mesh that gives no sample; std::invalid_argument for an unknown
-/// built-in name (the message lists the known ones).
+/// The light of a mesh file hangs where light_for (mesh_light.hpp) says.
+/// Throws FileError as read_mesh does, and for a mesh that gives no sample or too few; std::invalid_argument for 0
+/// samples and for an unknown built-in name (the message lists the known ones).
 [[nodiscard]] Scene open_scene(const SceneRequest& request);
 
 /// Mean length of the mesh's edges, each counted once; 0 without triangles. An estimate of the distance between

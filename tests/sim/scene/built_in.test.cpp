@@ -1,0 +1,179 @@
+#include "detp/sim/scene/built_in/built_in.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+using namespace detp::sim;
+
+namespace {
+
+double scene_size(const Mesh& mesh) {
+  Box box;
+  for (const glm::dvec3& position : mesh.positions) box.include(position);
+  const glm::dvec3 size = box.size();
+  return std::max(std::max(size.x, size.y), size.z);
+}
+
+/// The mesh's triangles first … last - 1.
+Mesh part(const Mesh& mesh, std::size_t first, std::size_t last) {
+  Mesh some{.positions = mesh.positions, .normals = {}, .triangles = {}};
+  for (std::size_t i = first; i < last; ++i) some.triangles.push_back(mesh.triangles[i]);
+  return some;
+}
+
+/// Mean edges over the scene's size. The ground of a tree scene comes first in its mesh.
+struct Edges {
+  double ground;
+  double plant;
+};
+
+Edges edges_of(const Mesh& mesh, std::size_t cells) {
+  const std::size_t ground = 2 * cells * cells;
+  const double size = scene_size(mesh);
+  return {mean_edge_length(part(mesh, 0, ground)) / size,
+          mean_edge_length(part(mesh, ground, mesh.triangles.size())) / size};
+}
+
+struct Named {
+  const char* name;
+  built_in::Setting (*make)();
+};
+
+constexpr Named all[]{{"tree", built_in::tree},
+                      {"tree_coarse", built_in::tree_coarse},
+                      {"courtyard", built_in::courtyard},
+                      {"cornell", built_in::cornell}};
+
+/// Twice the area over the square of the longest edge.
+double fatness(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+  const glm::dvec3 u = mesh.positions[triangle[1]] - mesh.positions[triangle[0]];
+  const glm::dvec3 v = mesh.positions[triangle[2]] - mesh.positions[triangle[0]];
+  const double longest = std::max(std::max(glm::dot(u, u), glm::dot(v, v)), glm::dot(v - u, v - u));
+  return glm::length(glm::cross(u, v)) / longest;
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the tree has the paper's 72 500 triangles, its ground edges of 2 % and its tree edges of 1 %") {
+    const Mesh mesh = built_in::tree().mesh;
+    CHECK(static_cast<double>(mesh.triangles.size()) == doctest::Approx(72'500).epsilon(0.01));
+    const Edges edges = edges_of(mesh, 57);
+    CHECK(edges.ground == doctest::Approx(0.02).epsilon(0.1));
+    CHECK(edges.plant == doctest::Approx(0.01).epsilon(0.1));
+  }
+
+  TEST_CASE("the coarse tree has 18 000 triangles, with edges twice as long") {
+    const Mesh mesh = built_in::tree_coarse().mesh;
+    CHECK(static_cast<double>(mesh.triangles.size()) == doctest::Approx(18'000).epsilon(0.03));
+    const Edges edges = edges_of(mesh, 28);
+    CHECK(edges.ground == doctest::Approx(0.04).epsilon(0.1));
+    CHECK(edges.plant == doctest::Approx(0.02).epsilon(0.1));
+  }
+
+  TEST_CASE("the courtyard has 120 000 triangles and the paper's mean edge of 0.0133") {
+    const Mesh mesh = built_in::courtyard().mesh;
+    CHECK(static_cast<double>(mesh.triangles.size()) == doctest::Approx(120'000).epsilon(0.03));
+    CHECK(mean_edge_length(mesh) / scene_size(mesh) == doctest::Approx(0.0133).epsilon(0.05));
+  }
+
+  TEST_CASE("the Cornell box has about 10 000 triangles, all within the unit cube, and its light under the ceiling") {
+    const built_in::Setting setting = built_in::cornell();
+    CHECK(static_cast<double>(setting.mesh.triangles.size()) == doctest::Approx(10'000).epsilon(0.05));
+    for (const glm::dvec3& position : setting.mesh.positions)
+      for (int axis = 0; axis < 3; ++axis) CHECK((position[axis] >= 0 && position[axis] <= 1));
+    const auto light = std::get<AreaLight>(setting.light);
+    CHECK(light.corner.y < 1);
+    CHECK(light.corner.y > 0.99);
+  }
+
+  TEST_CASE("the lights shine down") {
+    for (const auto& [name, make] : all) {
+      CAPTURE(name);
+      const auto light = std::get<AreaLight>(make().light);
+      CHECK(glm::cross(light.edge_u, light.edge_v).y < 0);
+    }
+  }
+
+  TEST_CASE("what is plane in the Cornell box looks into the room") {
+    const Mesh mesh = built_in::cornell().mesh;
+    Notices notices;
+    for (const Sample& sample : samples_at_vertices(mesh, notices)) {
+      const glm::dvec3& p = sample.position;
+      if (p.y == 1 && p.x > 0 && p.x < 1 && p.z > 0) CHECK(sample.normal.y == doctest::Approx(-1));
+      if (p.y == 0 && p.x > 0 && p.x < 1 && p.z > 0.05 && p.z < 0.1) CHECK(sample.normal.y == doctest::Approx(1));
+      if (p.x == 0 && p.y > 0 && p.y < 1 && p.z > 0) CHECK(sample.normal.x == doctest::Approx(1));
+      if (p.x == 1 && p.y > 0 && p.y < 1 && p.z > 0) CHECK(sample.normal.x == doctest::Approx(-1));
+    }
+  }
+
+  TEST_CASE("the ground of the trees looks up") {
+    for (const auto& [make, cells] : {std::pair{&built_in::tree, 57U}, std::pair{&built_in::tree_coarse, 28U}}) {
+      const Mesh mesh = make().mesh;
+      Notices notices;
+      for (const Sample& sample : samples_at_vertices(part(mesh, 0, 2 * cells * cells), notices))
+        CHECK(sample.normal.y > 0.3);
+    }
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("every built-in mesh is the same on every call") {
+    for (const auto& [name, make] : all) {
+      CAPTURE(name);
+      const Mesh first = make().mesh;
+      const Mesh second = make().mesh;
+      CHECK(first.positions == second.positions);
+      CHECK(first.triangles == second.triangles);
+    }
+  }
+
+  TEST_CASE("no triangle of a built-in mesh is degenerate, and every vertex is a sample with a unit normal") {
+    for (const auto& [name, make] : all) {
+      CAPTURE(name);
+      const Mesh mesh = make().mesh;
+      double thinnest = 1;
+      for (const auto& triangle : mesh.triangles) thinnest = std::min(thinnest, fatness(mesh, triangle));
+      CHECK(thinnest > 0.01);
+      Notices notices;
+      const std::vector<Sample> samples = samples_at_vertices(mesh, notices);
+      CHECK(samples.size() == mesh.positions.size());
+      CHECK(notices.empty());
+      double worst = 0;
+      for (const Sample& sample : samples) worst = std::max(worst, std::abs(glm::length(sample.normal) - 1));
+      CHECK(worst < 1e-14);
+    }
+  }
+
+  TEST_CASE("a uniform sample depends on the seed and its own number, not on how many there are") {
+    const auto few = built_in::uniform_samples(10, 5);
+    const auto many = built_in::uniform_samples(1000, 5);
+    const auto other = built_in::uniform_samples(10, 6);
+    for (std::size_t i = 0; i < few.size(); ++i) {
+      CHECK(few[i].position == many[i].position);
+      CHECK(few[i].normal == many[i].normal);
+      CHECK(few[i].position != other[i].position);
+    }
+  }
+}
+
+TEST_SUITE("statistical") {
+  TEST_CASE("uniform samples fill the cube evenly, their normals the sphere") {
+    constexpr std::size_t count = 100'000;
+    glm::dvec3 place{0.0}, normal{0.0}, squares{0.0};
+    for (const Sample& sample : built_in::uniform_samples(count, 3)) {
+      place += sample.position;
+      normal += sample.normal;
+      squares += sample.normal * sample.normal;
+    }
+    // All have a variance below 1/3; five standard errors.
+    const double bound = 5 * std::sqrt(1.0 / 3 / count);
+    for (int axis = 0; axis < 3; ++axis) {
+      CHECK(std::abs(place[axis] / count) < bound);
+      CHECK(std::abs(normal[axis] / count) < bound);
+      CHECK(std::abs(squares[axis] / count - 1.0 / 3) < bound);
+    }
+  }
+}
