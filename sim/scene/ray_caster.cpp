@@ -2,10 +2,12 @@
 
 #include <embree3/rtcore.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <type_traits>
+
+#include "facet.hpp"
 
 namespace detp::sim {
 namespace {
@@ -15,26 +17,6 @@ namespace {
 constexpr float box_slack = 2e-6F;
 constexpr float distance_slack = 1e-5F;
 constexpr double start_radius = 1.5;
-/// As a share of a triangle's height: rounding shall not let rays through between two triangles.
-constexpr double edge_slack = 1e-10;
-/// A ray that starts this near a triangle's plane starts on the triangle or beside it, and does not meet it.
-constexpr double plane_slack = 1e-13;
-/// Below this share of the square of its longest edge, twice the area of a triangle is rounding error.
-constexpr double least_area = 1e-14;
-
-struct Facet {
-  glm::dvec3 corner;
-  glm::dvec3 first;   ///< edge from the corner
-  glm::dvec3 second;  ///< likewise
-  glm::dvec3 normal;  ///< unit length, or zero for a triangle without area
-};
-
-Facet make_facet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  const glm::dvec3 across = glm::cross(b - a, c - a);
-  const double area = glm::length(across);
-  const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - a, c - a), glm::dot(c - b, c - b)});
-  return {a, b - a, c - a, area > least_area * longest ? across / area : glm::dvec3{0.0}};
-}
 
 /// What Embree hands back to us with each candidate; the context proper must come first.
 struct Query {
@@ -46,21 +28,7 @@ struct Query {
   std::uint32_t nearest = RTC_INVALID_GEOMETRY_ID;
   double distance = unbounded;
 };
-
-/// How far along the query's ray it crosses the facet; unbounded where it does not.
-double crossing(const Query& query, const Facet& facet) {
-  const glm::dvec3 back = query.origin - facet.corner;
-  const double height = -glm::dot(facet.normal, back);
-  const double facing = glm::dot(facet.normal, query.direction);
-  if (facing == 0 || std::abs(height) <= plane_slack || (height < 0) != (facing < 0)) return unbounded;
-  // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", JGT 2(1), 1997.
-  const glm::dvec3 h = glm::cross(query.direction, facet.second);
-  const double determinant = glm::dot(facet.first, h);
-  const double u = glm::dot(back, h) / determinant;
-  const double v = glm::dot(query.direction, glm::cross(back, facet.first)) / determinant;
-  const bool inside = u >= -edge_slack && v >= -edge_slack && u + v <= 1 + edge_slack;
-  return inside ? height / facing : unbounded;
-}
+static_assert(std::is_standard_layout_v<Query>);
 
 void bound(const RTCBoundsFunctionArguments* arguments) {
   const Facet& facet = static_cast<const Facet*>(arguments->geometryUserPtr)[arguments->primID];
@@ -81,7 +49,8 @@ void meet(const RTCIntersectFunctionNArguments* arguments) {
   Query& query = *reinterpret_cast<Query*>(arguments->context);
   const std::uint32_t triangle = arguments->primID;
   if (triangle == query.from) return;
-  const double distance = crossing(query, static_cast<const Facet*>(arguments->geometryUserPtr)[triangle]);
+  const double distance =
+      crossing(query.origin, query.direction, static_cast<const Facet*>(arguments->geometryUserPtr)[triangle]);
   const bool nearer = distance < query.distance || (distance == query.distance && triangle < query.nearest);
   if (!nearer || distance == unbounded) return;
   query.distance = distance;

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "detp/sim/geometry.hpp"
+
+/// Where a ray crosses a triangle, in double precision. All coordinates are below about 1.
+namespace detp::sim {
+
+/// As a share of a triangle's height: rounding shall not let rays through between two triangles.
+inline constexpr double facet_edge_slack = 1e-10;
+/// A ray that starts this near a triangle's plane starts on the triangle or beside it, and does not meet it.
+inline constexpr double facet_plane_slack = 1e-13;
+/// Below this share of the square of its longest edge, twice the area of a triangle is rounding error.
+inline constexpr double least_facet_area = 1e-14;
+
+/// A triangle made ready for crossings.
+struct Facet {
+  glm::dvec3 corner;
+  glm::dvec3 first;   ///< edge from the corner
+  glm::dvec3 second;  ///< likewise
+  glm::dvec3 normal;  ///< unit length, or zero for a triangle without area
+};
+
+/// The facet between three corners in order.
+[[nodiscard]] inline Facet make_facet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  const glm::dvec3 across = glm::cross(b - a, c - a);
+  const double area = glm::length(across);
+  const double longest = std::max({glm::dot(b - a, b - a), glm::dot(c - a, c - a), glm::dot(c - b, c - b)});
+  return {a, b - a, c - a, area > least_facet_area * longest ? across / area : glm::dvec3{0.0}};
+}
+
+/// How far along the ray it crosses the facet; unbounded where it does not.
+[[nodiscard]] inline double crossing(const glm::dvec3& origin, const glm::dvec3& direction, const Facet& facet) {
+  const glm::dvec3 back = origin - facet.corner;
+  const double height = -glm::dot(facet.normal, back);
+  const double facing = glm::dot(facet.normal, direction);
+  if (facing == 0 || std::abs(height) <= facet_plane_slack || (height < 0) != (facing < 0)) return unbounded;
+  // Möller and Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", JGT 2(1), 1997.
+  const glm::dvec3 h = glm::cross(direction, facet.second);
+  const double determinant = glm::dot(facet.first, h);
+  const double u = glm::dot(back, h) / determinant;
+  const double v = glm::dot(direction, glm::cross(back, facet.first)) / determinant;
+  const bool inside = u >= -facet_edge_slack && v >= -facet_edge_slack && u + v <= 1 + facet_edge_slack;
+  return inside ? height / facing : unbounded;
+}
+
+}  // namespace detp::sim
