@@ -49,7 +49,7 @@ namespace detp::model {
 ///     segments   P = min(1, (V + ℓF/4) / V_box)
 ///
 ///   where  V, F    volume and surface area of the body
-///          ℓ       mean length of the rays;  V_box  volume of the samples' box grown by d, where the rays live
+///          ℓ       mean length of the rays inside the samples' box grown by d;   V_box  its volume
 ///
 /// Source     eq (3); for segments our derivation: a segment with uniform origin meets K if its origin lies in K or if
 ///            it enters through the boundary, where the flux of ℓ-long segments is ℓ/(4 V_box) per area.

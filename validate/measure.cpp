@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "detp/sim/lebesgue.hpp"
+#include "detp/sim/technique/ray_box.hpp"
 
 namespace detp::validate {
 namespace {
@@ -33,13 +34,16 @@ std::vector<double> occupied_cells(std::span<const sim::Disc> discs) {
   return occupied;
 }
 
-double mean_path_length(const sim::Problem& problem) {
-  const double chord = 4 * problem.enclosing.radius / 3;
+/// Mean length of the rays inside the samples' box grown by the disc radius; 0 where all are unbounded lines.
+double mean_path_length(const sim::Problem& problem, double disc_radius) {
+  const sim::Box box = box_of_centres(problem.discs);
+  const sim::Box grown{box.low - disc_radius, box.high + disc_radius};
   double sum = 0;
   bool segments = false;
   for (const sim::Ray& ray : problem.rays) {
     segments = segments || !ray.is_line();
-    sum += ray.is_line() ? chord : ray.length;
+    const sim::Stretch inside = sim::ClippedRay(ray).inside(grown);
+    if (!inside.empty()) sum += inside.to - inside.from;
   }
   return segments ? sum / static_cast<double>(problem.rays.size()) : 0;
 }
@@ -80,7 +84,7 @@ Workload measure(const sim::Problem& problem, const SurfaceFacts& surface) {
                     .box = {size.x, size.y, size.z},
                     .dimension = sample_dimension(problem.discs),
                     .sample_distance = surface.edge_length,
-                    .path_length = mean_path_length(problem)};
+                    .path_length = mean_path_length(problem, rms_radius(problem.discs))};
   // One sample, or all in one place: the disc itself is the only length there is.
   if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
   if (surface.area > 0) {

@@ -18,7 +18,7 @@ struct Workload {
   double dimension = 3;                   ///< D of the sample set, 1 … 3
   double sample_extent = 0;               ///< volume (D = 3) or area (D = 2) that the samples fill; 0: the box's
   double sample_distance = 0;             ///< mean distance between neighbouring samples, length; 0: from the extent
-  double path_length = 0;                 ///< mean length of the rays, length; 0: unbounded lines through S₀
+  double path_length = 0;                 ///< mean length of the rays inside the box; 0: unbounded lines
 };
 
 /// Throws std::invalid_argument where a number is out of its range.

@@ -125,7 +125,8 @@ std::string describe(const validate::Job& job) {
                       w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
   text += fmt::format("rays      {} ", spaced(w.rays));
   if (w.path_length > 0)
-    text += fmt::format("photon paths or segments, mean length {:.2f} of the scene\n", w.path_length / scene_side(w));
+    text += fmt::format("photon paths or segments, mean length inside the scene {:.2f} of its side\n",
+                        w.path_length / scene_side(w));
   else
     text += "isotropic lines\n";
   return text;

@@ -1,0 +1,90 @@
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "command.hpp"
+#include "detp/sim/scene/disc_file.hpp"
+#include "detp/sim/scene/mesh_writer.hpp"
+#include "detp/sim/scene/ray_file.hpp"
+#include "workload_options.hpp"
+
+namespace detp::cli {
+namespace {
+
+struct SceneOptions {
+  WorkloadOptions workload;
+  std::optional<std::string> mesh_file;
+  std::optional<std::string> disc_file;
+  std::optional<std::string> ray_file;
+};
+
+void write_mesh(const std::string& path, const validate::JobRequest& request) {
+  if (!request.scene) throw std::invalid_argument("--write-mesh takes a scene with triangles");
+  const sim::Scene scene = sim::open_scene({*request.scene, std::nullopt, request.seed});
+  if (scene.mesh.triangles.empty())
+    throw std::invalid_argument(fmt::format("{} has no triangles to write", scene.name));
+  sim::write_ply(path, scene.mesh);
+}
+
+/// How far the scene is from what the plain models assume.
+Json effects(const Workload& workload) {
+  const double chord = 4 * workload.sphere_radius / 3;
+  return {
+      {"finite_paths", {{"on", workload.path_length > 0}, {"mean_length_over_chord", workload.path_length / chord}}},
+      {"surface_samples", {{"on", workload.dimension < 2.9}, {"dimension", workload.dimension}}}};
+}
+
+std::string csv_of(const Json& json) {
+  std::string csv = "name,value\n";
+  for (const auto& [key, value] : json.items())
+    if (value.is_number()) csv += fmt::format("{},{}\n", key, value.dump());
+  return csv;
+}
+
+Result run_scene(const SceneOptions& options, const CommonOptions& common) {
+  const validate::JobRequest request = options.workload.request(common);
+  if (options.mesh_file) write_mesh(*options.mesh_file, request);
+  const validate::Job job = validate::make_job(request);
+  for (const std::string& notice : job.notices) note(common, notice);
+  if (options.disc_file) sim::write_discs(*options.disc_file, job.discs);
+  if (options.ray_file) sim::write_rays(*options.ray_file, job.rays);
+
+  const Workload& w = job.workload;
+  Result result;
+  result.inputs = to_json(job);
+  result.json = {{"scene", job.name},
+                 {"triangles", job.triangles},
+                 {"samples", job.discs.size()},
+                 {"rays", job.rays.size()},
+                 {"box", w.box},
+                 {"sphere_radius", w.sphere_radius},
+                 {"sample_distance", sample_distance(w)},
+                 {"disc_radius", w.disc_radius},
+                 {"distance_over_radius", sample_distance(w) / w.disc_radius},
+                 {"dimension", w.dimension},
+                 {"path_length", w.path_length},
+                 {"effects", effects(w)},
+                 {"notices", job.notices},
+                 {"read_seconds", job.read_seconds}};
+  result.text =
+      describe(job) +
+      fmt::format("box       {:.5g} x {:.5g} x {:.5g}, r0 = {:.5g}\nsamples   {:.4g} apart, dimension {:.2f}\n",
+                  w.box[0], w.box[1], w.box[2], w.sphere_radius, sample_distance(w), w.dimension);
+  result.csv = csv_of(result.json);
+  return result;
+}
+
+}  // namespace
+
+Command scene_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("scene", "What is in a scene; writes scenes, discs and rays to files");
+  app->footer("Example: detp scene @tree --rays 100000 --write-mesh tree.ply --write-rays paths.csv");
+  const auto options = std::make_shared<SceneOptions>();
+  options->workload.add_to(*app);
+  app->add_option("--write-mesh", options->mesh_file, "write the triangles as PLY");
+  app->add_option("--write-discs", options->disc_file, "write the discs as CSV");
+  app->add_option("--write-rays", options->ray_file, "write the rays as CSV");
+  return {app, [options](const CommonOptions& common, const std::stop_token&) { return run_scene(*options, common); }};
+}
+
+}  // namespace detp::cli

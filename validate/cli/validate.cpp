@@ -1,0 +1,164 @@
+#include "command.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/experiment/experiments.hpp"
+#include "workload_options.hpp"
+
+namespace detp::cli {
+namespace {
+
+using validate::Claim;
+using validate::Verdict;
+
+constexpr double default_lines = 1e6;
+
+struct ValidateOptions {
+  WorkloadOptions workload;
+};
+
+/// Without a scene: 20 000 samples uniform in a cube of side 2, discs of radius 0.02.
+validate::JobRequest with_defaults(validate::JobRequest request) {
+  if (request.disc_file || request.ray_file || request.front_facing || request.field == sim::Field::photons)
+    throw std::invalid_argument(
+        "validate counts isotropic lines, on a scene or on uniform samples: --discs, --ray-file, "
+        "--front-facing and --field photons do not apply");
+  if (!request.rays) request.rays = default_lines;
+  request.field = sim::Field::isotropic;
+  if (!request.numbers_alone()) return request;
+  if (!request.samples) request.samples = 20'000;
+  if (!request.disc_radius) request.disc_radius = validate::Length{0.02};
+  if (!request.sphere_radius && !request.scene_side) request.scene_side = 2;
+  return request;
+}
+
+validate::Experiment make_experiment(const validate::JobRequest& request, const std::stop_token& stop, Json& inputs) {
+  validate::Experiment experiment{.workload = {}, .discs = {}, .seed = request.seed, .stop = stop};
+  if (request.numbers_alone()) {
+    experiment.workload = validate::workload_of_numbers(request);
+    if (experiment.workload.samples > 1e7)
+      throw std::length_error("validate draws 32 sets of samples; at most 1e7 samples are allowed");
+    inputs = to_json(experiment.workload);
+    inputs["samples_are"] = "uniform";
+  } else {
+    validate::JobRequest few = request;
+    few.rays = 1;
+    validate::Job job = validate::make_job(few);
+    job.workload.rays = *request.rays;
+    require_count("number of rays", *request.rays, 1, 1e12);
+    inputs = to_json(job);
+    experiment.workload = job.workload;
+    experiment.discs = std::move(job.discs);
+  }
+  return experiment;
+}
+
+Json to_json(const Claim& claim) {
+  return {{"id", claim.id},
+          {"quantity", claim.quantity},
+          {"form", name(claim.form)},
+          {"source", claim.source},
+          {"predicted", claim.predicted},
+          {"observed", claim.observed.mean},
+          {"standard_error", claim.observed.standard_error},
+          {"relative_difference", claim.relative_difference},
+          {"tolerance", claim.tolerance},
+          {"detectable", claim.detectable},
+          {"verdict", name(claim.verdict)},
+          {"control", {{"predicted", claim.control}, {"verdict", name(claim.control_verdict)}}},
+          {"lines", claim.lines},
+          {"seconds", claim.seconds}};
+}
+
+std::string to_text(const std::vector<Claim>& claims) {
+  std::string text = fmt::format("{:<36} {:>11} {:>11} {:>9} {:>8} {:>6} {:>7}  {:<9}  {}\n", "claim", "predicted",
+                                 "observed", "± error", "differs", "within", "detects", "verdict", "5 % off");
+  for (const Claim& claim : claims)
+    text += fmt::format("{:<36} {:>11.5g} {:>11.5g} {:>9.1g} {:>+7.2f}% {:>5.2g}% {:>6.2g}%  {:<9}  {}\n", claim.id,
+                        claim.predicted, claim.observed.mean, claim.observed.standard_error,
+                        100 * claim.relative_difference, 100 * claim.tolerance, 100 * claim.detectable,
+                        name(claim.verdict), name(claim.control_verdict));
+  return text;
+}
+
+std::string legend(const std::vector<Claim>& claims) {
+  std::string text = "\n";
+  std::string last;
+  for (const Claim& claim : claims) {
+    const std::string stem = claim.id.substr(0, claim.id.rfind('.'));
+    if (stem != last) text += fmt::format("{:<26} {}\n", stem, claim.quantity);
+    last = stem;
+  }
+  return text;
+}
+
+std::string summary(const std::vector<Claim>& claims) {
+  const auto count = [&](model::Form form, Verdict verdict) {
+    return std::count_if(claims.begin(), claims.end(),
+                         [&](const Claim& claim) { return claim.form == form && claim.verdict == verdict; });
+  };
+  std::string text = "\n";
+  for (const auto form : {model::Form::corrected, model::Form::published})
+    text += fmt::format("{}: {} agree, {} refuted, {} undecided\n", name(form), count(form, Verdict::agrees),
+                        count(form, Verdict::refuted), count(form, Verdict::undecided));
+  const auto controls = std::count_if(claims.begin(), claims.end(),
+                                      [](const Claim& claim) { return claim.control_verdict == Verdict::refuted; });
+  text += fmt::format("negative controls: {} of {} formulas made wrong by 5 % were refuted\n", controls, claims.size());
+  return text;
+}
+
+std::string to_csv(const std::vector<Claim>& claims) {
+  std::string csv =
+      "id,form,source,predicted,observed,standard_error,relative_difference,tolerance,detectable,verdict,"
+      "control_verdict,lines,seconds\n";
+  for (const Claim& claim : claims)
+    csv += fmt::format("{},{},\"{}\",{},{},{},{},{},{},{},{},{},{}\n", claim.id, name(claim.form), claim.source,
+                       claim.predicted, claim.observed.mean, claim.observed.standard_error, claim.relative_difference,
+                       claim.tolerance, claim.detectable, name(claim.verdict), name(claim.control_verdict), claim.lines,
+                       claim.seconds);
+  return csv;
+}
+
+ExitCode code_of(const std::vector<Claim>& claims, bool stopped) {
+  const bool refuted = std::any_of(claims.begin(), claims.end(), [](const Claim& claim) {
+    return claim.form == model::Form::corrected && claim.verdict == Verdict::refuted;
+  });
+  if (stopped) return ExitCode::stopped;
+  return refuted ? ExitCode::refuted : ExitCode::done;
+}
+
+Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  const ProgressLine progress(common);
+  Result result;
+  const validate::Experiment experiment =
+      make_experiment(with_defaults(options.workload.request(common)), stop, result.inputs);
+  const auto findings =
+      validate::all_findings(experiment, [&](std::string_view next, double done) { progress.show(next, done); });
+  const std::vector<Claim> claims = validate::judge_all(findings);
+  result.json["claims"] = Json::array();
+  for (const Claim& claim : claims) result.json["claims"].push_back(to_json(claim));
+  result.json["stopped"] = stop.stop_requested();
+  result.text = to_text(claims) + legend(claims) + summary(claims);
+  result.csv = to_csv(claims);
+  result.code = code_of(claims, stop.stop_requested());
+  return result;
+}
+
+}  // namespace
+
+Command validate_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("validate", "Each formula against what simulation counts, with a verdict");
+  app->footer("Example: detp validate --samples 20000 --disc-radius 0.02 --scene-side 2");
+  const auto options = std::make_shared<ValidateOptions>();
+  options->workload.add_to(*app);
+  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+            return run_validate(*options, common, stop);
+          }};
+}
+
+}  // namespace detp::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+/// Everything that detp offers to those who embed it.
+#include "detp/model/best_ratio.hpp"
+#include "detp/model/choose.hpp"
+#include "detp/model/disc_index.hpp"
+#include "detp/model/disc_index_published.hpp"
+#include "detp/model/line_measure.hpp"
+#include "detp/model/paper_rule.hpp"
+#include "detp/model/predict.hpp"
+#include "detp/model/sphere_cache.hpp"
+#include "detp/model/sphere_cache_published.hpp"
+#include "detp/model/sphere_count.hpp"
+#include "detp/sim/line_field.hpp"
+#include "detp/sim/scene/photon_paths.hpp"
+#include "detp/sim/scene/scene.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/analysis.hpp"
+#include "detp/validate/experiment/experiments.hpp"
+#include "detp/validate/job.hpp"
+#include "detp/validate/measure.hpp"
+#include "detp/validate/unit_costs.hpp"
