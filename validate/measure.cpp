@@ -58,18 +58,18 @@ double rms_radius(std::span<const sim::Disc> discs) {
 
 double sample_dimension(std::span<const sim::Disc> discs) {
   constexpr double least_points = 4096;
-  constexpr double points_per_cell = 8;
+  constexpr double points_per_cell = 4;
+  constexpr int levels = 3;
   const auto points = static_cast<double>(discs.size());
   if (points < least_points) return 3;
   const std::vector<double> occupied = occupied_cells(discs);
-  int last = 2;
+  int last = levels;
   while (last < 16 && occupied[static_cast<std::size_t>(last) + 1] * points_per_cell <= points) ++last;
-  const int levels = std::max(2, last - 1);
-  Eigen::MatrixX2d line(levels, 2);
-  Eigen::VectorXd logs(levels);
+  Eigen::Matrix<double, levels, 2> line;
+  Eigen::Matrix<double, levels, 1> logs;
   for (int i = 0; i < levels; ++i) {
-    line.row(i) << 1, i + 2;
-    logs[i] = std::log2(occupied[static_cast<std::size_t>(i) + 2]);
+    line.row(i) << 1, i;
+    logs[i] = std::log2(occupied[static_cast<std::size_t>(last - levels + 1 + i)]);
   }
   const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(logs);
   return std::clamp(fit[1], 1.0, 3.0);

@@ -14,9 +14,9 @@ struct SurfaceFacts {
   double edge_length = 0;  ///< mean
 };
 
-/// Dimension of a set of points by box counting: the slope of log₂(occupied cells) over the levels of halving, from the
-/// second on, as long as a cell holds eight points on average; least squares, clamped to [1, 3]. 3 for fewer than 4096
-/// points, where there is no such level range.
+/// Dimension of a set of points by box counting: the slope of log₂(occupied cells) over the three finest levels of
+/// halving at which an occupied cell still holds four points on average; least squares, clamped to [1, 3]. (Coarser
+/// levels would count the corners and edges of a body.) 3 for fewer than 4096 points, too few for three such levels.
 ///
 /// Accuracy   0.1 for 10⁵ points uniform in a cube or on its faces.
 [[nodiscard]] double sample_dimension(std::span<const sim::Disc> discs);
