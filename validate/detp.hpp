@@ -15,6 +15,7 @@
 #include "detp/sim/scene/photon_paths.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/sim/uniform_discs.hpp"
 #include "detp/validate/analysis.hpp"
 #include "detp/validate/experiment/experiments.hpp"
 #include "detp/validate/job.hpp"
