@@ -1,0 +1,20 @@
+# The dependency order of the house: model includes nothing of sim or validate; sim only model's vocabulary; and neither
+# they nor validate's library anything of the command line. Called with -D SOURCE=<top of the project>.
+function(refuse_includes part pattern why)
+  file(GLOB_RECURSE files ${SOURCE}/${part}/*.hpp ${SOURCE}/${part}/*.cpp ${SOURCE}/${part}/*.inc)
+  list(LENGTH files count)
+  if(count EQUAL 0)
+    message(FATAL_ERROR "no sources in ${part}: is SOURCE right?")
+  endif()
+  foreach(file ${files})
+    file(STRINGS ${file} includes REGEX "^ *# *include.*(${pattern})")
+    if(includes AND NOT file MATCHES "/validate/cli/")
+      message(SEND_ERROR "${file}: ${why}: ${includes}")
+    endif()
+  endforeach()
+endfunction()
+
+refuse_includes(model "sim/|validate/" "model includes nothing of sim or validate")
+refuse_includes(sim "validate/" "sim includes nothing of validate")
+refuse_includes(sim "model/[^v]|model/v[^o]" "sim includes only model's vocabulary")
+refuse_includes(validate "cli/" "the library includes nothing of the command line")
