@@ -1,9 +1,9 @@
 #include <array>
 #include <cmath>
 
+#include "detp/sim/memory.hpp"
 #include "disc_box.hpp"
 #include "indexed_search.hpp"
-#include "detp/sim/memory.hpp"
 #include "ray_box.hpp"
 #include "techniques.hpp"
 

@@ -1,8 +1,8 @@
 #include <array>
 
+#include "detp/sim/memory.hpp"
 #include "disc_box.hpp"
 #include "indexed_search.hpp"
-#include "detp/sim/memory.hpp"
 #include "ray_box.hpp"
 #include "techniques.hpp"
 

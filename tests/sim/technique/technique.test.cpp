@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 #include <numbers>
+#include <stdexcept>
 #include <vector>
 
 #include "detp/sim/directions.hpp"
