@@ -1,0 +1,154 @@
+#pragma once
+
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "sim/scene/scratch_file.hpp"
+
+/// The command `detp` run as a user runs it: a process of its own.
+namespace detp::support {
+
+using Arguments = std::vector<std::string>;
+using Json = nlohmann::json;
+using Clock = std::chrono::steady_clock;
+
+/// How a process ended.
+struct Finished {
+  int code = -1;   ///< exit code; -1 where a signal ended it
+  int signal = 0;  ///< that signal, or 0
+  std::string out;
+  std::string err;
+  double seconds = 0;
+
+  /// The result. Fails the test where stdout is no JSON.
+  [[nodiscard]] Json json() const {
+    const Json parsed = Json::parse(out, nullptr, false);
+    REQUIRE_MESSAGE(!parsed.is_discarded(), "not JSON: ", out, err);
+    return parsed;
+  }
+};
+
+/// A started detp, its stdout and stderr in files. One that hangs is killed after a minute.
+class Process {
+ public:
+  explicit Process(const Arguments& arguments) {
+    std::vector<std::string> words{DETP_COMMAND};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_addopen(&files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    posix_spawn_file_actions_addopen(&files, STDERR_FILENO, err_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    const int error = posix_spawn(&id_, words[0].c_str(), &files, nullptr, pointers.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    if (error != 0) throw std::runtime_error("cannot start " + words[0]);
+  }
+  ~Process() {
+    if (id_ > 0) (void)finish();
+  }
+  Process(const Process&) = delete;
+  Process& operator=(const Process&) = delete;
+
+  void send(int signal) const { ::kill(id_, signal); }
+
+  [[nodiscard]] Finished finish() {
+    int status = 0;
+    while (::waitpid(id_, &status, WNOHANG) == 0) {
+      if (Clock::now() - start_ > std::chrono::seconds(60)) send(SIGKILL);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    id_ = -1;
+    return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+            .signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0,
+            .out = sim::support::content_of(out_),
+            .err = sim::support::content_of(err_),
+            .seconds = std::chrono::duration<double>(Clock::now() - start_).count()};
+  }
+
+ private:
+  sim::support::ScratchFolder folder_;
+  std::string out_ = folder_.path("out");
+  std::string err_ = folder_.path("err");
+  Clock::time_point start_ = Clock::now();
+  pid_t id_ = -1;
+};
+
+/// "run @uniform" as two arguments.
+inline Arguments words(const std::string& line) {
+  std::istringstream stream(line);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+inline Arguments operator+(Arguments left, const Arguments& right) {
+  left.insert(left.end(), right.begin(), right.end());
+  return left;
+}
+
+inline std::string line_of(const Arguments& arguments) {
+  std::string line = "detp";
+  for (const std::string& argument : arguments) line += " " + argument;
+  return line;
+}
+
+inline Finished detp(const Arguments& arguments) { return Process(arguments).finish(); }
+inline Finished detp(const std::string& line) { return detp(words(line)); }
+
+/// The JSON result of a command that must succeed.
+inline Json result_of(const Arguments& arguments) {
+  const Finished finished = detp(arguments + words("--format json"));
+  CAPTURE(line_of(arguments));
+  CAPTURE(finished.err);
+  REQUIRE(finished.code == 0);
+  return finished.json();
+}
+inline Json result_of(const std::string& line) { return result_of(words(line)); }
+
+/// Fails the test unless the command refuses its input as the contract says: exit code 2, nothing on stdout, and on
+/// stderr one line that holds `named`.
+inline void check_refused(const Arguments& arguments, const std::string& named) {
+  const Finished finished = detp(arguments);
+  CAPTURE(line_of(arguments));
+  CAPTURE(finished.err);
+  CHECK(finished.signal == 0);
+  CHECK(finished.code == 2);
+  CHECK(finished.out.empty());
+  CHECK(std::count(finished.err.begin(), finished.err.end(), '\n') == 1);
+  CHECK(finished.err.ends_with('\n'));
+  CHECK(finished.err.find(named) != std::string::npos);
+}
+inline void check_refused(const std::string& line, const std::string& named) { check_refused(words(line), named); }
+
+/// A result without what differs from run to run by nature: times and the number of threads.
+inline Json without_times(const Json& json) {
+  if (!json.is_structured()) return json;
+  Json rest = json.is_array() ? Json::array() : Json::object();
+  for (const auto& [key, value] : json.items()) {
+    if (json.is_array()) {
+      rest.push_back(without_times(value));
+    } else if (!key.starts_with("measured_") && !key.ends_with("seconds") && key != "threads" && key != "regret") {
+      rest[key] = without_times(value);
+    } else if (key == "predicted_seconds") {
+      rest[key] = value;
+    }
+  }
+  return rest;
+}
+
+}  // namespace detp::support

@@ -1,0 +1,155 @@
+#include <doctest/doctest.h>
+
+#include "support/command.hpp"
+
+/// What holds for every command.
+namespace detp::support {
+namespace {
+
+struct Example {
+  std::string line;
+  std::vector<std::string> keys;  ///< that the contract promises, beside the envelope
+};
+
+const std::vector<Example>& examples() {
+  static const std::string numbers = " --samples 1000 --rays 2000 --disc-radius 0.02 --scene-side 2";
+  static const std::vector<Example> all{
+      {"model" + numbers, {"form", "k", "spheres", "rebuild_time", "intersect_time", "total_time"}},
+      {"model --technique octree" + numbers,
+       {"depth", "cells_per_line", "discs_per_cell", "tests_per_line", "total_time"}},
+      {"choose" + numbers, {"choice", "candidates", "effects", "rigor"}},
+      {"run @uniform --samples 500 --rays 500",
+       {"technique", "parameters", "hits", "counts", "seconds", "read_seconds"}},
+      {"validate --samples 500 --rays 2000", {"claims"}},
+      {"scene @cornell --rays 100",
+       {"triangles", "samples", "rays", "box", "sample_distance", "dimension", "effects"}}};
+  return all;
+}
+
+/// `validate` may also find a formula refuted.
+bool answered(const Finished& finished) { return finished.code == 0 || finished.code == 1; }
+
+}  // namespace
+
+TEST_SUITE("end to end") {
+  TEST_CASE("every command's help has an example, and the program's names every command") {
+    const Finished program = detp("--help");
+    CHECK(program.code == 0);
+    CHECK(program.err.empty());
+    for (const std::string name : {"model", "choose", "run", "validate", "scene"}) {
+      CAPTURE(name);
+      CHECK(program.out.find("\n  " + name + " ") != std::string::npos);
+      const Finished help = detp(name + " --help");
+      CHECK(help.code == 0);
+      CHECK(help.err.empty());
+      CHECK(help.out.find("Example: detp " + name + " ") != std::string::npos);
+    }
+  }
+
+  TEST_CASE("--version tells the program and its version") {
+    const Finished version = detp("--version");
+    CHECK(version.code == 0);
+    CHECK(version.err.empty());
+    CHECK(version.out.starts_with("detp "));
+    CHECK(std::count(version.out.begin(), version.out.end(), '.') == 2);
+  }
+
+  TEST_CASE("every JSON result has schema, resolved inputs, provenance and the contract's keys") {
+    for (const Example& example : examples()) {
+      CAPTURE(example.line);
+      const Finished finished = detp(example.line + " --format json --seed 7 --threads 1");
+      CHECK(answered(finished));
+      CHECK(finished.err.empty());
+      const Json json = finished.json();
+      CHECK(json.at("schema").at("name") == "detp." + example.line.substr(0, example.line.find(' ')));
+      CHECK(json.at("schema").at("version").is_number_integer());
+      for (const std::string key : {"rays", "samples", "disc_radius", "sphere_radius", "scene_side", "dimension"})
+        CHECK_MESSAGE(json.at("inputs").contains(key), key);
+      const Json& provenance = json.at("provenance");
+      CHECK(provenance.at("version").is_string());
+      CHECK(provenance.at("seed") == 7);
+      CHECK(provenance.at("threads") == 1);
+      CHECK_FALSE(provenance.at("cpu").get<std::string>().empty());
+      for (const std::string& key : example.keys) CHECK_MESSAGE(json.contains(key), key);
+    }
+  }
+
+  TEST_CASE("text and CSV say something, CSV in rows of equally many fields") {
+    for (const Example& example : examples()) {
+      CAPTURE(example.line);
+      const Finished text = detp(example.line);
+      CHECK(answered(text));
+      CHECK(text.err.empty());
+      CHECK(text.out.size() > 40);
+      const Finished csv = detp(example.line + " --format csv");
+      CHECK(answered(csv));
+      CHECK(csv.err.empty());
+      std::istringstream lines(csv.out);
+      std::ptrdiff_t commas = -1;
+      std::size_t rows = 0;
+      for (std::string line; std::getline(lines, line); ++rows) {
+        std::ptrdiff_t here = 0;
+        bool quoted = false;
+        for (const char c : line) {
+          if (c == '"') quoted = !quoted;
+          if (c == ',' && !quoted) ++here;
+        }
+        if (commas < 0) commas = here;
+        CHECK_MESSAGE(here == commas, line);
+      }
+      CHECK(rows >= 2);
+      CHECK(commas >= 1);
+    }
+  }
+
+  TEST_CASE("--output writes to the file what would go to stdout, and nothing to stdout") {
+    const sim::support::ScratchFolder folder;
+    const std::string path = folder.path("result");
+    for (const Example& example : examples()) {
+      CAPTURE(example.line);
+      const Finished shown = detp(example.line + " --format json");
+      const Finished written = detp(words(example.line + " --format json --output") + Arguments{path});
+      CHECK(written.code == shown.code);
+      CHECK(written.out.empty());
+      CHECK(written.err.empty());
+      CHECK(without_times(Json::parse(sim::support::content_of(path))) == without_times(shown.json()));
+      CHECK(folder.entries() == 1);
+    }
+    const std::string model = examples().front().line;
+    for (const std::string format : {"text", "csv"}) {
+      CHECK(detp(words(model + " --format " + format + " --output") + Arguments{path}).code == 0);
+      CHECK(sim::support::content_of(path) == detp(model + " --format " + format).out);
+    }
+  }
+
+  TEST_CASE("notices go to stderr, and --quiet keeps them") {
+    const sim::support::ScratchFolder folder;
+    const std::string mesh = folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\n");
+    for (const std::string name : {"scene", "run", "choose", "model"}) {
+      CAPTURE(name);
+      const Arguments arguments = Arguments{name, mesh} + words("--rays 100 --disc-radius 10% --format json");
+      const Finished loud = detp(arguments);
+      CHECK(loud.code == 0);
+      CHECK(loud.err.find("not finite") != std::string::npos);
+      const Finished quiet = detp(arguments + Arguments{"--quiet"});
+      CHECK(quiet.code == 0);
+      CHECK(quiet.err.empty());
+      CHECK(without_times(quiet.json()) == without_times(loud.json()));
+    }
+  }
+
+  TEST_CASE("a claim tells prediction, observation, precision and verdict") {
+    const Json json = detp("validate --samples 500 --rays 2000 --format json").json();
+    REQUIRE_FALSE(json.at("claims").empty());
+    for (const Json& claim : json.at("claims")) {
+      CAPTURE(claim.dump());
+      for (const std::string key : {"id", "source", "predicted", "observed", "standard_error", "relative_difference",
+                                    "tolerance", "detectable", "verdict", "lines", "seconds"})
+        CHECK_MESSAGE(claim.contains(key), key);
+      const std::string verdict = claim.at("verdict");
+      CHECK((verdict == "agrees" || verdict == "refuted" || verdict == "undecided"));
+    }
+  }
+}
+
+}  // namespace detp::support
