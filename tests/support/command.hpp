@@ -10,11 +10,13 @@
 #include <chrono>
 #include <csignal>
 #include <iterator>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "sim/scene/scratch_file.hpp"
@@ -120,20 +122,34 @@ inline Json result_of(const Arguments& arguments) {
 }
 inline Json result_of(const std::string& line) { return result_of(words(line)); }
 
-/// Fails the test unless the command refuses its input as the contract says: exit code 2, nothing on stdout, and on
-/// stderr one line that holds `named`.
-inline void check_refused(const Arguments& arguments, const std::string& named) {
-  const Finished finished = detp(arguments);
-  CAPTURE(line_of(arguments));
-  CAPTURE(finished.err);
-  CHECK(finished.signal == 0);
-  CHECK(finished.code == 2);
-  CHECK(finished.out.empty());
-  CHECK(std::count(finished.err.begin(), finished.err.end(), '\n') == 1);
-  CHECK(finished.err.ends_with('\n'));
-  CHECK(finished.err.find(named) != std::string::npos);
+/// A command line that must be refused, and what the message must name.
+struct Refusal {
+  Arguments arguments;
+  std::string named;
+
+  Refusal(Arguments given, std::string name) : arguments(std::move(given)), named(std::move(name)) {}
+  Refusal(const std::string& line, std::string name) : Refusal(words(line), std::move(name)) {}
+};
+
+/// Fails the test unless each is refused as the contract says: exit code 2, nothing on stdout, and on stderr one line
+/// that holds what is `named`. Several run at a time.
+inline void check_refused(const std::vector<Refusal>& refusals) {
+  constexpr std::size_t at_a_time = 8;
+  std::vector<std::unique_ptr<Process>> processes(refusals.size());
+  for (std::size_t i = 0; i < refusals.size(); ++i) {
+    for (std::size_t j = i; j < std::min(i + at_a_time, refusals.size()); ++j)
+      if (i % at_a_time == 0) processes[j] = std::make_unique<Process>(refusals[j].arguments);
+    const Finished finished = processes[i]->finish();
+    CAPTURE(line_of(refusals[i].arguments));
+    CAPTURE(finished.err);
+    CHECK(finished.signal == 0);
+    CHECK(finished.code == 2);
+    CHECK(finished.out.empty());
+    CHECK(finished.err.starts_with("detp: "));
+    CHECK(finished.err.find('\n') + 1 == finished.err.size());
+    CHECK(finished.err.find(refusals[i].named) != std::string::npos);
+  }
 }
-inline void check_refused(const std::string& line, const std::string& named) { check_refused(words(line), named); }
 
 /// A result without what differs from run to run by nature: times and the number of threads.
 inline Json without_times(const Json& json) {

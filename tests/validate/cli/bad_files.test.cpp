@@ -1,0 +1,145 @@
+#include <doctest/doctest.h>
+
+#include "support/command.hpp"
+
+namespace detp::support {
+namespace {
+
+using sim::support::ScratchFolder;
+
+const std::string disc_header = "x,y,z,nx,ny,nz,radius\n";
+const std::string ray_header = "ox,oy,oz,dx,dy,dz,length,power\n";
+const std::string ply_header =
+    "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+    "property list uchar int vertex_indices\nend_header\n";
+
+Refusal as_scene(const std::string& path, const std::string& named) {
+  return {Arguments{"scene", path} + words("--rays 10"), named};
+}
+
+/// Refusals of a disc file, and of a ray file beside good discs.
+struct Tables {
+  ScratchFolder folder;
+  std::string discs = folder.file("good.csv", disc_header + "0,0,0,0,0,1,1\n1,0,0,0,0,1,1\n");
+  int last = 0;
+
+  std::string file(const std::string& content) { return folder.file(std::to_string(++last) + ".csv", content); }
+  static Refusal as_discs(const std::string& path, const std::string& named) {
+    return {Arguments{"run", "--discs", path} + words("--rays 10"), named};
+  }
+  [[nodiscard]] Refusal as_rays(const std::string& path, const std::string& named) const {
+    return {Arguments{"run", "--discs", discs, "--ray-file", path}, named};
+  }
+  Refusal disc(const std::string& row, const std::string& named) {
+    const std::string path = file(disc_header + "0,0,0,0,0,1,1\n" + row + "\n");
+    return as_discs(path, path + ":3: " + named);
+  }
+  Refusal ray(const std::string& row, const std::string& named) {
+    const std::string path = file(ray_header + "0,0,0,0,0,1,1,1\n" + row + "\n");
+    return as_rays(path, path + ":3: " + named);
+  }
+};
+
+}  // namespace
+
+TEST_SUITE("bad input") {
+  TEST_CASE("meshes that cannot be read are refused, naming the file and where there is one the line") {
+    const ScratchFolder folder;
+    std::filesystem::create_directory(folder.path("folder.obj"));
+    const std::string index = folder.file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    const std::string number = folder.file("number.obj", "v 0 0 0\nv 1 zero 0\nv 0 1 0\nf 1 2 3\n");
+    const std::string magic = folder.file("magic.ply", "plum\n");
+    check_refused({as_scene(folder.path("missing.obj"), "missing.obj: cannot be opened"),
+                   as_scene(folder.path("missing.ply"), "missing.ply: cannot be opened"),
+                   as_scene(folder.path("folder.obj"), "folder.obj: cannot be read"),
+                   as_scene(folder.file("empty.obj", ""), "empty.obj: "),
+                   as_scene(folder.file("empty.ply", ""), "empty.ply: "),
+                   as_scene(folder.file("vertices.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"), "has no faces"),
+                   as_scene(index, index + ":4: "), as_scene(number, number + ":2: "), as_scene(magic, magic + ":1: "),
+                   as_scene(folder.file("rows.ply", ply_header + "0 0 0\n1 0 0\n"), "rows.ply: ends early"),
+                   as_scene(folder.file("face.ply", ply_header + "0 0 0\n1 0 0\n0 1 0\n3 0 1\n"), "face.ply: "),
+                   as_scene(folder.file("nan.ply", ply_header + "0 0 0\n1 nan 0\n0 1 0\n3 0 1 2\n"), "not finite"),
+                   as_scene(folder.file("wrong.ply", ply_header + "0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n"), "face 1"),
+                   as_scene(folder.file("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"), "point.obj: ")});
+  }
+
+  TEST_CASE("files of discs and rays that cannot be read are refused, naming the file") {
+    Tables tables;
+    const std::string folder = tables.folder.path("");
+    const std::string missing = tables.folder.path("missing.csv");
+    const std::string empty = tables.file("");
+    const std::string magic = tables.folder.file("magic.ply", "plum\n");
+    const std::string cut = tables.folder.file("cut.ply", ply_header + "0 0 0\n1 0 0\n");
+    for (const auto& [path, named] :
+         std::vector<std::pair<std::string, std::string>>{{missing, "missing.csv: cannot be opened"},
+                                                          {folder, "Is a directory"},
+                                                          {empty, empty + ": is empty"},
+                                                          {magic, magic + ":1: "},
+                                                          {cut, "cut.ply: "}})
+      check_refused({Tables::as_discs(path, named), tables.as_rays(path, named)});
+  }
+
+  TEST_CASE("a wrong header is refused at its line, naming the known columns") {
+    Tables tables;
+    const auto discs = [&](const std::string& content, const std::string& named) {
+      return Tables::as_discs(tables.file(content), ".csv" + named);
+    };
+    const auto rays = [&](const std::string& content, const std::string& named) {
+      return tables.as_rays(tables.file(content), ".csv" + named);
+    };
+    check_refused({discs("a,b,c\n1,2,3\n", ":1: unknown column \"a\"; known are x,y,z,nx,ny,nz,radius"),
+                   discs("x,y,z,nx,ny\n1,2,3,4,5\n", ":1: the header has no column nz"),
+                   discs("x,y,z,nx,ny,nz,x\n1,2,3,4,5,6,7\n", ":1: column x is there twice"),
+                   discs("x,y,z,nx,ny,nz\n0,0,0,0,0,1\n", ":1: the header has no column radius"),
+                   discs("1,2,3,4,5,6,7\n", ":1: unknown column"), discs(disc_header, ": holds no disc"),
+                   rays(disc_header + "0,0,0,0,0,1,1\n", ":1: unknown column \"x\"; known are ox,oy,oz"),
+                   rays("ox,oy,oz,dx,dy\n0,0,0,0,0\n", ":1: the header has no column dz"),
+                   rays(ray_header, ": holds no ray")});
+  }
+
+  TEST_CASE("a bad row is refused at its line") {
+    Tables tables;
+    check_refused({tables.disc("0,0,0,0,0,0,1", "the normal is zero"), tables.disc("0,0,0,0,0,1,0", "radius must be"),
+                   tables.disc("0,0,0,0,0,1,-2", "radius must be"), tables.disc("0,0,0,0,0,1,nan", "radius must be"),
+                   tables.disc("0,0,0,0,0,1,inf", "radius must be"), tables.disc("nan,0,0,0,0,1,1", "x must be finite"),
+                   tables.disc("0,0,inf,0,0,1,1", "z must be finite"), tables.disc("0,0,0,0,nan,1,1", "ny must be"),
+                   tables.disc("0,0,0,0,0,1", "6 fields"), tables.disc("0,0,0,0,0,1,1,1", "8 fields"),
+                   tables.disc("0,0,0,0,0,one,1", "nz is \"one\""), tables.disc("0,0,,0,0,1,1", "z is empty")});
+    check_refused({tables.ray("0,0,0,0,0,0,1,1", "the direction is zero"),
+                   tables.ray("0,0,0,0,0,1,0,1", "length must be"), tables.ray("0,0,0,0,0,1,-1,1", "length must be"),
+                   tables.ray("0,0,0,0,0,1,nan,1", "length must be"), tables.ray("0,0,0,0,0,1,1,-1", "power must be"),
+                   tables.ray("0,0,0,0,0,1,1,nan", "power must be"), tables.ray("0,0,0,0,0,1,1,inf", "power must be"),
+                   tables.ray("0,nan,0,0,0,1,1,1", "oy must be finite"),
+                   tables.ray("0,0,0,inf,0,1,1,1", "dx must be finite"), tables.ray("0,0,0,0,0,1", "6 fields")});
+  }
+
+  TEST_CASE("options that a file makes pointless are refused") {
+    const Tables tables;
+    const std::string rays = tables.folder.file("rays.csv", ray_header + "0,0,0,0,0,1,1,1\n");
+    const Arguments run{"run", "--discs", tables.discs};
+    check_refused({{run + words("--samples 4"), "--samples"},
+                   {run + words("--disc-radius 4%"), "percentage"},
+                   {run + words("--field photons"), "scene"},
+                   {run + Arguments{"--rays", "5", "--ray-file", rays}, "--rays"},
+                   {Arguments{"run", "--ray-file", rays}, "--discs"},
+                   {Arguments{"validate", "--discs", tables.discs}, "--discs"}});
+  }
+
+  TEST_CASE("results that cannot be written are told, and nothing is left behind") {
+    const ScratchFolder folder;
+    const Arguments run = words("run @uniform --samples 100 --rays 100");
+    const Arguments scene = words("scene @cornell --rays 100");
+    const std::string missing = folder.path("missing/result");
+    std::vector<Refusal> refusals;
+    for (const std::string option : {"--output", "--per-disc", "--pairs"})
+      for (const std::string& path : {missing, std::string("/dev/full"), folder.path("")})
+        refusals.push_back({run + Arguments{option, path}, path + ": cannot be written"});
+    for (const std::string option : {"--write-mesh", "--write-discs", "--write-rays"})
+      for (const std::string& path : {missing, std::string("/dev/full"), folder.path("")})
+        refusals.push_back({scene + Arguments{option, path}, path + ": cannot be written"});
+    check_refused(refusals);
+    CHECK(folder.entries() == 0);
+  }
+}
+
+}  // namespace detp::support

@@ -1,0 +1,121 @@
+#include <doctest/doctest.h>
+
+#include "support/command.hpp"
+
+namespace detp::support {
+namespace {
+
+/// The line with each of the values after it.
+std::vector<Refusal> each(const std::string& line, const std::vector<std::string>& values, const std::string& named) {
+  std::vector<Refusal> refusals;
+  for (const std::string& value : values) refusals.emplace_back(words(line) + Arguments{value}, named);
+  return refusals;
+}
+
+const std::string uniform = "run @uniform --samples 100 --rays 100 ";
+const std::string numbers = "model --samples 1000 --disc-radius 0.01 --scene-side 1 ";
+
+const std::vector<std::string> no_length{"0", "-1", "nan", "inf", "-inf", "x", "1e999"};
+const std::vector<std::string> no_count{"0", "-1", "nan", "inf", "1.5", "1e300", "x", "10k"};
+
+}  // namespace
+
+TEST_SUITE("bad input") {
+  TEST_CASE("unknown options and names are refused, naming what there is") {
+    check_refused({{uniform + "--frob 3", "--frob"},
+                   {uniform + "--technique quadtree", "brute-force, sphere-cache"},
+                   {"run @moon", "@uniform, @tree, @tree-coarse, @courtyard, @cornell"},
+                   {"scene moon", "must end in .obj or .ply"},
+                   {"run @uniform @tree", "@tree"},
+                   {numbers + "--format xml", "text,json,csv"},
+                   {numbers + "--form wrong", "published,corrected"},
+                   {numbers + "--order hilbert", "lebesgue,none"},
+                   {uniform + "--field sound", "isotropic,photons"},
+                   {"choose @uniform --rigor pilot", "'estimate'"},
+                   {uniform + "--technique", "--technique"}});
+  }
+
+  TEST_CASE("numbers alone need samples, a disc radius and a size, and the message says which is missing") {
+    for (const std::string command : {"model", "choose", "run", "scene"})
+      check_refused({{command, "--samples"},
+                     {command + " --samples 10", "--disc-radius"},
+                     {command + " --samples 10 --disc-radius 1", "--sphere-radius"}});
+  }
+
+  TEST_CASE("counts are whole numbers from 1") {
+    check_refused(each("model --disc-radius 0.01 --scene-side 1 --samples", no_count, "samples"));
+    check_refused(each(numbers + "--rays", no_count, "rays"));
+    check_refused(each("run @uniform --samples 100 --rays", no_count, "rays"));
+    check_refused(each("run @uniform --rays 100 --samples", no_count, "samples"));
+    check_refused(each("validate --rays", no_count, "rays"));
+    check_refused(each(uniform + "--repeat", {"-1", "1.5", "nan", "1e300", "99999"}, "--repeat"));
+    check_refused(each(uniform + "--threads", {"-1", "1.5", "nan", "1e9"}, "--threads"));
+    check_refused(each(numbers + "--levels", {"-1", "1.5", "nan", "10000000"}, "--levels"));
+  }
+
+  TEST_CASE("lengths are positive and finite") {
+    check_refused(each("model --samples 10 --scene-side 1 --disc-radius", no_length, "disc"));
+    check_refused(each("model --samples 10 --scene-side 1 --disc-radius", {"0%", "-1%", "nan%", "%", "5%%"}, "disc"));
+    check_refused(each("run @uniform --samples 10 --rays 10 --disc-radius", no_length, "disc"));
+    check_refused(each("model --samples 10 --disc-radius 0.1 --scene-side", no_length, "side"));
+    check_refused(each("model --samples 10 --disc-radius 0.1 --sphere-radius", no_length, "radius"));
+    check_refused(each(numbers + "--sample-extent", no_length, "extent"));
+    check_refused(each(numbers + "--dimension", {"0", "0.9", "3.1", "nan", "inf", "-1", "x"}, "dimension"));
+  }
+
+  TEST_CASE("parameters of techniques keep to their ranges") {
+    const std::vector<std::string> no_ratio{"0", "1", "1.5", "-0.5", "nan", "inf", "x"};
+    check_refused(each(numbers + "--ratio", no_ratio, "ratio"));
+    check_refused(each(uniform + "--technique sphere-cache --ratio", no_ratio, "ratio"));
+    check_refused(each(uniform + "--technique sphere-cache --spheres", {"0", "-1", "1.5", "nan"}, "spheres"));
+    check_refused(each(uniform + "--technique octree --depth", {"-1", "21", "99", "1.5", "nan"}, "depth"));
+    check_refused(each(uniform + "--technique grid --cells", {"0", "-1", "1e9", "1000000000", "nan"}, "cells"));
+    check_refused(each(numbers + "--technique octree --depth", {"-1", "999", "1.5"}, "depth"));
+    check_refused(each(numbers + "--technique grid --cells", {"0", "-1", "2.5"}, "cells"));
+    check_refused({{numbers + "--technique grid --form published", "--form corrected"}});
+  }
+
+  TEST_CASE("parameters of other techniques are refused, not ignored") {
+    for (const std::string& command : {uniform, numbers})
+      check_refused({{command + "--technique sphere-cache --depth 3", "--depth"},
+                     {command + "--technique sphere-cache --cells 3", "--cells"},
+                     {command + "--technique octree --ratio 0.5", "--ratio"},
+                     {command + "--technique octree --cells 3", "--cells"},
+                     {command + "--technique grid --depth 3", "--depth"},
+                     {command + "--technique grid --spheres 3", "--spheres"},
+                     {command + "--technique brute-force --ratio 0.5", "--ratio"},
+                     {command + "--technique brute-force --order none", "--order"}});
+  }
+
+  TEST_CASE("options that do not go together are refused") {
+    check_refused({{"run @cornell --sphere-radius 3", "--sphere-radius"},
+                   {"run @cornell --scene-side 3", "--scene-side"},
+                   {uniform + "--field photons", "light"},
+                   {"run --samples 10 --disc-radius 0.1 --scene-side 1 --field photons", "scene"},
+                   {"validate @cornell --field photons", "--field photons"},
+                   {"validate @cornell --front-facing", "--front-facing"}});
+  }
+
+  TEST_CASE("unit costs are pairs of a known name and a number from 0") {
+    for (const std::string& command : {numbers, std::string("choose --samples 10 --disc-radius 0.1 --scene-side 1 ")})
+      check_refused({{command + "--costs garbage", "name=value"},
+                     {command + "--costs t", "name=value"},
+                     {command + "--costs x=1", "'x'"},
+                     {command + "--costs t=", "unit cost t"},
+                     {command + "--costs t=one", "unit cost t"},
+                     {command + "--costs t=1;u=2", "unit cost t"},
+                     {command + "--costs u=-1", "unit cost u"},
+                     {command + "--costs u=nan", "unit cost u"},
+                     {command + "--costs u=inf", "unit cost u"}});
+  }
+
+  TEST_CASE("what would not fit in memory is refused before it is tried") {
+    check_refused({{"run @cornell --rays 1e12", "GB"},
+                   {"run @uniform --samples 1e12", "GB"},
+                   {"scene @cornell --samples 1e12", "GB"},
+                   {"choose @cornell --rays 1e17", "GB"},
+                   {uniform + "--technique grid --cells 1000000", "GB"}});
+  }
+}
+
+}  // namespace detp::support
