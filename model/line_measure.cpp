@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -27,7 +28,7 @@ double lens_area(double a, double b, double c) {
   const double from_b = c - from_a;
   const auto segment = [](double r, double x) {
     const double cosine = std::clamp(x / r, -1.0, 1.0);
-    return r * r * (std::acos(cosine) - cosine * std::sqrt(1 - cosine * cosine));
+    return r * r * (std::acos(cosine) - cosine * std::sqrt((1 - cosine) * (1 + cosine)));
   };
   return segment(a, from_a) + segment(b, from_b);
 }
@@ -76,13 +77,18 @@ double both_hit_share(double a, double b, double c) {
   require_positive("sphere radius", b);
   require_non_negative("distance of the centres", c);
   if (c + b <= a) return 1;
-  constexpr int directions = 64;
-  double sum = 0;
-  for (int i = 0; i < directions; ++i) {
-    const double cosine = (i + 0.5) / directions;
-    sum += lens_area(a, b, c * std::sqrt(1 - cosine * cosine));
-  }
-  return sum / directions / (pi * b * b);
+  // Seen within `covered` of the line of centres, the smaller circle lies in the larger one; beyond `apart`, the two do
+  // not meet. Between, u -> u²(3 - 2u) smooths the lens's ends, where it goes with the power 3/2.
+  const double covered = std::asin(std::min(1.0, std::abs(a - b) / c));
+  const double apart = std::asin(std::min(1.0, (a + b) / c));
+  const auto lens_at = [&](double u) {
+    const double angle = covered + (apart - covered) * u * u * (3 - 2 * u);
+    return lens_area(a, b, c * std::sin(angle)) * std::sin(angle) * 6 * u * (1 - u);
+  };
+  const double lenses = (apart - covered) * boost::math::quadrature::gauss<double, 30>::integrate(lens_at, 0, 1);
+  const double small = std::min(a, b);
+  const double covered_share = 2 * std::pow(std::sin(covered / 2), 2);  // 1 - cos
+  return covered_share * (small / b) * (small / b) + lenses / (pi * b * b);
 }
 
 }  // namespace detp::model
