@@ -40,6 +40,7 @@ double octree_time(const Workload& workload, int depth, double disc_test) {
 }
 
 double balanced_octree_time(const Workload& workload, int depth, double disc_test) {
+  require_non_negative("time of a ray-disc test", disc_test);
   check(workload);
   return disc_test * workload.rays * tests_per_line(workload.samples, depth);
 }

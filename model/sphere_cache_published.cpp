@@ -44,11 +44,13 @@ double rebuilds(RadiusRatio ratio, std::int64_t i) {
 }
 
 double rebuild_cost(double rays, RadiusRatio ratio, std::int64_t i, double sphere_test) {
+  require_non_negative("time of a ray-sphere test", sphere_test);
   require_count("index of the sphere", static_cast<double>(i), 1, 9e18);
   return sphere_test * rays_in_sphere(rays, ratio, i - 1);
 }
 
 double rebuild_time(const Workload& workload, RadiusRatio ratio, std::int64_t k, double sphere_test) {
+  require_non_negative("time of a ray-sphere test", sphere_test);
   check(workload);
   check_arguments(ratio, k);
   const long double log_q = std::log(static_cast<long double>(ratio.value));
@@ -60,6 +62,7 @@ double rebuild_time(const Workload& workload, RadiusRatio ratio, std::int64_t k,
 }
 
 double rebuild_time_few_samples(const Workload& workload, RadiusRatio ratio, double sphere_test) {
+  require_non_negative("time of a ray-sphere test", sphere_test);
   check(workload);
   require_ratio("radius ratio Q", ratio.value);
   const long double q = ratio.value;
@@ -68,6 +71,7 @@ double rebuild_time_few_samples(const Workload& workload, RadiusRatio ratio, dou
 }
 
 double intersect_time(const Workload& workload, RadiusRatio ratio, std::int64_t k, double disc_test) {
+  require_non_negative("time of a ray-disc test", disc_test);
   check(workload);
   return disc_test * rays_in_sphere(workload.rays, ratio, k) * workload.samples;
 }
@@ -86,6 +90,7 @@ Counts<double> counts(const Workload& workload, RadiusRatio ratio, std::int64_t 
 }
 
 double unsorted_time(const Workload& workload, double disc_test) {
+  require_non_negative("time of a ray-disc test", disc_test);
   check(workload);
   return disc_test * workload.rays * workload.samples;
 }
