@@ -23,6 +23,11 @@ int compare(double ratio, std::int64_t n, double disc, double outer) {
   return radius.compare(Exact{disc});
 }
 
+/// ln(large/small), to the last digits also where the two are next to equal.
+long double log_of_ratio(long double large, long double small) {
+  return small > large / 2 ? -std::log1p((small - large) / large) : std::log(large / small);
+}
+
 }  // namespace
 
 std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereRadius outer) {
@@ -30,8 +35,7 @@ std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereR
   require_positive("disc radius", disc.value);
   require_positive("sphere radius", outer.value);
   if (disc.value >= outer.value) return 0;
-  const long double log_radii =
-      std::log(static_cast<long double>(outer.value)) - std::log(static_cast<long double>(disc.value));
+  const long double log_radii = log_of_ratio(outer.value, disc.value);
   const long double exact = log_radii / -std::log(static_cast<long double>(ratio.value));
   if (exact > 9e18L) throw std::overflow_error("the number of spheres exceeds 9e18");
   const long double nearest = std::round(exact);
