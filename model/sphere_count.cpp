@@ -51,6 +51,8 @@ std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereR
 
 double step_ratio(std::int64_t spheres, DiscRadius disc, SphereRadius outer) {
   require_count("number of spheres", static_cast<double>(spheres), 1, 1e18);
+  require_positive("disc radius", disc.value);
+  require_positive("sphere radius", outer.value);
   return static_cast<double>(std::pow(static_cast<long double>(disc.value) / outer.value, 1.0L / spheres));
 }
 
