@@ -58,6 +58,11 @@ double share_within(const Workload& workload, double radius) {
   return std::pow(in_cube, weight) * std::pow(on_surface, 1 - weight);
 }
 
+void require_dimension(double dimension) {
+  if (!(dimension >= 1 && dimension <= 3))
+    throw std::invalid_argument(fmt::format("sample dimension must be from 1 to 3 (got {})", dimension));
+}
+
 double interpolate(const std::array<double, 7>& x, const std::array<double, 7>& y, double at) {
   std::size_t i = 1;
   while (i + 1 < x.size() && at > x[i]) ++i;
@@ -71,15 +76,16 @@ double single_rebuild_share(double dimension, double lambda, double phase) {
   require_non_negative("samples per ball", lambda);
   if (!(phase >= 0 && phase <= 1))
     throw std::invalid_argument(fmt::format("phase must be from 0 to 1 (got {})", phase));
-  if (!(dimension >= 1 && dimension <= 3))
-    throw std::invalid_argument(fmt::format("sample dimension must be from 1 to 3 (got {})", dimension));
+  require_dimension(dimension);
   const double weight = std::max(dimension - 2, 0.0);
   return std::exp((1 - weight) * log_share(2, lambda, phase) + weight * log_share(3, lambda, phase));
 }
 
 double single_rebuilds(const Workload& workload, double radius, SampleOrder order) {
+  check(workload);
+  require_finite("radius of the ball", radius);
   const double n = workload.samples;
-  if (!(radius > 0)) return n;
+  if (radius <= 0) return n;
   if (order == SampleOrder::none) return std::max(1.0, n * (1 - share_within(workload, radius)));
   const double halvings = std::log2(scene_side(workload) / radius);
   if (halvings < -1) return 1;
@@ -88,6 +94,8 @@ double single_rebuilds(const Workload& workload, double radius, SampleOrder orde
 }
 
 double chain_share(double dimension, RadiusRatio ratio) {
+  require_dimension(dimension);
+  require_ratio("radius ratio Q", ratio.value);
   constexpr std::array<double, 7> q{0, 0.3, 0.5, 0.65, 0.8, 0.9, 1};
   constexpr std::array<double, 7> volume{0, 0.3, 0.32, 0.6, 0.65, 0.77, 1};
   constexpr std::array<double, 7> surface{0, 0.45, 0.4, 0.5, 0.6, 0.73, 1};
@@ -96,6 +104,10 @@ double chain_share(double dimension, RadiusRatio ratio) {
 }
 
 double chained_rebuilds(double alone, double outer, double share, double samples) {
+  require_non_negative("rebuilds of the sphere alone", alone);
+  require_non_negative("rebuilds of the outer sphere", outer);
+  require_non_negative("share that chains", share);
+  require_positive("number of samples", samples);
   return std::min(samples, (alone + share * outer) / (1 + share * outer / samples));
 }
 

@@ -1,0 +1,228 @@
+#include "detp/model/rebuild_law.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "support/not_a_length.hpp"
+#include "support/random_workload.hpp"
+
+using namespace detp;
+using namespace detp::model;
+using doctest::Approx;
+using doctest::Contains;
+
+namespace {
+
+const Workload in_volume = cube_workload(1e6, 1e6, 0.001, 2);
+const Workload on_faces = cube_workload(1e6, 1e6, 0.001, 2, 2);
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("more samples a ball never make a larger share of them start one") {
+    for (const double dimension : {1.0, 2.0, 2.4, 3.0})
+      for (double phase = 0; phase <= 1; phase += 1.0 / 32) {
+        double before = 1;
+        for (double log_lambda = -30; log_lambda < 40; log_lambda += 0.1) {
+          const double share = single_rebuild_share(dimension, std::exp2(log_lambda), phase);
+          REQUIRE(share <= before);
+          REQUIRE(share > 0);
+          before = share;
+        }
+      }
+  }
+
+  TEST_CASE("with ever fewer samples a ball, each starts one, and the rest is in proportion to them") {
+    for (const double dimension : {2.0, 3.0}) {
+      CHECK(single_rebuild_share(dimension, 0, 0.3) == 1);
+      CHECK(single_rebuild_share(dimension, 1e-300, 0.3) == 1);
+      const double rest = 1 - single_rebuild_share(dimension, 1e-6, 0.3);
+      CHECK(rest > 0);
+      CHECK(1 - single_rebuild_share(dimension, 1e-5, 0.3) == Approx(10 * rest).epsilon(1e-3));
+    }
+  }
+
+  TEST_CASE("with ever more samples a ball, the number of balls stays the same") {
+    for (const double dimension : {2.0, 2.5, 3.0})
+      for (const double phase : {0.0, 0.4, 0.9})
+        CHECK(1e9 * single_rebuild_share(dimension, 1e9, phase) ==
+              Approx(1e5 * single_rebuild_share(dimension, 1e5, phase)).epsilon(1e-12));
+  }
+
+  TEST_CASE("the share is continuous in the phase, where it wraps too, and in the number of samples") {
+    support::RandomNumbers random(3);
+    for (int run = 0; run < 2000; ++run) {
+      const double dimension = random.uniform(2, 3);
+      const double lambda = random.log_uniform(1e-5, 1e6);
+      const double phase = random.uniform(0, 0.999);
+      const double share = single_rebuild_share(dimension, lambda, phase);
+      REQUIRE(single_rebuild_share(dimension, lambda, phase + 1e-6) == Approx(share).epsilon(1e-5));
+      REQUIRE(single_rebuild_share(dimension, lambda * (1 + 1e-6), phase) == Approx(share).epsilon(1e-5));
+      REQUIRE(single_rebuild_share(dimension, lambda, 0) == single_rebuild_share(dimension, lambda, 1));
+    }
+  }
+
+  TEST_CASE("between surfaces and volumes, the share lies between theirs; below 2, it is that of surfaces") {
+    support::RandomNumbers random(4);
+    for (int run = 0; run < 2000; ++run) {
+      const double lambda = random.log_uniform(1e-5, 1e6);
+      const double phase = random.uniform(0, 1);
+      const double surface = single_rebuild_share(2, lambda, phase);
+      const double volume = single_rebuild_share(3, lambda, phase);
+      const double between = single_rebuild_share(random.uniform(2, 3), lambda, phase);
+      REQUIRE(between >= std::min(surface, volume) * (1 - 1e-14));
+      REQUIRE(between <= std::max(surface, volume) * (1 + 1e-14));
+      REQUIRE(single_rebuild_share(1.3, lambda, phase) == surface);
+    }
+  }
+
+  TEST_CASE("rebuilds of a ball alone: each sample for none, one for a ball that holds all, falling between") {
+    for (const auto order : {SampleOrder::lebesgue, SampleOrder::none})
+      for (const Workload& w : {in_volume, on_faces}) {
+        CHECK(single_rebuilds(w, 0, order) == w.samples);
+        CHECK(single_rebuilds(w, -0.1, order) == w.samples);
+        CHECK(single_rebuilds(w, 1e-9, order) == Approx(w.samples).epsilon(1e-9));
+        CHECK(single_rebuilds(w, 100, order) == 1);
+        for (double radius = 1e-5; radius < 5; radius *= 1.1) {
+          const double rebuilds = single_rebuilds(w, radius, order);
+          CHECK(rebuilds >= 1);
+          CHECK(rebuilds <= w.samples);
+        }
+      }
+  }
+
+  TEST_CASE("sorting saves rebuilds") {
+    for (const Workload& w : {in_volume, on_faces})
+      for (double radius = 0.01; radius < 0.5; radius *= 1.3)
+        CHECK(single_rebuilds(w, radius, SampleOrder::lebesgue) < single_rebuilds(w, radius, SampleOrder::none));
+  }
+
+  TEST_CASE("rebuilds know no unit of length") {
+    for (double scale : {1e-9, 1e9}) {
+      const Workload scaled = cube_workload(1e6, 1e6, 0.001 * scale, 2 * scale, 2);
+      for (const auto order : {SampleOrder::lebesgue, SampleOrder::none})
+        for (const double radius : {0.01, 0.13, 0.9})
+          CHECK(single_rebuilds(scaled, radius * scale, order) ==
+                Approx(single_rebuilds(on_faces, radius, order)).epsilon(1e-9));
+    }
+  }
+
+  TEST_CASE("a sphere rebuilt with those around it: never less than alone, never more than samples, or than both") {
+    support::RandomNumbers random(6);
+    for (int run = 0; run < 5000; ++run) {
+      const double samples = random.count(1, 1e9);
+      const double alone = random.log_uniform(1, samples + 1e-9);
+      const double outer = random.log_uniform(1, samples + 1e-9);
+      const double share = random.uniform(0, 1);
+      const double chained = chained_rebuilds(alone, outer, share, samples);
+      REQUIRE(chained >= std::min(alone, samples) * (1 - 1e-14));
+      REQUIRE(chained <= samples);
+      REQUIRE(chained <= alone + share * outer);
+      REQUIRE(chained_rebuilds(alone, outer, 0, samples) == std::min(alone, samples));
+    }
+    CHECK(chained_rebuilds(1000, 10, 1, 1000) == 1000);
+    CHECK(chained_rebuilds(100, 50, 1, 1e15) == Approx(150).epsilon(1e-9));
+  }
+
+  TEST_CASE("the share that chains is from 0 to 1, 1 for spheres all alike, and between dimensions in the middle") {
+    for (double q = 0.01; q < 1; q += 0.01) {
+      const double surface = chain_share(2, {q});
+      const double volume = chain_share(3, {q});
+      CHECK(surface >= 0);
+      CHECK(volume <= 1);
+      CHECK(chain_share(2.5, {q}) == Approx((surface + volume) / 2).epsilon(1e-12));
+      CHECK(chain_share(1.5, {q}) == surface);
+    }
+    CHECK(chain_share(3, {1 - 1e-9}) == Approx(1).epsilon(1e-6));
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("samples in a volume: m/n as counted on Morton runs of balls") {
+    const double lambda[] = {0.022, 0.18, 0.85, 2.4, 11, 32, 92, 259, 732};
+    const double counted[] = {0.97, 0.84, 0.60, 0.42, 0.15, 0.083, 0.042, 0.012, 0.009};
+    for (int i = 0; i < 9; ++i) {
+      CAPTURE(lambda[i]);
+      double least = 1;
+      double most = 0;
+      for (int phase = 0; phase <= 32; ++phase) {
+        const double share = single_rebuild_share(3, lambda[i], phase / 32.0);
+        least = std::min(least, share);
+        most = std::max(most, share);
+      }
+      CHECK(counted[i] > 0.9 * least);  // counted at one phase, with two digits
+      CHECK(counted[i] < 1.1 * most);
+    }
+  }
+
+  TEST_CASE("balls of radius ρ in [-1, 1]³ start 37 to 63 ρ^-3 times (volume), 46 to 80 ρ^-2 times (faces)") {
+    for (double radius = 0.05; radius < 0.2; radius *= 1.07) {
+      CHECK(single_rebuilds(cube_workload(1, 1e9, 0.001, 2), radius, SampleOrder::lebesgue) ==
+            Approx(48 * std::pow(radius, -3)).epsilon(0.4));
+      CHECK(single_rebuilds(cube_workload(1, 1e9, 0.001, 2, 2), radius, SampleOrder::lebesgue) ==
+            Approx(61 * std::pow(radius, -2)).epsilon(0.4));
+    }
+  }
+
+  TEST_CASE("unsorted in a cube, all samples but those in the ball start it anew") {
+    const double radius = 0.02;  // small against the side: the cube's ends take little
+    const double share_within = 4 * 3.14159265 / 3 * std::pow(radius / 2, 3);
+    CHECK(in_volume.samples - single_rebuilds(in_volume, radius, SampleOrder::none) ==
+          Approx(in_volume.samples * share_within).epsilon(0.02));
+    // Half the distances in a unit cube are below 0.6616.
+    CHECK(single_rebuilds(in_volume, 2 * 0.66160, SampleOrder::none) == Approx(5e5).epsilon(0.01));
+  }
+
+  TEST_CASE("the share varies with the phase by a factor of about two, where a ball holds many samples") {
+    for (const double dimension : {2.0, 3.0})
+      for (double lambda = 8; lambda < 1e5; lambda *= 1.5) {
+        double least = 1;
+        double most = 0;
+        for (int phase = 0; phase <= 64; ++phase) {
+          const double share = single_rebuild_share(dimension, lambda, phase / 64.0);
+          least = std::min(least, share);
+          most = std::max(most, share);
+        }
+        CHECK(most / least > 1.2);
+        CHECK(most / least < 2.3);
+      }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("numbers that are none, or out of range, are refused by name") {
+    for (const double bad : support::not_a_size)
+      CHECK_THROWS_WITH_AS((void)single_rebuild_share(2, bad, 0), Contains("samples per ball"), std::invalid_argument);
+    for (const double bad : {support::not_a_number, support::infinity, -support::infinity, -1e-9, 1.0001})
+      CHECK_THROWS_WITH_AS((void)single_rebuild_share(2, 1, bad), Contains("phase"), std::invalid_argument);
+    for (const double bad : support::not_a_dimension)
+      CHECK_THROWS_WITH_AS((void)single_rebuild_share(bad, 1, 0), Contains("sample dimension"), std::invalid_argument);
+  }
+
+  TEST_CASE("a workload, ratio or number of rebuilds out of range is refused by name") {
+    for (const double bad : support::not_a_count) {
+      Workload w = in_volume;
+      w.samples = bad;
+      for (const auto order : {SampleOrder::lebesgue, SampleOrder::none})
+        CHECK_THROWS_WITH_AS((void)single_rebuilds(w, 0.1, order), Contains("number of samples"),
+                             std::invalid_argument);
+    }
+    CHECK_THROWS_WITH_AS((void)single_rebuilds(in_volume, support::not_a_number, SampleOrder::lebesgue),
+                         Contains("radius of the ball"), std::invalid_argument);
+    for (const double bad : support::not_a_ratio)
+      CHECK_THROWS_WITH_AS((void)chain_share(3, {bad}), Contains("radius ratio Q"), std::invalid_argument);
+    for (const double bad : support::not_a_dimension)
+      CHECK_THROWS_WITH_AS((void)chain_share(bad, {0.5}), Contains("sample dimension"), std::invalid_argument);
+    for (const double bad : support::not_a_size) {
+      CHECK_THROWS_WITH_AS((void)chained_rebuilds(bad, 1, 0.5, 10), Contains("rebuilds"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)chained_rebuilds(1, bad, 0.5, 10), Contains("rebuilds"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)chained_rebuilds(1, 1, bad, 10), Contains("share"), std::invalid_argument);
+    }
+    for (const double bad : support::not_a_length)
+      CHECK_THROWS_WITH_AS((void)chained_rebuilds(1, 1, 0.5, bad), Contains("number of samples"),
+                           std::invalid_argument);
+  }
+}
