@@ -4,15 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
+#include <limits>
 #include <new>
 #include <stdexcept>
 #include <thread>
 
 #include "command.hpp"
+#include "detp/model/vocabulary.hpp"
 #include "detp/sim/scene/file_error.hpp"
 #include "detp/sim/scene/output_file.hpp"
 #include "interruption.hpp"
@@ -53,14 +56,21 @@ void print(const std::string& text, const CommonOptions& common) {
   }
 }
 
+/// Why the text is no seed, or "". The parser would turn -1 and what is beyond 2⁶⁴ into other seeds, silently.
+std::string seed_error(const std::string& text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error == std::errc{} && end == text.data() + text.size()) return {};
+  return fmt::format("must be a whole number from 0 to {} (got {})", std::numeric_limits<std::uint64_t>::max(), text);
+}
+
 void add_common_options(CLI::App& command, CommonOptions& common) {
   command.add_option("--format", common.format, "text, json or csv")->check(CLI::IsMember({"text", "json", "csv"}));
   command.add_option("--output", common.output, "write the result to a file instead of stdout");
   command.add_flag("--quiet", common.quiet, "no notices, no progress");
-  command.add_option("--seed", common.seed, "of everything random");
+  command.add_option("--seed", common.seed, "of everything random")->check(seed_error);
   command.add_option("--threads", common.threads, "default: all cores")->check(CLI::Range(0, 4096));
-  command.add_option("--time-limit", common.time_limit, "stop after that many seconds and show what there is")
-      ->check(CLI::NonNegativeNumber);
+  command.add_option("--time-limit", common.time_limit, "stop after that many seconds and show what there is");
 }
 
 int run(const Command& command, const CommonOptions& common, Interruption& interruption) {
@@ -68,6 +78,7 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   const int threads = common.threads > 0 ? common.threads : cores;
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads));
+  require_non_negative("--time-limit", common.time_limit);
   interruption.limit(common.time_limit);
   Result result = command.run(common, interruption.token());
   if (common.format == "json") {
@@ -90,11 +101,14 @@ int guarded_main(int argc, char** argv) {
   Interruption interruption;
   CLI::App program("Predicts, runs and checks techniques that find which rays cross which discs.", "detp");
   program.set_version_flag("--version", "detp " DETP_VERSION);
-  program.require_subcommand(1);
+  program.require_subcommand(0, 1);  // with 1 needed, an unknown command would be reported as a missing one
   CommonOptions common;
   const std::array commands{model_command(program), choose_command(program), run_command(program),
                             validate_command(program), scene_command(program)};
   for (const Command& command : commands) add_common_options(*command.app, common);
+  for (int i = 1; i < argc; ++i)
+    if (*argv[i] == '\0')  // the parser would take an empty value for none, as of --rays "$n" where n is not set
+      throw std::invalid_argument(fmt::format("argument {} is empty, after {}; give it a value", i, argv[i - 1]));
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -103,7 +117,7 @@ int guarded_main(int argc, char** argv) {
   }
   for (const Command& command : commands)
     if (command.app->parsed()) return run(command, common, interruption);
-  throw std::logic_error("no command was run");
+  throw std::invalid_argument("a command is needed: model, choose, run, validate or scene (detp --help tells more)");
 }
 
 }  // namespace

@@ -116,6 +116,31 @@ TEST_SUITE("bad input") {
                    {"choose @cornell --rays 1e17", "GB"},
                    {uniform + "--technique grid --cells 1000000", "GB"}});
   }
+
+  TEST_CASE("a missing command is told from an unknown one, which is named") {
+    check_refused({{"", "a command is needed: model, choose, run, validate or scene"},
+                   {"quux", "quux"},
+                   {"quux --rays 5", "quux"},
+                   {"--format json", "--format"}});
+  }
+
+  TEST_CASE("a seed is a whole number below 2^64, and no other is taken instead") {
+    check_refused(each(numbers + "--seed", {"-1", "1.5", "nan", "x", "1e3", "18446744073709551616"}, "--seed"));
+    CHECK(result_of(numbers + "--seed 18446744073709551615")["provenance"]["seed"] == UINT64_MAX);
+  }
+
+  TEST_CASE("a time limit is a finite number of seconds from 0; a very long one is none") {
+    check_refused(each(uniform + "--time-limit", {"-1", "nan", "inf", "x"}, "--time-limit"));
+    CHECK(
+        result_of("run @uniform --samples 20000 --rays 20000 --technique brute-force --time-limit 1e300")["stopped"] ==
+        false);
+  }
+
+  TEST_CASE("an empty value is refused, not taken for none") {
+    for (const std::string option : {"--rays", "--samples", "--disc-radius", "--sample-extent", "--output", "--costs"})
+      check_refused({{words(numbers) + Arguments{option, ""}, option}});
+    check_refused({{Arguments{"run", ""}, "argument 2 is empty"}});
+  }
 }
 
 }  // namespace detp::support
