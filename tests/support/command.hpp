@@ -12,6 +12,7 @@
 #include <iterator>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -149,6 +150,12 @@ inline void check_refused(const std::vector<Refusal>& refusals) {
     CHECK(finished.err.find('\n') + 1 == finished.err.size());
     CHECK(finished.err.find(refusals[i].named) != std::string::npos);
   }
+}
+
+/// Whether "nan" or "inf" stands in the text as a number would, be it with a sign before or an x after it.
+inline bool has_no_number(const std::string& text) {
+  static const std::regex no_number("(^|[^a-z])(nan|inf)(x?)($|[^a-z])", std::regex::icase);
+  return std::regex_search(text, no_number);
 }
 
 /// A result without what differs from run to run by nature: times and the number of threads.

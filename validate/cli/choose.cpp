@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cmath>
 #include <stdexcept>
 
 #include "choose_report.hpp"
@@ -23,6 +24,12 @@ void decide(ChooseAnswer& answer, const UnitCosts& costs) {
   const auto start = std::chrono::steady_clock::now();
   answer.ranking = model::rank(answer.workload, costs);
   answer.choosing_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double fastest = answer.ranking.front().time.total();
+  if (!(fastest > 0 && std::isfinite(answer.ranking.back().time.total())))
+    throw std::invalid_argument(
+        fmt::format("with these unit costs the candidates take from {} to {} s, which cannot be compared; "
+                    "give every operation a cost > 0, in seconds",
+                    fastest, answer.ranking.back().time.total()));
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs);
 }
 

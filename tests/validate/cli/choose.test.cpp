@@ -1,0 +1,87 @@
+#include <doctest/doctest.h>
+
+#include "support/command.hpp"
+
+namespace detp::support {
+namespace {
+
+void check_ranked(const Json& json) {
+  const Json& candidates = json.at("candidates");
+  REQUIRE(candidates.size() >= 2);
+  double last = 0;
+  for (const Json& candidate : candidates) {
+    CHECK(candidate.at("predicted_seconds").get<double>() >= last);
+    last = candidate.at("predicted_seconds");
+    CHECK(candidate.contains("why_not") == (&candidate != &candidates.front()));
+    CHECK(candidate.at("technique") != "sphere-cache-published");
+  }
+  CHECK(last > 0);
+  CHECK(json.at("choice").at("technique") == candidates[0].at("technique"));
+  CHECK(json.at("choice").at("parameters") == candidates[0].at("parameters"));
+  CHECK(json.at("choice").at("predicted_seconds") == candidates[0].at("predicted_seconds"));
+}
+
+}  // namespace
+
+TEST_SUITE("end to end") {
+  TEST_CASE("numbers alone are answered at once, ranked by predicted time") {
+    for (const std::string workload :
+         {"--rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2", "--rays 1 --samples 1 --disc-radius 1e-3",
+          "--rays 1e18 --samples 1e18 --disc-radius 1e-9", "--rays 1e6 --samples 10 --disc-radius 50%",
+          "--rays 1e6 --samples 1e6 --disc-radius 1% --dimension 2", "--samples 100 --disc-radius 10"}) {
+      const std::string line =
+          "choose " + workload + (workload.find("side") == std::string::npos ? " --scene-side 1" : "");
+      CAPTURE(line);
+      const Finished finished = detp(line + " --format json");
+      CHECK(finished.code == 0);
+      CHECK(finished.seconds < 1);
+      check_ranked(finished.json());
+      for (const std::string format : {"text", "csv", "json"})
+        CHECK_FALSE(has_no_number(detp(line + " --format " + format).out));
+    }
+  }
+
+  TEST_CASE("--analyze adds what was counted and measured, and the regret") {
+    const std::string line = "choose @cornell --rays 1000 --analyze";
+    const Json json = result_of(line);
+    check_ranked(json);
+    CHECK(json.at("regret").get<double>() >= 0);
+    CHECK(json.at("stopped") == false);
+    std::uint64_t hits = 0;
+    double fastest = json.at("candidates")[0].at("measured_seconds");
+    const double choice = fastest;
+    for (const Json& candidate : json.at("candidates")) {
+      CAPTURE(candidate.dump());
+      if (candidate.contains("not_run")) continue;
+      CHECK(candidate.at("measured_seconds").get<double>() > 0);
+      fastest = std::min(fastest, candidate.at("measured_seconds").get<double>());
+      const std::uint64_t found = candidate.at("counted").at("hits");
+      CHECK(found > 0);
+      if (hits > 0) CHECK(found == hits);
+      hits = found;
+    }
+    CHECK(json.at("regret").get<double>() == doctest::Approx(choice / fastest - 1));
+    for (const std::string format : {"text", "csv", "json"})
+      CHECK_FALSE(has_no_number(detp(line + " --format " + format).out));
+  }
+
+  TEST_CASE("given unit costs decide: where only stepping is dear, all rays are tested") {
+    const Json json = result_of(
+        "choose --rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2 --costs "
+        "t=1,u=1e-12,v=1,n=1,c=1,b=1,s=1,r=1");
+    check_ranked(json);
+    CHECK(json.at("choice").at("technique") == "brute-force");
+    CHECK(json.at("choice").at("predicted_seconds").get<double>() == doctest::Approx(0.01));
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("unit costs that leave nothing to compare are refused by choose") {
+    const std::string choose = "choose --samples 10 --disc-radius 0.1 --scene-side 1 --costs ";
+    check_refused({{choose + "u=0", "cannot be compared"},
+                   {choose + "t=0,u=0,v=0,n=0,c=0,b=0,s=0,r=0", "cannot be compared"},
+                   {choose + "t=1e308,u=1e308", "cannot be compared"}});
+  }
+}
+
+}  // namespace detp::support
