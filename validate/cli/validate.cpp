@@ -58,31 +58,43 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
   return experiment;
 }
 
+/// Null where the number is not known: an error of observations that were all zero.
+Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
+
+/// A field of CSV; empty likewise.
+std::string known_field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
+
 Json to_json(const Claim& claim) {
   return {{"id", claim.id},
           {"quantity", claim.quantity},
           {"form", name(claim.form)},
           {"source", claim.source},
-          {"predicted", claim.predicted},
-          {"observed", claim.observed.mean},
-          {"standard_error", claim.observed.standard_error},
-          {"relative_difference", claim.relative_difference},
+          {"predicted", known(claim.predicted)},
+          {"observed", known(claim.observed.mean)},
+          {"standard_error", known(claim.observed.standard_error)},
+          {"relative_difference", known(claim.relative_difference)},
           {"tolerance", claim.tolerance},
-          {"detectable", claim.detectable},
+          {"detectable", known(claim.detectable)},
           {"verdict", name(claim.verdict)},
-          {"control", {{"predicted", claim.control}, {"verdict", name(claim.control_verdict)}}},
+          {"control", {{"predicted", known(claim.control)}, {"verdict", name(claim.control_verdict)}}},
           {"lines", claim.lines},
           {"seconds", claim.seconds}};
+}
+
+/// A field of the text; "?" likewise.
+std::string known_text(double number, const char* shape) {
+  return std::isfinite(number) ? fmt::format(fmt::runtime(shape), number) : "?";
 }
 
 std::string to_text(const std::vector<Claim>& claims) {
   std::string text = fmt::format("{:<36} {:>11} {:>11} {:>9} {:>8} {:>6} {:>7}  {:<9}  {}\n", "claim", "predicted",
                                  "observed", "± error", "differs", "within", "detects", "verdict", "5 % off");
   for (const Claim& claim : claims)
-    text += fmt::format("{:<36} {:>11.5g} {:>11.5g} {:>9.1g} {:>+7.2f}% {:>5.2g}% {:>6.2g}%  {:<9}  {}\n", claim.id,
-                        claim.predicted, claim.observed.mean, claim.observed.standard_error,
-                        100 * claim.relative_difference, 100 * claim.tolerance, 100 * claim.detectable,
-                        name(claim.verdict), name(claim.control_verdict));
+    text += fmt::format("{:<36} {:>11} {:>11} {:>9} {:>7}% {:>5.2g}% {:>6}%  {:<9}  {}\n", claim.id,
+                        known_text(claim.predicted, "{:.5g}"), known_text(claim.observed.mean, "{:.5g}"),
+                        known_text(claim.observed.standard_error, "{:.1g}"),
+                        known_text(100 * claim.relative_difference, "{:+.2f}"), 100 * claim.tolerance,
+                        known_text(100 * claim.detectable, "{:.2g}"), name(claim.verdict), name(claim.control_verdict));
   return text;
 }
 
@@ -118,9 +130,10 @@ std::string to_csv(const std::vector<Claim>& claims) {
       "control_verdict,lines,seconds\n";
   for (const Claim& claim : claims)
     csv += fmt::format("{},{},\"{}\",{},{},{},{},{},{},{},{},{},{}\n", claim.id, name(claim.form), claim.source,
-                       claim.predicted, claim.observed.mean, claim.observed.standard_error, claim.relative_difference,
-                       claim.tolerance, claim.detectable, name(claim.verdict), name(claim.control_verdict), claim.lines,
-                       claim.seconds);
+                       known_field(claim.predicted), known_field(claim.observed.mean),
+                       known_field(claim.observed.standard_error), known_field(claim.relative_difference),
+                       claim.tolerance, known_field(claim.detectable), name(claim.verdict), name(claim.control_verdict),
+                       claim.lines, claim.seconds);
   return csv;
 }
 
