@@ -134,7 +134,7 @@ TEST_SUITE("end to end") {
 
   TEST_CASE("notices go to stderr, and --quiet keeps them") {
     const sim::support::ScratchFolder folder;
-    const std::string mesh = folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv nan 0 0\nf 1 2 3\n");
+    const std::string mesh = folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv nan 0 0\nf 1 2 3\nf 1 3 4\n");
     for (const std::string name : {"scene", "run", "choose", "model"}) {
       CAPTURE(name);
       const Arguments arguments = Arguments{name, mesh} + words("--rays 100 --disc-radius 10% --format json");

@@ -1,0 +1,147 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "support/command.hpp"
+
+namespace detp::support {
+namespace {
+
+using doctest::Approx;
+
+constexpr double rays = 3e5;
+constexpr double samples = 2e4;
+constexpr double disc = 0.01;
+constexpr double outer = 1.7;
+const std::string numbers =
+    "model --rays 300000 --samples 20000 --disc-radius 0.01 --sphere-radius 1.7 --costs t=3,u=5 ";
+
+Approx near(double value) { return Approx(value).epsilon(1e-12); }
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the published sphere cache is the sum of the paper's terms") {
+    for (const double ratio : {0.3, 0.5, 0.65, 0.8}) {
+      CAPTURE(ratio);
+      const Json json = result_of(numbers + "--form published --ratio " + std::to_string(ratio));
+      const auto k = static_cast<int>(std::ceil(std::log(disc / outer) / std::log(ratio)));
+      CHECK(json.at("k") == k);
+      REQUIRE(json.at("spheres").size() == static_cast<std::size_t>(k));
+      double rebuild_time = 0;
+      for (int i = 1; i <= k; ++i) {
+        const Json& sphere = json.at("spheres")[static_cast<std::size_t>(i - 1)];
+        const double rebuilds = std::pow(ratio, -3 * i);
+        const double cost = 3 * rays * std::pow(ratio, 2 * (i - 1));
+        CHECK(sphere.at("i") == i);
+        CHECK(sphere.at("radius").get<double>() == near(outer * std::pow(ratio, i)));
+        CHECK(sphere.at("rays").get<double>() == near(rays * std::pow(ratio, 2 * i)));
+        CHECK(sphere.at("rebuilds").get<double>() == near(rebuilds));
+        CHECK(sphere.at("rebuild_cost").get<double>() == near(cost));
+        rebuild_time += std::min(samples, rebuilds) * cost;
+      }
+      const double intersect_time = 5 * samples * rays * std::pow(ratio, 2 * k);
+      CHECK(json.at("rebuild_time").get<double>() == near(rebuild_time));
+      CHECK(json.at("intersect_time").get<double>() == near(intersect_time));
+      CHECK(json.at("total_time").get<double>() == near(rebuild_time + intersect_time));
+    }
+  }
+
+  TEST_CASE("the corrected sphere cache ends at the last sphere that holds a disc, and its parts make its total") {
+    for (const double ratio : {0.3, 0.5, 0.65, 0.8}) {
+      CAPTURE(ratio);
+      const Json json = result_of(numbers + "--ratio " + std::to_string(ratio));
+      CHECK(json.at("form") == "corrected");
+      CHECK(json.at("k") == static_cast<int>(std::floor(std::log(disc / outer) / std::log(ratio))));
+      CHECK(json.at("spheres").back().at("radius").get<double>() >= disc);
+      double rebuild_time = 0;
+      double listed = rays;
+      for (const Json& sphere : json.at("spheres")) {
+        const int i = sphere.at("i");
+        CHECK(sphere.at("rays").get<double>() == near(rays * std::pow(ratio, 2 * i)));
+        CHECK(sphere.at("rebuild_cost").get<double>() == near(3 * listed));
+        CHECK(sphere.at("rebuilds").get<double>() <= samples * (1 + 1e-12));
+        rebuild_time += sphere.at("rebuilds").get<double>() * sphere.at("rebuild_cost").get<double>();
+        listed = sphere.at("listed");
+        CHECK(listed <= sphere.at("rays").get<double>() * (1 + 1e-12));
+      }
+      CHECK(json.at("rebuild_time").get<double>() == Approx(rebuild_time).epsilon(1e-9));
+      CHECK(json.at("intersect_time").get<double>() == near(5 * samples * listed));
+      CHECK(json.at("total_time").get<double>() ==
+            near(json.at("rebuild_time").get<double>() + json.at("intersect_time").get<double>()));
+    }
+  }
+
+  TEST_CASE("--levels limits the spheres listed, not those reckoned with") {
+    const Json all = result_of(numbers);
+    const Json few = result_of(numbers + "--levels 2");
+    CHECK(few.at("spheres").size() == 2);
+    CHECK(few.at("spheres")[1] == all.at("spheres")[1]);
+    CHECK(few.at("total_time") == all.at("total_time"));
+  }
+
+  TEST_CASE("a disc as large as S0 leaves no sphere, and every ray meets every disc") {
+    for (const std::string radius : {"1", "1.5", "100"})
+      for (const std::string form : {"corrected", "published"}) {
+        CAPTURE(radius);
+        CAPTURE(form);
+        const Json json = result_of("model --rays 300 --samples 20 --sphere-radius 1 --costs u=5 --disc-radius " +
+                                    radius + " --form " + form);
+        CHECK(json.at("k") == 0);
+        CHECK(json.at("spheres").empty());
+        CHECK(json.at("rebuild_time") == 0);
+        CHECK(json.at("total_time").get<double>() == near(5.0 * 300 * 20));
+      }
+  }
+
+  TEST_CASE("brute force tests every ray against every disc") {
+    CHECK(result_of(numbers + "--technique brute-force").at("total_time").get<double>() == near(5 * rays * samples));
+  }
+
+  TEST_CASE("the published octree is eq 22") {
+    const std::string octree =
+        "model --rays 1000 --samples 4096 --disc-radius 0.01 --scene-side 2 --costs u=5 --technique octree ";
+    const Json json = result_of(octree + "--form published");
+    CHECK(json.at("depth") == 6);  // 2/(2 · 0.01) = 100, between 2^6 and 2^7
+    const Json four = result_of(octree + "--form published --depth 4");
+    CHECK(four.at("cells_per_line").get<double>() == near(16));
+    CHECK(four.at("discs_per_cell").get<double>() == near(1));
+    CHECK(four.at("tests_per_line").get<double>() == near(16));
+    CHECK(four.at("total_time").get<double>() == near(5.0 * 4 * 1000 * 16));
+  }
+
+  TEST_CASE("a cube of n cells a side has n cells on a line, which tests what lies in them") {
+    const std::string cube = "model --rays 1000 --samples 4096 --disc-radius 0.01 --scene-side 2 --costs u=5 ";
+    const double x = 0.01 / (2.02 / 16);
+    const double endless = 1 + 1.5 * 3.14159265358979 * (x + x * x);
+    for (const std::string index : {"--technique octree --depth 4", "--technique grid --cells 16"}) {
+      CAPTURE(index);
+      const Json json = result_of(cube + index);
+      const double overlapped = json.at("cells_per_disc");
+      CHECK(overlapped > 1);
+      CHECK(overlapped < endless);
+      CHECK(overlapped > 1 + 0.9 * (endless - 1));
+      CHECK(json.at("cells_per_line").get<double>() == near(16));
+      CHECK(json.at("discs_per_cell").get<double>() == near(overlapped));
+      CHECK(json.at("tests_per_line").get<double>() == near(16 * overlapped));
+      const double hit_box = 6 * 2.02 * 2.02 / (4 * 3.141592653589793 * std::pow(std::sqrt(3.0) + 0.01, 2));
+      CHECK(json.at("intersect_time").get<double>() == near(5 * 1000 * hit_box * 16 * overlapped));
+    }
+  }
+
+  TEST_CASE("side and sphere radius give each other, and a percentage is one of the side") {
+    const Json side = result_of("model --samples 10 --disc-radius 0.05 --scene-side 2").at("inputs");
+    CHECK(side.at("sphere_radius").get<double>() == near(std::sqrt(3.0) + 0.05));
+    CHECK(side.at("rays") == 100000);
+    const Json sphere = result_of("model --samples 10 --disc-radius 0.05 --sphere-radius 1").at("inputs");
+    CHECK(sphere.at("scene_side").get<double>() == near(0.95 * 2 / std::sqrt(3.0)));
+    const Json share = result_of("model --samples 10 --disc-radius 4% --scene-side 2").at("inputs");
+    CHECK(share.at("disc_radius").get<double>() == near(0.08));
+    const Json both = result_of("model --samples 10 --disc-radius 4% --sphere-radius 1").at("inputs");
+    CHECK(both.at("disc_radius").get<double>() == near(0.04 * both.at("scene_side").get<double>()));
+    CHECK(both.at("scene_side").get<double>() * std::sqrt(0.75) + both.at("disc_radius").get<double>() == near(1));
+  }
+}
+
+}  // namespace detp::support
