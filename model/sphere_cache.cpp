@@ -98,13 +98,19 @@ class Walk {
 }  // namespace
 
 double listed_share(const SphereLevel& sphere, const std::vector<Enclosing>& outwards, DiscRadius disc) {
+  require_non_negative("sphere radius", sphere.radius);
+  require_positive("rebuilds of the sphere", sphere.rebuilds);
+  require_positive("disc radius", disc.value);
   static const OffsetShares offset_shares;
   double product = 1;
   double least = 1;
   for (const Enclosing& outer : outwards) {
+    require_non_negative("sphere radius", outer.radius);
+    require_non_negative("rebuilds of the outer sphere", outer.rebuilds);
     const double concentric = std::min(1.0, outer.rebuilds / sphere.rebuilds);
     const double reach = std::max(0.0, 1 - disc.value / outer.radius);
-    const double share = concentric + (1 - concentric) * offset_shares(sphere.radius / outer.radius, reach);
+    const double size = outer.radius > 0 ? sphere.radius / outer.radius : 1;  // both may be too small for a double
+    const double share = concentric + (1 - concentric) * offset_shares(size, reach);
     product *= share;
     least = std::min(least, share);
   }
