@@ -31,6 +31,8 @@ double overlapped_cells(double x) {
 }
 
 Cells index_cells(const Workload& workload, double parts) {
+  check(workload);
+  require_positive("cells along the longest side", parts);
   const double d = workload.disc_radius;
   Cells cells{.side = (scene_side(workload) + 2 * d) / parts};
   std::array<double, 3> f{};
@@ -47,6 +49,8 @@ Cells index_cells(const Workload& workload, double parts) {
 }
 
 double occupied_cells(const Workload& workload, const Cells& cells) {
+  check(workload);
+  require_positive("cell side", cells.side);
   const double on_surface =
       std::min(cells.count(), std::max(1.0, 1.5 * sample_extent(workload) / (cells.side * cells.side)));
   const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);

@@ -60,6 +60,9 @@ double cube_hit_probability(double side, SphereRadius outer) {
 }
 
 double crossing_probability(const Workload& workload, double volume, double area) {
+  check(workload);
+  require_non_negative("volume of the body", volume);
+  require_non_negative("surface area of the body", area);
   if (workload.path_length <= 0)
     return std::min(1.0, area / (4 * pi * workload.sphere_radius * workload.sphere_radius));
   double space = 1;

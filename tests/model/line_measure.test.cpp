@@ -166,4 +166,17 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_WITH_AS((void)cube_hit_probability(1.1548, {1}), Contains("half the cube's diagonal"),
                          std::invalid_argument);
   }
+
+  TEST_CASE("a workload or a body out of range is refused by name") {
+    for (const double bad : support::not_a_count) {
+      Workload w = in_cube();
+      w.rays = bad;
+      CHECK_THROWS_WITH_AS((void)crossing_probability(w, 1, 1), Contains("number of rays"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)expected_hits(w), Contains("number of rays"), std::invalid_argument);
+    }
+    for (const double bad : support::not_a_size) {
+      CHECK_THROWS_WITH_AS((void)crossing_probability(in_cube(), bad, 1), Contains("volume"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)crossing_probability(in_cube(), 1, bad), Contains("area"), std::invalid_argument);
+    }
+  }
 }
