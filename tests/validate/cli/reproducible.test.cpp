@@ -1,0 +1,42 @@
+#include <doctest/doctest.h>
+
+#include "run_support.hpp"
+
+namespace detp::support {
+
+TEST_SUITE("end to end") {
+  TEST_CASE("the number of threads changes nothing but the time") {
+    for (const std::string technique : {"brute-force", "sphere-cache", "sphere-cache-published", "octree", "grid"}) {
+      CAPTURE(technique);
+      const std::string options = "--technique " + technique + " --threads ";
+      const Written one = run_and_read(words("run @cornell --rays 5000"), options + "1");
+      const Written two = run_and_read(words("run @cornell --rays 5000"), options + "2");
+      CHECK(one == two);
+      CHECK(without_times(one.json) == without_times(two.json));
+      CHECK(one.json.at("provenance").at("threads") == 1);
+      CHECK(two.json.at("provenance").at("threads") == 2);
+    }
+    for (const std::string line :
+         {"choose @cornell --rays 1000", "scene @cornell --rays 5000", "scene @uniform --samples 5000 --rays 5000",
+          "model @cornell --rays 5000", "validate --samples 500 --rays 1000"}) {
+      CAPTURE(line);
+      const Finished one = detp(line + " --format json --threads 1");
+      const Finished two = detp(line + " --format json --threads 2");
+      CHECK(one.code == two.code);
+      CHECK(without_times(one.json()) == without_times(two.json()));
+    }
+  }
+
+  TEST_CASE("the same seed gives the same bytes, another seed other hits") {
+    for (const std::string problem : {"run @cornell --rays 5000", "run @uniform --samples 2000 --rays 2000",
+                                      "run --samples 2000 --rays 2000 --disc-radius 0.1 --scene-side 2"}) {
+      CAPTURE(problem);
+      const Written first = run_and_read(words(problem), "--seed 3");
+      CHECK(run_and_read(words(problem), "--seed 3") == first);
+      CHECK_FALSE(run_and_read(words(problem), "--seed 4") == first);
+      CHECK(run_and_read(words(problem), "") == run_and_read(words(problem), "--seed 1"));
+    }
+  }
+}
+
+}  // namespace detp::support

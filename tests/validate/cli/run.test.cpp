@@ -1,0 +1,189 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "run_support.hpp"
+
+namespace detp::support {
+namespace {
+
+using sim::support::ScratchFolder;
+
+/// The contract's words for a hit, as plainly as they can be put.
+bool crosses(const sim::Ray& ray, const sim::Disc& disc, bool front_facing) {
+  const double slope = glm::dot(ray.direction, disc.normal);
+  if (slope == 0 || (front_facing && slope > 0)) return false;
+  const double way = glm::dot(disc.centre - ray.origin, disc.normal) / slope;
+  if (std::isfinite(ray.length) && !(way >= 0 && way <= ray.length)) return false;
+  return glm::length(ray.origin + way * ray.direction - disc.centre) <= disc.radius;
+}
+
+/// The user's own data in files.
+struct OwnData {
+  ScratchFolder folder;
+  std::vector<sim::Disc> discs = mixed_discs(300);
+  std::vector<sim::Ray> rays = mixed_rays(800);
+  Arguments csv{"run", "--discs", folder.path("discs.csv"), "--ray-file", folder.path("rays.csv")};
+  Arguments ply{"run", "--discs", folder.path("discs.ply"), "--ray-file", folder.path("rays.ply")};
+
+  OwnData() {
+    sim::write_discs(csv[2], discs);
+    sim::write_rays(csv[4], rays);
+    to_ply("discs");
+    to_ply("rays");
+  }
+
+  void to_ply(const std::string& name) const {
+    const std::string table = sim::support::content_of(folder.path(name + ".csv"));
+    const std::vector<std::string> rows = rows_of(table);
+    std::string text = fmt::format("ply\nformat ascii 1.0\nelement vertex {}\n", rows.size());
+    std::istringstream header(table.substr(0, table.find('\n')));
+    for (std::string column; std::getline(header, column, ',');) text += "property double " + column + "\n";
+    text += "end_header\n";
+    for (std::string row : rows) {
+      std::replace(row.begin(), row.end(), ',', ' ');
+      text += row + "\n";
+    }
+    folder.file(name + ".ply", text);
+  }
+
+  [[nodiscard]] std::string expected_pairs(bool front_facing) const {
+    std::string text = "ray,disc\n";
+    for (std::size_t ray = 0; ray < rays.size(); ++ray)
+      for (std::size_t disc = 0; disc < discs.size(); ++disc)
+        if (crosses(rays[ray], discs[disc], front_facing)) text += fmt::format("{},{}\n", ray, disc);
+    return text;
+  }
+};
+
+std::vector<std::string> sorted_rows(const std::string& csv) {
+  std::vector<std::string> rows = rows_of(csv);
+  std::sort(rows.begin(), rows.end());
+  return rows;
+}
+
+}  // namespace
+
+TEST_SUITE("end to end") {
+  TEST_CASE("own discs and rays: brute force finds what the definition of a hit says, in input order") {
+    const OwnData data;
+    for (const bool front_facing : {false, true}) {
+      const Written written =
+          run_and_read(data.csv, front_facing ? "--technique brute-force --front-facing" : "--technique brute-force");
+      CHECK(written.pairs == data.expected_pairs(front_facing));
+      const std::vector<std::string> rows = rows_of(written.per_disc);
+      REQUIRE(rows.size() == data.discs.size());
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        std::uint64_t hits = 0;
+        double power = 0;
+        for (const sim::Ray& ray : data.rays)
+          if (crosses(ray, data.discs[i], front_facing)) {
+            ++hits;
+            power += ray.power;
+          }
+        const std::string start = fmt::format("{},{},", i, hits);
+        CHECK(rows[i].starts_with(start));
+        const double area = std::numbers::pi * data.discs[i].radius * data.discs[i].radius;
+        CHECK(std::stod(rows[i].substr(start.size())) == doctest::Approx(power / area).epsilon(1e-12));
+      }
+    }
+  }
+
+  TEST_CASE("own discs and rays: every technique writes the bytes that brute force writes") {
+    const OwnData data;
+    const Written both = check_all_agree(data.csv);
+    const Written front = check_all_agree(data.csv + words("--front-facing"));
+    CHECK(front.hits < both.hits);
+    CHECK(front.hits > 0);
+    CHECK(rows_of(both.pairs).size() == both.hits);
+  }
+
+  TEST_CASE("PLY files mean the same as CSV files") {
+    const OwnData data;
+    CHECK(run_and_read(data.ply, "--technique brute-force") == run_and_read(data.csv, "--technique brute-force"));
+    CHECK(run_and_read(data.ply, "--technique octree") == run_and_read(data.csv, "--technique grid"));
+  }
+
+  TEST_CASE("lines and photon paths: every technique writes the bytes that brute force writes") {
+    check_all_agree(words("run @uniform --samples 2000 --rays 2000"));
+    check_all_agree(words("run @cornell --rays 3000"));
+    check_all_agree(words("run @cornell --rays 2000 --front-facing --disc-radius 8% --samples 1500"));
+    check_all_agree(words("run @cornell --rays 1000 --field isotropic --samples 2000"));
+    check_all_agree(words("run --samples 1000 --rays 1000 --disc-radius 5% --scene-side 3 --dimension 2"));
+  }
+
+  TEST_CASE("the published sphere cache loses hits and never adds one") {
+    const OwnData data;
+    for (const Arguments& problem : {data.csv, words("run @uniform --samples 3000 --rays 2000")}) {
+      CAPTURE(line_of(problem));
+      const auto all = sorted_rows(run_and_read(problem, "--technique brute-force").pairs);
+      const auto kept =
+          sorted_rows(run_and_read(problem, "--technique sphere-cache-published --ratio 0.65 --spheres 4").pairs);
+      CHECK(kept.size() < all.size());
+      CHECK(kept.size() > all.size() / 10);
+      CHECK(std::includes(all.begin(), all.end(), kept.begin(), kept.end()));
+    }
+  }
+
+  TEST_CASE("CSV on stdout is the file of --per-disc, and text tells the same number of hits") {
+    const std::string run = "run @cornell --rays 2000 --technique grid";
+    const Written written = run_and_read(words(run), "");
+    CHECK(detp(run + " --format csv").out == written.per_disc);
+    CHECK(detp(run).out.find(fmt::format("hits      {},", written.hits)) != std::string::npos);
+  }
+
+  TEST_CASE("the phases make up the time, and --repeat tells every run's") {
+    for (const std::string repeat : {"", " --repeat 3", " --repeat 4"}) {
+      const Json json = result_of("run @cornell --rays 2000 --technique sphere-cache" + repeat);
+      const Json& seconds = json.at("seconds");
+      double phases = 0;
+      for (const std::string phase : {"prepare", "order", "build", "search"}) {
+        CHECK(seconds.at(phase).get<double>() >= 0);
+        phases += seconds.at(phase).get<double>();
+      }
+      CHECK(seconds.at("total").get<double>() >= phases * (1 - 1e-9));
+      CHECK(seconds.at("search").get<double>() > 0);
+      CHECK(json.at("read_seconds").get<double>() > 0);
+      CHECK(seconds.contains("all") == !repeat.empty());
+      if (repeat.empty()) continue;
+      CHECK(seconds.at("all").size() == (repeat.back() == '3' ? 3 : 4));
+      const auto& all = seconds.at("all");
+      CHECK(std::find(all.begin(), all.end(), seconds.at("total")) != all.end());
+    }
+  }
+
+  TEST_CASE("the files of `scene` are read back to the same result") {
+    const ScratchFolder folder;
+    const Arguments scene = words("scene @cornell --rays 1000 --samples 1500");
+    const std::string discs = folder.path("discs.csv");
+    const std::string rays = folder.path("rays.csv");
+    const std::string mesh = folder.path("mesh.ply");
+    CHECK(detp(scene + Arguments{"--write-discs", discs, "--write-rays", rays, "--write-mesh", mesh}).code == 0);
+    const Written direct = run_and_read(words("run @cornell --rays 1000 --samples 1500"), "--technique grid");
+    CHECK(run_and_read({"run", "--discs", discs, "--ray-file", rays}, "--technique octree").pairs == direct.pairs);
+    const Json copy = result_of({"scene", mesh, "--rays", "1"});
+    CHECK(copy.at("triangles") == result_of("scene @cornell --rays 1").at("triangles"));
+  }
+}
+
+TEST_SUITE("statistical") {
+  TEST_CASE("random lines hit discs as often as integral geometry says") {
+    const Json json = result_of("run @uniform --samples 20000 --rays 200000 --technique grid");
+    const double d = json.at("inputs").at("disc_radius");
+    const double r0 = json.at("inputs").at("sphere_radius");
+    const double per_line = 20000 * d * d / (2 * r0 * r0);
+    const double expected = 200000 * per_line;
+    // Lines are independent, the hits of one line are not: along the longest chord of the cube, of side 2, discs of
+    // mean projected area pi d^2/2 are met at most so often. The variance of a line's hits is below its mean times 1 +
+    // that.
+    const double on_longest_chord = 20000 / 8.0 * 2 * std::sqrt(3.0) * std::numbers::pi * d * d / 2;
+    const double standard_error = std::sqrt(expected * (1 + on_longest_chord));
+    const double hits = json.at("hits");
+    CHECK(std::abs(hits - expected) < 5 * standard_error);
+    CHECK_MESSAGE(std::abs(hits - 1.1 * expected) > 5 * standard_error, "a formula wrong by 10 % must be refuted");
+    CHECK_MESSAGE(std::abs(hits - 0.9 * expected) > 5 * standard_error, "a formula wrong by 10 % must be refuted");
+  }
+}
+
+}  // namespace detp::support

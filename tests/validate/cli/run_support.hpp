@@ -1,0 +1,100 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <numbers>
+
+#include "detp/sim/directions.hpp"
+#include "detp/sim/scene/disc_file.hpp"
+#include "detp/sim/scene/ray_file.hpp"
+#include "support/command.hpp"
+
+/// Rays and discs as a user's own data, and what `detp run` writes of them.
+namespace detp::support {
+
+/// Discs of radii 0.02 to 0.2, about a cube of side 2.
+inline std::vector<sim::Disc> mixed_discs(std::uint64_t count) {
+  std::vector<sim::Disc> discs;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto place = sim::uniform4(11, sim::Stream::tests, i);
+    const auto turn = sim::uniform4(12, sim::Stream::tests, i);
+    discs.push_back({2.0 * glm::dvec3(place[0], place[1], place[2]) - 1.0, sim::uniform_direction(turn[0], turn[1]),
+                     0.02 * std::pow(10.0, place[3])});
+  }
+  return discs;
+}
+
+/// Lines and segments by turns, of lengths 0 to 2 and powers 0 to 3.
+inline std::vector<sim::Ray> mixed_rays(std::uint64_t count) {
+  std::vector<sim::Ray> rays;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const auto place = sim::uniform4(13, sim::Stream::tests, i);
+    const auto turn = sim::uniform4(14, sim::Stream::tests, i);
+    rays.push_back({2.4 * glm::dvec3(place[0], place[1], place[2]) - 1.2, sim::uniform_direction(turn[0], turn[1]),
+                    i % 2 == 0 ? sim::unbounded : 0.01 + 2 * turn[2], 3 * turn[3]});
+  }
+  return rays;
+}
+
+/// The files that one run writes.
+struct Written {
+  std::string per_disc;
+  std::string pairs;
+  std::uint64_t hits = 0;
+  Json json;
+
+  bool operator==(const Written& other) const { return per_disc == other.per_disc && pairs == other.pairs; }
+};
+
+inline Written run_and_read(const Arguments& problem, const std::string& technique) {
+  const sim::support::ScratchFolder folder;
+  const Arguments files{"--per-disc", folder.path("per_disc.csv"), "--pairs", folder.path("pairs.csv")};
+  Written written;
+  written.json = result_of(problem + words(technique) + files);
+  written.per_disc = sim::support::content_of(folder.path("per_disc.csv"));
+  written.pairs = sim::support::content_of(folder.path("pairs.csv"));
+  written.hits = written.json.at("hits");
+  return written;
+}
+
+/// Every technique that promises all hits, with several parameters.
+inline const std::vector<std::string>& exact_techniques() {
+  static const std::vector<std::string> all{"",
+                                            "--technique sphere-cache",
+                                            "--technique sphere-cache --ratio 0.5 --spheres 3",
+                                            "--technique sphere-cache --ratio 0.8 --spheres 12",
+                                            "--technique sphere-cache --ratio 0.65",
+                                            "--technique sphere-cache --spheres 2 --order none",
+                                            "--technique octree",
+                                            "--technique octree --depth 0",
+                                            "--technique octree --depth 5",
+                                            "--technique grid",
+                                            "--technique grid --cells 1",
+                                            "--technique grid --cells 37"};
+  return all;
+}
+
+/// Fails the test unless all techniques write the same bytes as brute force, which is returned.
+inline Written check_all_agree(const Arguments& problem) {
+  Written truth = run_and_read(problem, "--technique brute-force");
+  CAPTURE(line_of(problem));
+  CHECK(truth.hits > 0);
+  for (const std::string& technique : exact_techniques()) {
+    CAPTURE(technique);
+    const Written written = run_and_read(problem, technique);
+    CHECK(written.hits == truth.hits);
+    CHECK_MESSAGE(written == truth, "the files differ");
+  }
+  return truth;
+}
+
+/// The rows of a CSV file without its header.
+inline std::vector<std::string> rows_of(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::vector<std::string> rows;
+  for (std::string line; std::getline(lines, line);) rows.push_back(line);
+  rows.erase(rows.begin());
+  return rows;
+}
+
+}  // namespace detp::support
