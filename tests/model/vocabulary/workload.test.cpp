@@ -1,0 +1,106 @@
+#include "detp/model/vocabulary/workload.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+
+#include "support/not_a_length.hpp"
+
+using namespace detp;
+using doctest::Approx;
+using doctest::Contains;
+
+namespace {
+
+const Workload good = cube_workload(1000, 100, 0.01, 2);
+
+/// The workload with one of its numbers changed.
+Workload with(double Workload::*number, double value) {
+  Workload w = good;
+  w.*number = value;
+  return w;
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the workload of a cube: its sphere holds every disc whole") {
+    const Workload w = cube_workload(1000, 100, 0.25, 2, 2.5);
+    CHECK(w.rays == 1000);
+    CHECK(w.samples == 100);
+    CHECK(w.disc_radius == 0.25);
+    CHECK(w.sphere_radius == Approx(std::sqrt(3.0) + 0.25).epsilon(1e-15));
+    CHECK(w.sphere_radius == enclosing_radius(2, 0.25));
+    CHECK(w.box == std::array<double, 3>{2, 2, 2});
+    CHECK(w.dimension == 2.5);
+    CHECK_NOTHROW(check(w));
+  }
+
+  TEST_CASE("samples fill a cube's volume, its faces, or what is between") {
+    CHECK(sample_extent(cube_workload(1, 1, 0.1, 3, 3)) == Approx(27).epsilon(1e-14));
+    CHECK(sample_extent(cube_workload(1, 1, 0.1, 3, 2)) == Approx(54).epsilon(1e-14));
+    CHECK(sample_extent(cube_workload(1, 1, 0.1, 3, 2.5)) == Approx(std::sqrt(27.0 * 54)).epsilon(1e-14));
+    CHECK(sample_extent(cube_workload(1, 1, 0.1, 3, 1.2)) == Approx(54).epsilon(1e-14));
+    CHECK(sample_extent(with(&Workload::sample_extent, 5)) == 5);
+  }
+
+  TEST_CASE("neighbours in a grid of samples are a step of the grid apart, unless told otherwise") {
+    CHECK(sample_distance(cube_workload(1, 1e6, 0.1, 3)) == Approx(0.03).epsilon(1e-14));
+    CHECK(sample_distance(cube_workload(1, 600, 0.1, 3, 2)) == Approx(0.3).epsilon(1e-14));
+    CHECK(sample_distance(with(&Workload::sample_distance, 7)) == 7);
+  }
+
+  TEST_CASE("the side of the scene is the longest of the box; a flat box has a sliver of volume") {
+    Workload w = good;
+    w.box = {1, 5, 0};
+    CHECK(scene_side(w) == 5);
+    CHECK(sample_extent(w) == Approx(1 * 5 * 5e-6).epsilon(1e-14));
+    w.dimension = 2;
+    CHECK(sample_extent(w) == Approx(2 * 5).epsilon(1e-5));
+    CHECK_NOTHROW(check(w));
+  }
+
+  TEST_CASE("numbers at the ends of their ranges pass") {
+    CHECK_NOTHROW(check(with(&Workload::rays, 1)));
+    CHECK_NOTHROW(check(with(&Workload::samples, 1e18)));
+    CHECK_NOTHROW(check(with(&Workload::dimension, 1)));
+    CHECK_NOTHROW(check(with(&Workload::dimension, 3)));
+    CHECK_NOTHROW(check(with(&Workload::path_length, 0)));
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("each number out of its range is refused by name") {
+    for (const double bad : support::not_a_count) {
+      CHECK_THROWS_WITH_AS(check(with(&Workload::rays, bad)), Contains("number of rays"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS(check(with(&Workload::samples, bad)), Contains("number of samples"), std::invalid_argument);
+    }
+    for (const double bad : support::not_a_length) {
+      CHECK_THROWS_WITH_AS(check(with(&Workload::disc_radius, bad)), Contains("disc radius"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS(check(with(&Workload::sphere_radius, bad)), Contains("sphere radius"),
+                           std::invalid_argument);
+    }
+    for (const double bad : support::not_a_dimension)
+      CHECK_THROWS_WITH_AS(check(with(&Workload::dimension, bad)), Contains("sample dimension"), std::invalid_argument);
+    for (const double bad : support::not_a_size) {
+      CHECK_THROWS_WITH_AS(check(with(&Workload::sample_extent, bad)), Contains("sample extent"),
+                           std::invalid_argument);
+      CHECK_THROWS_WITH_AS(check(with(&Workload::sample_distance, bad)), Contains("sample distance"),
+                           std::invalid_argument);
+      CHECK_THROWS_WITH_AS(check(with(&Workload::path_length, bad)), Contains("path length"), std::invalid_argument);
+      for (const std::size_t axis : {0u, 1u, 2u}) {
+        Workload w = good;
+        w.box[axis] = bad;
+        CHECK_THROWS_WITH_AS(check(w), Contains("side of the sample box"), std::invalid_argument);
+      }
+    }
+  }
+
+  TEST_CASE("a box without any side is refused, and so is a workload not filled in") {
+    Workload w = good;
+    w.box = {0, 0, 0};
+    CHECK_THROWS_WITH_AS(check(w), Contains("longest side of the sample box"), std::invalid_argument);
+    CHECK_THROWS_AS(check(Workload{}), std::invalid_argument);
+  }
+}
