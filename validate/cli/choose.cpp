@@ -64,10 +64,12 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
       answer.analysis = validate::analyse(
           job.problem(), answer.ranking,
           {.stop = stop, .progress = [&](std::string_view step, double done) { progress.show(step, done); }});
-    result.inputs = to_json(job);
+    result.inputs = to_json(job, request);
     answer.title = describe(job);
   }
+  result.inputs["unit_costs"] = to_json(costs);
   result.inputs["rigor"] = options.rigor;
+  result.inputs["analyze"] = options.analyze;
   answer.rigor = options.rigor;
   answer.costs_given = !options.costs.empty();
   result.json = to_json(answer);

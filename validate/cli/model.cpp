@@ -251,7 +251,7 @@ Result run_model(const ModelOptions& options, const CommonOptions& common) {
     const validate::Job job = validate::make_job(request);
     for (const std::string& notice : job.notices) note(common, notice);
     workload = job.workload;
-    result.inputs = to_json(job);
+    result.inputs = to_json(job, request);
   }
   const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
   options.candidate.refuse_foreign(technique);
@@ -259,6 +259,9 @@ Result run_model(const ModelOptions& options, const CommonOptions& common) {
   const Form form = options.form == "published" ? Form::published : Form::corrected;
   const Question question{workload,       technique,        form, parse_unit_costs(options.costs, UnitCosts{}),
                           options.levels, options.candidate};
+  result.inputs["form"] = options.form;
+  result.inputs["unit_costs"] = to_json(question.costs);
+  result.inputs["levels"] = options.levels;
   result.json = answer(question);
   result.text = scalars(result.json);
   result.csv = csv_scalars(result.json);

@@ -150,7 +150,8 @@ Result run_run(const RunOptions& options, const CommonOptions& common, const std
   require_writable(options.pairs);
   const ProgressLine progress(common);
   progress.show("scene and rays", 0);
-  const validate::Job job = validate::make_job(options.workload.request(common));
+  const validate::JobRequest request = options.workload.request(common);
+  const validate::Job job = validate::make_job(request);
   for (const std::string& notice : job.notices) note(common, notice);
   const Candidate candidate = complete(options.candidate, job.workload);
   progress.show(name(candidate.technique), 0.3);
@@ -164,7 +165,8 @@ Result run_run(const RunOptions& options, const CommonOptions& common, const std
 
   Result result;
   result.code = outcome.stopped ? ExitCode::stopped : ExitCode::done;
-  result.inputs = to_json(job);
+  result.inputs = to_json(job, request);
+  result.inputs["repeat"] = options.repeat;
   result.json = {{"technique", name(candidate.technique)},
                  {"parameters", to_json(candidate.parameters)},
                  {"hits", outcome.total_hits},

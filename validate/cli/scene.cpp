@@ -51,7 +51,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common) {
 
   const Workload& w = job.workload;
   Result result;
-  result.inputs = to_json(job);
+  result.inputs = to_json(job, request);
   result.json = {{"scene", job.name},
                  {"triangles", job.triangles},
                  {"samples", job.discs.size()},

@@ -46,4 +46,11 @@ UnitCosts parse_unit_costs(const std::string& text, const UnitCosts& otherwise) 
   return costs;
 }
 
+nlohmann::ordered_json to_json(const UnitCosts& costs) {
+  nlohmann::ordered_json json;
+  UnitCosts copy = costs;
+  for (const char* name : {"t", "u", "v", "n", "c", "b", "s", "r"}) json[name] = cost_named(copy, name);
+  return json;
+}
+
 }  // namespace detp::cli

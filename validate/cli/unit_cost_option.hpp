@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "detp/model/vocabulary.hpp"
@@ -10,5 +11,8 @@ namespace detp::cli {
 /// c copy, b placement in an index, s sample sorted, r rebuild. What is not named stays as in `otherwise`.
 /// Throws std::invalid_argument for anything else, and for a cost that is negative or not finite.
 [[nodiscard]] UnitCosts parse_unit_costs(const std::string& text, const UnitCosts& otherwise);
+
+/// By the same names.
+[[nodiscard]] nlohmann::ordered_json to_json(const UnitCosts& costs);
 
 }  // namespace detp::cli

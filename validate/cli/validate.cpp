@@ -51,7 +51,7 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
     validate::Job job = validate::make_job(few);
     job.workload.rays = *request.rays;
     require_count("number of rays", *request.rays, 1, 1e12);
-    inputs = to_json(job);
+    inputs = to_json(job, request);
     experiment.workload = job.workload;
     experiment.discs = std::move(job.discs);
   }

@@ -110,8 +110,14 @@ Json to_json(const Workload& workload) {
           {"path_length", workload.path_length}};
 }
 
-Json to_json(const validate::Job& job) {
-  Json json{{"scene", job.name}, {"field", name(job.field)}, {"front_facing", job.front_facing}};
+Json to_json(const validate::Job& job, const validate::JobRequest& request) {
+  Json json{{"scene", job.name}};
+  if (request.disc_file) json["discs"] = *request.disc_file;
+  if (request.ray_file)
+    json["ray_file"] = *request.ray_file;
+  else
+    json["field"] = name(job.field);
+  json["front_facing"] = job.front_facing;
   json.update(to_json(job.workload));
   return json;
 }

@@ -50,8 +50,8 @@ template <class T>
   return json;
 }
 
-/// Resolved inputs of a job.
-[[nodiscard]] Json to_json(const validate::Job& job);
+/// Resolved inputs of a job; the files as they were asked for.
+[[nodiscard]] Json to_json(const validate::Job& job, const validate::JobRequest& request);
 
 /// "scene" and "rays" lines of the text output.
 [[nodiscard]] std::string describe(const validate::Job& job);

@@ -84,6 +84,31 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE("inputs tell unit costs, forms and files too, so that a result can be had again") {
+    const std::string numbers = " --samples 10 --disc-radius 0.1 --scene-side 2";
+    const Json model = result_of("model --costs t=3,v=7" + numbers).at("inputs");
+    CHECK(model.at("form") == "corrected");
+    CHECK(model.at("levels") == 64);
+    CHECK(model.at("unit_costs") ==
+          Json{{"t", 3}, {"u", 1}, {"v", 7}, {"n", 7}, {"c", 0}, {"b", 0}, {"s", 0}, {"r", 0}});
+    const Json choose = result_of("choose --costs t=3" + numbers).at("inputs");
+    CHECK(choose.at("unit_costs").at("t") == 3);
+    CHECK(choose.at("unit_costs").at("u").get<double>() < 1e-6);
+    CHECK(choose.at("analyze") == false);
+    const sim::support::ScratchFolder folder;
+    const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n");
+    const std::string rays = folder.file("rays.csv", "ox,oy,oz,dx,dy,dz\n0,0,0,0,0,1\n");
+    const Arguments files{"--discs", discs, "--ray-file", rays, "--disc-radius", "0.5"};
+    for (const std::string command : {"run", "scene", "model", "choose"}) {
+      const Json inputs = result_of(Arguments{command} + files).at("inputs");
+      CHECK(inputs.at("discs") == discs);
+      CHECK(inputs.at("ray_file") == rays);
+      CHECK_FALSE(inputs.contains("field"));
+    }
+    CHECK(result_of("run @uniform --rays 10 --samples 10").at("inputs").at("field") == "isotropic");
+    CHECK(result_of("run @uniform --rays 10 --samples 10 --repeat 2").at("inputs").at("repeat") == 2);
+  }
+
   TEST_CASE("text and CSV say something, CSV in rows of equally many fields") {
     for (const Example& example : examples()) {
       CAPTURE(example.line);
