@@ -9,11 +9,15 @@
 namespace detp::cli {
 namespace {
 
+/// What ends the wait for signals when the program ends; by default it does nothing, so that no one else misses it.
+constexpr int wake_up = SIGURG;
+
 sigset_t watched_signals() {
   sigset_t set;
   sigemptyset(&set);
   sigaddset(&set, SIGINT);
   sigaddset(&set, SIGTERM);
+  sigaddset(&set, wake_up);
   return set;
 }
 
@@ -23,9 +27,10 @@ Interruption::Interruption() {
   const sigset_t set = watched_signals();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
   signals_ = std::jthread([stop = stop_, set](const std::stop_token& end) mutable {
-    const timespec wait{0, 50'000'000};
+    const std::stop_callback wake(end, [self = pthread_self()] { pthread_kill(self, wake_up); });
     while (!end.stop_requested()) {
-      if (sigtimedwait(&set, nullptr, &wait) < 0) continue;
+      const int signal = sigwaitinfo(&set, nullptr);
+      if (signal < 0 || signal == wake_up) continue;
       if (stop.stop_requested()) std::_Exit(130);
       stop.request_stop();
     }
