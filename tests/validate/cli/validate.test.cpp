@@ -6,7 +6,7 @@ namespace detp::support {
 
 TEST_SUITE("end to end") {
   TEST_CASE("where nothing was hit, what is unknown is left out of JSON and CSV") {
-    const std::string sparse = "validate --samples 100 --rays 100";
+    const std::string sparse = "validate --samples 1 --rays 1";
     const Finished json = detp(sparse + " --format json");
     CHECK(json.err.empty());
     CHECK((json.code == 0 || json.code == 1));
@@ -21,12 +21,6 @@ TEST_SUITE("end to end") {
     CHECK(some_unknown);
     for (const std::string format : {"csv", "text"})
       CHECK_FALSE(has_no_number(detp(sparse + " --format " + format).out));
-  }
-
-  TEST_CASE("even one line and one sample are answered in valid JSON") {
-    const Finished finished = detp("validate --samples 1 --rays 1 --format json");
-    CHECK((finished.code == 0 || finished.code == 1));
-    CHECK(finished.json().contains("claims"));
   }
 
   TEST_CASE("a time limit before the first verdict ends with code 3 and what there is") {
