@@ -8,7 +8,7 @@
 /// The radius ratio Q at which the sphere cache is fastest.
 ///
 /// T(Q) jumps where another sphere fits, at Q_j = (d/r₀)^{1/j}. Between two jumps it is smooth: each piece is minimised
-/// by Brent's method, and its ends are tried too, for the minimum often lies at a Q_j.
+/// by Brent's method around the best of a few points, and its ends are tried too, for the minimum often lies at a Q_j.
 namespace detp::model {
 
 struct BestRatio {
