@@ -1,0 +1,155 @@
+#include "detp/model/choose.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "detp/model/best_ratio.hpp"
+#include "detp/model/disc_index.hpp"
+#include "detp/model/predict.hpp"
+#include "support/not_a_length.hpp"
+#include "support/random_workload.hpp"
+
+using namespace detp;
+using namespace detp::model;
+using doctest::Approx;
+using doctest::Contains;
+
+namespace {
+
+const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
+const UnitCosts costs{
+    .sphere_test = 2, .disc_test = 5, .step = 4, .node = 6, .copy = 1, .placement = 30, .sort = 50, .rebuild = 20};
+
+bool same(const Ranked& a, const Ranked& b) {
+  return a.candidate == b.candidate && a.counts == b.counts && a.time.total() == b.time.total();
+}
+
+double total(const Workload& w, const Candidate& candidate) { return price(predict(w, candidate), costs).total(); }
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("a ranking is sorted, holds each exact technique once, and each entry is assess() again") {
+    support::RandomNumbers random(61);
+    for (int run = 0; run < 20; ++run) {
+      const Workload w = cube_workload(random.count(1, 1e8), random.count(1, 1e7), random.log_uniform(1e-3, 0.5), 2,
+                                       random.uniform(2, 3));
+      const auto ranking = rank(w, costs);
+      REQUIRE(ranking.size() == 4);
+      for (std::size_t i = 0; i < ranking.size(); ++i) {
+        const Ranked& ranked = ranking[i];
+        CHECK(ranked.candidate.technique != Technique::sphere_cache_published);
+        CHECK(same(ranked, assess(w, ranked.candidate, costs)));
+        const auto alone = best_of(ranked.candidate.technique, w, costs);
+        REQUIRE(alone.has_value());
+        CHECK(same(ranked, *alone));
+        if (i == 0) continue;
+        CHECK(ranking[i - 1].time.total() <= ranked.time.total());
+        for (std::size_t j = 0; j < i; ++j) CHECK(ranking[j].candidate.technique != ranked.candidate.technique);
+      }
+    }
+  }
+
+  TEST_CASE("an assessment is the prediction, and its price") {
+    for (const Candidate& candidate : {Candidate{}, Candidate{Technique::octree, OctreeParameters{5}},
+                                       Candidate{Technique::sphere_cache_published, SphereCacheParameters{0.5, 4}}}) {
+      const Ranked ranked = assess(typical, candidate, costs);
+      CHECK(ranked.candidate == candidate);
+      CHECK(ranked.counts == predict(typical, candidate));
+      CHECK(ranked.time.total() == total(typical, candidate));
+    }
+  }
+
+  TEST_CASE("no depth is faster than the octree chosen, and no number of cells by 1 % than the grid") {
+    for (const Workload& w : {typical, cube_workload(1e4, 1e6, 0.002, 2, 2), cube_workload(1e7, 100, 0.3, 2)}) {
+      const double octree = best_of(Technique::octree, w, costs)->time.total();
+      for (int depth = 0; depth <= 14; ++depth) {
+        const Candidate candidate{Technique::octree, OctreeParameters{depth}};
+        if (predict(w, candidate).references <= 1e9) CHECK(octree <= total(w, candidate));
+      }
+      const double grid = best_of(Technique::grid, w, costs)->time.total();
+      for (int cells = 1; cells <= 400; ++cells)
+        CHECK(grid <= 1.01 * total(w, {Technique::grid, GridParameters{cells}}));
+    }
+  }
+
+  TEST_CASE("the sphere cache chosen is that of the best ratio and stop") {
+    const auto best = best_of(Technique::sphere_cache, typical, costs);
+    const BestRatio expected = best_ratio_and_stop(typical, costs);
+    REQUIRE(best.has_value());
+    CHECK(std::get<SphereCacheParameters>(best->candidate.parameters) ==
+          SphereCacheParameters{expected.ratio, expected.spheres, SampleOrder::lebesgue});
+    CHECK(best->time.total() == expected.time);
+  }
+
+  TEST_CASE("the ranking knows no unit of length") {
+    const auto ranking = rank(typical, costs);
+    for (const double factor : {1e-9, 1e9}) {
+      const auto scaled = rank(cube_workload(1e6, 1e5, 0.01 * factor, 2 * factor), costs);
+      REQUIRE(scaled.size() == ranking.size());
+      for (std::size_t i = 0; i < ranking.size(); ++i) {
+        CHECK(scaled[i].candidate.technique == ranking[i].candidate.technique);
+        CHECK(scaled[i].time.total() == Approx(ranking[i].time.total()).epsilon(1e-9));
+      }
+    }
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("one ray and one sample: brute force; a million of each: not") {
+    CHECK(rank(cube_workload(1, 1, 0.01, 2), costs).front().candidate.technique == Technique::brute_force);
+    const auto many = rank(cube_workload(1e6, 1e6, 0.01, 2), costs);
+    CHECK(many.back().candidate.technique == Technique::brute_force);
+    CHECK(many.back().counts.disc_tests == 1e12);
+  }
+
+  TEST_CASE("limits of the search are kept") {
+    const SearchLimits limits{.most_depth = 3, .most_cells = 1000, .most_references = 2e5};
+    CHECK(std::get<OctreeParameters>(best_of(Technique::octree, typical, costs, limits)->candidate.parameters).depth <=
+          3);
+    const auto grid = best_of(Technique::grid, typical, costs, limits);
+    CHECK(std::get<GridParameters>(grid->candidate.parameters).cells <= 10);
+    CHECK(grid->counts.references <= 2e5);
+    const SearchLimits none{.most_references = 10};
+    CHECK_FALSE(best_of(Technique::octree, typical, costs, none).has_value());
+    CHECK_FALSE(best_of(Technique::grid, typical, costs, none).has_value());
+    CHECK(rank(typical, costs, none).size() == 2);
+  }
+
+  TEST_CASE("discs as large as S0, or next to it, leave no sphere cache, and the others in the ranking") {
+    for (const double disc : {0.99, 1.0, 3.0}) {
+      const Workload w{.rays = 100, .samples = 100, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
+      CHECK_FALSE(best_of(Technique::sphere_cache, w, costs).has_value());
+      CHECK(rank(w, costs).size() == 3);
+    }
+  }
+
+  TEST_CASE("costs decide: where steps are dear the sphere cache wins, where spheres are, an index") {
+    UnitCosts dear_steps = costs;
+    dear_steps.step = dear_steps.node = 1e6;
+    CHECK(rank(typical, dear_steps).front().candidate.technique == Technique::sphere_cache);
+    UnitCosts dear_spheres = costs;
+    dear_spheres.sphere_test = 1e6;
+    const Technique best = rank(typical, dear_spheres).front().candidate.technique;
+    CHECK((best == Technique::grid || best == Technique::octree));
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a workload out of range is refused by name") {
+    for (const double bad : support::not_a_count) {
+      Workload w = typical;
+      w.rays = bad;
+      const Contains name("number of rays");
+      CHECK_THROWS_WITH_AS((void)rank(w, costs), name, std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)assess(w, {}, costs), name, std::invalid_argument);
+      for (const Technique technique : all_techniques)
+        CHECK_THROWS_WITH_AS((void)best_of(technique, w, costs), name, std::invalid_argument);
+    }
+    CHECK_THROWS_WITH_AS((void)assess(typical, {Technique::grid, OctreeParameters{}}, costs), Contains("grid"),
+                         std::invalid_argument);
+  }
+}

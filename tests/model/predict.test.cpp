@@ -1,0 +1,163 @@
+#include "detp/model/predict.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "detp/model/disc_index.hpp"
+#include "detp/model/line_measure.hpp"
+#include "detp/model/sphere_cache.hpp"
+#include "detp/model/sphere_cache_published.hpp"
+#include "support/not_a_length.hpp"
+#include "support/random_workload.hpp"
+
+using namespace detp;
+using namespace detp::model;
+using doctest::Contains;
+
+namespace {
+
+const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
+
+const std::vector<Candidate> candidates{
+    {Technique::brute_force, BruteForceParameters{}},
+    {Technique::sphere_cache, SphereCacheParameters{0.6, 6}},
+    {Technique::sphere_cache, SphereCacheParameters{0.6, 6, SampleOrder::none}},
+    {Technique::sphere_cache_published, SphereCacheParameters{0.6, 6}},
+    {Technique::octree, OctreeParameters{6}},
+    {Technique::grid, GridParameters{70}},
+};
+
+Workload scaled(Workload w, double factor) {
+  w.disc_radius *= factor;
+  w.sphere_radius *= factor;
+  for (double& side : w.box) side *= factor;
+  w.sample_extent *= w.dimension == 3 ? factor * factor * factor : factor * factor;
+  w.sample_distance *= factor;
+  w.path_length *= factor;
+  return w;
+}
+
+/// The largest relative difference of a term.
+double difference(const Counts<double>& a, const Counts<double>& b) {
+  std::vector<double> terms;
+  for_each_term(a, [&](std::string_view, double term) { terms.push_back(term); });
+  double largest = 0;
+  auto other = terms.begin();
+  for_each_term(b, [&](std::string_view, double term) {
+    largest = std::max(largest, std::abs(*other - term) / std::max({std::abs(*other), std::abs(term), 1e-300}));
+    ++other;
+  });
+  return largest;
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("brute force tests every disc against every ray, and does nothing else") {
+    const Counts<double> counts = predict(typical, candidates[0]);
+    CHECK(counts.disc_tests == 1e11);
+    CHECK(counts.hits == expected_hits(typical));
+    CHECK(counts == Counts<double>{.disc_tests = 1e11, .hits = counts.hits});
+  }
+
+  TEST_CASE("each technique is predicted by its own formulas") {
+    CHECK(predict(typical, candidates[1]) == sphere_cache_counts(typical, {0.6, 6}));
+    CHECK(predict(typical, candidates[2]) == sphere_cache_counts(typical, {0.6, 6, SampleOrder::none}));
+    CHECK(predict(typical, candidates[3]) == published::counts(typical, {0.6}, 6));
+    CHECK(predict(typical, candidates[4]) == octree_counts(typical, {6}));
+    CHECK(predict(typical, candidates[5]) == grid_counts(typical, {70}));
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("the unit of length changes no count by more than 1e-9") {
+    std::vector<Workload> workloads{typical, cube_workload(1e4, 1e6, 0.003, 2, 2)};
+    workloads.push_back({.rays = 1e5,
+                         .samples = 1e4,
+                         .disc_radius = 0.02,
+                         .sphere_radius = 3,
+                         .box = {3, 2, 0.1},
+                         .dimension = 2,
+                         .sample_extent = 9,
+                         .sample_distance = 0.05,
+                         .path_length = 1.3});
+    for (const Workload& w : workloads)
+      for (const Candidate& candidate : candidates)
+        for (const double factor : {1e-9, 3.7e-4, 1e9}) {
+          CAPTURE(name(candidate.technique));
+          CAPTURE(factor);
+          CHECK(difference(predict(w, candidate), predict(scaled(w, factor), candidate)) < 1e-9);
+        }
+  }
+
+  TEST_CASE("all techniques expect the same hits, and test no fewer discs than they hit") {
+    for (const double path : {0.0, 0.7}) {
+      Workload w = typical;
+      w.path_length = path;
+      for (const Candidate& candidate : candidates) {
+        const Counts<double> counts = predict(w, candidate);
+        CHECK(counts.hits == expected_hits(w));
+        CHECK(counts.disc_tests >= counts.hits);
+        CHECK(counts.disc_tests <= 1e11 * (1 + 1e-12));
+      }
+    }
+  }
+
+  TEST_CASE("twice the rays are twice the tests, and the same rebuilds, nodes a ray and references") {
+    Workload twice = typical;
+    twice.rays *= 2;
+    for (const Candidate& candidate : candidates) {
+      const Counts<double> one = predict(typical, candidate);
+      const Counts<double> two = predict(twice, candidate);
+      CHECK(two.sphere_tests == doctest::Approx(2 * one.sphere_tests).epsilon(1e-12));
+      CHECK(two.disc_tests == doctest::Approx(2 * one.disc_tests).epsilon(1e-12));
+      CHECK(two.nodes == doctest::Approx(2 * one.nodes).epsilon(1e-12));
+      CHECK(two.rebuilds == one.rebuilds);
+      CHECK(two.references == one.references);
+      CHECK(two.placements == one.placements);
+    }
+  }
+
+  TEST_CASE("every count of every technique is finite and not negative, on random workloads") {
+    support::RandomNumbers random(51);
+    for (int run = 0; run < 500; ++run) {
+      auto [w, ratio] = support::random_workload(random);
+      w.dimension = random.uniform(1, 3);
+      if (random.whole(0, 1) == 1) w.path_length = w.sphere_radius * random.log_uniform(1e-3, 2);
+      const std::vector<Candidate> some{
+          {Technique::sphere_cache, SphereCacheParameters{ratio, random.whole(1, 100)}},
+          {Technique::sphere_cache_published, SphereCacheParameters{ratio, random.whole(1, 100)}},
+          {Technique::octree, OctreeParameters{static_cast<int>(random.whole(0, 20))}},
+          {Technique::grid, GridParameters{static_cast<int>(random.whole(1, 1048576))}}};
+      for (const Candidate& candidate : some) {
+        bool good = true;
+        for_each_term(predict(w, candidate),
+                      [&](std::string_view, double term) { good = good && std::isfinite(term) && term >= 0; });
+        REQUIRE(good);
+      }
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a workload out of range is refused by name, whatever the technique") {
+    for (const Candidate& candidate : candidates)
+      for (const double bad : support::not_a_count) {
+        Workload w = typical;
+        w.samples = bad;
+        CHECK_THROWS_WITH_AS((void)predict(w, candidate), Contains("number of samples"), std::invalid_argument);
+      }
+  }
+
+  TEST_CASE("parameters out of range, or of another technique, are refused") {
+    for (const double bad : support::not_a_ratio)
+      CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::sphere_cache, SphereCacheParameters{bad, 3}}),
+                           Contains("radius ratio Q"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::octree, GridParameters{3}}), Contains("octree"),
+                         std::invalid_argument);
+  }
+}
