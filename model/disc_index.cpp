@@ -11,9 +11,12 @@ namespace {
 
 constexpr double half_pi = std::numbers::pi / 2;
 
-/// Crossings of a disc with the planes across one axis, over those in endless cells: only the inner planes count.
+/// Crossings of a disc with the planes across one axis, over those in endless cells: only the inner planes count. Where
+/// the centres have less than a cell to lie in, they cross planes as in endless cells; never more than there are.
 double inner_planes(double cells, double side, double disc) {
-  return cells <= 1 ? 0 : (cells - 1) * side / (cells * side - 2 * disc);
+  const double room = cells * side - 2 * disc;
+  const double crossings = room > side ? (cells - 1) * side / room : 1;
+  return std::min(crossings, (cells - 1) * side / (half_pi * disc));
 }
 
 Counts<double> leaf_counts(const Workload& workload, const Cells& cells) {

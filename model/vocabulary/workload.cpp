@@ -22,6 +22,10 @@ void check(const Workload& workload) {
   require_non_negative("sample distance", workload.sample_distance);
   require_non_negative("path length", workload.path_length);
   require_positive("longest side of the sample box", scene_side(workload));
+  for (const double length : {workload.sphere_radius, scene_side(workload)})
+    if (length < 1e-90 || length > 1e90)
+      throw std::invalid_argument(fmt::format(
+          "sphere radius and sample box must lie between 1e-90 and 1e90, or their volumes overflow (got {})", length));
 }
 
 double sample_extent(const Workload& workload) {

@@ -21,7 +21,7 @@ struct Workload {
   double path_length = 0;                 ///< mean length of the rays inside the box; 0: unbounded lines
 };
 
-/// Throws std::invalid_argument where a number is out of its range.
+/// Throws std::invalid_argument where a number is out of its range, or the scene's scale beyond 1e±90.
 void check(const Workload& workload);
 
 /// Volume (D = 3), area (D = 2) or, between, the geometric interpolation of both, that the samples fill.

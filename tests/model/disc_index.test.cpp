@@ -45,6 +45,20 @@ TEST_SUITE("reference value") {
   }
 }
 
+TEST_SUITE("known answer") {
+  TEST_CASE("in a flat box a disc overlaps at least one cell and at most all, whatever the cells") {
+    for (const double disc : {1e-3, 0.1, 0.5, 3.0})
+      for (int parts = 1; parts <= 400; ++parts) {
+        const Cells cells = index_cells(in_box({1, 0, 1}, disc), parts);
+        CAPTURE(disc);
+        CAPTURE(parts);
+        CHECK(cells.overlapped >= 1);
+        CHECK(cells.overlapped <= cells.count());
+        CHECK(grid_counts(in_box({1, 0, 1}, disc), {parts}).references >= 100);
+      }
+  }
+}
+
 TEST_SUITE("identity") {
   TEST_CASE("one cell is overlapped once by each disc, and holds them all") {
     for (const double disc : {1e-6, 0.01, 0.9}) {

@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "sim/scene/scratch_file.hpp"
+#include "support/scratch_file.hpp"
 
 /// The command `detp` run as a user runs it: a process of its own.
 namespace detp::support {

@@ -160,8 +160,10 @@ Result run_run(const RunOptions& options, const CommonOptions& common, const std
   const double prepare = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const sim::Outcome outcome = sim::run(problem, candidate, {.pairs = options.pairs.has_value(), .stop = stop});
   const Timing timing = time_runs(job, candidate, outcome, prepare, outcome.stopped ? 0 : options.repeat, stop);
-  if (options.per_disc) write_text(*options.per_disc, per_disc_csv(outcome));
-  if (options.pairs) write_pairs(*options.pairs, outcome.pairs);
+  if (outcome.stopped && (options.per_disc || options.pairs))
+    note(common, "stopped before the end: --per-disc and --pairs are not written, for they would be partial");
+  if (options.per_disc && !outcome.stopped) write_text(*options.per_disc, per_disc_csv(outcome));
+  if (options.pairs && !outcome.stopped) write_pairs(*options.pairs, outcome.pairs);
 
   Result result;
   result.code = outcome.stopped ? ExitCode::stopped : ExitCode::done;

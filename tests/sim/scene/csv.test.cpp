@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scratch_file.hpp"
+#include "support/scratch_file.hpp"
 
 using namespace detp::sim;
 using support::ScratchFolder;

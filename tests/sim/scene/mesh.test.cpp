@@ -6,7 +6,7 @@
 
 #include "detp/sim/scene/mesh_file.hpp"
 #include "detp/sim/scene/scene.hpp"
-#include "scratch_file.hpp"
+#include "support/scratch_file.hpp"
 
 using namespace detp::sim;
 

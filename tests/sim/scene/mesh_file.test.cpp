@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "detp/sim/scene/file_error.hpp"
-#include "scratch_file.hpp"
+#include "support/scratch_file.hpp"
 
 using namespace detp::sim;
 using support::ScratchFolder;

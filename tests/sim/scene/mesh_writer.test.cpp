@@ -3,7 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "detp/sim/scene/mesh_file.hpp"
-#include "scratch_file.hpp"
+#include "support/scratch_file.hpp"
 
 using namespace detp::sim;
 

@@ -10,7 +10,7 @@
 
 #include "detp/sim/scene/built_in/mesh_pieces.hpp"
 #include "detp/sim/scene/file_error.hpp"
-#include "scratch_file.hpp"
+#include "support/scratch_file.hpp"
 
 using namespace detp::sim;
 

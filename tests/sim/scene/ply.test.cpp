@@ -7,7 +7,7 @@
 #include <bit>
 #include <cstdint>
 
-#include "scratch_file.hpp"
+#include "support/scratch_file.hpp"
 
 using namespace detp::sim;
 using support::ScratchFolder;

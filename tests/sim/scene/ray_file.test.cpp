@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scratch_file.hpp"
+#include "support/scratch_file.hpp"
 
 using namespace detp::sim;
 using support::ScratchFolder;

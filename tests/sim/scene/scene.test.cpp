@@ -7,7 +7,7 @@
 #include <string>
 
 #include "detp/sim/scene/file_error.hpp"
-#include "scratch_file.hpp"
+#include "support/scratch_file.hpp"
 
 using namespace detp::sim;
 

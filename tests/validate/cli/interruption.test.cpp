@@ -40,6 +40,16 @@ TEST_SUITE("end to end") {
     check_stopped(interrupted_by(SIGTERM));
   }
 
+  TEST_CASE("a stopped run leaves no partial file behind") {
+    const sim::support::ScratchFolder folder;
+    const Finished finished = detp(long_run + "--time-limit 0.5 --per-disc " + folder.path("discs.csv") + " --pairs " +
+                                   folder.path("pairs.csv"));
+    CHECK(finished.code == 3);
+    CHECK(finished.err.find("not written") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(folder.path("discs.csv")));
+    CHECK_FALSE(std::filesystem::exists(folder.path("pairs.csv")));
+  }
+
   TEST_CASE("watching for signals keeps no finished command waiting") {
     CHECK(shortest_of_ten("model --samples 10 --disc-radius 0.1 --scene-side 1") <
           shortest_of_ten("--version") + 0.025);
