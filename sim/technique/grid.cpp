@@ -30,6 +30,7 @@ class Grid {
   }
 
   [[nodiscard]] std::size_t references() const { return references_.size(); }
+  [[nodiscard]] std::size_t placements() const { return references_.size(); }
 
   /// Goes from cell to cell along the ray. The place of each plane is computed anew from its number, so that errors do
   /// not add up; a cell missed by rounding is no loss, for the discs near its faces are in the next cell too.
@@ -121,21 +122,13 @@ class Grid {
   std::vector<std::uint32_t> references_;
 };
 
-template <bool counting>
-void search_with(const Grid& grid, const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  IndexedSearch<counting> search(problem, options);
-  outcome.stopped = for_each_ray(problem, options, [&](std::uint32_t ray) { grid.trace(ray, search); });
-  std::move(search).give(outcome, grid.references(), grid.references());
-}
-
 }  // namespace
 
 void run_grid(const Problem& problem, const GridParameters& parameters, const RunOptions& options, Outcome& outcome) {
   Stopwatch watch;
   const Grid grid(problem, parameters.cells, options.stop);
   outcome.seconds.build = watch.lap();
-  options.count ? search_with<true>(grid, problem, options, outcome)
-                : search_with<false>(grid, problem, options, outcome);
+  search_index(grid, problem, options, outcome);
   outcome.seconds.search = watch.lap();
 }
 

@@ -39,15 +39,23 @@ class IndexedSearch {
   std::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray that hit it; 0: none yet
 };
 
-/// Shows each ray to trace(ray number), asking for a stop between blocks; whether it was stopped.
-template <class Trace>
-bool for_each_ray(const Problem& problem, const RunOptions& options, const Trace& trace) {
+/// Traces every ray through an index, asking for a stop between blocks of them. An index offers trace(ray, search),
+/// references() and placements().
+template <bool counting, class Index>
+void trace_all(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome) {
   constexpr std::uint32_t block = 64;
-  for (std::uint32_t ray = 0; ray < problem.rays.size(); ++ray) {
-    if (ray % block == 0 && options.stop.stop_requested()) return true;
-    trace(ray);
+  IndexedSearch<counting> search(problem, options);
+  for (std::uint32_t ray = 0; ray < problem.rays.size() && !outcome.stopped; ++ray) {
+    outcome.stopped = ray % block == 0 && options.stop.stop_requested();
+    if (!outcome.stopped) index.trace(ray, search);
   }
-  return false;
+  std::move(search).give(outcome, index.references(), index.placements());
+}
+
+template <class Index>
+void search_index(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome) {
+  options.count ? trace_all<true>(index, problem, options, outcome)
+                : trace_all<false>(index, problem, options, outcome);
 }
 
 /// The box around the discs' centres, grown by the largest radius: no disc pokes out.

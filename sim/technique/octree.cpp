@@ -123,13 +123,6 @@ class Octree {
   std::size_t placements_ = 0;
 };
 
-template <bool counting>
-void search_with(const Octree& octree, const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  IndexedSearch<counting> search(problem, options);
-  outcome.stopped = for_each_ray(problem, options, [&](std::uint32_t ray) { octree.trace(ray, search); });
-  std::move(search).give(outcome, octree.references(), octree.placements());
-}
-
 }  // namespace
 
 void run_octree(const Problem& problem, const OctreeParameters& parameters, const RunOptions& options,
@@ -137,8 +130,7 @@ void run_octree(const Problem& problem, const OctreeParameters& parameters, cons
   Stopwatch watch;
   const Octree octree(problem, parameters.depth, options.stop);
   outcome.seconds.build = watch.lap();
-  options.count ? search_with<true>(octree, problem, options, outcome)
-                : search_with<false>(octree, problem, options, outcome);
+  search_index(octree, problem, options, outcome);
   outcome.seconds.search = watch.lap();
 }
 
