@@ -56,9 +56,7 @@ class OffsetShares {
 class Walk {
  public:
   Walk(const Workload& workload, const SphereCacheParameters& parameters)
-      : workload_(workload),
-        parameters_(parameters),
-        chain_(parameters.order == SampleOrder::none ? 0 : chain_share(workload.dimension, {parameters.ratio})) {
+      : workload_(workload), parameters_(parameters) {
     check(workload);
     check(Candidate{Technique::sphere_cache, parameters});
     current_ = {.radius = workload.sphere_radius, .rays = workload.rays, .listed = workload.rays, .rebuilds = 1};
@@ -74,8 +72,9 @@ class Walk {
     current_.rays = workload_.rays * crossing_probability(workload_, 4 * pi / 3 * r * r * r, 4 * pi * r * r);
     const double alone = single_rebuilds(workload_, r - workload_.disc_radius, parameters_.order);
     current_.rebuilds = outer.rebuilds;
+    const double chain = chain_to(r, alone);
     for (std::int64_t n = 0; n < std::min<std::int64_t>(step, 64); ++n)
-      current_.rebuilds = chained_rebuilds(alone, current_.rebuilds, chain_, workload_.samples);
+      current_.rebuilds = chained_rebuilds(alone, current_.rebuilds, chain, workload_.samples);
     current_.rebuilds = std::max(current_.rebuilds, outer.rebuilds);
     current_.listed =
         std::min(outer.listed, current_.rays * listed_share(current_, outwards_, {workload_.disc_radius}));
@@ -83,6 +82,15 @@ class Walk {
   }
 
  private:
+  /// The share of the next larger sphere's rebuilds that add to those of the sphere of radius r.
+  double chain_to(double r, double alone) const {
+    const double ball = r - workload_.disc_radius;
+    const double around = r / parameters_.ratio - workload_.disc_radius;
+    if (parameters_.order == SampleOrder::none || !(ball > 0 && around > 0)) return 0;
+    return chain_share(workload_.dimension, std::min(1.0, ball / around), std::log2(scene_side(workload_) / ball),
+                       alone / workload_.samples);
+  }
+
   void remember(const SphereLevel& sphere) {
     outwards_.insert(outwards_.begin(), {sphere.radius, sphere.rebuilds});
     if (outwards_.size() > ancestors) outwards_.pop_back();
@@ -90,7 +98,6 @@ class Walk {
 
   const Workload& workload_;
   SphereCacheParameters parameters_;
-  double chain_;
   SphereLevel current_;
   std::vector<Enclosing> outwards_;
 };

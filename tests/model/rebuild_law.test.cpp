@@ -127,16 +127,28 @@ TEST_SUITE("identity") {
     CHECK(chained_rebuilds(100, 50, 1, 1e15) == Approx(150).epsilon(1e-9));
   }
 
-  TEST_CASE("the share that chains is from 0 to 1, 1 for spheres all alike, and between dimensions in the middle") {
-    for (double q = 0.01; q < 1; q += 0.01) {
-      const double surface = chain_share(2, {q});
-      const double volume = chain_share(3, {q});
-      CHECK(surface >= 0);
-      CHECK(volume <= 1);
-      CHECK(chain_share(2.5, {q}) == Approx((surface + volume) / 2).epsilon(1e-12));
-      CHECK(chain_share(1.5, {q}) == surface);
+  TEST_CASE(
+      "the share that chains is from 0 to 1, falls with fewer samples a ball, and is between dimensions in the "
+      "middle") {
+    support::RandomNumbers random(8);
+    for (int run = 0; run < 5000; ++run) {
+      const double ratio = random.uniform(0, 1);
+      const double halvings = random.uniform(-1, 20);
+      const double alone = random.uniform(0, 1);
+      const double surface = chain_share(2, ratio, halvings, alone);
+      const double volume = chain_share(3, ratio, halvings, alone);
+      REQUIRE(surface > 0);
+      REQUIRE(volume > 0);
+      REQUIRE(surface <= 1);
+      REQUIRE(volume <= 1);
+      REQUIRE(chain_share(3, ratio, halvings, std::min(1.0, alone + 0.1)) <= volume);
+      const double between = chain_share(2.5, ratio, halvings, alone);
+      REQUIRE(between >= std::min(surface, volume) * 0.99);
+      REQUIRE(between <= std::max(surface, volume) * 1.01);
+      REQUIRE(chain_share(1.5, ratio, halvings, alone) == surface);
+      REQUIRE(chain_share(3, ratio, halvings + 1e-9, alone) == Approx(volume).epsilon(1e-6));
     }
-    CHECK(chain_share(3, {1 - 1e-9}) == Approx(1).epsilon(1e-6));
+    CHECK(chain_share(3, 1, 60, 0) == Approx(1).epsilon(1e-9));
   }
 }
 
@@ -212,10 +224,10 @@ TEST_SUITE("bad input") {
     }
     CHECK_THROWS_WITH_AS((void)single_rebuilds(in_volume, support::not_a_number, SampleOrder::lebesgue),
                          Contains("radius of the ball"), std::invalid_argument);
-    for (const double bad : support::not_a_ratio)
-      CHECK_THROWS_WITH_AS((void)chain_share(3, {bad}), Contains("radius ratio Q"), std::invalid_argument);
+    for (const double bad : {-0.1, 1.1, support::not_a_number})
+      CHECK_THROWS_WITH_AS((void)chain_share(3, bad, 1, 0.5), Contains("ratio of the balls"), std::invalid_argument);
     for (const double bad : support::not_a_dimension)
-      CHECK_THROWS_WITH_AS((void)chain_share(bad, {0.5}), Contains("sample dimension"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)chain_share(bad, 0.5, 1, 0.5), Contains("sample dimension"), std::invalid_argument);
     for (const double bad : support::not_a_size) {
       CHECK_THROWS_WITH_AS((void)chained_rebuilds(bad, 1, 0.5, 10), Contains("rebuilds"), std::invalid_argument);
       CHECK_THROWS_WITH_AS((void)chained_rebuilds(1, bad, 0.5, 10), Contains("rebuilds"), std::invalid_argument);
