@@ -19,6 +19,24 @@ double inner_planes(double cells, double side, double disc) {
   return std::min(crossings, (cells - 1) * side / (half_pi * disc));
 }
 
+/// The same for an axis along which all centres lie at d from the box's side: planes at a, 2a, … cross a disc that
+/// reaches farther than they are from its centre, an isotropic one farther than t d with the chance √(1 - t²).
+double planes_near_side(double cells, double side, double disc) {
+  constexpr double many = 64;  // planes: then they cross as in endless cells
+  if (disc > many * side) return 1;
+  double crossings = 0;
+  for (double plane = 1; plane < cells && plane * side < 2 * disc; ++plane) {
+    const double t = std::max(0.0, plane * side / disc - 1);
+    crossings += std::sqrt(1 - t * t);
+  }
+  return crossings * side / (half_pi * disc);
+}
+
+/// E from the crossings across each axis, over those in endless cells.
+double cells_overlapped(double x, const std::array<double, 3>& f) {
+  return 1 + half_pi * x * (f[0] + f[1] + f[2]) + half_pi * x * x * (f[0] * f[1] + f[1] * f[2] + f[2] * f[0]);
+}
+
 Counts<double> leaf_counts(const Workload& workload, const Cells& cells) {
   const double references = workload.samples * cells.overlapped;
   return {.disc_tests = workload.rays * cells.crossing * references,
@@ -44,8 +62,18 @@ Cells index_cells(const Workload& workload, double parts) {
     f[axis] = inner_planes(cells.along[axis], cells.side, d);
   }
   const double x = d / cells.side;
-  cells.overlapped =
-      1 + half_pi * x * (f[0] + f[1] + f[2]) + half_pi * x * x * (f[0] * f[1] + f[1] * f[2] + f[2] * f[0]);
+  cells.overlapped = cells_overlapped(x, f);
+  if (workload.sample_extent == 0) {
+    // On the box's faces, one of the three axes is fixed.
+    double on_faces = 0;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      std::array<double, 3> fixed = f;
+      fixed[axis] = planes_near_side(cells.along[axis], cells.side, d);
+      on_faces += cells_overlapped(x, fixed) / 3;
+    }
+    const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);
+    cells.overlapped = weight * cells.overlapped + (1 - weight) * on_faces;
+  }
   cells.overlapped = std::min(cells.overlapped, cells.count());
   cells.crossing = crossing_probability(workload, std::pow(cells.side, 3), 6 * cells.side * cells.side);
   return cells;

@@ -33,13 +33,15 @@ namespace detp::model {
 struct Cells {
   double side = 0;                       ///< a, length
   std::array<double, 3> along{1, 1, 1};  ///< cells along each axis
-  double overlapped = 1;                 ///< E, in a box that ends: the outermost planes are never crossed
+  double overlapped = 1;                 ///< E, in a box that ends: its outermost planes are never crossed
   double crossing = 0;                   ///< P(cell), of all rays of the workload
 
   [[nodiscard]] double count() const { return along[0] * along[1] * along[2]; }
 };
 
 /// `parts` cells along the longest side of the box grown by d; as many as it takes along the others.
+/// Samples of dimension 2 without an extent of their own lie on the box's faces, one coordinate fixed: there the planes
+/// of the grid are at known distances from them.
 [[nodiscard]] Cells index_cells(const Workload& workload, double parts);
 
 /// Cells that hold at least one disc, if the discs lie anew at random: C (1 - exp(-n_P E/C)), C the cells within reach

@@ -87,10 +87,12 @@ Workload measure(const sim::Problem& problem, const SurfaceFacts& surface) {
                     .path_length = mean_path_length(problem, rms_radius(problem.discs))};
   // One sample, or all in one place: the disc itself is the only length there is.
   if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
+  workload.sample_extent = sample_extent(workload);  // of their own: a scene's samples need not lie on its box
   if (surface.area > 0) {
     const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);
     Workload volume = workload;
     volume.dimension = 3;
+    volume.sample_extent = 0;
     workload.sample_extent = std::pow(sample_extent(volume), weight) * std::pow(surface.area, 1 - weight);
   }
   return workload;

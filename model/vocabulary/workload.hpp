@@ -16,9 +16,9 @@ struct Workload {
   double sphere_radius = 0;               ///< r₀, length > 0; S₀ holds every disc whole
   std::array<double, 3> box = {0, 0, 0};  ///< sides of the samples' bounding box, lengths >= 0, not all 0
   double dimension = 3;                   ///< D of the sample set, 1 … 3
-  double sample_extent = 0;               ///< volume (D = 3) or area (D = 2) that the samples fill; 0: the box's
-  double sample_distance = 0;             ///< mean distance between neighbouring samples, length; 0: from the extent
-  double path_length = 0;                 ///< mean length of the rays inside the box; 0: unbounded lines
+  double sample_extent = 0;    ///< volume (D = 3) or area (D = 2) that the samples fill; 0: the box, or its faces
+  double sample_distance = 0;  ///< mean distance between neighbouring samples, length; 0: from the extent
+  double path_length = 0;      ///< mean length of the rays inside the box; 0: unbounded lines
 };
 
 /// Throws std::invalid_argument where a number is out of its range, or the scene's scale beyond 1e±90.
