@@ -52,6 +52,14 @@ class OffsetShares {
   std::array<double, (sizes + 1) * (reaches + 1)> values_{};
 };
 
+/// √2 times the samples' root mean square distance from the centre of S₀: uniform in a box, or on its faces.
+double sample_reach(const Workload& workload) {
+  double squares = 0;
+  for (const double side : workload.box) squares += side * side;
+  const double volume = std::clamp(workload.dimension - 2, 0.0, 1.0);
+  return std::sqrt(2 * squares * (volume / 12 + (1 - volume) * 5 / 36));
+}
+
 /// Goes through the spheres from the outside in, keeping what the next one needs of those around it.
 class Walk {
  public:
@@ -60,6 +68,7 @@ class Walk {
     check(workload);
     check(Candidate{Technique::sphere_cache, parameters});
     current_ = {.radius = workload.sphere_radius, .rays = workload.rays, .listed = workload.rays, .rebuilds = 1};
+    outwards_.push_back({workload.sphere_radius, 0, sample_reach(workload)});
   }
 
   /// The sphere i, `step` spheres inside the last one.
@@ -76,8 +85,7 @@ class Walk {
     for (std::int64_t n = 0; n < std::min<std::int64_t>(step, 64); ++n)
       current_.rebuilds = chained_rebuilds(alone, current_.rebuilds, chain, workload_.samples);
     current_.rebuilds = std::max(current_.rebuilds, outer.rebuilds);
-    current_.listed =
-        std::min(outer.listed, current_.rays * listed_share(current_, outwards_, {workload_.disc_radius}));
+    current_.listed = std::min(outer.listed, current_.rays * listed_share(current_, outwards_));
     return current_;
   }
 
@@ -92,7 +100,8 @@ class Walk {
   }
 
   void remember(const SphereLevel& sphere) {
-    outwards_.insert(outwards_.begin(), {sphere.radius, sphere.rebuilds});
+    outwards_.insert(outwards_.begin(),
+                     {sphere.radius, sphere.rebuilds, std::max(0.0, sphere.radius - workload_.disc_radius)});
     if (outwards_.size() > ancestors) outwards_.pop_back();
   }
 
@@ -104,10 +113,9 @@ class Walk {
 
 }  // namespace
 
-double listed_share(const SphereLevel& sphere, const std::vector<Enclosing>& outwards, DiscRadius disc) {
+double listed_share(const SphereLevel& sphere, const std::vector<Enclosing>& outwards) {
   require_non_negative("sphere radius", sphere.radius);
   require_positive("rebuilds of the sphere", sphere.rebuilds);
-  require_positive("disc radius", disc.value);
   static const OffsetShares offset_shares;
   double product = 1;
   double least = 1;
@@ -115,8 +123,9 @@ double listed_share(const SphereLevel& sphere, const std::vector<Enclosing>& out
     require_non_negative("sphere radius", outer.radius);
     require_non_negative("rebuilds of the outer sphere", outer.rebuilds);
     const double concentric = std::min(1.0, outer.rebuilds / sphere.rebuilds);
-    const double reach = std::max(0.0, 1 - disc.value / outer.radius);
+    require_non_negative("reach of the offsets", outer.reach);
     const double size = outer.radius > 0 ? sphere.radius / outer.radius : 1;  // both may be too small for a double
+    const double reach = outer.radius > 0 ? std::min(1.0, outer.reach / outer.radius) : 1;
     const double share = concentric + (1 - concentric) * offset_shares(size, reach);
     product *= share;
     least = std::min(least, share);

@@ -1,36 +1,26 @@
 #include "structural_walk.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "detp/model/line_measure.hpp"
 #include "detp/sim/lebesgue.hpp"
+#include "detp/sim/line_field.hpp"
 
 namespace detp::validate {
 namespace {
 
-constexpr std::size_t ancestors = 6;
+constexpr std::size_t ancestors = 32;
+constexpr std::size_t pool_size = 4096;
+constexpr std::uint64_t pool_seed = 1;
 
-/// both_hit_share(1, ratio, offset), tabulated over the offset up to 1: a sphere is centred inside those around it.
-class HitShare {
- public:
-  explicit HitShare(double ratio) {
-    for (std::size_t i = 0; i < shares_.size(); ++i)
-      shares_[i] = model::both_hit_share(1, ratio, static_cast<double>(i) / steps);
-  }
+/// Lines through the unit sphere, in the measure of lines: to integrate with, not to count hits by.
+std::vector<sim::Ray> make_pool() { return sim::LineField({}, pool_seed).lines(0, pool_size); }
 
-  [[nodiscard]] double operator()(double offset) const {
-    const double place = std::min(offset, 1.0) * steps;
-    const auto i = std::min(static_cast<std::size_t>(place), shares_.size() - 2);
-    const double weight = place - static_cast<double>(i);
-    return (1 - weight) * shares_[i] + weight * shares_[i + 1];
-  }
-
- private:
-  static constexpr int steps = 256;
-  std::array<double, steps + 1> shares_{};
-};
+bool crosses(const glm::dvec3& point, const glm::dvec3& direction, const sim::Sphere& sphere) {
+  const glm::dvec3 w = point - sphere.centre;
+  const double along = glm::dot(w, direction);
+  return glm::dot(w, w) - along * along <= sphere.radius * sphere.radius;
+}
 
 struct Level {
   sim::Sphere sphere;
@@ -46,8 +36,6 @@ class Walk {
       if (radius < disc_radius) break;
       levels_.push_back({{enclosing.centre, radius}, 0});
     }
-    for (std::size_t i = 1; i <= ancestors; ++i)
-      shares_.emplace_back(std::pow(parameters.ratio, static_cast<double>(i)));
     expected_.spheres.resize(levels_.size() - 1);
   }
 
@@ -68,22 +56,34 @@ class Walk {
  private:
   void rebuild(std::size_t i, const glm::dvec3& centre) {
     levels_[i].sphere.centre = centre;
-    expected_.spheres[i - 1].rebuilds += 1;
-    expected_.spheres[i - 1].tests += levels_[i - 1].listed;
-    double product = 1;
-    double least = 1;
-    for (std::size_t out = 1; out < i && out <= ancestors; ++out) {
-      const sim::Sphere& around = levels_[i - out].sphere;
-      const double share = shares_[out - 1](glm::distance(centre, around.centre) / around.radius);
-      product *= share;
-      least = std::min(least, share);
-    }
+    ExpectedSphere& expected = expected_.spheres[i - 1];
+    expected.rebuilds += 1;
+    expected.tests += levels_[i - 1].listed;
+    // Few rebuilds are integrated over more lines each than many, whose errors cancel.
+    const std::size_t lines = expected.rebuilds < 500 ? 64 : 8;
     const double ratio = levels_[i].sphere.radius / levels_[0].sphere.radius;
-    levels_[i].listed = std::min(levels_[i - 1].listed, ratio * ratio * std::sqrt(product * least));
+    levels_[i].listed = ratio * ratio * share_listed(i, lines);
+  }
+
+  /// Share of the lines through S_i that also cross the spheres around it, S₀ among them (S_i may poke out of it): the
+  /// next lines of the pool, laid through S_i.
+  double share_listed(std::size_t i, std::size_t lines) {
+    const sim::Sphere& sphere = levels_[i].sphere;
+    const std::size_t outermost = i > ancestors ? i - ancestors : 0;
+    std::size_t listed = 0;
+    for (std::size_t n = 0; n < lines; ++n) {
+      const sim::Ray& line = pool_[next_++ % pool_size];
+      const glm::dvec3 point = sphere.centre + sphere.radius * line.origin;
+      std::size_t around = i;  // one past the next sphere to be crossed
+      while (around > outermost && crosses(point, line.direction, levels_[around - 1].sphere)) --around;
+      listed += around == outermost ? 1 : 0;
+    }
+    return static_cast<double>(listed) / static_cast<double>(lines);
   }
 
   std::vector<Level> levels_;
-  std::vector<HitShare> shares_;
+  std::vector<sim::Ray> pool_ = make_pool();
+  std::size_t next_ = 0;
   std::size_t valid_ = 1;
   ExpectedWalk expected_;
 };

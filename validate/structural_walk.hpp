@@ -26,12 +26,11 @@ struct ExpectedWalk {
 /// Walks the discs along the Lebesgue curve as the sphere cache does, O(k n_P).
 ///
 /// A list's expected length, per ray, is (r_i/r₀)² times the share of lines through S_i that also cross the spheres
-/// around it: the geometric mean of the product and the minimum of `model::both_hit_share` over the six next ones (see
-/// model::listed_share).
+/// around it: at each rebuild that share is integrated over a few lines of a fixed pool laid through S_i as it then
+/// stands, against the 32 next spheres.
 ///
 /// Valid      isotropic lines through S₀, all discs of one radius.
-/// Accuracy   counted for Q 0.3 … 0.8: T_R within 2 % for samples uniform in a cube, up to 5 % too high on its faces;
-///            T_I within 3 %.
+/// Accuracy   counted on 20 000 samples, d/r₀ = 0.011, Q 0.3 … 0.8, in a cube and on its faces: T_R within 0.2 %.
 [[nodiscard]] ExpectedWalk structural_walk(std::span<const sim::Disc> discs, const sim::Sphere& enclosing,
                                            const SphereCacheParameters& parameters);
 
