@@ -2,10 +2,12 @@
 
 /// Everything that detp offers to those who embed it.
 #include "detp/model/best_ratio.hpp"
+#include "detp/model/cell_spheres.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/model/disc_index.hpp"
 #include "detp/model/disc_index_published.hpp"
 #include "detp/model/line_measure.hpp"
+#include "detp/model/optimal_ratio.hpp"
 #include "detp/model/paper_rule.hpp"
 #include "detp/model/predict.hpp"
 #include "detp/model/sphere_cache.hpp"
