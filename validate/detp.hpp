@@ -6,6 +6,7 @@
 #include "detp/model/choose.hpp"
 #include "detp/model/disc_index.hpp"
 #include "detp/model/disc_index_published.hpp"
+#include "detp/model/estimate_error.hpp"
 #include "detp/model/line_measure.hpp"
 #include "detp/model/optimal_ratio.hpp"
 #include "detp/model/paper_rule.hpp"
