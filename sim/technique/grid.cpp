@@ -15,7 +15,8 @@ using Cell = std::array<std::int64_t, 3>;
 /// Cubic cells over the box of the discs, and for each cell its discs, in one array (compressed rows).
 class Grid {
  public:
-  Grid(const Problem& problem, int cells, const std::stop_token& stop) : problem_(problem), box_(index_box(problem)) {
+  Grid(const Problem& problem, int cells, const std::stop_token& stop)
+      : problem_(problem), box_(index_box(problem.discs)) {
     const glm::dvec3 size = box_.size();
     side_ = std::max({size.x, size.y, size.z}) / cells;
     double total = 1;

@@ -59,10 +59,10 @@ void search_index(const Index& index, const Problem& problem, const RunOptions& 
 }
 
 /// The box around the discs' centres, grown by the largest radius: no disc pokes out.
-[[nodiscard]] inline Box index_box(const Problem& problem) {
+[[nodiscard]] inline Box index_box(std::span<const Disc> discs) {
   Box box;
   double largest = 0;
-  for (const Disc& disc : problem.discs) {
+  for (const Disc& disc : discs) {
     box.include(disc.centre);
     largest = std::max(largest, disc.radius);
   }

@@ -26,7 +26,7 @@ Box octant_of(const Box& box, unsigned octant) {
 class Octree {
  public:
   Octree(const Problem& problem, int depth, std::stop_token stop)
-      : problem_(problem), depth_(depth), stop_(std::move(stop)), box_(index_box(problem)) {
+      : problem_(problem), depth_(depth), stop_(std::move(stop)), box_(index_box(problem.discs)) {
     const glm::dvec3 size = box_.size();
     box_.high = box_.low + glm::dvec3{std::max({size.x, size.y, size.z})};
     std::vector<std::uint32_t> all(problem.discs.size());

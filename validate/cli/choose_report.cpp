@@ -50,19 +50,6 @@ Json candidate_json(const ChooseAnswer& answer, std::size_t place) {
   return json;
 }
 
-/// The deviations from the plain model that this workload shows and the closed forms take into account.
-Json effects_json(const Workload& workload) {
-  const double chord = 4 * workload.sphere_radius / 3;
-  return Json::array({{{"name", "finite paths"},
-                       {"on", workload.path_length > 0},
-                       {"evidence", workload.path_length > 0 ? workload.path_length / chord : 1.0},
-                       {"meaning", "mean length of the rays over the mean chord of S0"}},
-                      {{"name", "surface samples"},
-                       {"on", workload.dimension < 2.9},
-                       {"evidence", workload.dimension},
-                       {"meaning", "dimension of the samples by box counting"}}});
-}
-
 }  // namespace
 
 Json to_json(const ChooseAnswer& answer) {

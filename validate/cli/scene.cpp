@@ -26,14 +26,6 @@ void write_mesh(const std::string& path, const validate::JobRequest& request) {
   sim::write_ply(path, scene.mesh);
 }
 
-/// How far the scene is from what the plain models assume.
-Json effects(const Workload& workload) {
-  const double chord = 4 * workload.sphere_radius / 3;
-  return {
-      {"finite_paths", {{"on", workload.path_length > 0}, {"mean_length_over_chord", workload.path_length / chord}}},
-      {"surface_samples", {{"on", workload.dimension < 2.9}, {"dimension", workload.dimension}}}};
-}
-
 std::string csv_of(const Json& json) {
   std::string csv = "name,value\n";
   for (const auto& [key, value] : json.items())
@@ -63,7 +55,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common) {
                  {"distance_over_radius", sample_distance(w) / w.disc_radius},
                  {"dimension", w.dimension},
                  {"path_length", w.path_length},
-                 {"effects", effects(w)},
+                 {"effects", effects_json(w)},
                  {"notices", job.notices},
                  {"read_seconds", job.read_seconds}};
   result.text =

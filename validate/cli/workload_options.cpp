@@ -122,6 +122,18 @@ Json to_json(const validate::Job& job, const validate::JobRequest& request) {
   return json;
 }
 
+Json effects_json(const Workload& workload) {
+  const double chord = 4 * workload.sphere_radius / 3;
+  return Json::array({{{"name", "finite paths"},
+                       {"on", workload.path_length > 0},
+                       {"evidence", workload.path_length > 0 ? workload.path_length / chord : 1.0},
+                       {"meaning", "mean length of the rays over the mean chord of S0"}},
+                      {{"name", "surface samples"},
+                       {"on", workload.dimension < 2.9},
+                       {"evidence", workload.dimension},
+                       {"meaning", "dimension of the samples by box counting"}}});
+}
+
 std::string describe(const validate::Job& job) {
   const Workload& w = job.workload;
   const double x = sample_distance(w) / w.disc_radius;

@@ -53,6 +53,9 @@ template <class T>
 /// Resolved inputs of a job; the files as they were asked for.
 [[nodiscard]] Json to_json(const validate::Job& job, const validate::JobRequest& request);
 
+/// The deviations from the plain model that this workload shows and the closed forms take into account.
+[[nodiscard]] Json effects_json(const Workload& workload);
+
 /// "scene" and "rays" lines of the text output.
 [[nodiscard]] std::string describe(const validate::Job& job);
 

@@ -10,6 +10,7 @@
 #include "detp/model/disc_index_published.hpp"
 #include "detp/model/line_measure.hpp"
 #include "detp/sim/line_field.hpp"
+#include "detp/sim/technique/indexed_search.hpp"
 #include "detp/sim/technique/ray_box.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "experiments.hpp"
@@ -41,17 +42,11 @@ double lines_that_hit(const std::vector<sim::Ray>& lines, const sim::Box& box) {
       lines.begin(), lines.end(), [&](const sim::Ray& line) { return !sim::ClippedRay(line).inside(box).empty(); }));
 }
 
-/// The cube that the index cuts in halves: the discs' box, its sides as long as the longest.
+/// The cube that an octree cuts in halves: the index's box, its sides as long as the longest.
 sim::Box index_cube(const std::vector<sim::Disc>& discs) {
-  sim::Box box;
-  double largest = 0;
-  for (const sim::Disc& disc : discs) {
-    box.include(disc.centre);
-    largest = std::max(largest, disc.radius);
-  }
+  const sim::Box box = sim::index_box(discs);
   const glm::dvec3 size = box.size();
-  const glm::dvec3 low = box.low - largest;
-  return {low, low + std::max({size.x, size.y, size.z}) + 2 * largest};
+  return {box.low, box.low + std::max({size.x, size.y, size.z})};
 }
 
 /// Lines through S₀, run through one technique, and what of them the discs' cube sees.
