@@ -8,6 +8,7 @@
 
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/experiment/experiments.hpp"
+#include "sweep_report.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -20,6 +21,9 @@ constexpr double default_lines = 1e6;
 
 struct ValidateOptions {
   WorkloadOptions workload;
+  bool thorough = false;
+  double most_samples = 1e7;
+  validate::SweepOptions sweep;
 };
 
 /// Without a scene: 20 000 samples uniform in a cube of side 2, discs of radius 0.02.
@@ -145,7 +149,29 @@ ExitCode code_of(const std::vector<Claim>& claims, bool stopped) {
   return refuted ? ExitCode::refuted : ExitCode::done;
 }
 
+void check_effort(const ValidateOptions& options, const validate::JobRequest& request) {
+  if (!options.thorough && (options.sweep.checkpoint || options.sweep.resume || options.most_samples < 1e7))
+    throw std::invalid_argument("--checkpoint, --resume and --most-samples belong to --effort thorough");
+  if (options.sweep.resume && !options.sweep.checkpoint)
+    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
+  if (options.thorough && !request.numbers_alone())
+    throw std::invalid_argument("--effort thorough has workloads of its own; it takes no scene");
+  require_count("--most-samples", options.most_samples, 1e3, 1e18);
+}
+
+void sweep(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop,
+           const ProgressLine& progress, Result& result) {
+  validate::SweepOptions sweep = options.sweep;
+  sweep.seed = common.seed;
+  sweep.stop = stop;
+  sweep.progress = [&](std::string_view point, double share) { progress.show(point, share); };
+  std::vector<validate::SweepPoint> points = validate::sweep_points();
+  std::erase_if(points, [&](const validate::SweepPoint& point) { return point.samples > options.most_samples; });
+  report_sweep(validate::run_sweep(points, sweep), result);
+}
+
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  check_effort(options, options.workload.request(common));
   const ProgressLine progress(common);
   Result result;
   const validate::Experiment experiment =
@@ -155,9 +181,10 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   const std::vector<Claim> claims = validate::judge_all(findings);
   result.json["claims"] = Json::array();
   for (const Claim& claim : claims) result.json["claims"].push_back(to_json(claim));
-  result.json["stopped"] = stop.stop_requested();
   result.text = to_text(claims) + legend(claims) + summary(claims);
   result.csv = to_csv(claims);
+  if (options.thorough && !stop.stop_requested()) sweep(options, common, stop, progress, result);
+  result.json["stopped"] = stop.stop_requested();
   result.code = code_of(claims, stop.stop_requested());
   return result;
 }
@@ -169,6 +196,13 @@ Command validate_command(CLI::App& program) {
   app->footer("Example: detp validate --samples 20000 --disc-radius 0.02 --scene-side 2");
   const auto options = std::make_shared<ValidateOptions>();
   options->workload.add_to(*app);
+  app->add_option_function<std::string>(
+         "--effort", [options](const std::string& effort) { options->thorough = effort == "thorough"; },
+         "default; or thorough: also every formula over its whole range, some 20 minutes")
+      ->check(CLI::IsMember({"default", "thorough"}));
+  app->add_option("--checkpoint", options->sweep.checkpoint, "thorough: keep what is measured in this file");
+  app->add_flag("--resume", options->sweep.resume, "thorough: go on from the checkpoint");
+  app->add_option("--most-samples", options->most_samples, "thorough: leave out larger workloads");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_validate(*options, common, stop);
           }};

@@ -23,6 +23,16 @@ TEST_SUITE("end to end") {
       CHECK_FALSE(has_no_number(detp(sparse + " --format " + format).out));
   }
 
+  TEST_CASE("the sweep's options are refused where there is no sweep") {
+    check_refused({{"validate --resume", "--effort thorough"},
+                   {"validate --checkpoint x.json", "--effort thorough"},
+                   {"validate --most-samples 1000", "--effort thorough"},
+                   {"validate --effort thorough --resume", "--checkpoint"},
+                   {"validate @tree --effort thorough", "takes no scene"},
+                   {"validate --effort thorough --most-samples 0", "--most-samples"},
+                   {"validate --effort great", "default,thorough"}});
+  }
+
   TEST_CASE("a time limit before the first verdict ends with code 3 and what there is") {
     const Finished finished = detp("validate --time-limit 0.2 --format json");
     CHECK(finished.code == 3);

@@ -1,0 +1,144 @@
+#include "detp/validate/sweep/sweep.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "support/scratch_file.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+using sim::support::content_of;
+using sim::support::file_error_of;
+using sim::support::ScratchFolder;
+
+namespace {
+
+/// Two points small enough to be measured in a blink.
+std::vector<SweepPoint> small_points() { return {{3, 300, 0.05, 4, 40, 2}, {2, 200, 0.2, 4, 40, 0}}; }
+
+std::vector<double> numbers(const SweepResult& result) {
+  std::vector<double> all;
+  for (const Deviation& row : result.deviations)
+    for (const double number : {row.predicted, row.observed.mean, row.observed.standard_error}) all.push_back(number);
+  return all;
+}
+
+Deviation row(double predicted, double error = 0, const std::string& tier = "corrected") {
+  Deviation made;
+  made.technique = "sphere-cache";
+  made.quantity = "m_i";
+  made.tier = tier;
+  made.predicted = predicted;
+  made.observed = {100, error};
+  return made;
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("a summary tells median, worst and what lies beyond the goal, noisy rows apart") {
+    std::vector<Deviation> rows{row(101), row(97), row(100), row(115), row(111, 0.4), row(112, 1)};
+    rows.push_back(row(300, 5));  // its standard error of 5 % is no measure of 10 %
+    rows.push_back(row(1000, 0, "published"));
+    const auto summaries = summarise(rows);
+    REQUIRE(summaries.size() == 2);
+    const DeviationSummary& corrected = summaries[0];
+    CHECK(corrected.tier == "corrected");
+    CHECK(corrected.compared == 6);
+    CHECK(corrected.noisy == 1);
+    CHECK(corrected.beyond == 1);  // 15 %; 11 ± 0.4 % and 12 ± 1 % are within three standard errors of 10 %
+    CHECK(corrected.median == doctest::Approx(0.03));
+    CHECK(corrected.worst == doctest::Approx(0.15));
+    CHECK(corrected.worst_at.predicted == 115);
+    CHECK_FALSE(corrected.met());
+    CHECK(summaries[1].worst == doctest::Approx(9));
+  }
+
+  TEST_CASE("a summary without a fault meets its goal") {
+    const std::vector<Deviation> rows{row(101), row(97)};
+    CHECK(summarise(rows).front().met());
+  }
+}
+
+TEST_SUITE("sweep") {
+  TEST_CASE("the points cover the stated range") {
+    const auto points = sweep_points();
+    for (const int dimension : {2, 3})
+      for (const double samples : {1e3, 1e4, 1e5, 1e6, 1e7})
+        for (const double share : {1e-4, 1e-3, 1e-2, 0.05, 0.2})
+          CHECK(std::count_if(points.begin(), points.end(), [&](const SweepPoint& point) {
+                  return point.dimension == dimension && point.samples == samples && point.disc_share == share;
+                }) == 1);
+    for (const SweepPoint& point : points)
+      CHECK(point.disc_radius() / point.workload().sphere_radius == doctest::Approx(point.disc_share));
+  }
+
+  TEST_CASE("every quantity is compared with each tier that has it") {
+    const SweepResult result = run_sweep(small_points());
+    CHECK(result.points == 2);
+    CHECK(result.measured == 2);
+    const auto has = [&](std::string_view technique, std::string_view quantity, std::string_view tier) {
+      return std::any_of(result.deviations.begin(), result.deviations.end(), [&](const Deviation& one) {
+        return one.technique == technique && one.quantity == quantity && one.tier == tier && one.predicted > 0 &&
+               one.observed.mean > 0;
+      });
+    };
+    for (const std::string tier : {"published", "corrected"}) {
+      CHECK(has("sphere-cache", "m_i", tier));
+      CHECK(has("sphere-cache", "sphere_tests", tier));
+      CHECK(has("octree", "disc_tests", tier));
+    }
+    CHECK(has("sphere-cache", "L_i", "corrected"));
+    CHECK(has("grid", "steps", "corrected"));
+  }
+}
+
+TEST_SUITE("checkpoint") {
+  TEST_CASE("what is resumed is the same as in one go") {
+    const ScratchFolder folder;
+    const SweepResult whole = run_sweep(small_points());
+    SweepOptions options{.checkpoint = folder.path("sweep.json")};
+    const auto both = small_points();
+    CHECK(numbers(run_sweep(both, options)) == numbers(whole));
+    // Cut back to the first point, as if it had been interrupted before the second.
+    std::string content = content_of(folder.path("sweep.json"));
+    const std::size_t second = content.find(",\"" + both[0].name() + "\"");
+    REQUIRE(second != std::string::npos);  // names are kept in alphabetical order: "D=2 …" comes first
+    folder.file("sweep.json", content.substr(0, second) + "}}");
+    options.resume = true;
+    const SweepResult resumed = run_sweep(both, options);
+    CHECK(resumed.resumed == 1);
+    CHECK(resumed.measured == 2);
+    CHECK(numbers(resumed) == numbers(whole));
+    CHECK(content_of(folder.path("sweep.json")) == content);
+  }
+
+  TEST_CASE("of another seed, other points, or no checkpoint at all: refused and left as it is") {
+    const ScratchFolder folder;
+    SweepOptions options{.checkpoint = folder.path("sweep.json"), .resume = true};
+    const auto points = small_points();
+    (void)run_sweep(points, options);
+    const std::string content = content_of(folder.path("sweep.json"));
+    options.seed = 2;
+    CHECK(file_error_of([&] { (void)run_sweep(points, options); }).find("made with seed 1, not 2") !=
+          std::string::npos);
+    options.seed = 1;
+    CHECK(file_error_of([&] { (void)run_sweep(std::vector{points[0]}, options); }).find("other formulas") !=
+          std::string::npos);
+    CHECK(content_of(folder.path("sweep.json")) == content);
+    for (const std::string bad : {"", "{", "[]", "{\"schema\":{\"name\":\"x\",\"version\":1}}", "null"}) {
+      folder.file("sweep.json", bad);
+      CHECK(file_error_of([&] { (void)run_sweep(points, options); }).find("no checkpoint") != std::string::npos);
+      CHECK(content_of(folder.path("sweep.json")) == bad);
+    }
+  }
+
+  TEST_CASE("a stop before the start measures nothing") {
+    std::stop_source stop;
+    stop.request_stop();
+    const SweepResult result = run_sweep(small_points(), {.stop = stop.get_token()});
+    CHECK(result.measured == 0);
+    CHECK(result.deviations.empty());
+  }
+}

@@ -1,0 +1,168 @@
+#include "measure_point.hpp"
+
+#include <algorithm>
+#include <map>
+#include <numbers>
+#include <optional>
+
+#include "detp/model/disc_index_published.hpp"
+#include "detp/model/predict.hpp"
+#include "detp/model/sphere_cache.hpp"
+#include "detp/model/sphere_cache_published.hpp"
+#include "detp/model/sphere_count.hpp"
+#include "detp/sim/line_field.hpp"
+#include "detp/sim/technique/technique.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double least_rebuilds = 30;
+
+/// What one candidate did on all sets.
+struct Observed {
+  std::vector<Counts<double>> counts;
+  std::vector<std::vector<sim::SphereCounts>> spheres;
+  std::vector<Counts<double>> structural;  ///< predicted for the first sets
+};
+
+struct Observations {
+  std::vector<Observed> of_candidates;
+  double sphere_radius = 0;  ///< of S₀, mean over the sets
+};
+
+/// The rows of one candidate.
+class Rows {
+ public:
+  Rows(const SweepPoint& point, const Candidate& candidate) {
+    row_.dimension = point.dimension;
+    row_.samples = point.samples;
+    row_.disc_share = point.disc_share;
+    row_.technique = name(candidate.technique);
+    row_.parameters = describe(candidate.parameters);
+  }
+
+  void add(std::string_view quantity, std::int64_t sphere, std::string_view tier, double predicted,
+           const Estimate& observed) {
+    if (!(observed.mean > 0)) return;
+    row_.quantity = quantity;
+    row_.sphere = sphere;
+    row_.tier = tier;
+    row_.predicted = predicted;
+    row_.observed = observed;
+    rows_.push_back(row_);
+  }
+
+  [[nodiscard]] std::vector<Deviation> give() && { return std::move(rows_); }
+
+ private:
+  Deviation row_;
+  std::vector<Deviation> rows_;
+};
+
+/// Terms of one name, over the sets.
+std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_view wanted, std::size_t most) {
+  std::vector<double> values;
+  for (std::size_t set = 0; set < std::min(most, sets.size()); ++set)
+    for_each_term(sets[set], [&](std::string_view term, double value) {
+      if (term == wanted) values.push_back(value);
+    });
+  return values;
+}
+
+/// Every count of the whole run by one tier's mean prediction, over the sets that it was made for.
+void compare_counts(Rows& rows, std::string_view tier, const std::vector<Counts<double>>& predicted,
+                    const std::vector<Counts<double>>& counted) {
+  for_each_term(predicted.front(), [&](std::string_view term, double value) {
+    if (value == 0 || term == "sorted") return;
+    const std::size_t sets = predicted.size() == 1 ? counted.size() : predicted.size();
+    const std::vector<double> expected = column(predicted, term, sets);
+    double mean = 0;
+    for (const double one : expected) mean += one / static_cast<double>(expected.size());
+    rows.add(term, 0, tier, mean, batch_means(column(counted, term, sets)));
+  });
+}
+
+/// The paper's counts, where it has any.
+std::optional<Counts<double>> published_counts(const Workload& workload, const Candidate& candidate) {
+  if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters)) {
+    const std::int64_t k =
+        model::sphere_count(model::Form::published, {cache->ratio}, {workload.disc_radius}, {workload.sphere_radius});
+    return model::published::counts(workload, {cache->ratio}, k);
+  }
+  if (const auto* octree = std::get_if<OctreeParameters>(&candidate.parameters)) {
+    const double side = scene_side(workload) + 2 * workload.disc_radius;
+    const double radius = workload.sphere_radius;
+    const double cube = 1.5 / std::numbers::pi * side * side / (radius * radius);  // share of lines that hit it
+    return Counts<double>{.disc_tests =
+                              workload.rays * cube * model::published::tests_per_line(workload.samples, octree->depth)};
+  }
+  return std::nullopt;
+}
+
+void compare_spheres(Rows& rows, const Workload& workload, const SphereCacheParameters& parameters,
+                     const Observed& observed) {
+  std::size_t built = observed.spheres.front().size();
+  for (const auto& spheres : observed.spheres) built = std::min(built, spheres.size());
+  const auto levels = model::sphere_levels(workload, parameters, static_cast<std::int64_t>(built));
+  for (std::size_t i = 0; i < levels.size(); ++i) {
+    std::vector<double> rebuilds;
+    std::vector<double> listed;
+    for (const auto& spheres : observed.spheres) {
+      rebuilds.push_back(static_cast<double>(spheres[i].rebuilds));
+      listed.push_back(static_cast<double>(spheres[i].listed));
+    }
+    const Estimate m = batch_means(rebuilds);
+    if (m.mean < least_rebuilds) continue;
+    const std::int64_t index = levels[i].i;
+    rows.add("m_i", index, "corrected", levels[i].rebuilds, m);
+    rows.add("m_i", index, "published",
+             std::min(workload.samples, model::published::rebuilds({parameters.ratio}, index)), m);
+    rows.add("L_i", index, "corrected", levels[i].listed, batch_ratio(listed, rebuilds));
+  }
+}
+
+std::vector<Deviation> compare(const SweepPoint& point, const Workload& workload, const Candidate& candidate,
+                               const Observed& observed) {
+  Rows rows(point, candidate);
+  if (const auto published = published_counts(workload, candidate))
+    compare_counts(rows, "published", {*published}, observed.counts);
+  compare_counts(rows, "corrected", {model::predict(workload, candidate)}, observed.counts);
+  if (!observed.structural.empty()) compare_counts(rows, "structural", observed.structural, observed.counts);
+  if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters))
+    compare_spheres(rows, workload, *cache, observed);
+  return std::move(rows).give();
+}
+
+/// All candidates on one set. False where a stop was asked for.
+bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidates, std::uint64_t seed, int set,
+                 const std::stop_token& stop, Observations& all) {
+  const std::vector<sim::Disc> discs = point.discs(seed, set);
+  const sim::LineField field(sim::enclosing_sphere(discs), seed * 7919 + static_cast<std::uint64_t>(set));
+  const auto lines = field.lines(0, point.lines);
+  const sim::Problem problem = sim::make_problem(lines, discs);
+  all.sphere_radius += problem.enclosing.radius / point.sets;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    const sim::Outcome outcome = sim::run(problem, candidates[i], {.stop = stop});
+    if (outcome.stopped) return false;
+    all.of_candidates[i].counts.push_back(as_expected(outcome.counts));
+    all.of_candidates[i].spheres.push_back(outcome.spheres);
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Deviation> measure_point(const SweepPoint& point, std::uint64_t seed, const std::stop_token& stop) {
+  const std::vector<Candidate> candidates = sweep_candidates(point);
+  Observations all{.of_candidates = std::vector<Observed>(candidates.size())};
+  for (int set = 0; set < point.sets; ++set)
+    if (!observe_set(point, candidates, seed, set, stop, all)) return {};
+  Workload workload = point.workload();
+  workload.sphere_radius = all.sphere_radius;
+  std::vector<Deviation> rows;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    for (Deviation& row : compare(point, workload, candidates[i], all.of_candidates[i])) rows.push_back(std::move(row));
+  return rows;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,75 @@
+#include "point.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "detp/model/disc_index_published.hpp"
+#include "detp/model/sphere_count.hpp"
+#include "detp/sim/uniform_discs.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double side = 2;
+constexpr std::array disc_shares{1e-4, 1e-3, 1e-2, 0.05, 0.2};
+constexpr std::array ratios{0.3, 0.5, 0.65, 0.8, 0.9};
+
+/// Sets and lines for a number of samples: few samples scatter much from set to set.
+struct Amount {
+  double samples;
+  int sets;
+  std::size_t lines;
+  int structural_sets;
+};
+
+constexpr std::array amounts{Amount{1e7, 2, 2500, 0}, Amount{1e6, 6, 2000, 0}, Amount{1e5, 32, 500, 4},
+                             Amount{1e4, 96, 300, 16}, Amount{1e3, 256, 250, 64}};
+
+}  // namespace
+
+double SweepPoint::disc_radius() const { return disc_share / (1 - disc_share) * std::sqrt(3.0) / 2 * side; }
+
+Workload SweepPoint::workload() const {
+  return cube_workload(static_cast<double>(lines), samples, disc_radius(), side, dimension);
+}
+
+std::vector<sim::Disc> SweepPoint::discs(std::uint64_t seed, int set) const {
+  const auto body = dimension == 2 ? sim::Body::cube_faces : sim::Body::cube;
+  return sim::uniform_discs(body, side, static_cast<std::size_t>(samples), disc_radius(),
+                            seed * 1000003 + static_cast<std::uint64_t>(set));
+}
+
+std::string SweepPoint::name() const { return fmt::format("D={} n={:g} d/r0={:g}", dimension, samples, disc_share); }
+
+std::vector<SweepPoint> sweep_points() {
+  std::vector<SweepPoint> points;
+  for (const Amount& amount : amounts)
+    for (const int dimension : {3, 2})
+      for (const double share : disc_shares)
+        points.push_back({dimension, amount.samples, share, amount.sets, amount.lines, amount.structural_sets});
+  return points;
+}
+
+std::vector<Candidate> sweep_candidates(const SweepPoint& point) {
+  std::vector<Candidate> candidates;
+  const Workload workload = point.workload();
+  for (const double ratio : ratios) {
+    const std::int64_t k =
+        model::sphere_count(model::Form::corrected, {ratio}, {workload.disc_radius}, {workload.sphere_radius});
+    candidates.push_back({Technique::sphere_cache, SphereCacheParameters{ratio, std::max<std::int64_t>(k, 1)}});
+  }
+  const int published = model::published::octree_depth({workload.disc_radius}, scene_side(workload));
+  const int depth = std::clamp(published, 1, 7);
+  for (const int less : {0, 2}) {
+    const int levels = std::max(1, depth - less);
+    candidates.push_back({Technique::octree, OctreeParameters{levels}});
+    candidates.push_back({Technique::grid, GridParameters{1 << levels}});
+    if (levels == 1) break;
+  }
+  return candidates;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "detp/model/vocabulary.hpp"
+#include "detp/sim/geometry.hpp"
+
+/// The workloads over which the formulas are held against counting: samples uniform in a cube of side 2 or on its
+/// faces.
+namespace detp::validate {
+
+/// One workload of the sweep, and how much of it is simulated.
+struct SweepPoint {
+  int dimension = 3;
+  double samples = 0;       ///< n_P
+  double disc_share = 0;    ///< d/r₀
+  int sets = 0;             ///< independent sets of samples
+  std::size_t lines = 0;    ///< isotropic lines through S₀ for each set
+  int structural_sets = 0;  ///< of them, those on which the structural tier is compared too
+
+  [[nodiscard]] double disc_radius() const;
+  [[nodiscard]] Workload workload() const;
+  [[nodiscard]] std::vector<sim::Disc> discs(std::uint64_t seed, int set) const;
+
+  /// Where it lies in the sweep: "D=3 n=1000 d/r0=0.01".
+  [[nodiscard]] std::string name() const;
+
+  /// Roughly in proportion to the time it takes.
+  [[nodiscard]] double effort() const { return sets * (samples + 3e4); }
+};
+
+/// n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3; the largest first, so that two cores end together.
+[[nodiscard]] std::vector<SweepPoint> sweep_points();
+
+/// What is run on a point: sphere caches at five Q, indices at two resolutions.
+[[nodiscard]] std::vector<Candidate> sweep_candidates(const SweepPoint& point);
+
+}  // namespace detp::validate

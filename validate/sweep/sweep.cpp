@@ -1,0 +1,93 @@
+#include "sweep.hpp"
+
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <bit>
+#include <map>
+#include <mutex>
+
+#include "checkpoint.hpp"
+#include "detp/model/predict.hpp"
+#include "measure_point.hpp"
+
+namespace detp::validate {
+namespace {
+
+/// A number that changes with the points, their amounts and any formula's value (FNV-1a over all of them).
+std::uint64_t fingerprint(std::span<const SweepPoint> points) {
+  std::uint64_t hash = 14695981039346656037ULL;
+  const auto mix = [&hash](double value) { hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211ULL; };
+  for (const SweepPoint& point : points) {
+    for (const double part : {double(point.dimension), point.samples, point.disc_share, double(point.sets),
+                              double(point.lines), double(point.structural_sets)})
+      mix(part);
+    for (const Candidate& candidate : sweep_candidates(point))
+      for_each_term(model::predict(point.workload(), candidate), [&](std::string_view, double value) { mix(value); });
+  }
+  return hash;
+}
+
+/// Where the threads put what they have measured.
+class Collector {
+ public:
+  Collector(std::span<const SweepPoint> points, const SweepOptions& options) : points_(points), options_(options) {
+    if (options.checkpoint) checkpoint_.emplace(*options.checkpoint, options.seed, fingerprint(points));
+    if (checkpoint_ && options.resume) checkpoint_->read();
+    for (const SweepPoint& point : points) {
+      total_ += point.effort();
+      if (!checkpoint_ || !checkpoint_->points().contains(point.name())) continue;
+      measured_[point.name()] = checkpoint_->points().at(point.name());
+      done_ += point.effort();
+    }
+    resumed_ = measured_.size();
+  }
+
+  /// The next point to measure, the largest first; none where all are taken or a stop was asked for.
+  [[nodiscard]] const SweepPoint* take() {
+    const std::scoped_lock lock(mutex_);
+    while (next_ < points_.size() && measured_.contains(points_[next_].name())) ++next_;
+    return next_ < points_.size() && !options_.stop.stop_requested() ? &points_[next_++] : nullptr;
+  }
+
+  void put(const SweepPoint& point, std::vector<Deviation> deviations) {
+    const std::scoped_lock lock(mutex_);
+    if (checkpoint_) checkpoint_->add(point.name(), deviations);
+    measured_[point.name()] = std::move(deviations);
+    done_ += point.effort();
+    if (options_.progress) options_.progress(point.name(), done_ / total_);
+  }
+
+  [[nodiscard]] SweepResult finish() && {
+    SweepResult result{.deviations = {}, .points = points_.size(), .measured = measured_.size(), .resumed = resumed_};
+    for (const SweepPoint& point : points_)
+      for (Deviation& deviation : measured_[point.name()]) result.deviations.push_back(std::move(deviation));
+    return result;
+  }
+
+ private:
+  std::span<const SweepPoint> points_;
+  const SweepOptions& options_;
+  std::optional<Checkpoint> checkpoint_;
+  std::mutex mutex_;
+  std::map<std::string, std::vector<Deviation>> measured_;
+  std::size_t next_ = 0;
+  std::size_t resumed_ = 0;
+  double total_ = 0;
+  double done_ = 0;
+};
+
+}  // namespace
+
+SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options) {
+  Collector collector(points, options);
+  tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
+    while (const SweepPoint* point = collector.take()) {
+      auto deviations = measure_point(*point, options.seed, options.stop);
+      if (!deviations.empty()) collector.put(*point, std::move(deviations));
+    }
+  });
+  return std::move(collector).finish();
+}
+
+}  // namespace detp::validate
