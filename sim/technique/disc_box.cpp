@@ -61,10 +61,11 @@ bool within(const Polygon& polygon, double radius) {
 }  // namespace
 
 Box bounds(const Disc& disc, double slack) {
-  glm::dvec3 reach;
-  for (int axis = 0; axis < 3; ++axis)
-    reach[axis] = disc.radius * std::sqrt(std::max(0.0, 1 - disc.normal[axis] * disc.normal[axis])) + slack;
-  return {disc.centre - reach, disc.centre + reach};
+  // From the other two components: 1 - n² would lose the tilt of a normal within 1e-8 of the axis.
+  const glm::dvec3 square = disc.normal * disc.normal;
+  const glm::dvec3 tilt{std::sqrt(square.y + square.z), std::sqrt(square.z + square.x), std::sqrt(square.x + square.y)};
+  const glm::dvec3 extent = disc.radius * tilt + slack;
+  return {disc.centre - extent, disc.centre + extent};
 }
 
 bool overlaps(const Disc& disc, const Box& box, double slack) {

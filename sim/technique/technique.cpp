@@ -43,6 +43,17 @@ void require_number(const char* what, std::size_t count) {
     throw std::length_error(fmt::format("{} {}s are too many; the most is 4294967294", count, what));
 }
 
+/// What make_problem promises. sim/README.md proves it enough for every cull.
+double cull_slack(const Problem& problem, double farthest) {
+  double largest = 0;
+  for (const Disc& disc : problem.discs) largest = std::max(largest, disc.radius);
+  double offset = 0;
+  for (int axis = 0; axis < 3; ++axis) offset = std::max(offset, std::abs(problem.enclosing.centre[axis]));
+  const double extent = farthest + problem.enclosing.radius;
+  const double rounding = 2e-15 * extent;
+  return 16e-12 * extent + std::cbrt(2 * largest * rounding * rounding) + 1e-15 * offset;
+}
+
 }  // namespace
 
 Sphere enclosing_sphere(std::span<const Disc> discs) {
@@ -68,7 +79,7 @@ Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, boo
     check_ray(ray);
     farthest = std::max(farthest, glm::distance(ray.origin, problem.enclosing.centre));
   }
-  problem.slack = 4e-12 * (farthest + problem.enclosing.radius);
+  problem.slack = cull_slack(problem, farthest);
   if (!(farthest + problem.enclosing.radius < 1e100))
     throw std::invalid_argument("rays and discs must lie within 1e100 of each other, or their squares overflow");
   return problem;
@@ -86,6 +97,12 @@ Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions
       break;
     case Technique::sphere_cache_published:
       run_sphere_cache_published(problem, std::get<SphereCacheParameters>(candidate.parameters), options, outcome);
+      break;
+    case Technique::cell_spheres:
+      run_cell_spheres(problem, std::get<CellSpheresParameters>(candidate.parameters), options, outcome);
+      break;
+    case Technique::sphere_tree:
+      run_sphere_tree(problem, std::get<SphereTreeParameters>(candidate.parameters), options, outcome);
       break;
     case Technique::octree:
       run_octree(problem, std::get<OctreeParameters>(candidate.parameters), options, outcome);

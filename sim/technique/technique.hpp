@@ -17,7 +17,7 @@ struct Problem {
   std::span<const Disc> discs;
   Sphere enclosing;           ///< S₀: holds every disc whole; rays may start or pass outside it
   bool front_facing = false;  ///< count only rays that arrive at a disc's front
-  double slack = 0;           ///< added to every cull, length: more than the error of any predicate (make_problem)
+  double slack = 0;           ///< added to every cull, length: no hit comes so far from its disc (make_problem)
 };
 
 /// The smallest sphere around the box of the discs' centres, plus the largest radius.
@@ -27,8 +27,12 @@ struct Problem {
 /// that is not finite, a direction or normal that is not unit (to 1e-12), a radius or length <= 0, a negative power;
 /// std::length_error for 2³² or more rays or discs.
 ///
-/// The slack is 4e-12 times the distance of the farthest ray origin from the farthest point of S₀: directions unit to
-/// 1e-12 displace the nearest point of a ray by no more than a quarter of it, rounding by less than a hundredth.
+/// The slack is 16e-12 E + ∛(2d κ²) + 1e-15 M: a ray taken for a hit comes nearer than this to the disc, whatever
+/// rounding did, with room for that of the culls (proof: sim/README.md, "Geometry"). E is the distance of the farthest
+/// ray origin from the farthest point of S₀, d the largest disc radius, κ = 2e-15 E the rounding of a predicate, M the
+/// largest coordinate of the centre of S₀. The first term is for directions and normals unit to 1e-12; the second for
+/// rays that graze a disc near its rim, where rounding moves the crossing farthest; the third for cells far from the
+/// origin.
 [[nodiscard]] Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing = false);
 
 struct Pair {

@@ -50,6 +50,12 @@ TEST_SUITE("known answer") {
     CHECK(overlaps(above, unit_box, 0.06));
   }
 
+  TEST_CASE("bounds of a disc tilted by 1e-9 are not flat") {
+    const Box box = bounds({{0, 0, 0}, {1e-9, 0, 1}, 2}, 0);
+    CHECK(box.high.z == doctest::Approx(2e-9));
+    CHECK(box.low.z == doctest::Approx(-2e-9));
+  }
+
   TEST_CASE("bounds of an axis-aligned disc are flat") {
     const Box box = bounds({{1, 2, 3}, {0, 0, 1}, 0.5}, 0);
     CHECK(box.low == glm::dvec3{0.5, 1.5, 3});

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "geometry.hpp"
+
+/// How near to its boundary a predicate may decide wrongly. Proved in sim/README.md, "Geometry"; valid where no square
+/// under- or overflows (make_problem's limits) and for directions and normals of length 1 to 1e-12.
+namespace detp::sim {
+
+/// u = 2⁻⁵³: half the distance from 1 to the next double.
+inline constexpr double rounding_unit = 0.5 * std::numeric_limits<double>::epsilon();
+
+/// How far the nearest point on a ray, at `distance`, is displaced along it: by rounding, and for D not quite unit.
+[[nodiscard]] inline double displacement(const Ray& ray, double distance) {
+  return (std::abs(glm::dot(ray.direction, ray.direction) - 1) + 8 * rounding_unit) * distance;
+}
+
+/// hits(ray, sphere) is right where the true distance of the centre from the ray differs from the radius by more than
+///   u(2.2|f| + 4r) + s min(1, 2s/r),   s = (| |D|² - 1 | + 8u) |f|.
+///
+/// | symbol | unit   | meaning                                              |
+/// |--------|--------|------------------------------------------------------|
+/// | f      | length | from the ray's origin to the sphere's centre         |
+/// | r, D   |        | radius; direction                                    |
+/// | s      | length | how far the nearest point is displaced along the ray |
+[[nodiscard]] inline double error_band(const Ray& ray, const Sphere& sphere) {
+  const double f = glm::distance(sphere.centre, ray.origin);
+  const double s = displacement(ray, f);
+  return rounding_unit * (2.2 * f + 4 * sphere.radius) + s * std::min(1.0, 2 * s / sphere.radius);
+}
+
+/// Where hits(ray, disc) may be wrong.
+struct DiscBand {
+  double rim;   ///< | |n × (w × D)| - d |n·D| | is no more than this, length: over |n·D| it is that of the crossing
+  double ends;  ///< of segments: |n·w| or |n·w + length n·D| is no more than this, length: an end this near the plane
+};
+
+/// hits(ray, disc) is right where both of these are exceeded:
+///   rim = u(3|w| + 10d), and of segments s min(1, 2s/d) more;   ends = 4.01 u(|w| + length).
+///
+/// | symbol | unit   | meaning                                              |
+/// |--------|--------|------------------------------------------------------|
+/// | w      | length | from the disc's centre to the ray's origin           |
+/// | d, n   |        | radius; normal                                       |
+/// | s      | length | (| |D|² - 1 | + 8u) |w|: it tells beyond |w| = 5·10⁷ d |
+[[nodiscard]] inline DiscBand error_band(const Ray& ray, const Disc& disc) {
+  const double w = glm::distance(ray.origin, disc.centre);
+  const double rim = rounding_unit * (3 * w + 10 * disc.radius);
+  if (ray.is_line()) return {rim, 0};
+  const double s = displacement(ray, w);
+  return {rim + s * std::min(1.0, 2 * s / disc.radius), 4.01 * rounding_unit * (w + ray.length)};
+}
+
+}  // namespace detp::sim

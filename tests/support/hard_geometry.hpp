@@ -1,0 +1,168 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <string_view>
+
+#include "detp/sim/directions.hpp"
+#include "detp/sim/geometry.hpp"
+#include "detp/sim/random.hpp"
+
+/// Rays that only just hit or miss a disc or a sphere, in every way we could think of.
+namespace detp::support {
+
+/// Numbers for one case, one after the other.
+class Dice {
+ public:
+  Dice(std::uint64_t family, std::uint64_t index) : family_(family), index_(index) {}
+  double uniform() {
+    if (used_ % 4 == 0) four_ = sim::uniform4(900 + family_, sim::Stream::tests, index_, used_ / 4);
+    return four_[used_++ % 4];
+  }
+  double between(double low, double high) { return low + (high - low) * uniform(); }
+  double sign() { return uniform() < 0.5 ? -1 : 1; }
+  /// Log-uniform.
+  double magnitude(double low, double high) { return std::pow(10.0, between(low, high)); }
+  bool one_in(double n) { return uniform() * n < 1; }
+  /// 0, or log-uniform from 1e-17 to 1e-12, of either sign: what rounding can hide, and a little more.
+  double whisker() {
+    const double side = one_in(4) ? 0 : sign();
+    return side * magnitude(-17, -12);
+  }
+  glm::dvec3 direction() {
+    const double u = uniform();
+    return sim::uniform_direction(u, uniform());
+  }
+  /// An axis, a direction within 1e-8 of one, or any.
+  glm::dvec3 normal() {
+    const double kind = uniform();
+    if (kind > 0.4) return glm::normalize(direction());
+    glm::dvec3 axis{0.0};
+    axis[static_cast<int>(3 * uniform())] = sign();
+    const double tilt = kind < 0.2 ? 0 : magnitude(-17, -8);
+    return glm::normalize(axis + tilt * direction());
+  }
+
+ private:
+  std::uint64_t family_;
+  std::uint64_t index_;
+  std::uint64_t used_ = 0;
+  std::array<double, 4> four_{};
+};
+
+/// How the cases of a family are drawn: exponents of 10, in radii of the disc or sphere.
+struct Family {
+  std::string_view name;
+  double cosine_low = -1, cosine_high = 0;  ///< |n·D|
+  double from_low = -1, from_high = 2;      ///< from the ray's origin to where it crosses the plane
+  double radius_low = -3, radius_high = 0;  ///< of the disc, of the scene's size
+  double scale = 1;                         ///< size of the scene
+  double offset = 0;                        ///< from the coordinates' origin, in sizes of the scene
+  double length_low = -1, length_high = 3;  ///< of segments
+  double unit = 0;                          ///< by how much a direction's length may differ from 1
+};
+
+inline const std::array families{
+    Family{.name = "tangent"},
+    Family{.name = "grazing", .cosine_low = -12},
+    Family{.name = "edge-on", .cosine_low = -18, .cosine_high = -12},
+    Family{.name = "far away", .cosine_low = -6, .offset = 1e6},
+    Family{.name = "from afar", .cosine_low = -4, .from_low = 2, .from_high = 9, .length_low = 1, .length_high = 10},
+    Family{.name = "tiny", .cosine_low = -12, .scale = 1e-9},
+    Family{.name = "huge", .cosine_low = -12, .scale = 1e9},
+    Family{.name = "from inside", .cosine_low = -6, .from_low = -17, .from_high = 0},
+    Family{
+        .name = "very short", .cosine_low = -6, .from_low = -17, .from_high = -2, .length_low = -60, .length_high = -8},
+    Family{.name = "not unit", .cosine_low = -12, .from_low = -1, .from_high = 9, .unit = 0.99e-12},
+};
+
+/// A direction across the plane of n with |n·D| as asked; parallel to the plane, to rounding, for less than 1e-17.
+inline glm::dvec3 slanting(Dice& dice, const glm::dvec3& normal, double cosine) {
+  const auto [u, v] = sim::basis_around(normal);
+  const double angle = dice.between(0, 2 * std::numbers::pi);
+  const glm::dvec3 along = std::cos(angle) * u + std::sin(angle) * v;
+  return glm::normalize(std::sqrt(1 - cosine * cosine) * along + dice.sign() * cosine * normal);
+}
+
+struct DiscCase {
+  sim::Ray ray;
+  sim::Disc disc;
+};
+
+/// A ray towards the rim of the disc (or, one in four, anywhere on it), that if a segment ends near its plane, or near
+/// the disc, or far from it.
+inline sim::Ray hard_ray(const Family& family, Dice& dice, const sim::Disc& disc) {
+  const double cosine = std::min(1.0, dice.magnitude(family.cosine_low, family.cosine_high));
+  const glm::dvec3 direction = slanting(dice, disc.normal, cosine);
+  // Where it crosses: near the rim, for grazing rays often where the rim is parallel to them.
+  const glm::dvec3 sideways = glm::normalize(glm::cross(disc.normal, direction));
+  const glm::dvec3 forwards = glm::cross(sideways, disc.normal);
+  const double angle = dice.one_in(2) ? dice.whisker() * 1e7 : dice.between(0, 2 * std::numbers::pi);
+  const double place = dice.one_in(4) ? dice.uniform() : 1 + dice.whisker();
+  const glm::dvec3 crossing =
+      disc.centre + place * disc.radius * (dice.sign() * std::cos(angle) * sideways + std::sin(angle) * forwards);
+  const double from = disc.radius * dice.magnitude(family.from_low, family.from_high);
+  sim::Ray ray{.origin = crossing - from * direction, .direction = direction * (1 + family.unit * dice.between(-1, 1))};
+  const double kind = dice.uniform();
+  if (kind < 0.15) ray.length = disc.radius * dice.magnitude(family.length_low, family.length_high);
+  if (kind >= 0.15 && kind < 0.3) ray.length = from * (1 + dice.whisker());
+  if (kind >= 0.3 && kind < 0.4) ray.length = from + dice.between(-1.5, 1.5) * disc.radius;
+  if (kind >= 0.4 && kind < 0.5) ray.origin = crossing + dice.whisker() * direction, ray.length = from;
+  if (!(ray.length > 0)) ray.length = std::numeric_limits<double>::min();
+  return ray;
+}
+
+inline DiscCase hard_disc(const Family& family, std::uint64_t number, std::uint64_t index) {
+  Dice dice(number, index);
+  sim::Disc disc;
+  disc.radius = family.scale * dice.magnitude(family.radius_low, family.radius_high);
+  const glm::dvec3 offset{family.offset, -0.3 * family.offset, 0.7 * family.offset};
+  disc.centre = family.scale * (offset + glm::dvec3{dice.uniform(), dice.uniform(), dice.uniform()});
+  disc.normal = dice.normal();
+  if (dice.one_in(8)) {  // numbers of few bits, so that exact ties come up
+    disc.centre = family.scale * glm::floor(8.0 * disc.centre / family.scale) / 8.0;
+    disc.radius = family.scale / 4;
+  }
+  sim::Ray ray = hard_ray(family, dice, disc);
+  if (!ray.is_line() && dice.one_in(20)) ray.length = 0;
+  // What coordinates far from 0 round away: the radius brought to where the ray did cross.
+  const glm::dvec3 moment = glm::cross(ray.origin - disc.centre, ray.direction);
+  const double crossed = glm::length(glm::cross(disc.normal, moment)) / std::abs(glm::dot(disc.normal, ray.direction));
+  if (dice.one_in(2) && std::abs(crossed - disc.radius) < 0.1 * disc.radius)
+    disc.radius = crossed * (1 + dice.whisker());
+  return {ray, disc};
+}
+
+struct SphereCase {
+  sim::Ray ray;
+  sim::Sphere sphere;
+};
+
+/// A ray that passes a sphere at about its radius, abreast of the centre or with an end that near; a sphere brought to
+/// the distance of a ray.
+inline SphereCase hard_sphere(const Family& family, std::uint64_t number, std::uint64_t index) {
+  Dice dice(100 + number, index);
+  const sim::Disc disc = hard_disc(family, number, index).disc;
+  sim::Sphere sphere{disc.centre, disc.radius};
+  const glm::dvec3 outwards = dice.normal();
+  const glm::dvec3 direction = dice.one_in(3) ? -outwards : slanting(dice, outwards, dice.magnitude(-18, -1));
+  const glm::dvec3 touch = sphere.centre + (1 + dice.whisker()) * sphere.radius * outwards;
+  const double from = sphere.radius * dice.magnitude(family.from_low, family.from_high);
+  sim::Ray ray{.origin = touch - from * direction, .direction = direction * (1 + family.unit * dice.between(-1, 1))};
+  const double kind = dice.uniform();
+  if (kind < 0.2) ray.length = sphere.radius * dice.magnitude(family.length_low, family.length_high);
+  if (kind >= 0.2 && kind < 0.4) ray.length = from * (1 + dice.whisker());
+  if (kind >= 0.4 && kind < 0.5) ray.origin = touch, ray.length = dice.one_in(5) ? 0 : from;
+  if (dice.one_in(2)) {
+    const glm::dvec3 f = sphere.centre - ray.origin;
+    const double along = ray.is_line() ? glm::dot(f, direction) : std::clamp(glm::dot(f, direction), 0.0, ray.length);
+    sphere.radius = glm::length(f - along * direction) * (1 + dice.whisker());
+  }
+  return {ray, sphere};
+}
+
+}  // namespace detp::support
