@@ -1,0 +1,40 @@
+#include "growth.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace detp::model {
+namespace {
+
+constexpr Growth proportional{.power = 1, .logarithms = 0};
+constexpr double third = 1.0 / 3;
+
+bool is_tree_of_cells(Technique technique) { return technique == Technique::octree || technique == Technique::grid; }
+
+/// Published, the discs shrinking.
+Growth published_growth(const GrowthCase& asked) {
+  if (!is_tree_of_cells(asked.technique)) return {.power = third, .logarithms = 0};
+  return {.power = 1 - 2 / asked.dimension, .logarithms = asked.technique == Technique::octree ? 1 : 0};
+}
+
+/// Corrected, the discs shrinking.
+Growth corrected_growth(const GrowthCase& asked) {
+  if (asked.technique == Technique::grid) return {.power = third, .logarithms = 0};
+  return {.power = 1 - 2 / asked.dimension, .logarithms = asked.dimension == 2 ? 1 : 0};
+}
+
+}  // namespace
+
+Growth growth(const GrowthCase& asked) {
+  if (!(asked.dimension >= 2 && asked.dimension <= 3))
+    throw std::invalid_argument(fmt::format("sample dimension must be from 2 to 3 (got {})", asked.dimension));
+  const bool unsorted = asked.order == SampleOrder::none && !is_tree_of_cells(asked.technique);
+  if (asked.technique == Technique::brute_force || unsorted || asked.disc == DiscRule::fixed) return proportional;
+  const bool published = asked.form == Form::published || asked.technique == Technique::sphere_cache_published;
+  return published ? published_growth(asked) : corrected_growth(asked);
+}
+
+Growth depth_growth(DiscRule disc) { return {.power = 0, .logarithms = disc == DiscRule::fixed ? 0 : 1}; }
+
+}  // namespace detp::model
