@@ -15,8 +15,8 @@ using Cell = std::array<std::int64_t, 3>;
 /// Cubic cells over the box of the discs, and for each cell its discs, in one array (compressed rows).
 class Grid {
  public:
-  Grid(const Problem& problem, int cells, const std::stop_token& stop)
-      : problem_(problem), box_(index_box(problem.discs)) {
+  Grid(const Problem& problem, int cells, Insertion insertion, const std::stop_token& stop)
+      : problem_(problem), insertion_(insertion), box_(index_box(problem.discs)) {
     const glm::dvec3 size = box_.size();
     side_ = std::max({size.x, size.y, size.z}) / cells;
     double total = 1;
@@ -30,13 +30,26 @@ class Grid {
     fill(stop);
   }
 
-  [[nodiscard]] std::size_t references() const { return references_.size(); }
-  [[nodiscard]] std::size_t placements() const { return references_.size(); }
+  [[nodiscard]] IndexSize size() const {
+    return {.nodes = starts_.size() - 1,
+            .references = references_.size(),
+            .placements = references_.size(),
+            .bytes = starts_.size() * sizeof(starts_[0]) + references_.size() * sizeof(references_[0])};
+  }
+
+  void show(const VisitNode& visit) const {
+    for (Cell cell{}; cell[2] < along_[2]; ++cell[2])
+      for (cell[1] = 0; cell[1] < along_[1]; ++cell[1])
+        for (cell[0] = 0; cell[0] < along_[0]; ++cell[0]) {
+          const Box whole = box_of(cell);
+          visit({{whole.low, glm::min(whole.high, box_.high)}, 0, true, references_in(index(cell)).size()});
+        }
+  }
 
   /// Goes from cell to cell along the ray. The place of each plane is computed anew from its number, so that errors do
   /// not add up; a cell missed by rounding is no loss, for the discs near its faces are in the next cell too.
-  template <bool counting>
-  void trace(std::uint32_t ray, IndexedSearch<counting>& search) const {
+  template <class Search>
+  void trace(std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(problem_.rays[ray]);
     const Box grown{box_.low - problem_.slack, box_.high + problem_.slack};
     const Stretch stretch = clipped.inside(grown);
@@ -44,8 +57,7 @@ class Grid {
     Cell cell = cell_of(clipped.origin + stretch.from * problem_.rays[ray].direction);
     for (;;) {
       search.visit(&Counts<std::uint64_t>::steps);
-      const std::size_t number = index(cell);
-      search.test(ray, std::span(references_).subspan(starts_[number], starts_[number + 1] - starts_[number]));
+      search.test(ray, references_in(index(cell)));
       int next = 0;
       double leave = unbounded;
       for (int axis = 0; axis < 3; ++axis)
@@ -80,6 +92,10 @@ class Grid {
     return static_cast<std::size_t>((cell[2] * along_[1] + cell[1]) * along_[0] + cell[0]);
   }
 
+  std::span<const std::uint32_t> references_in(std::size_t number) const {
+    return std::span(references_).subspan(starts_[number], starts_[number + 1] - starts_[number]);
+  }
+
   Box box_of(const Cell& cell) const {
     const glm::dvec3 low = box_.low + side_ * glm::dvec3{cell[0], cell[1], cell[2]};
     return {low, low + side_};
@@ -93,7 +109,8 @@ class Grid {
     for (std::int64_t z = low[2]; z <= high[2]; ++z)
       for (std::int64_t y = low[1]; y <= high[1]; ++y)
         for (std::int64_t x = low[0]; x <= high[0]; ++x)
-          if (low == high || overlaps(disc, box_of({x, y, z}), problem_.slack)) visit(index({x, y, z}));
+          if (low == high || insertion_ == Insertion::bounding_box || overlaps(disc, box_of({x, y, z}), problem_.slack))
+            visit(index({x, y, z}));
   }
 
   struct Placement {
@@ -116,6 +133,7 @@ class Grid {
   }
 
   const Problem& problem_;
+  Insertion insertion_;
   Box box_;
   double side_ = 0;
   Cell along_{1, 1, 1};
@@ -125,12 +143,28 @@ class Grid {
 
 }  // namespace
 
-void run_grid(const Problem& problem, const GridParameters& parameters, const RunOptions& options, Outcome& outcome) {
+IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
+                       const VisitNode& visit) {
+  check({Technique::grid, parameters});
+  const Grid grid(problem, parameters.cells, variant.insertion, {});
+  grid.show(visit);
+  return grid.size();
+}
+
+Outcome search_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
+                    const RunOptions& options) {
+  check({Technique::grid, parameters});
+  Outcome outcome;
   Stopwatch watch;
-  const Grid grid(problem, parameters.cells, options.stop);
+  const Grid grid(problem, parameters.cells, variant.insertion, options.stop);
   outcome.seconds.build = watch.lap();
-  search_index(grid, problem, options, outcome);
+  search_index(grid, problem, variant.mailboxing, options, outcome);
   outcome.seconds.search = watch.lap();
+  return outcome;
+}
+
+void run_grid(const Problem& problem, const GridParameters& parameters, const RunOptions& options, Outcome& outcome) {
+  outcome = search_grid(problem, parameters, {}, options);
 }
 
 }  // namespace detp::sim

@@ -1,12 +1,13 @@
 #pragma once
 
+#include "disc_index.hpp"
 #include "hit_collector.hpp"
 
 namespace detp::sim {
 
-/// Tests a ray against the discs of the cells it enters. A disc met in several cells is tested in each, but its hit is
-/// kept once (what is tested again counts again, though the answer is known).
-template <bool counting>
+/// Tests a ray against the discs of the cells it enters. The hit of a disc met in several cells is kept once. Without
+/// mailboxes the disc is tested in each (what is tested again counts again, though the answer is known).
+template <bool counting, bool mailboxing>
 class IndexedSearch {
  public:
   IndexedSearch(const Problem& problem, const RunOptions& options)
@@ -17,17 +18,21 @@ class IndexedSearch {
 
   void test(std::uint32_t ray, std::span<const std::uint32_t> discs) {
     const Ray& tested = problem_.rays[ray];
-    for (const std::uint32_t disc : discs)
-      if (last_ray_[disc] != ray + 1 && collector_.decide(tested, problem_.discs[disc])) {
-        last_ray_[disc] = ray + 1;
-        collector_.keep(ray, disc);
-      }
-    tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size());
+    std::uint64_t known = 0;
+    for (const std::uint32_t disc : discs) {
+      const bool seen = last_ray_[disc] == ray + 1;
+      if (mailboxing && seen) ++known;
+      if (seen) continue;
+      const bool hit = collector_.decide(tested, problem_.discs[disc]);
+      if (mailboxing || hit) last_ray_[disc] = ray + 1;
+      if (hit) collector_.keep(ray, disc);
+    }
+    tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size() - known);
   }
 
-  void give(Outcome& outcome, std::size_t references, std::size_t placements) && {
-    tally_.add(&Counts<std::uint64_t>::references, references);
-    tally_.add(&Counts<std::uint64_t>::placements, placements);
+  void give(Outcome& outcome, const IndexSize& size) && {
+    tally_.add(&Counts<std::uint64_t>::references, size.references);
+    tally_.add(&Counts<std::uint64_t>::placements, size.placements);
     outcome.counts = tally_.counts();
     std::move(collector_).give(outcome);
   }
@@ -36,26 +41,31 @@ class IndexedSearch {
   const Problem& problem_;
   HitCollector collector_;
   Tally<counting> tally_;
-  std::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray that hit it; 0: none yet
+  std::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray known to hit it or not; 0: none yet
 };
 
-/// Traces every ray through an index, asking for a stop between blocks of them. An index offers trace(ray, search),
-/// references() and placements().
-template <bool counting, class Index>
+/// Traces every ray through an index, asking for a stop between blocks of them. An index offers trace(ray, search) and
+/// size().
+template <bool counting, bool mailboxing, class Index>
 void trace_all(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome) {
   constexpr std::uint32_t block = 64;
-  IndexedSearch<counting> search(problem, options);
+  IndexedSearch<counting, mailboxing> search(problem, options);
   for (std::uint32_t ray = 0; ray < problem.rays.size() && !outcome.stopped; ++ray) {
     outcome.stopped = ray % block == 0 && options.stop.stop_requested();
     if (!outcome.stopped) index.trace(ray, search);
   }
-  std::move(search).give(outcome, index.references(), index.placements());
+  std::move(search).give(outcome, index.size());
 }
 
 template <class Index>
-void search_index(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  options.count ? trace_all<true>(index, problem, options, outcome)
-                : trace_all<false>(index, problem, options, outcome);
+void search_index(const Index& index, const Problem& problem, bool mailboxing, const RunOptions& options,
+                  Outcome& outcome) {
+  if (mailboxing)
+    options.count ? trace_all<true, true>(index, problem, options, outcome)
+                  : trace_all<false, true>(index, problem, options, outcome);
+  else
+    options.count ? trace_all<true, false>(index, problem, options, outcome)
+                  : trace_all<false, false>(index, problem, options, outcome);
 }
 
 /// The box around the discs' centres, grown by the largest radius: no disc pokes out.

@@ -1,4 +1,6 @@
 #include <array>
+#include <bit>
+#include <cmath>
 
 #include "detp/sim/memory.hpp"
 #include "disc_box.hpp"
@@ -25,23 +27,36 @@ Box octant_of(const Box& box, unsigned octant) {
 
 class Octree {
  public:
-  Octree(const Problem& problem, int depth, std::stop_token stop)
-      : problem_(problem), depth_(depth), stop_(std::move(stop)), box_(index_box(problem.discs)) {
+  Octree(const Problem& problem, int depth, const IndexVariant& variant, std::stop_token stop)
+      : problem_(problem), depth_(depth), variant_(variant), stop_(std::move(stop)), box_(index_box(problem.discs)) {
     const glm::dvec3 size = box_.size();
     box_.high = box_.low + glm::dvec3{std::max({size.x, size.y, size.z})};
     std::vector<std::uint32_t> all(problem.discs.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
     nodes_.emplace_back();
     build(0, box_, 0, all);
+    nodes_.shrink_to_fit();
+    references_.shrink_to_fit();
   }
 
-  [[nodiscard]] std::size_t references() const { return references_.size(); }
-  [[nodiscard]] std::size_t placements() const { return placements_; }
+  [[nodiscard]] IndexSize size() const {
+    return {.nodes = nodes_.size(),
+            .references = references_.size(),
+            .placements = placements_,
+            .bytes = nodes_.size() * sizeof(nodes_[0]) + references_.size() * sizeof(references_[0])};
+  }
 
-  template <bool counting>
-  void trace(std::uint32_t ray, IndexedSearch<counting>& search) const {
+  void show(const VisitNode& visit) const { show(0, box_, 0, visit); }
+
+  template <class Search>
+  void trace(std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(problem_.rays[ray]);
-    if (!clipped.inside(grown(box_)).empty()) enter(0, box_, 0, ray, clipped, search);
+    const Stretch stretch = clipped.inside(grown(box_));
+    if (stretch.empty()) return;
+    if (variant_.traversal == Traversal::restart)
+      restart(ray, clipped, stretch, search);
+    else
+      enter(0, box_, 0, ray, clipped, search);
   }
 
  private:
@@ -83,7 +98,9 @@ class Octree {
         for (int axis = 0; axis < 3; ++axis)
           reached =
               reached && (octant >> axis & 1 ? reach.high[axis] >= middle[axis] : reach.low[axis] <= middle[axis]);
-        if (reached && overlaps(problem_.discs[i], octant_of(box, octant), problem_.slack)) parts[octant].push_back(i);
+        if (reached && (variant_.insertion == Insertion::bounding_box ||
+                        overlaps(problem_.discs[i], octant_of(box, octant), problem_.slack)))
+          parts[octant].push_back(i);
       }
     }
     return parts;
@@ -96,26 +113,107 @@ class Octree {
       throw std::length_error("the octree would hold 2^32 or more references; a smaller depth is needed");
   }
 
-  template <bool counting>
+  template <class VisitChild>
+  void for_each_child(const Node& node, const Box& box, const VisitChild& visit) const {
+    std::uint32_t child = node.first;
+    for (unsigned octant = 0; octant < 8; ++octant)
+      if (node.octants >> octant & 1) visit(child++, octant_of(box, octant));
+  }
+
+  void show(std::uint32_t number, const Box& box, int level, const VisitNode& visit) const {
+    const Node& node = nodes_[number];
+    visit({box, level, level == depth_, node.count});
+    if (level < depth_)
+      for_each_child(node, box, [&](std::uint32_t child, const Box& part) { show(child, part, level + 1, visit); });
+  }
+
+  template <class Search>
   void enter(std::uint32_t number, const Box& box, int level, std::uint32_t ray, const ClippedRay& clipped,
-             IndexedSearch<counting>& search) const {
+             Search& search) const {
     search.visit(&Counts<std::uint64_t>::nodes);
     const Node& node = nodes_[number];
     if (level == depth_) {
-      search.test(ray, std::span(references_).subspan(node.first, node.count));
+      search.test(ray, references_in(node));
       return;
     }
-    std::uint32_t child = node.first;
-    for (unsigned octant = 0; octant < 8; ++octant) {
-      if ((node.octants >> octant & 1) == 0) continue;
-      const Box part = octant_of(box, octant);
+    for_each_child(node, box, [&](std::uint32_t child, const Box& part) {
       if (!clipped.inside(grown(part)).empty()) enter(child, part, level + 1, ray, clipped, search);
-      ++child;
+    });
+  }
+
+  std::span<const std::uint32_t> references_in(const Node& leaf) const {
+    return std::span(references_).subspan(leaf.first, leaf.count);
+  }
+
+  /// Cubes of whole leaves: their lowest leaf and their side, both in leaves.
+  using Leaf = std::array<std::int64_t, 3>;
+  struct Cube {
+    Leaf low;
+    std::int64_t side;
+  };
+
+  /// From the root towards that place among the leaves: tests the discs of the leaf there, or finds the octant that was
+  /// left out. What the ray may skip.
+  template <class Search>
+  Cube descend(const Leaf& place, std::uint32_t ray, Search& search) const {
+    std::uint32_t number = 0;
+    int below = depth_;
+    search.visit(&Counts<std::uint64_t>::nodes);
+    for (; below > 0; --below) {
+      unsigned octant = 0;
+      for (int axis = 0; axis < 3; ++axis) octant |= static_cast<unsigned>(place[axis] >> (below - 1) & 1) << axis;
+      const unsigned octants = nodes_[number].octants;
+      if ((octants >> octant & 1) == 0) break;
+      number = nodes_[number].first + static_cast<std::uint32_t>(std::popcount(octants & ((1U << octant) - 1)));
+      search.visit(&Counts<std::uint64_t>::nodes);
+    }
+    if (below == 0) search.test(ray, references_in(nodes_[number]));
+    Cube cube{place, below == 0 ? 1 : std::int64_t{1} << (below - 1)};
+    for (std::int64_t& low : cube.low) low -= low % cube.side;
+    return cube;
+  }
+
+  Leaf leaf_at(const glm::dvec3& point, const Cube& within) const {
+    const double side = box_.size().x / std::ldexp(1.0, depth_);
+    Leaf leaf{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const double place = std::floor((point[axis] - box_.low[axis]) / side);
+      const auto low = static_cast<double>(within.low[axis]);
+      leaf[axis] = static_cast<std::int64_t>(std::clamp(place, low, low + static_cast<double>(within.side - 1)));
+    }
+    return leaf;
+  }
+
+  /// Goes from leaf to leaf as the grid does from cell to cell, and descends anew to each.
+  template <class Search>
+  void restart(std::uint32_t ray, const ClippedRay& clipped, const Stretch& stretch, Search& search) const {
+    const std::int64_t leaves = std::int64_t{1} << depth_;
+    const double side = box_.size().x / static_cast<double>(leaves);
+    const glm::dvec3& direction = problem_.rays[ray].direction;
+    Leaf place = leaf_at(clipped.origin + stretch.from * direction, {{}, leaves});
+    for (;;) {
+      const Cube cube = descend(place, ray, search);
+      int next = 0;
+      double leave = unbounded;
+      for (int axis = 0; axis < 3; ++axis) {
+        if (std::isinf(clipped.inverse[axis])) continue;
+        const auto plane = static_cast<double>(cube.low[axis] + (clipped.inverse[axis] > 0 ? cube.side : 0));
+        const double t = (box_.low[axis] + plane * side - clipped.origin[axis]) * clipped.inverse[axis];
+        if (t < leave) {
+          leave = t;
+          next = axis;
+        }
+      }
+      if (!(leave < stretch.to)) return;
+      place = leaf_at(clipped.origin + leave * direction, cube);
+      place[next] = cube.low[next] + (clipped.inverse[next] > 0 ? cube.side : -1);
+      if (place[next] < 0 || place[next] >= leaves) return;
     }
   }
 
   const Problem& problem_;
   int depth_;
+  IndexVariant variant_;
   std::stop_token stop_;
   Box box_;
   std::vector<Node> nodes_;
@@ -125,13 +223,29 @@ class Octree {
 
 }  // namespace
 
+IndexSize inspect_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
+                         const VisitNode& visit) {
+  check({Technique::octree, parameters});
+  const Octree octree(problem, parameters.depth, variant, {});
+  octree.show(visit);
+  return octree.size();
+}
+
+Outcome search_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
+                      const RunOptions& options) {
+  check({Technique::octree, parameters});
+  Outcome outcome;
+  Stopwatch watch;
+  const Octree octree(problem, parameters.depth, variant, options.stop);
+  outcome.seconds.build = watch.lap();
+  search_index(octree, problem, variant.mailboxing, options, outcome);
+  outcome.seconds.search = watch.lap();
+  return outcome;
+}
+
 void run_octree(const Problem& problem, const OctreeParameters& parameters, const RunOptions& options,
                 Outcome& outcome) {
-  Stopwatch watch;
-  const Octree octree(problem, parameters.depth, options.stop);
-  outcome.seconds.build = watch.lap();
-  search_index(octree, problem, options, outcome);
-  outcome.seconds.search = watch.lap();
+  outcome = search_octree(problem, parameters, {}, options);
 }
 
 }  // namespace detp::sim

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <functional>
+
+#include "detp/model/vocabulary/index_variant.hpp"
+#include "technique.hpp"
+
+/// The indices of discs behind the techniques octree and grid: in their variants, and as they stand when built.
+namespace detp::sim {
+
+/// A node of an octree, or a cell of a grid.
+struct IndexNode {
+  Box box;  ///< where rays meet it; of a grid's outermost cells the part inside the grid's box
+  int level = 0;
+  bool leaf = false;
+  std::size_t references = 0;  ///< discs listed here, in leaves
+};
+
+/// What an index holds.
+struct IndexSize {
+  std::size_t nodes = 0;  ///< of a tree, leaves included; of a grid its cells
+  std::size_t references = 0;
+  std::size_t placements = 0;  ///< discs found to overlap a cell or node, at all levels
+  std::size_t bytes = 0;       ///< of memory, between building and searching
+};
+
+using VisitNode = std::function<void(const IndexNode&)>;
+
+/// Builds an octree, needing no ray, and shows its nodes, parents before children.
+/// Throws as run does for parameters out of range, and for an index that would not fit the memory.
+IndexSize inspect_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
+                         const VisitNode& visit);
+
+/// The same for a grid: its cells, empty ones too.
+IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
+                       const VisitNode& visit);
+
+/// Runs a variant of the octree. All variants find the same hits.
+[[nodiscard]] Outcome search_octree(const Problem& problem, const OctreeParameters& parameters,
+                                    const IndexVariant& variant, const RunOptions& options = {});
+
+/// Runs a variant of the grid; there is but one way to walk it.
+[[nodiscard]] Outcome search_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
+                                  const RunOptions& options = {});
+
+}  // namespace detp::sim
