@@ -1,8 +1,8 @@
 #pragma once
 
-#include <array>
+#include <vector>
 
-#include "vocabulary.hpp"
+#include "index_cells.hpp"
 
 /// Index of discs, corrected: cubic cells, each with a reference to every disc that overlaps it.
 ///
@@ -21,37 +21,33 @@
 /// no factor log n_P even in a plain octree: the nodes above the leaves add as many steps again as there are leaves.
 namespace detp::model {
 
-/// Cells that a uniformly placed, isotropically turned disc overlaps, in endless cubic cells:
+/// Expected counts of an octree whose leaves all lie at one depth k, empty nodes left out, for every depth from 0 to
+/// `most_depth`.
 ///
-///     E = 1 + (3π/2) x + (3π/2) x²      x = d/a
+///     disc_tests   n_R n_P E_k P_k;  with mailboxes n_R n_P P(a cell or more of those that one disc overlaps)
+///     nodes        top-down  n_R Σ_{l=0..k} P_l O_l
+///                  restart   n_R [(k + 1) P_k O_k + Σ_{l=1..k} l P_l (8 O_{l-1} - O_l)]
+///     placements   n_P Σ_{l=1..k} E_l
 ///
-/// Source     our derivation: the planes of the grid that the disc crosses, and the lines where two of them meet.
-/// Throws     std::invalid_argument unless x >= 0 and finite.
-[[nodiscard]] double overlapped_cells(double x);
+///   where  O_l   occupied_cells of level l (index_cells.hpp); 8 O_{l-1} - O_l octants were left out there, and a
+///   descent
+///                to one visits l nodes
+///
+/// Limits     no node empty: 2^{k+1} - 1 nodes per line top-down, (k + 1) 2^k by restarts (the paper's k 2^k does not
+///            count the root).
+[[nodiscard]] std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, int most_depth,
+                                                                 const IndexVariant& variant = {});
 
-/// The cells of an index, and what follows from their side.
-struct Cells {
-  double side = 0;                       ///< a, length
-  std::array<double, 3> along{1, 1, 1};  ///< cells along each axis
-  double overlapped = 1;                 ///< E, in a box that ends: its outermost planes are never crossed
-  double crossing = 0;                   ///< P(cell), of all rays of the workload
-
-  [[nodiscard]] double count() const { return along[0] * along[1] * along[2]; }
-};
-
-/// `parts` cells along the longest side of the box grown by d; as many as it takes along the others.
-/// Samples of dimension 2 without an extent of their own lie on the box's faces, one coordinate fixed: there the planes
-/// of the grid are at known distances from them.
-[[nodiscard]] Cells index_cells(const Workload& workload, double parts);
-
-/// Cells that hold at least one disc, if the discs lie anew at random: C (1 - exp(-n_P E/C)), C the cells within reach
-/// of the samples' body: all of them (D = 3), at most 1.5 A/a² (D = 2: a random surface crosses that many).
-[[nodiscard]] double occupied_cells(const Workload& workload, const Cells& cells);
-
-/// Expected counts of an octree whose leaves all lie at one depth, empty nodes left out.
-[[nodiscard]] Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters);
+/// Expected counts of such an octree of one depth.
+[[nodiscard]] Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters,
+                                           const IndexVariant& variant = {});
 
 /// Expected counts of a uniform grid; empty cells are stepped through too.
-[[nodiscard]] Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters);
+///
+///     steps   n_R 2 (m_1 L_2 L_3 + m_2 L_3 L_1 + m_3 L_1 L_2)/(4π r₀²)
+///
+///   where  m_i   cells along axis i;   L_i   side of the samples' box grown by d on both sides, where rays are clipped
+[[nodiscard]] Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters,
+                                         const IndexVariant& variant = {});
 
 }  // namespace detp::model

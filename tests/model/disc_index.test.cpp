@@ -28,13 +28,6 @@ Workload in_box(std::array<double, 3> box, double disc = 0.5) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("cells that a disc overlaps, as counted on discs placed at random") {
-    CHECK(overlapped_cells(0.25) == Approx(2.474).epsilon(1e-3));
-    CHECK(overlapped_cells(0.5) == Approx(4.533).epsilon(1e-3));
-    CHECK(overlapped_cells(1) == Approx(10.424).epsilon(1e-3));
-    CHECK(overlapped_cells(2) == Approx(29.28).epsilon(1e-3));
-  }
-
   TEST_CASE("cells that a disc overlaps, by the formula") {
     CHECK(overlapped_cells(0) == 1);
     CHECK(std::abs(overlapped_cells(0.25) - 2.473) < 5e-4);
@@ -111,8 +104,42 @@ TEST_SUITE("identity") {
     Workload w = in_cube;
     w.samples = 1e15;
     const double hit = index_cells(w, 1).crossing;
-    for (int depth = 0; depth <= 8; ++depth)
+    for (int depth = 0; depth <= 7; ++depth)  // deeper, a disc of 0.01 need not reach the corner cells
       CHECK(octree_counts(w, {depth}).nodes == Approx(1e4 * hit * (std::ldexp(2, depth) - 1)).epsilon(1e-12));
+  }
+
+  TEST_CASE("… and by restarts (k + 1) 2^k") {
+    Workload w = in_cube;
+    w.samples = 1e15;
+    const double hit = index_cells(w, 1).crossing;
+    for (int depth = 0; depth <= 7; ++depth)  // deeper, a disc of 0.01 need not reach the corner cells
+      CHECK(octree_counts(w, {depth}, {.traversal = Traversal::restart}).nodes ==
+            Approx(1e4 * hit * (depth + 1) * std::ldexp(1, depth)).epsilon(1e-12));
+  }
+
+  TEST_CASE("a variant changes what it is about, and nothing else") {
+    for (int depth = 1; depth <= 9; ++depth) {
+      const Counts<double> plain = octree_counts(in_cube, {depth});
+      Counts<double> once = octree_counts(in_cube, {depth}, {.mailboxing = true});
+      CHECK(once.disc_tests < plain.disc_tests);
+      CHECK(once.disc_tests > once.hits);
+      once.disc_tests = plain.disc_tests;
+      CHECK(once == plain);
+      Counts<double> anew = octree_counts(in_cube, {depth}, {.traversal = Traversal::restart});
+      CHECK(anew.nodes > plain.nodes);
+      anew.nodes = plain.nodes;
+      CHECK(anew == plain);
+      const Counts<double> boxed = octree_counts(in_cube, {depth}, {.insertion = Insertion::bounding_box});
+      CHECK(boxed.references > plain.references);
+      CHECK(boxed.nodes >= plain.nodes);
+      CHECK(boxed.hits == plain.hits);
+    }
+  }
+
+  TEST_CASE("by depth, one after the other, the counts of each depth") {
+    const auto depths = octree_counts_by_depth(in_cube, 7);
+    REQUIRE(depths.size() == 8);
+    for (int depth = 0; depth <= 7; ++depth) CHECK(depths[depth] == octree_counts(in_cube, {depth}));
   }
 
   TEST_CASE("placements of an octree are its references at all levels below the root") {
@@ -187,8 +214,6 @@ TEST_SUITE("known answer") {
 
 TEST_SUITE("bad input") {
   TEST_CASE("numbers out of range are refused by name") {
-    for (const double bad : support::not_a_size)
-      CHECK_THROWS_WITH_AS((void)overlapped_cells(bad), Contains("disc radius over cell side"), std::invalid_argument);
     for (const int bad : {-1, 301})
       CHECK_THROWS_WITH_AS((void)octree_counts(in_cube, {bad}), Contains("depth"), std::invalid_argument);
     for (const int bad : {0, -1, 1'000'000'001})
