@@ -10,7 +10,7 @@ namespace detp::validate {
 namespace {
 
 constexpr std::size_t ancestors = 32;
-constexpr std::size_t pool_size = 4096;
+constexpr std::size_t pool_size = 32768;
 constexpr std::uint64_t pool_seed = 1;
 
 /// Lines through the unit sphere, in the measure of lines: to integrate with, not to count hits by.
