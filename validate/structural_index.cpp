@@ -1,0 +1,114 @@
+#include "structural_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "detp/sim/directions.hpp"
+#include "detp/sim/predicates.hpp"
+#include "detp/sim/random.hpp"
+#include "detp/sim/technique/disc_index.hpp"
+
+namespace detp::validate {
+namespace {
+
+using std::numbers::pi;
+
+constexpr std::size_t pool_size = 4096;
+constexpr std::uint64_t pool_seed = 1;
+
+double area_of(const glm::dvec3& size) { return 2 * (size.x * size.y + size.y * size.z + size.z * size.x); }
+
+/// A line that enters a box: numbers from 0 to 1 that pick the face and the place on it, and the direction inwards from
+/// a face across the third axis, cosine-distributed.
+struct Entry {
+  double face;
+  double first;
+  double second;
+  glm::dvec3 inwards;
+};
+
+std::vector<Entry> make_pool() {
+  std::vector<Entry> pool;
+  for (std::size_t i = 0; i < pool_size; ++i) {
+    const auto place = sim::uniform4(pool_seed, sim::Stream::tests, i);
+    const double angle = 2 * pi * sim::uniform4(pool_seed, sim::Stream::tests, i, 1)[0];
+    const double sine = std::sqrt(place[3]);
+    pool.push_back(
+        {place[0], place[1], place[2], {sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1 - place[3])}});
+  }
+  return pool;
+}
+
+/// The entry laid on a box: area-uniform over its surface, so that the lines are those of μ_ℓ that meet the box.
+sim::Ray line_into(const sim::Box& box, const Entry& entry) {
+  const glm::dvec3 size = box.size();
+  double pick = entry.face * area_of(size);
+  int axis = 0;
+  for (; axis < 2; ++axis) {
+    const double faces = 2 * size[(axis + 1) % 3] * size[(axis + 2) % 3];
+    if (pick < faces) break;
+    pick -= faces;
+  }
+  const int second = (axis + 1) % 3;
+  const int third = (axis + 2) % 3;
+  const bool low = pick < size[second] * size[third];
+  sim::Ray line{.origin = box.low};
+  line.origin[axis] = low ? box.low[axis] : box.high[axis];
+  line.origin[second] += entry.first * size[second];
+  line.origin[third] += entry.second * size[third];
+  line.direction[axis] = low ? entry.inwards.z : -entry.inwards.z;
+  line.direction[second] = entry.inwards.x;
+  line.direction[third] = entry.inwards.y;
+  return line;
+}
+
+/// P(node), for one node after another.
+class Crossing {
+ public:
+  explicit Crossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
+
+  double operator()(const sim::Box& box) {
+    const double share = area_of(box.size()) / (4 * pi * enclosing_.radius * enclosing_.radius);
+    const glm::dvec3 reach = glm::max(glm::abs(box.low - enclosing_.centre), glm::abs(box.high - enclosing_.centre));
+    if (glm::dot(reach, reach) <= enclosing_.radius * enclosing_.radius) return share;
+    const auto lines = static_cast<std::size_t>(std::clamp(16 * pool_size * share, 32.0, 1.0 * pool_size));
+    std::size_t crossing = 0;
+    for (std::size_t i = 0; i < lines; ++i)
+      crossing += sim::hits(line_into(box, pool_[next_++ % pool_size]), enclosing_) ? 1 : 0;
+    return share * static_cast<double>(crossing) / static_cast<double>(lines);
+  }
+
+ private:
+  sim::Sphere enclosing_;
+  std::vector<Entry> pool_ = make_pool();
+  std::size_t next_ = 0;
+};
+
+}  // namespace
+
+Counts<double> structural_index_counts(const sim::Problem& problem, double rays, const Candidate& candidate) {
+  Crossing crossing(problem.enclosing);
+  double visits = 0;
+  double tests = 0;
+  const auto visit = [&](const sim::IndexNode& node) {
+    const double chance = crossing(node.box);
+    visits += chance;
+    tests += chance * static_cast<double>(node.references);
+  };
+  const auto* octree = std::get_if<OctreeParameters>(&candidate.parameters);
+  const auto* grid = std::get_if<GridParameters>(&candidate.parameters);
+  if (octree == nullptr && grid == nullptr)
+    throw std::invalid_argument("an index of discs is an octree or a grid (got another technique)");
+  const sim::IndexSize size =
+      octree != nullptr ? inspect_octree(problem, *octree, {}, visit) : inspect_grid(problem, *grid, {}, visit);
+  return {.disc_tests = rays * tests,
+          .steps = grid != nullptr ? rays * visits : 0,
+          .nodes = octree != nullptr ? rays * visits : 0,
+          .references = static_cast<double>(size.references),
+          .placements = static_cast<double>(size.placements)};
+}
+
+}  // namespace detp::validate
