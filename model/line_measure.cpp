@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/quadrature/gauss.hpp>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -12,6 +12,7 @@ namespace detp::model {
 namespace {
 
 using std::numbers::pi;
+constexpr long double exact_pi = std::numbers::pi_v<long double>;
 
 void require_inside(std::string_view what, double size, double outer) {
   if (size > outer)
@@ -19,18 +20,59 @@ void require_inside(std::string_view what, double size, double outer) {
         fmt::format("{} must not exceed the sphere radius {}, or it pokes out (got {})", what, outer, size));
 }
 
-/// Area common to two circles of radii a and b whose centres are c apart.
-double lens_area(double a, double b, double c) {
-  if (c >= a + b) return 0;
-  const double small = std::min(a, b);
-  if (c <= std::abs(a - b)) return pi * small * small;
-  const double from_a = (c * c + a * a - b * b) / (2 * c);
-  const double from_b = c - from_a;
-  const auto segment = [](double r, double x) {
-    const double cosine = std::clamp(x / r, -1.0, 1.0);
-    return r * r * (std::acos(cosine) - cosine * std::sqrt((1 - cosine) * (1 + cosine)));
-  };
-  return segment(a, from_a) + segment(b, from_b);
+/// In long double, for d² may lie below the doubles, and V + ℓF above them.
+long double crossing(const Workload& workload, long double volume, long double area) {
+  const long double r0 = workload.sphere_radius;
+  if (workload.path_length <= 0) return std::min(1.0L, area / (4 * exact_pi * r0 * r0));
+  long double space = 1;
+  for (const double side : workload.box) space *= side + 2.0L * workload.disc_radius;
+  return std::min(1.0L, (volume + workload.path_length * area / 4) / space);
+}
+
+/// The limits p < q of the integral over s, the distance of the circles' centres, and the integrand's next zero f >= q.
+/// Differences are taken before they lose digits.
+struct Range {
+  long double p;         // |a - b|
+  long double q;         // min(c, a + b)
+  long double f;         // max(c, a + b)
+  long double q_less_p;  // <= 0: one sphere in the other
+  long double f_less_q;
+  bool meet;  // c < a + b
+};
+
+Range range_of(long double a, long double b, long double c) {
+  const long double large = std::max(a, b);
+  const long double small = std::min(a, b);
+  const long double p = large - small;
+  const long double sum = large + small;
+  const long double short_of_sum = (large - c) + small;
+  const bool meet = short_of_sum > 0;
+  const long double c_less_p = small >= large / 2 ? c - p : (c - large) + small;
+  return {p, std::min(c, sum), std::max(c, sum), meet ? c_less_p : 2 * small, std::abs(short_of_sum), meet};
+}
+
+/// The trapezoidal rule over τ = ln((s - p)/(q - s)). All other singularities lie on Im τ = ±π, whatever p, q and f:
+/// the error goes with e^{-2π²/h}, times (2π/h)⁴ for the pole that s = ∞ becomes.
+struct Node {
+  double v = 0;       // (s - p)/(q - p)
+  double rest = 0;    // (q - s)/(q - p)
+  double weight = 0;  // of √((q - s)(s - p)) ds over (q - p)²
+};
+
+const auto& nodes() {
+  static const auto table = [] {
+    constexpr double step = 0.4;
+    constexpr int first = -98;  // the integrand goes with e^τ, if a = b, …
+    constexpr int last = 66;    // … and with e^{-3τ/2}, if c ≠ a + b: below 1e-17 outside
+    std::array<Node, last - first + 1> all;
+    for (int i = first; i <= last; ++i) {
+      const double v = 1 / (1 + std::exp(-step * i));
+      const double rest = 1 / (1 + std::exp(step * i));
+      all[static_cast<std::size_t>(i - first)] = {v, rest, step * std::pow(v * rest, 1.5)};
+    }
+    return all;
+  }();
+  return table;
 }
 
 }  // namespace
@@ -56,42 +98,46 @@ double cube_hit_probability(double side, SphereRadius outer) {
   require_positive("sphere radius", outer.value);
   require_inside("half the cube's diagonal", side * std::sqrt(0.75) * (1 - 1e-12), outer.value);
   const double ratio = side / outer.value;
-  return 1.5 / pi * ratio * ratio;
+  return ratio * ratio * (1.5 / pi);
 }
 
 double crossing_probability(const Workload& workload, double volume, double area) {
   check(workload);
   require_non_negative("volume of the body", volume);
   require_non_negative("surface area of the body", area);
-  if (workload.path_length <= 0)
-    return std::min(1.0, area / (4 * pi * workload.sphere_radius * workload.sphere_radius));
-  double space = 1;
-  for (const double side : workload.box) space *= side + 2 * workload.disc_radius;
-  return std::min(1.0, (volume + workload.path_length * area / 4) / space);
+  return static_cast<double>(crossing(workload, volume, area));
 }
 
 double expected_hits(const Workload& workload) {
-  const double d = workload.disc_radius;
-  return workload.rays * workload.samples * crossing_probability(workload, 0, 2 * pi * d * d);
+  check(workload);
+  const long double d = workload.disc_radius;
+  return saturated(workload.rays * (workload.samples * crossing(workload, 0, 2 * exact_pi * d * d)));
 }
 
 double both_hit_share(double a, double b, double c) {
   require_positive("sphere radius", a);
   require_positive("sphere radius", b);
   require_non_negative("distance of the centres", c);
-  if (c + b <= a) return 1;
-  // Seen within `covered` of the line of centres, the smaller circle lies in the larger one; beyond `apart`, the two do
-  // not meet. Between, u -> u²(3 - 2u) smooths the lens's ends, where it goes with the power 3/2.
-  const double covered = std::asin(std::min(1.0, std::abs(a - b) / c));
-  const double apart = std::asin(std::min(1.0, (a + b) / c));
-  const auto lens_at = [&](double u) {
-    const double angle = covered + (apart - covered) * u * u * (3 - 2 * u);
-    return lens_area(a, b, c * std::sin(angle)) * std::sin(angle) * 6 * u * (1 - u);
-  };
-  const double lenses = (apart - covered) * boost::math::quadrature::gauss<double, 30>::integrate(lens_at, 0, 1);
-  const double small = std::min(a, b);
-  const double covered_share = 2 * std::pow(std::sin(covered / 2), 2);  // 1 - cos
-  return covered_share * (small / b) * (small / b) + lenses / (pi * b * b);
+  const Range range = range_of(a, b, c);
+  const long double nested = b <= a ? 1 : static_cast<long double>(a) / b * a / b;
+  if (range.q_less_p <= 0) return static_cast<double>(nested);
+  const auto over_q = [&](long double length) { return static_cast<double>(length / range.q); };
+  const auto over_f = [&](long double length) { return static_cast<double>(length / range.f); };
+  const double p = over_q(range.p);
+  const double width = over_q(range.q_less_p);
+  const double end = over_f(range.f_less_q);
+  const double fall = over_f(range.q_less_p);
+  const double q = over_f(range.q);
+  double sum = 0;
+  for (const Node& node : nodes()) {
+    const double s = p + width * node.v;
+    const double chord = (1 + s) * (s + p);
+    const double cosine = (end + fall * node.rest) * (1 + s * q);  // squared; of the direction, if q < c
+    sum += node.weight * (range.meet ? std::sqrt(chord * cosine) / s : std::sqrt(chord) * s / (1 + std::sqrt(cosine)));
+  }
+  const long double scale = range.q_less_p / b * (range.q_less_p / b) / exact_pi;
+  if (range.meet) return static_cast<double>(nested - scale * (range.f / range.q) * sum);
+  return static_cast<double>(scale * (range.q / range.f) * (range.q / range.f) * sum);
 }
 
 }  // namespace detp::model

@@ -8,6 +8,10 @@
 /// under rotation and translation, meet a convex body in proportion to its surface area. So P(hit inner | hit outer) is
 /// a ratio of areas, whatever the position, as long as the inner body lies inside the outer one. Where it does not, the
 /// ratio is an upper bound, and `both_hit_share` tells how far it is off.
+///
+/// Accuracies are largest relative errors against 100 digits, over 10⁶ inputs (`both_hit_share`: 20 000) log-uniform
+/// over the domain, lengths over all doubles, workloads over all that check(workload) admits (tests/model/hard_cases).
+/// Below the smallest normal double, results are right to one space between doubles.
 namespace detp::model {
 
 /// Probability that a line through a sphere also crosses a smaller sphere inside it.
@@ -18,7 +22,7 @@ namespace detp::model {
 ///          r₀   radius of the outer sphere, length
 ///
 /// Source     the paper's eq (3); Santaló, Integral Geometry, III.14.2.
-/// Valid      the inner sphere inside the outer one.   Accuracy  2 ulp.
+/// Valid      the inner sphere inside the outer one.   Accuracy  3.3e-16.
 /// Throws     std::invalid_argument unless 0 < r₁ <= r₀, both finite.
 [[nodiscard]] double sphere_hit_probability(SphereRadius inner, SphereRadius outer);
 
@@ -33,13 +37,13 @@ namespace detp::model {
 ///
 /// Source     Santaló, III.14.2; the paper's eq (3), for a disc: our derivation.
 /// Valid      any position and orientation inside the sphere.
-/// Limits     d → 0: 0.  d = r₀: ½.   Accuracy  2 ulp.
+/// Limits     d → 0: 0.  d = r₀: ½.   Accuracy  5.2e-16.
 /// Throws     std::invalid_argument unless 0 < d <= r₀, both finite.
 [[nodiscard]] double disc_hit_probability(DiscRadius disc, SphereRadius outer);
 
 /// Probability that a line through a sphere also crosses a cube of side s inside it: 6 s² / (4π r₀²).
 ///
-/// Limits     the cube inscribed in the sphere, s = 2r₀/√3: 2/π.
+/// Limits     the cube inscribed in the sphere, s = 2r₀/√3: 2/π.   Accuracy  4.1e-16.
 /// Throws     std::invalid_argument unless both are > 0 and finite and the cube fits: s√3/2 <= r₀ (to 1e-12).
 [[nodiscard]] double cube_hit_probability(double side, SphereRadius outer);
 
@@ -55,9 +59,11 @@ namespace detp::model {
 ///            it enters through the boundary, where the flux of ℓ-long segments is ℓ/(4 V_box) per area.
 /// Valid      segments: origins uniform in the box, isotropic directions. Real paths start and end on surfaces: expect
 ///            tens of percent.
+/// Accuracy   1.1e-16: in long double, for d² or V_box may lie below the doubles where P does not.
 [[nodiscard]] double crossing_probability(const Workload& workload, double volume, double area);
 
 /// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².
+/// Accuracy: 1.1e-16.
 [[nodiscard]] double expected_hits(const Workload& workload);
 
 /// Share of the lines through sphere B that also cross sphere A, which need not contain B.
@@ -68,8 +74,17 @@ namespace detp::model {
 ///          lens   area common to two circles of radii a, b: the spheres seen along a direction
 ///          μ      cosine between the direction and the line of centres, uniform in [0, 1]
 ///
-/// Limits     B inside A (c + b <= a): 1.  c >= a + b seen from everywhere: 0 only as c → ∞ (some lines pass both).
-/// Source     our derivation, from Santaló's projection formula.  Accuracy  1e-9 (30-point Gauss rule).
+/// By parts, with s = c√(1-μ²), p = |a-b|, q = min(c, a+b), and the two circles' common chord in place of their lens:
+///
+///     c < a+b     share = min(a, b)²/b² - ∫_p^q √((c²-s²)(s²-p²)((a+b)²-s²)) ds/s / (π c b²)
+///     c >= a+b    share = ∫_p^q √((q²-s²)(s²-p²)) s ds/(1 + √(1-s²/c²)) / (π c² b²)
+///
+/// so that neither tangency nor containment, nor a great distance, costs digits. The integrals are evaluated by the
+/// trapezoidal rule over ln((s-p)/(q-s)), with 165 points.
+///
+/// Limits     B inside A (c + b <= a): 1.  A inside B: a²/b².  c → ∞: a²/(2c²).
+/// Source     our derivation, from Santaló's projection formula.
+/// Accuracy   5.4e-15, at worst where the spheres touch from outside; monotone in c to 1e-15.
 /// Throws     std::invalid_argument unless a, b > 0 and c >= 0, all finite.
 [[nodiscard]] double both_hit_share(double a, double b, double c);
 

@@ -12,7 +12,9 @@ namespace detp::model {
 
 /// Q* = (2/D)^{1/(D-2)}: 2/3 for volumes, e^{-1/2} = 0.607 for surfaces.
 ///
-/// Source     our derivation (dT_R/dQ = 0).   Accuracy  4 ulp, also for D next to 2.
+/// Source     our derivation (dT_R/dQ = 0).
+/// Accuracy   1.1e-16 against 100 digits, over 10⁶ D from 1 to 3, most of them next to 1, 2 or 3 (down to 1e-17);
+///            monotone (tests/model/hard_cases). Rests on long double's 64 bits, as the next one's.
 /// Throws     std::invalid_argument unless 1 <= D <= 3.
 [[nodiscard]] double optimal_ratio(double dimension);
 
@@ -23,7 +25,8 @@ namespace detp::model {
 ///   where  γ   c/t, the cost of a copy over that of a ray-sphere test, >= 0
 ///
 /// Limits     γ = 0: 2/3.  γ → ∞: (2/γ)^{1/3}.
-/// Source     our derivation.   Accuracy  4 ulp.   Throws  std::invalid_argument unless γ >= 0 and finite.
+/// Source     our derivation.   Accuracy  1.1e-16 over 10⁶ γ log-uniform over all doubles; monotone.
+/// Throws     std::invalid_argument unless γ >= 0 and finite.
 [[nodiscard]] double optimal_ratio_with_copies(double copy_over_test);
 
 }  // namespace detp::model

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "line_measure.hpp"
 
@@ -34,19 +33,20 @@ long double sparse_spheres(double samples, RadiusRatio ratio, std::int64_t k) {
 double rays_in_sphere(double rays, RadiusRatio ratio, std::int64_t i) {
   require_positive("number of rays", rays);
   check_arguments(ratio, i);
-  return static_cast<double>(rays * power(ratio, 2.0L * i));
+  return saturated(rays * power(ratio, 2.0L * i));
 }
 
 double rebuilds(RadiusRatio ratio, std::int64_t i) {
   check_arguments(ratio, i);
-  constexpr long double largest = std::numeric_limits<double>::max();
-  return static_cast<double>(std::min(largest, power(ratio, -3.0L * i)));
+  return saturated(power(ratio, -3.0L * i));
 }
 
 double rebuild_cost(double rays, RadiusRatio ratio, std::int64_t i, double sphere_test) {
   require_non_negative("time of a ray-sphere test", sphere_test);
   require_count("index of the sphere", static_cast<double>(i), 1, 9e18);
-  return sphere_test * rays_in_sphere(rays, ratio, i - 1);
+  require_positive("number of rays", rays);
+  check_arguments(ratio, i);
+  return saturated(sphere_test * (rays * power(ratio, 2.0L * (i - 1))));
 }
 
 double rebuild_time(const Workload& workload, RadiusRatio ratio, std::int64_t k, double sphere_test) {
@@ -58,7 +58,7 @@ double rebuild_time(const Workload& workload, RadiusRatio ratio, std::int64_t k,
   // Σ_{i=1..j} Q^{-3i} Q^{2i-2} = Q^{-3} Σ_{i=0..j-1} Q^{-i}, then n_P Σ_{i=j+1..k} Q^{2(i-1)}.
   const long double before = sparse > 0 ? std::exp(-3 * log_q) * geometric_sum(-log_q, sparse) : 0;
   const long double after = workload.samples * std::exp(2 * sparse * log_q) * geometric_sum(2 * log_q, k - sparse);
-  return static_cast<double>(sphere_test * workload.rays * (before + after));
+  return saturated(sphere_test * (workload.rays * (before + after)));
 }
 
 double rebuild_time_few_samples(const Workload& workload, RadiusRatio ratio, double sphere_test) {
@@ -67,13 +67,14 @@ double rebuild_time_few_samples(const Workload& workload, RadiusRatio ratio, dou
   require_ratio("radius ratio Q", ratio.value);
   const long double q = ratio.value;
   const long double root_less_1 = std::expm1(std::log(static_cast<long double>(workload.samples)) / 3);
-  return static_cast<double>(sphere_test * workload.rays * root_less_1 / (q * q * (1 - q)));
+  return saturated(sphere_test * (workload.rays * root_less_1) / (q * q * (1 - q)));
 }
 
 double intersect_time(const Workload& workload, RadiusRatio ratio, std::int64_t k, double disc_test) {
   require_non_negative("time of a ray-disc test", disc_test);
   check(workload);
-  return disc_test * rays_in_sphere(workload.rays, ratio, k) * workload.samples;
+  check_arguments(ratio, k);
+  return saturated(disc_test * (workload.rays * power(ratio, 2.0L * k)) * workload.samples);
 }
 
 Counts<double> counts(const Workload& workload, RadiusRatio ratio, std::int64_t k) {
@@ -92,7 +93,7 @@ Counts<double> counts(const Workload& workload, RadiusRatio ratio, std::int64_t 
 double unsorted_time(const Workload& workload, double disc_test) {
   require_non_negative("time of a ray-disc test", disc_test);
   check(workload);
-  return disc_test * workload.rays * workload.samples;
+  return saturated(static_cast<long double>(disc_test) * workload.rays * workload.samples);
 }
 
 }  // namespace detp::model::published

@@ -10,8 +10,15 @@
 ///   symbols  n_R, n_P   rays, samples;   Q   radius ratio;   k   index of the innermost sphere
 ///            t, u       time of one ray-sphere, one ray-disc test
 ///
-/// All are closed forms, evaluated in O(1) whatever k; relative error below 1e-14 (measured: tests/model).
-/// All throw std::invalid_argument for numbers out of range: see vocabulary/checks.hpp.
+/// All are closed forms, evaluated in O(1) whatever k.
+///
+/// Valid      any Q between 0 and 1, i and k <= 9e18, n_R and n_P <= 1e18, t and u any finite double >= 0.
+/// Limits     results beyond the largest double saturate there; below the smallest normal one they are right to one
+///            space between doubles.
+/// Accuracy   relative error at most 2.3e-16 against 100 digits, over 10⁶ inputs log-uniform over that domain (1 - Q
+///            down to 2⁻⁵³, Q down to 2⁻¹⁰⁷⁴: tests/model/hard_cases); monotone where the formula is. It rests on long
+///            double's 64 bits.
+/// Throws     std::invalid_argument for numbers out of range: see vocabulary/checks.hpp.
 namespace detp::model::published {
 
 /// n_i = n_R Q^{2i}: expected rays in S_i (eqs 4, 15). True wherever S_i lies, if it lies inside S₀ and the rays are

@@ -1,5 +1,7 @@
 #include "sphere_count.hpp"
 
+#include <fmt/format.h>
+
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <stdexcept>
@@ -53,6 +55,9 @@ double step_ratio(std::int64_t spheres, DiscRadius disc, SphereRadius outer) {
   require_count("number of spheres", static_cast<double>(spheres), 1, 1e18);
   require_positive("disc radius", disc.value);
   require_positive("sphere radius", outer.value);
+  if (disc.value >= outer.value)
+    throw std::invalid_argument(fmt::format(
+        "the disc must be smaller than S0, of radius {}, or no sphere fits (got {})", outer.value, disc.value));
   return static_cast<double>(std::pow(static_cast<long double>(disc.value) / outer.value, 1.0L / spheres));
 }
 

@@ -19,13 +19,20 @@ namespace detp::model {
 /// smaller than the disc that it should hold.
 ///
 /// Source     eq (7); corrected: eq (6).
+/// Valid      any positive doubles d and r₀, any Q between 0 and 1, subnormal ones too.
 /// Limits     d >= r₀: 0, no sphere pays.  Q → 1: k ≈ ln(r₀/d)/(1-Q).
-/// Accuracy   exact for the given doubles, ties included: near a whole number the powers are compared in 100 digits.
+/// Accuracy   exact for the given doubles, ties included: near a whole number the powers are compared in 100 digits, to
+///            k 1e-100. Right for all of 10⁶ inputs log-uniform over that domain, half of them with d within an ulp of
+///            an r₀Qⁱ (tests/model/hard_cases); monotone in Q and d.
 /// Throws     std::invalid_argument unless 0 < Q < 1, d and r₀ > 0 and finite; std::overflow_error above 9e18.
 [[nodiscard]] std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereRadius outer);
 
 /// The ratio at which the corrected k steps from j-1 to j: Q_j = (d/r₀)^{1/j}, where r_j = d exactly. T_I has its
 /// minima, all alike, just at these ratios (the paper's text to its fig 12 calls them peaks).
+///
+/// Limits     j → ∞: 1, reached where the root is nearer to 1 than to the next smaller double.
+/// Accuracy   1.1e-16, over 10⁶ inputs log-uniform over all of d < r₀ and j <= 1e18; monotone in j and d.
+/// Throws     std::invalid_argument unless 1 <= j <= 1e18 and 0 < d < r₀, both finite.
 [[nodiscard]] double step_ratio(std::int64_t spheres, DiscRadius disc, SphereRadius outer);
 
 }  // namespace detp::model

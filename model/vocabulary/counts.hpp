@@ -59,6 +59,9 @@ struct UnitCosts {
   bool operator==(const UnitCosts&) const = default;
 };
 
+/// Throws std::invalid_argument, naming the time, where one is negative, infinite or no number.
+void check(const UnitCosts& costs);
+
 /// The time of a technique by part, in the unit of the UnitCosts it was made with.
 struct CostBreakdown {
   double order = 0;      ///< sorting the samples

@@ -42,7 +42,8 @@ double sample_extent(const Workload& workload) {
 
 double sample_distance(const Workload& workload) {
   if (workload.sample_distance > 0) return workload.sample_distance;
-  return std::pow(sample_extent(workload) / workload.samples, 1 / workload.dimension);
+  const long double share = static_cast<long double>(sample_extent(workload)) / workload.samples;
+  return static_cast<double>(std::pow(share, 1.0L / workload.dimension));
 }
 
 double scene_side(const Workload& workload) { return *std::max_element(workload.box.begin(), workload.box.end()); }

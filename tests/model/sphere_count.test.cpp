@@ -156,6 +156,8 @@ TEST_SUITE("bad input") {
   TEST_CASE("the step ratio of no spheres, or of a radius that is none, is refused by name") {
     CHECK_THROWS_WITH_AS((void)step_ratio(0, {0.1}, {1}), Contains("number of spheres"), std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)step_ratio(-3, {0.1}, {1}), Contains("number of spheres"), std::invalid_argument);
+    for (const double disc : {1.0, 7.0})
+      CHECK_THROWS_WITH_AS((void)step_ratio(1, {disc}, {1}), Contains("no sphere fits"), std::invalid_argument);
     for (const double bad : support::not_a_length) {
       CHECK_THROWS_WITH_AS((void)step_ratio(1, {bad}, {1}), Contains("disc radius"), std::invalid_argument);
       CHECK_THROWS_WITH_AS((void)step_ratio(1, {0.1}, {bad}), Contains("sphere radius"), std::invalid_argument);

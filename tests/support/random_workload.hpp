@@ -9,9 +9,11 @@
 /// Random workloads for tests, the same on every machine.
 namespace detp::support {
 
-class RandomNumbers {
+/// Numbers from an engine of 64-bit words.
+template <class Engine>
+class NumbersFrom {
  public:
-  explicit RandomNumbers(std::uint64_t seed) : engine_(seed) {}
+  explicit NumbersFrom(const Engine& engine) : engine_(engine) {}
 
   /// Uniform in [low, high).
   double uniform(double low, double high) { return low + (high - low) * std::ldexp(double(engine_() >> 11), -53); }
@@ -28,7 +30,12 @@ class RandomNumbers {
   }
 
  private:
-  std::mt19937_64 engine_;
+  Engine engine_;
+};
+
+class RandomNumbers : public NumbersFrom<std::mt19937_64> {
+ public:
+  explicit RandomNumbers(std::uint64_t seed) : NumbersFrom(std::mt19937_64(seed)) {}
 };
 
 /// A workload and a ratio: Q 0.05 … 0.99, d/r₀ 1e-6 … 0.9, n_R and n_P 1 … 1e9.

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <set>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
 #include "detp/model/vocabulary/units.hpp"
+#include "support/not_a_length.hpp"
 
 using namespace detp;
 
@@ -81,5 +83,25 @@ TEST_SUITE("known answer") {
   TEST_CASE("without measured costs, tests and steps cost one, all else nothing") {
     CHECK(price({.sphere_tests = 1, .disc_tests = 10, .steps = 100, .nodes = 1000, .copies = 5, .rebuilds = 5}, {})
               .total() == 1111);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a time that is none is refused by name; zero is one") {
+    struct Named {
+      double UnitCosts::*time;
+      const char* name;
+    };
+    for (const double bad : support::not_a_size)
+      for (const auto& [time, name] :
+           {Named{&UnitCosts::sphere_test, "ray-sphere"}, Named{&UnitCosts::disc_test, "ray-disc"},
+            Named{&UnitCosts::step, "step"}, Named{&UnitCosts::node, "node"}, Named{&UnitCosts::copy, "copy"},
+            Named{&UnitCosts::placement, "placing"}, Named{&UnitCosts::sort, "sorting"},
+            Named{&UnitCosts::rebuild, "rebuild"}}) {
+        UnitCosts costs;
+        costs.*time = bad;
+        CHECK_THROWS_WITH_AS(check(costs), doctest::Contains(name), std::invalid_argument);
+      }
+    CHECK_NOTHROW(check(UnitCosts{0, 0, 0, 0, 0, 0, 0, 0}));
   }
 }

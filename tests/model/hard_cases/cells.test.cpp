@@ -1,0 +1,66 @@
+#include <boost/math/constants/constants.hpp>
+#include <cmath>
+
+#include "detp/model/cell_spheres.hpp"
+#include "detp/model/disc_index.hpp"
+#include "run.hpp"
+
+using namespace detp;
+using namespace detp::hard_cases;
+
+namespace {
+
+/// 8^i (1 - (1 - 8^{-i})^{n_P}), also where 8^{-i} is below the last digit of 1.
+Exact exact_occupied(double samples, int level) {
+  if (level == 0) return 1;
+  const Exact share = ldexp(Exact{1}, -3 * level);
+  const Exact z = samples * (level < 2 ? support::log_of(1 - share) : support::log_next_to_1(-share));
+  const Exact filled = z < -1e-30 ? Exact{1 - support::exp_of(std::max<Exact>(z, -1000))}
+                                  : Exact{-z * (1 + z / 2 * (1 + z / 3 * (1 + z / 4)))};
+  return filled / share;
+}
+
+void see_occupied(double samples, int level, Ledger& ledger) {
+  ledger.see("occupied cells", model::occupied_cell_spheres(samples, level), exact_occupied(samples, level),
+             [&] { return fmt::format("n_P {:g}, level {}", samples, level); });
+}
+
+void see_radius(const Workload& w, int level, Ledger& ledger) {
+  static const Exact half_root_of_3 = sqrt(Exact{3}) / 2;
+  const Exact half_diagonal = ldexp(Exact{scene_side(w)}, -level) * half_root_of_3;
+  ledger.see("radius of a cell's sphere", model::cell_sphere_radius(w, level), half_diagonal + w.disc_radius,
+             [&] { return fmt::format("side {:a}, d {:a}, level {}", scene_side(w), w.disc_radius, level); });
+}
+
+void see_overlapped(double x, Ledger& ledger) {
+  const Exact weight = 3 * boost::math::constants::pi<Exact>() / 2;
+  ledger.see("overlapped cells", model::overlapped_cells(x), 1 + weight * x * (1 + Exact{x}),
+             [&] { return fmt::format("d/a {:a}", x); });
+}
+
+void see_random(Draw& draw, Ledger& ledger) {
+  const int level = static_cast<int>(draw.whole(0, 2) == 0 ? draw.whole(0, 300) : draw.whole(0, 25));
+  see_occupied(draw.rays_or_samples(), level, ledger);
+  see_radius(draw.workload(), level, ledger);
+  see_overlapped(draw.whole(0, 1) == 0 ? draw.log_uniform(1e-307, 1e153) : draw.log_uniform(1e-3, 1e3), ledger);
+}
+
+void see_edges(Ledger& ledger) {
+  for (const int level : {0, 1, 2, 17, 18, 20, 110, 300})
+    for (const double samples : {1.0, 2.0, 7.0, 8.0, 1e9, 1e18}) see_occupied(samples, level, ledger);
+  for (const double x : {0.0, 5e-324, 1e-17, 0.25, 1.0, 1e17, 1e153}) see_overlapped(x, ledger);
+}
+
+}  // namespace
+
+TEST_SUITE("reference value") {
+  TEST_CASE("hard cases of cells: few samples in many cells and many in few, discs far smaller and larger than cells") {
+    Ledger ledger = on_random_inputs(9, few, see_random);
+    see_edges(ledger);
+    require_right(ledger);
+  }
+}
+
+TEST_SUITE("hard-cases") {
+  TEST_CASE("cells") { require_right_and_print(on_random_inputs(9, many, see_random)); }
+}
