@@ -29,12 +29,14 @@ namespace detp::model {
 ///                  restart   n_R [(k + 1) P_k O_k + Σ_{l=1..k} l P_l (8 O_{l-1} - O_l)]
 ///     placements   n_P Σ_{l=1..k} E_l
 ///
-///   where  O_l   occupied_cells of level l (index_cells.hpp); 8 O_{l-1} - O_l octants were left out there, and a
-///   descent
-///                to one visits l nodes
+///   where  O_l   occupied_cells of level l (index_cells.hpp). 8 O_{l-1} - O_l octants were left out there; a descent
+///                to one visits l nodes.
 ///
 /// Limits     no node empty: 2^{k+1} - 1 nodes per line top-down, (k + 1) 2^k by restarts (the paper's k 2^k does not
 ///            count the root).
+/// Accuracy   per line that hits the cube, cases as in index_cells.hpp, 20 000 lines through S₀: nodes within 1.7 % by
+///            either way (median 0.7 %); disc tests of n_P 1e4 and 1e5 within 2.4 % (median of all 0.7 %), with
+///            mailboxes 2.1 %; of 1000 samples up to 14 % off, where lines make but some hundred tests.
 [[nodiscard]] std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, int most_depth,
                                                                  const IndexVariant& variant = {});
 
@@ -47,6 +49,8 @@ namespace detp::model {
 ///     steps   n_R 2 (m_1 L_2 L_3 + m_2 L_3 L_1 + m_3 L_1 L_2)/(4π r₀²)
 ///
 ///   where  m_i   cells along axis i;   L_i   side of the samples' box grown by d on both sides, where rays are clipped
+///
+/// Accuracy   as for the octree; steps within 1.2 %.
 [[nodiscard]] Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters,
                                          const IndexVariant& variant = {});
 
