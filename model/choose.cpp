@@ -1,13 +1,17 @@
 #include "choose.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 
 #include "best_ratio.hpp"
 #include "disc_index.hpp"
 #include "predict.hpp"
+#include "sphere_tree.hpp"
 
 namespace detp::model {
 namespace {
@@ -40,6 +44,13 @@ std::optional<Ranked> best_cache(Technique technique, const Workload& workload, 
   return assess(workload, {technique, SphereCacheParameters{best.ratio, best.spheres, SampleOrder::lebesgue}}, costs);
 }
 
+std::optional<Ranked> best_cells(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
+  Fastest fastest(workload, costs, limits);
+  for (int depth = 0; depth <= std::min(limits.most_depth, 16); ++depth)
+    fastest.consider({Technique::cell_spheres, CellSpheresParameters{depth}});
+  return fastest.best();
+}
+
 std::optional<Ranked> best_octree(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
   Fastest fastest(workload, costs, limits);
   for (int depth = 0; depth <= limits.most_depth; ++depth)
@@ -62,6 +73,26 @@ Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCo
   return {candidate, counts, price(counts, costs)};
 }
 
+SphereTreeParameters best_sphere_tree(const Workload& workload, const UnitCosts& costs, std::optional<int> fan_out,
+                                      std::optional<int> leaf) {
+  constexpr std::array fan_outs{2, 3, 4, 6, 8, 12, 16};
+  constexpr std::array leaves{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 1024};
+  const auto only = [](const std::optional<int>& given, std::span<const int> all) {
+    return given ? std::vector<int>{*given} : std::vector<int>(all.begin(), all.end());
+  };
+  SphereTreeParameters best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const int f : only(fan_out, fan_outs))
+    for (const int l : only(leaf, leaves)) {
+      const double time = price(sphere_tree_counts(workload, {f, l}), costs).total();
+      if (time < least) {
+        least = time;
+        best = {f, l};
+      }
+    }
+  return best;
+}
+
 std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
                               const SearchLimits& limits) {
   check(workload);
@@ -71,6 +102,10 @@ std::optional<Ranked> best_of(Technique technique, const Workload& workload, con
     case Technique::sphere_cache:
     case Technique::sphere_cache_published:
       return best_cache(technique, workload, costs);
+    case Technique::cell_spheres:
+      return best_cells(workload, costs, limits);
+    case Technique::sphere_tree:
+      return assess(workload, {Technique::sphere_tree, best_sphere_tree(workload, costs)}, costs);
     case Technique::octree:
       return best_octree(workload, costs, limits);
     case Technique::grid:

@@ -17,15 +17,16 @@ struct Ranked {
 
 /// Limits of the parameters searched.
 struct SearchLimits {
-  int most_depth = 14;           ///< of an octree
+  int most_depth = 14;           ///< of an octree, and of cells with spheres
   double most_cells = 1 << 26;   ///< of a grid, all together: 8 bytes each
   double most_references = 1e9;  ///< to discs in an index: 4 bytes each
 };
 
 /// All exact techniques, each with its best parameters, fastest first.
 ///
-/// The sphere caches by best_ratio_and_stop; the octree over its depths; the grid over cell counts in steps of 10 %.
-/// Throws std::invalid_argument for a workload out of range.
+/// The sphere caches by best_ratio_and_stop; cell spheres and the octree over their depths; the sphere tree over a
+/// table of fan-outs and leaves; the grid over cell counts in steps of 10 %. Throws std::invalid_argument for a
+/// workload out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs,
                                        const SearchLimits& limits = {});
 
@@ -33,6 +34,11 @@ struct SearchLimits {
 /// references than allowed).
 [[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
                                             const SearchLimits& limits = {});
+
+/// The fastest sphere tree with that fan-out and that leaf; those not given are searched for, fan-outs from 2 to 16 and
+/// leaves from 1 to 1024.
+[[nodiscard]] SphereTreeParameters best_sphere_tree(const Workload& workload, const UnitCosts& costs,
+                                                    std::optional<int> fan_out = {}, std::optional<int> leaf = {});
 
 /// One candidate as `rank` would show it.
 [[nodiscard]] Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCosts& costs);

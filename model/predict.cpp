@@ -2,10 +2,12 @@
 
 #include <stdexcept>
 
+#include "cell_spheres.hpp"
 #include "disc_index.hpp"
 #include "line_measure.hpp"
 #include "sphere_cache.hpp"
 #include "sphere_cache_published.hpp"
+#include "sphere_tree.hpp"
 
 namespace detp::model {
 namespace {
@@ -29,6 +31,10 @@ Counts<double> predict(const Workload& workload, const Candidate& candidate) {
       const auto& parameters = std::get<SphereCacheParameters>(candidate.parameters);
       return published::counts(workload, {parameters.ratio}, parameters.spheres);
     }
+    case Technique::cell_spheres:
+      return cell_sphere_counts(workload, std::get<CellSpheresParameters>(candidate.parameters));
+    case Technique::sphere_tree:
+      return sphere_tree_counts(workload, std::get<SphereTreeParameters>(candidate.parameters));
     case Technique::octree:
       return octree_counts(workload, std::get<OctreeParameters>(candidate.parameters));
     case Technique::grid:

@@ -24,6 +24,10 @@ std::string_view name(Technique technique) {
       return "sphere-cache";
     case Technique::sphere_cache_published:
       return "sphere-cache-published";
+    case Technique::cell_spheres:
+      return "cell-spheres";
+    case Technique::sphere_tree:
+      return "sphere-tree";
     case Technique::octree:
       return "octree";
     case Technique::grid:
@@ -47,14 +51,17 @@ std::optional<SampleOrder> order_named(std::string_view wanted) {
 }
 
 std::string describe(const Parameters& parameters) {
-  return std::visit(Overload{[](const BruteForceParameters&) { return std::string{}; },
-                             [](const SphereCacheParameters& p) {
-                               return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres,
-                                                  p.order == SampleOrder::none ? ", unsorted" : "");
-                             },
-                             [](const OctreeParameters& p) { return fmt::format("depth {}", p.depth); },
-                             [](const GridParameters& p) { return fmt::format("{} cells a side", p.cells); }},
-                    parameters);
+  return std::visit(
+      Overload{[](const BruteForceParameters&) { return std::string{}; },
+               [](const SphereCacheParameters& p) {
+                 return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres,
+                                    p.order == SampleOrder::none ? ", unsorted" : "");
+               },
+               [](const CellSpheresParameters& p) { return fmt::format("depth {}", p.depth); },
+               [](const SphereTreeParameters& p) { return fmt::format("{} a node, {} a leaf", p.fan_out, p.leaf); },
+               [](const OctreeParameters& p) { return fmt::format("depth {}", p.depth); },
+               [](const GridParameters& p) { return fmt::format("{} cells a side", p.cells); }},
+      parameters);
 }
 
 void check(const Candidate& candidate) {
@@ -72,6 +79,15 @@ void check(const Candidate& candidate) {
       const auto p = want(static_cast<const SphereCacheParameters*>(nullptr));
       require_ratio("radius ratio Q", p.ratio);
       require_count("number of spheres", static_cast<double>(p.spheres), 1, 1e18);
+      break;
+    }
+    case Technique::cell_spheres:
+      require_count("depth", want(static_cast<const CellSpheresParameters*>(nullptr)).depth, 0, 16);
+      break;
+    case Technique::sphere_tree: {
+      const auto p = want(static_cast<const SphereTreeParameters*>(nullptr));
+      require_count("fan-out", p.fan_out, 2, 1048576);
+      require_count("samples in a leaf", p.leaf, 1, 1048576);
       break;
     }
     case Technique::octree:

@@ -11,10 +11,12 @@
 /// sim/technique.
 namespace detp {
 
-enum class Technique { brute_force, sphere_cache, sphere_cache_published, octree, grid };
+enum class Technique { brute_force, sphere_cache, sphere_cache_published, cell_spheres, sphere_tree, octree, grid };
 
-inline constexpr std::array all_techniques{Technique::brute_force, Technique::sphere_cache,
-                                           Technique::sphere_cache_published, Technique::octree, Technique::grid};
+inline constexpr std::array all_techniques{
+    Technique::brute_force,  Technique::sphere_cache, Technique::sphere_cache_published,
+    Technique::cell_spheres, Technique::sphere_tree,  Technique::octree,
+    Technique::grid};
 
 /// The name on the command line and in files: "sphere-cache".
 [[nodiscard]] std::string_view name(Technique technique);
@@ -44,6 +46,19 @@ struct SphereCacheParameters {
   bool operator==(const SphereCacheParameters&) const = default;
 };
 
+/// Nested spheres, each around a cell of an octree, with their rays.
+struct CellSpheresParameters {
+  int depth = 4;  ///< levels of cells below the samples' cube, 0 … 16: the curve's bits
+  bool operator==(const CellSpheresParameters&) const = default;
+};
+
+/// Nested spheres around runs of samples along the curve: rays are culled down the tree.
+struct SphereTreeParameters {
+  int fan_out = 8;  ///< nodes that make a parent, 2 … 1 048 576
+  int leaf = 4;     ///< samples in a leaf, the last one's may be fewer, 1 … 1 048 576
+  bool operator==(const SphereTreeParameters&) const = default;
+};
+
 /// Cube split into 8 at each of `depth` levels, empty nodes left out.
 struct OctreeParameters {
   int depth = 6;  ///< levels below the root, 0 … 20
@@ -56,7 +71,8 @@ struct GridParameters {
   bool operator==(const GridParameters&) const = default;
 };
 
-using Parameters = std::variant<BruteForceParameters, SphereCacheParameters, OctreeParameters, GridParameters>;
+using Parameters = std::variant<BruteForceParameters, SphereCacheParameters, CellSpheresParameters,
+                                SphereTreeParameters, OctreeParameters, GridParameters>;
 
 /// One technique with its parameters.
 struct Candidate {

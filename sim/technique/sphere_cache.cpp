@@ -1,22 +1,16 @@
 #include <cmath>
 #include <numeric>
 
-#include "detp/sim/lebesgue.hpp"
 #include "hit_collector.hpp"
+#include "ray_list.hpp"
 #include "techniques.hpp"
 
 namespace detp::sim {
 namespace {
 
-/// A ray in a list, with its number. Copied, so that a list is read from one end to the other.
-struct ListedRay {
-  Ray ray;
-  std::uint32_t index;
-};
-
 struct CachedSphere {
   Sphere sphere;
-  std::vector<ListedRay> rays;
+  RayList rays;
 };
 
 bool holds(const Sphere& sphere, const Disc& disc) {
@@ -30,8 +24,7 @@ class SphereCache {
   SphereCache(const Problem& problem, const SphereCacheParameters& parameters)
       : problem_(problem), spheres_(sphere_total(problem, parameters)), events_(spheres_.size() - 1) {
     spheres_[0].sphere = problem.enclosing;
-    spheres_[0].rays.reserve(problem.rays.size());
-    for (std::uint32_t i = 0; i < problem.rays.size(); ++i) spheres_[0].rays.push_back({problem.rays[i], i});
+    spheres_[0].rays = list_of(problem.rays);
     for (std::size_t i = 1; i < spheres_.size(); ++i)
       spheres_[i].sphere.radius = problem.enclosing.radius * std::pow(parameters.ratio, static_cast<double>(i));
   }
@@ -51,7 +44,7 @@ class SphereCache {
   }
 
   /// Rebuilds the spheres inside `from` around the disc, as long as they hold it; the rays of the innermost.
-  const std::vector<ListedRay>& rebuild_inside(std::size_t from, const Disc& disc) {
+  const RayList& rebuild_inside(std::size_t from, const Disc& disc) {
     valid_ = from + 1;
     while (valid_ < spheres_.size() && disc.radius <= spheres_[valid_].sphere.radius) rebuild(valid_++, disc.centre);
     return spheres_[valid_ - 1].rays;
@@ -80,13 +73,10 @@ class SphereCache {
   }
 
   void rebuild(std::size_t i, const glm::dvec3& centre) {
-    const std::vector<ListedRay>& around = spheres_[i - 1].rays;
+    const RayList& around = spheres_[i - 1].rays;
     auto& [sphere, rays] = spheres_[i];
     sphere.centre = centre;
-    const Sphere cull{centre, sphere.radius + problem_.slack};
-    rays.clear();
-    for (const ListedRay& listed : around)
-      if (hits(listed.ray, cull)) rays.push_back(listed);
+    cull(around, sphere, problem_.slack, rays);
     if constexpr (counting) {
       ++events_[i - 1].rebuilds;
       events_[i - 1].tests += around.size();
@@ -101,12 +91,7 @@ class SphereCache {
 };
 
 std::vector<std::uint32_t> visiting_order(const Problem& problem, SampleOrder order) {
-  if (order == SampleOrder::lebesgue) {
-    std::vector<glm::dvec3> centres;
-    centres.reserve(problem.discs.size());
-    for (const Disc& disc : problem.discs) centres.push_back(disc.centre);
-    return lebesgue_order(centres);
-  }
+  if (order == SampleOrder::lebesgue) return along_curve(problem.discs);
   std::vector<std::uint32_t> as_given(problem.discs.size());
   std::iota(as_given.begin(), as_given.end(), 0U);
   return as_given;
@@ -127,10 +112,8 @@ void search(const Problem& problem, const SphereCacheParameters& parameters, con
     const Disc disc = problem.discs[d];
     const std::size_t serving =
         walk == Walk::exact ? cache.innermost_of_all_that_hold(disc) : cache.innermost_that_holds(disc);
-    const std::vector<ListedRay>& rays = cache.rebuild_inside(serving, disc);
-    for (const auto& [ray, index] : rays)
-      if (collector.decide(ray, disc)) collector.keep(index, d);
-    tally.add(&Counts<std::uint64_t>::disc_tests, rays.size());
+    const RayList& rays = cache.rebuild_inside(serving, disc);
+    test_disc(rays, disc, d, collector, tally);
     outcome.stopped = options.stop.stop_requested();
     if (outcome.stopped) break;
   }

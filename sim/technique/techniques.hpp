@@ -35,6 +35,16 @@ void run_sphere_cache(const Problem& problem, const SphereCacheParameters& param
 void run_sphere_cache_published(const Problem& problem, const SphereCacheParameters& parameters,
                                 const RunOptions& options, Outcome& outcome);
 
+/// Spheres anchored to the cells of an octree (CellWalk), each built once along the Lebesgue curve from the list of the
+/// one around it; the innermost's is tested.
+void run_cell_spheres(const Problem& problem, const CellSpheresParameters& parameters, const RunOptions& options,
+                      Outcome& outcome);
+
+/// A tree of nested spheres over runs of discs along the Lebesgue curve (SphereTree): the list of rays is culled down
+/// the tree, depth first, and tested against the leaves' discs. One list a level.
+void run_sphere_tree(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
+                     Outcome& outcome);
+
 /// Octree over the discs: all leaves at one depth, empty nodes left out, top-down traversal.
 void run_octree(const Problem& problem, const OctreeParameters& parameters, const RunOptions& options,
                 Outcome& outcome);

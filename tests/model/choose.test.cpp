@@ -38,7 +38,7 @@ TEST_SUITE("identity") {
       const Workload w = cube_workload(random.count(1, 1e8), random.count(1, 1e7), random.log_uniform(1e-3, 0.5), 2,
                                        random.uniform(2, 3));
       const auto ranking = rank(w, costs);
-      REQUIRE(ranking.size() == 4);
+      REQUIRE(ranking.size() == 6);
       for (std::size_t i = 0; i < ranking.size(); ++i) {
         const Ranked& ranked = ranking[i];
         CHECK(ranked.candidate.technique != Technique::sphere_cache_published);
@@ -74,6 +74,23 @@ TEST_SUITE("identity") {
       for (int cells = 1; cells <= 400; ++cells)
         CHECK(grid <= 1.01 * total(w, {Technique::grid, GridParameters{cells}}));
     }
+  }
+
+  TEST_CASE("no depth is faster than that of the cell spheres chosen, no tree of those searched than the tree") {
+    for (const Workload& w : {typical, cube_workload(1e4, 1e6, 0.002, 2, 2), cube_workload(1e7, 100, 0.3, 2)}) {
+      const double cells = best_of(Technique::cell_spheres, w, costs)->time.total();
+      for (int depth = 0; depth <= 14; ++depth)
+        CHECK(cells <= total(w, {Technique::cell_spheres, CellSpheresParameters{depth}}));
+      const double tree = best_of(Technique::sphere_tree, w, costs)->time.total();
+      for (const int fan_out : {2, 3, 4, 6, 8, 12, 16})
+        for (const int leaf : {1, 4, 12, 64, 1024}) {
+          const double time = total(w, {Technique::sphere_tree, SphereTreeParameters{fan_out, leaf}});
+          CHECK(tree <= time);
+          CHECK(total(w, {Technique::sphere_tree, best_sphere_tree(w, costs, fan_out, std::nullopt)}) <= time);
+          CHECK(total(w, {Technique::sphere_tree, best_sphere_tree(w, costs, std::nullopt, leaf)}) <= time);
+        }
+    }
+    CHECK(best_sphere_tree(typical, costs, 5, 7) == SphereTreeParameters{5, 7});
   }
 
   TEST_CASE("the sphere cache chosen is that of the best ratio and stop") {
@@ -116,21 +133,23 @@ TEST_SUITE("known answer") {
     const SearchLimits none{.most_references = 10};
     CHECK_FALSE(best_of(Technique::octree, typical, costs, none).has_value());
     CHECK_FALSE(best_of(Technique::grid, typical, costs, none).has_value());
-    CHECK(rank(typical, costs, none).size() == 2);
+    CHECK(rank(typical, costs, none).size() == 4);
   }
 
   TEST_CASE("discs as large as S0, or next to it, leave no sphere cache, and the others in the ranking") {
     for (const double disc : {0.99, 1.0, 3.0}) {
       const Workload w{.rays = 100, .samples = 100, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
       CHECK_FALSE(best_of(Technique::sphere_cache, w, costs).has_value());
-      CHECK(rank(w, costs).size() == 3);
+      CHECK(rank(w, costs).size() == 5);
     }
   }
 
-  TEST_CASE("costs decide: where steps are dear the sphere cache wins, where spheres are, an index") {
+  TEST_CASE("costs decide: where steps are dear a technique with spheres wins, where spheres are, an index") {
     UnitCosts dear_steps = costs;
     dear_steps.step = dear_steps.node = 1e6;
-    CHECK(rank(typical, dear_steps).front().candidate.technique == Technique::sphere_cache);
+    const Technique without_steps = rank(typical, dear_steps).front().candidate.technique;
+    CHECK((without_steps == Technique::sphere_cache || without_steps == Technique::cell_spheres ||
+           without_steps == Technique::sphere_tree));
     UnitCosts dear_spheres = costs;
     dear_spheres.sphere_test = 1e6;
     const Technique best = rank(typical, dear_spheres).front().candidate.technique;

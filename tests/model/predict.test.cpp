@@ -7,10 +7,12 @@
 #include <stdexcept>
 #include <vector>
 
+#include "detp/model/cell_spheres.hpp"
 #include "detp/model/disc_index.hpp"
 #include "detp/model/line_measure.hpp"
 #include "detp/model/sphere_cache.hpp"
 #include "detp/model/sphere_cache_published.hpp"
+#include "detp/model/sphere_tree.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
 
@@ -29,6 +31,8 @@ const std::vector<Candidate> candidates{
     {Technique::sphere_cache_published, SphereCacheParameters{0.6, 6}},
     {Technique::octree, OctreeParameters{6}},
     {Technique::grid, GridParameters{70}},
+    {Technique::cell_spheres, CellSpheresParameters{5}},
+    {Technique::sphere_tree, SphereTreeParameters{8, 12}},
 };
 
 Workload scaled(Workload w, double factor) {
@@ -70,6 +74,8 @@ TEST_SUITE("known answer") {
     CHECK(predict(typical, candidates[3]) == published::counts(typical, {0.6}, 6));
     CHECK(predict(typical, candidates[4]) == octree_counts(typical, {6}));
     CHECK(predict(typical, candidates[5]) == grid_counts(typical, {70}));
+    CHECK(predict(typical, candidates[6]) == cell_sphere_counts(typical, {5}));
+    CHECK(predict(typical, candidates[7]) == sphere_tree_counts(typical, {8, 12}));
   }
 }
 
@@ -131,6 +137,10 @@ TEST_SUITE("identity") {
       const std::vector<Candidate> some{
           {Technique::sphere_cache, SphereCacheParameters{ratio, random.whole(1, 100)}},
           {Technique::sphere_cache_published, SphereCacheParameters{ratio, random.whole(1, 100)}},
+          {Technique::cell_spheres, CellSpheresParameters{static_cast<int>(random.whole(0, 16))}},
+          {Technique::sphere_tree, SphereTreeParameters{static_cast<int>(random.whole(2, 1048576)),
+                                                        static_cast<int>(random.whole(1, 1048576))}},
+          {Technique::sphere_tree, SphereTreeParameters{2, 1}},
           {Technique::octree, OctreeParameters{static_cast<int>(random.whole(0, 20))}},
           {Technique::grid, GridParameters{static_cast<int>(random.whole(1, 1048576))}}};
       for (const Candidate& candidate : some) {

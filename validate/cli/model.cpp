@@ -6,12 +6,15 @@
 
 #include "command.hpp"
 #include "detp/model/best_ratio.hpp"
+#include "detp/model/cell_spheres.hpp"
+#include "detp/model/choose.hpp"
 #include "detp/model/disc_index.hpp"
 #include "detp/model/disc_index_published.hpp"
 #include "detp/model/predict.hpp"
 #include "detp/model/sphere_cache.hpp"
 #include "detp/model/sphere_cache_published.hpp"
 #include "detp/model/sphere_count.hpp"
+#include "detp/model/sphere_tree.hpp"
 #include "unit_cost_option.hpp"
 #include "workload_options.hpp"
 
@@ -157,15 +160,74 @@ Json octree(const Question& question) {
   return json;
 }
 
-Json grid(const Question& question) {
+/// Where the paper has none.
+void refuse_published(const Question& question) {
   if (question.form == Form::published)
-    throw std::invalid_argument("the paper has no formula for a grid; use --form corrected, or --technique octree");
+    throw std::invalid_argument(
+        fmt::format("the paper has no formula for {}; use --form corrected", detp::name(question.technique)));
+}
+
+Json grid(const Question& question) {
+  refuse_published(question);
   const int depth = model::published::octree_depth({question.workload.disc_radius}, scene_side(question.workload));
   const GridParameters parameters{question.options.cells.value_or(1 << std::min(depth, 20))};
   const Counts<double> counts = model::grid_counts(question.workload, parameters);
   Json json{{"parameters", to_json(Parameters{parameters})}, {"form", name(question.form)}};
   json.update(corrected_index(question, parameters.cells, counts));
   return json;
+}
+
+/// Parameters, time by part and counts, after the levels.
+Json with_spheres(const Question& question, const Parameters& parameters, Json levels) {
+  const Counts<double> counts = model::predict(question.workload, {question.technique, parameters});
+  const CostBreakdown time = price(counts, question.costs);
+  return {{"parameters", to_json(parameters)}, {"form", name(question.form)},      {"spheres", std::move(levels)},
+          {"rebuild_time", time.rebuild},      {"intersect_time", time.intersect}, {"copy_time", time.copy},
+          {"order_time", time.order},          {"total_time", time.total()},       {"counts", to_json(counts)}};
+}
+
+/// Levels left out are the best at the unit costs.
+Json cell_spheres(const Question& question) {
+  refuse_published(question);
+  const Workload& w = question.workload;
+  const auto best = [&] {
+    return std::get<CellSpheresParameters>(
+        model::best_of(Technique::cell_spheres, w, question.costs)->candidate.parameters);
+  };
+  const CellSpheresParameters parameters =
+      question.options.depth ? CellSpheresParameters{*question.options.depth} : best();
+  check(Candidate{Technique::cell_spheres, parameters});
+  Json levels = Json::array();
+  double around = w.rays;
+  for (int i = 1; i <= std::min<std::int64_t>(question.levels, parameters.depth); ++i) {
+    const double rays = model::rays_in_cell_sphere(w, i);
+    levels.push_back({{"i", i},
+                      {"radius", model::cell_sphere_radius(w, i)},
+                      {"rays", rays},
+                      {"rebuilds", model::occupied_cell_spheres(w, i)},
+                      {"rebuild_cost", question.costs.sphere_test * around}});
+    around = rays;
+  }
+  return with_spheres(question, parameters, std::move(levels));
+}
+
+Json sphere_tree(const Question& question) {
+  refuse_published(question);
+  const SphereTreeParameters parameters =
+      model::best_sphere_tree(question.workload, question.costs, question.options.fan_out, question.options.leaf);
+  Json levels = Json::array();
+  double around = question.workload.rays;
+  for (const model::TreeLevel& level : model::sphere_tree_levels(question.workload, parameters)) {
+    if (static_cast<std::int64_t>(levels.size()) == question.levels) break;
+    levels.push_back({{"i", levels.size()},
+                      {"radius", level.rms_radius},
+                      {"rays", level.rays},
+                      {"rebuilds", level.nodes},
+                      {"rebuild_cost", question.costs.sphere_test * around},
+                      {"samples", level.samples}});
+    around = level.rays;
+  }
+  return with_spheres(question, parameters, std::move(levels));
 }
 
 Json brute_force(const Question& question) {
@@ -185,6 +247,12 @@ Json answer(const Question& question) {
     case Technique::sphere_cache:
     case Technique::sphere_cache_published:
       json.update(sphere_cache(question));
+      break;
+    case Technique::cell_spheres:
+      json.update(cell_spheres(question));
+      break;
+    case Technique::sphere_tree:
+      json.update(sphere_tree(question));
       break;
     case Technique::octree:
       json.update(octree(question));

@@ -46,6 +46,9 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
   options.refuse_foreign(technique);
   if (technique == Technique::sphere_cache || technique == Technique::sphere_cache_published)
     return {technique, complete_cache(options, workload)};
+  if (technique == Technique::cell_spheres && options.depth) return {technique, CellSpheresParameters{*options.depth}};
+  if (technique == Technique::sphere_tree)
+    return {technique, model::best_sphere_tree(workload, costs, options.fan_out, options.leaf)};
   if (technique == Technique::octree && options.depth) return {technique, OctreeParameters{*options.depth}};
   if (technique == Technique::grid && options.cells) return {technique, GridParameters{*options.cells}};
   const auto best = model::best_of(technique, workload, costs);

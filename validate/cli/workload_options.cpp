@@ -61,8 +61,10 @@ void CandidateOptions::add_to(CLI::App& command) {
   command.add_option("--ratio", ratio, "Q of a sphere cache, between 0 and 1");
   command.add_option("--spheres", spheres, "k of a sphere cache, its innermost sphere");
   command.add_option("--order", order, "lebesgue or none")->check(CLI::IsMember({"lebesgue", "none"}));
-  command.add_option("--depth", depth, "levels of an octree");
+  command.add_option("--depth", depth, "levels of an octree, or of cells with spheres");
   command.add_option("--cells", cells, "cells of a grid along its longest side");
+  command.add_option("--fan-out", fan_out, "children of a sphere tree's nodes, at least 2");
+  command.add_option("--leaf", leaf, "most samples in a sphere tree's leaf");
 }
 
 Technique CandidateOptions::technique_or(Technique otherwise) const {
@@ -84,14 +86,19 @@ void CandidateOptions::refuse_foreign(Technique chosen) const {
   if (ratio && !cache) refuse("--ratio");
   if (spheres && !cache) refuse("--spheres");
   if (order != "lebesgue" && !cache) refuse("--order");
-  if (depth && chosen != Technique::octree) refuse("--depth");
+  if (depth && chosen != Technique::octree && chosen != Technique::cell_spheres) refuse("--depth");
   if (cells && chosen != Technique::grid) refuse("--cells");
+  if (fan_out && chosen != Technique::sphere_tree) refuse("--fan-out");
+  if (leaf && chosen != Technique::sphere_tree) refuse("--leaf");
 }
 
 Json to_json(const Parameters& parameters) {
   Json json = Json::object();
   if (const auto* cache = std::get_if<SphereCacheParameters>(&parameters))
     json = {{"ratio", cache->ratio}, {"spheres", cache->spheres}, {"order", detp::name(cache->order)}};
+  if (const auto* cells = std::get_if<CellSpheresParameters>(&parameters)) json = {{"depth", cells->depth}};
+  if (const auto* tree = std::get_if<SphereTreeParameters>(&parameters))
+    json = {{"fan_out", tree->fan_out}, {"leaf", tree->leaf}};
   if (const auto* octree = std::get_if<OctreeParameters>(&parameters)) json = {{"depth", octree->depth}};
   if (const auto* grid = std::get_if<GridParameters>(&parameters)) json = {{"cells", grid->cells}};
   return json;

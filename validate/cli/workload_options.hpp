@@ -32,6 +32,8 @@ class CandidateOptions {
   std::string order = "lebesgue";
   std::optional<int> depth;
   std::optional<int> cells;
+  std::optional<int> fan_out;
+  std::optional<int> leaf;
 
   /// The technique of that name, or `otherwise`. Throws std::invalid_argument for an unknown one, naming the known.
   [[nodiscard]] Technique technique_or(Technique otherwise) const;

@@ -15,7 +15,7 @@ using doctest::Contains;
 namespace {
 
 const std::vector<Parameters> one_of_each{BruteForceParameters{}, SphereCacheParameters{}, OctreeParameters{},
-                                          GridParameters{}};
+                                          GridParameters{},       CellSpheresParameters{}, SphereTreeParameters{}};
 
 /// Where a technique's own parameters are in one_of_each.
 std::size_t kind(Technique technique) {
@@ -29,6 +29,10 @@ std::size_t kind(Technique technique) {
       return 2;
     case Technique::grid:
       return 3;
+    case Technique::cell_spheres:
+      return 4;
+    case Technique::sphere_tree:
+      return 5;
   }
   return one_of_each.size();
 }
@@ -55,6 +59,8 @@ TEST_SUITE("known answer") {
     CHECK(name(Technique::brute_force) == "brute-force");
     CHECK(name(Technique::sphere_cache) == "sphere-cache");
     CHECK(name(Technique::sphere_cache_published) == "sphere-cache-published");
+    CHECK(name(Technique::cell_spheres) == "cell-spheres");
+    CHECK(name(Technique::sphere_tree) == "sphere-tree");
     CHECK(name(Technique::octree) == "octree");
     CHECK(name(Technique::grid) == "grid");
     CHECK(name(SampleOrder::lebesgue) == "lebesgue");
@@ -65,6 +71,8 @@ TEST_SUITE("known answer") {
     CHECK(describe(BruteForceParameters{}).empty());
     CHECK(describe(SphereCacheParameters{0.607, 9}) == "Q 0.607, k 9");
     CHECK(describe(SphereCacheParameters{0.607, 9, SampleOrder::none}) == "Q 0.607, k 9, unsorted");
+    CHECK(describe(CellSpheresParameters{5}) == "depth 5");
+    CHECK(describe(SphereTreeParameters{8, 12}) == "8 a node, 12 a leaf");
     CHECK(describe(OctreeParameters{7}) == "depth 7");
     CHECK(describe(GridParameters{100}) == "100 cells a side");
   }
@@ -74,6 +82,10 @@ TEST_SUITE("known answer") {
       for (const std::int64_t k : {1LL, 9LL, 1'000'000'000'000'000'000LL})
         CHECK_NOTHROW(check(Candidate{technique, SphereCacheParameters{0.5, k}}));
     for (const int depth : {0, 20}) CHECK_NOTHROW(check(Candidate{Technique::octree, OctreeParameters{depth}}));
+    for (const int depth : {0, 16})
+      CHECK_NOTHROW(check(Candidate{Technique::cell_spheres, CellSpheresParameters{depth}}));
+    for (const auto& tree : {SphereTreeParameters{2, 1}, SphereTreeParameters{1048576, 1048576}})
+      CHECK_NOTHROW(check(Candidate{Technique::sphere_tree, tree}));
     for (const int cells : {1, 1048576}) CHECK_NOTHROW(check(Candidate{Technique::grid, GridParameters{cells}}));
     CHECK_NOTHROW(check(Candidate{}));
   }
@@ -110,6 +122,15 @@ TEST_SUITE("bad input") {
     for (const int bad : {-1, 21})
       CHECK_THROWS_WITH_AS(check(Candidate{Technique::octree, OctreeParameters{bad}}), Contains("depth"),
                            std::invalid_argument);
+    for (const int bad : {-1, 17})
+      CHECK_THROWS_WITH_AS(check(Candidate{Technique::cell_spheres, CellSpheresParameters{bad}}), Contains("depth"),
+                           std::invalid_argument);
+    for (const int bad : {1, 0, -2, 1048577})
+      CHECK_THROWS_WITH_AS(check(Candidate{Technique::sphere_tree, SphereTreeParameters{bad, 4}}), Contains("fan-out"),
+                           std::invalid_argument);
+    for (const int bad : {0, -1, 1048577})
+      CHECK_THROWS_WITH_AS(check(Candidate{Technique::sphere_tree, SphereTreeParameters{4, bad}}),
+                           Contains("samples in a leaf"), std::invalid_argument);
     for (const int bad : {0, -5, 1048577})
       CHECK_THROWS_WITH_AS(check(Candidate{Technique::grid, GridParameters{bad}}), Contains("cells a side"),
                            std::invalid_argument);

@@ -25,6 +25,12 @@ const std::vector<Candidate>& exact_candidates() {
                                            {Technique::sphere_cache, SphereCacheParameters{0.9, 1'000'000'000}},
                                            {Technique::sphere_cache, SphereCacheParameters{0.5, 5, SampleOrder::none}},
                                            {Technique::sphere_cache, SphereCacheParameters{1e-9, 1}},
+                                           {Technique::cell_spheres, CellSpheresParameters{0}},
+                                           {Technique::cell_spheres, CellSpheresParameters{4}},
+                                           {Technique::cell_spheres, CellSpheresParameters{16}},
+                                           {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                                           {Technique::sphere_tree, SphereTreeParameters{2, 1}},
+                                           {Technique::sphere_tree, SphereTreeParameters{7, 1'000'000}},
                                            {Technique::octree, OctreeParameters{0}},
                                            {Technique::octree, OctreeParameters{3}},
                                            {Technique::octree, OctreeParameters{6}},
@@ -176,6 +182,18 @@ TEST_SUITE("known answer") {
     std::uint64_t tests = 0;
     for (const SphereCounts& sphere : cache.spheres) tests += sphere.tests;
     CHECK(cache.counts.sphere_tests == tests);
+    const Outcome shallow = run(problem, {Technique::cell_spheres, CellSpheresParameters{1}});
+    CHECK(shallow.counts.rebuilds == 8);
+    CHECK(shallow.counts.sphere_tests == 8 * 900);
+    CHECK(shallow.counts.copies <= 8 * 900);
+    CHECK(shallow.counts.sorted == 700);
+    const Outcome leaf = run(problem, {Technique::sphere_tree, SphereTreeParameters{8, 700}});
+    CHECK(leaf.counts.rebuilds == 1);
+    CHECK(leaf.counts.sphere_tests == 900);
+    CHECK(leaf.counts.disc_tests == 700 * leaf.counts.copies);
+    const Outcome tree = run(problem, {Technique::sphere_tree, SphereTreeParameters{8, 10}});
+    CHECK(tree.counts.rebuilds == 70 + 9 + 2 + 1);
+    CHECK(tree.counts.sorted == 700);
     const Outcome grid = run(problem, {Technique::grid, GridParameters{1}});
     CHECK(grid.counts.references == 700);
     CHECK(grid.counts.disc_tests == 700 * grid.counts.steps);

@@ -70,9 +70,15 @@ TEST_SUITE("bad input") {
     check_refused(each(uniform + "--technique sphere-cache --spheres", {"0", "-1", "1.5", "nan"}, "spheres"));
     check_refused(each(uniform + "--technique octree --depth", {"-1", "21", "99", "1.5", "nan"}, "depth"));
     check_refused(each(uniform + "--technique grid --cells", {"0", "-1", "1e9", "1000000000", "nan"}, "cells"));
+    for (const std::string& command : {uniform, numbers}) {
+      check_refused(each(command + "--technique cell-spheres --depth", {"-1", "17", "1.5", "nan"}, "depth"));
+      check_refused(each(command + "--technique sphere-tree --fan-out", {"1", "0", "-1", "1.5", "nan"}, "fan-out"));
+      check_refused(each(command + "--technique sphere-tree --leaf", {"0", "-1", "1.5", "nan"}, "leaf"));
+    }
     check_refused(each(numbers + "--technique octree --depth", {"-1", "999", "1.5"}, "depth"));
     check_refused(each(numbers + "--technique grid --cells", {"0", "-1", "2.5"}, "cells"));
-    check_refused({{numbers + "--technique grid --form published", "--form corrected"}});
+    for (const std::string technique : {"grid", "cell-spheres", "sphere-tree"})
+      check_refused({{numbers + "--form published --technique " + technique, "--form corrected"}});
   }
 
   TEST_CASE("parameters of other techniques are refused, not ignored") {
@@ -83,6 +89,9 @@ TEST_SUITE("bad input") {
                      {command + "--technique octree --cells 3", "--cells"},
                      {command + "--technique grid --depth 3", "--depth"},
                      {command + "--technique grid --spheres 3", "--spheres"},
+                     {command + "--technique octree --fan-out 3", "--fan-out"},
+                     {command + "--technique cell-spheres --leaf 3", "--leaf"},
+                     {command + "--technique sphere-tree --depth 3", "--depth"},
                      {command + "--technique brute-force --ratio 0.5", "--ratio"},
                      {command + "--technique brute-force --order none", "--order"}});
   }

@@ -99,6 +99,33 @@ TEST_SUITE("known answer") {
     CHECK(result_of(numbers + "--technique brute-force").at("total_time").get<double>() == near(5 * rays * samples));
   }
 
+  TEST_CASE("cell spheres and the sphere tree are the sums over their levels") {
+    const std::string side = "model --rays 300000 --samples 20000 --disc-radius 0.01 --scene-side 2 --costs t=3,u=5 ";
+    for (const std::string technique :
+         {"cell-spheres --depth 4", "cell-spheres", "sphere-tree --fan-out 4 --leaf 6", "sphere-tree"}) {
+      CAPTURE(technique);
+      const Json json = result_of(side + "--technique " + technique);
+      double rebuild_time = 0;
+      double listed = rays;
+      for (const Json& sphere : json.at("spheres")) {
+        CHECK(sphere.at("rebuild_cost").get<double>() == near(3 * listed));
+        rebuild_time += sphere.at("rebuilds").get<double>() * sphere.at("rebuild_cost").get<double>();
+        listed = sphere.at("rays");
+      }
+      CHECK(json.at("rebuild_time").get<double>() == Approx(rebuild_time).epsilon(1e-9));
+      CHECK(json.at("intersect_time").get<double>() == near(5 * samples * listed));
+    }
+    const Json cells = result_of(side + "--technique cell-spheres --depth 4");
+    CHECK(cells.at("parameters").at("depth") == 4);
+    CHECK(cells.at("spheres").size() == 4);
+    CHECK(cells.at("spheres")[0].at("rebuilds").get<double>() == near(8));
+    const Json tree = result_of(side + "--technique sphere-tree --fan-out 4 --leaf 6");
+    CHECK(tree.at("parameters") == Json{{"fan_out", 4}, {"leaf", 6}});
+    CHECK(tree.at("spheres").back().at("rebuilds") == 3334);
+    CHECK(tree.at("spheres").back().at("samples") == 6);
+    CHECK(result_of(side + "--technique sphere-tree --levels 2").at("spheres").size() == 2);
+  }
+
   TEST_CASE("the published octree is eq 22") {
     const std::string octree =
         "model --rays 1000 --samples 4096 --disc-radius 0.01 --scene-side 2 --costs u=5 --technique octree ";

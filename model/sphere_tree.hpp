@@ -1,0 +1,58 @@
+#pragma once
+
+#include <vector>
+
+#include "vocabulary.hpp"
+
+/// The ray-stream sphere tree: lists of rays culled down a tree of nested spheres.
+///
+/// Runs of consecutive samples along the Lebesgue curve make leaves, f consecutive nodes a parent. Each node's sphere
+/// holds its children's spheres whole (a leaf's, its discs), and its list is culled from its parent's.
+///
+/// Nested: S(child) ⊂ S(parent) by construction, down from the root, which lies in S₀ or hardly pokes out of it. So
+/// every ray that crosses a node's sphere is in its parent's list, the node's own holds just those, and
+///
+///     sphere tests = n_R (1 + Σ_nodes but the root P(parent))      disc tests = n_R Σ_leaves P(leaf) samples(leaf)
+///
+///   where  P   crossing_probability of a node's sphere: F(node)/F(S₀) for lines
+///
+/// That is exact once the spheres are known (validate/structural_hierarchy.hpp). From numbers alone their areas must be
+/// estimated: a level of N nodes over runs of c = leaf f^l samples has
+///
+///     mean F = 4π (<ρ²> + 2d <ρ> + d²)      <ρ²> = a² N^{-2/D} R(N, c) K(f, l)
+///
+///   where  ρ   radius of the sphere around the samples themselves, length, and <ρ> its mean, of the same form
+///          a   side of the cube that has the samples' volume (D = 3), or that has their area on its faces (D = 2)
+///          R   of spheres around runs of c samples alone. On surfaces it grows with ln N without end: the curve's
+///          jumps
+///              of each size, 2^{-j} a and 4^j in number, add as much to the sum of all ρ² as those of any other size
+///          K   how much larger spheres around nested spheres are, l levels above the leaves: up to 1.2 at f = 8, and 2
+///              at f = 2
+///
+/// R and K are tabulated (sphere_tree_tables.inc, made by validate/tables/sphere_tree_table.cpp).
+namespace detp::model {
+
+/// One level of the tree, expected.
+struct TreeLevel {
+  double nodes = 1;        ///< N, exact: those of the last run, cut short, too
+  double samples = 1;      ///< c, in each node but the last
+  double mean_radius = 0;  ///< <ρ> + d
+  double rms_radius = 0;   ///< √<(ρ + d)²>
+  double rays = 0;         ///< mean length of a node's list
+};
+
+/// The levels from the root down to the leaves.
+///
+/// Valid      samples uniform over a volume or surfaces that fill their box; 1 <= n_P <= 1e18.
+/// Accuracy   see sphere_tree_counts.
+[[nodiscard]] std::vector<TreeLevel> sphere_tree_levels(const Workload& workload,
+                                                        const SphereTreeParameters& parameters);
+
+/// Expected counts of the sphere tree.
+///
+/// Accuracy   against the structural counts of samples in a cube and on its faces, n_P 1000 … 200 000, d 0.1 … 2 sample
+///            distances, f 2 … 16, leaves of 1 … 100 (1470 trees): sphere tests off by 2 % in the median and 7 % at the
+///            95th percentile, disc tests by 1 % and 6 %. At worst 17 %, with few samples in few nodes.
+[[nodiscard]] Counts<double> sphere_tree_counts(const Workload& workload, const SphereTreeParameters& parameters);
+
+}  // namespace detp::model

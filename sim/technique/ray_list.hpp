@@ -1,0 +1,56 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "detp/sim/lebesgue.hpp"
+#include "hit_collector.hpp"
+
+/// Lists of rays, which spheres cull: the work that all techniques with spheres share.
+namespace detp::sim {
+
+/// A ray in a list, with its number. Copied, so that a list is read from one end to the other.
+struct ListedRay {
+  Ray ray;
+  std::uint32_t index;
+};
+
+/// In rising order of their numbers.
+using RayList = std::vector<ListedRay>;
+
+/// All rays of a problem.
+[[nodiscard]] inline RayList list_of(std::span<const Ray> rays) {
+  RayList list;
+  list.reserve(rays.size());
+  for (std::uint32_t i = 0; i < rays.size(); ++i) list.push_back({rays[i], i});
+  return list;
+}
+
+/// Lists in `inside` those rays of `around` that come within `slack` of the sphere: all that hit a disc in it, if
+/// `around` holds them.
+inline void cull(const RayList& around, const Sphere& sphere, double slack, RayList& inside) {
+  const Sphere grown{sphere.centre, sphere.radius + slack};
+  inside.clear();
+  for (const ListedRay& listed : around)
+    if (hits(listed.ray, grown)) inside.push_back(listed);
+}
+
+/// Tests disc number `index` against the listed rays.
+template <bool counting>
+void test_disc(const RayList& rays, const Disc& disc, std::uint32_t index, HitCollector& collector,
+               Tally<counting>& tally) {
+  for (const auto& [ray, number] : rays)
+    if (collector.decide(ray, disc)) collector.keep(number, index);
+  tally.add(&Counts<std::uint64_t>::disc_tests, rays.size());
+}
+
+/// The discs' numbers in the order of the Lebesgue curve through their centres.
+[[nodiscard]] inline std::vector<std::uint32_t> along_curve(std::span<const Disc> discs) {
+  std::vector<glm::dvec3> centres;
+  centres.reserve(discs.size());
+  for (const Disc& disc : discs) centres.push_back(disc.centre);
+  return lebesgue_order(centres);
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,169 @@
+#include "sphere_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "ray_list.hpp"
+#include "techniques.hpp"
+
+namespace detp::sim {
+namespace {
+
+/// A sphere, and the box of the centres of the discs in it.
+struct Node {
+  Sphere sphere;
+  Box box;
+};
+
+/// The child's sphere that reaches farthest from a point: how far, and where it does.
+struct Reach {
+  double distance = 0;
+  glm::dvec3 towards{0};  ///< unit, or zero from the child's own centre
+};
+
+Reach farthest_reach(std::span<const Node> children, const glm::dvec3& from) {
+  double farthest = -1;
+  glm::dvec3 offset{0};
+  for (const Node& child : children) {
+    const glm::dvec3 away = child.sphere.centre - from;
+    const double distance = glm::length(away) + child.sphere.radius;
+    if (distance > farthest) {
+      farthest = distance;
+      offset = away;
+    }
+  }
+  const double length = glm::length(offset);
+  return {farthest, length > 0 ? offset / length : glm::dvec3{0}};
+}
+
+Node around(std::span<const Node> children) {
+  constexpr int steps = 6;
+  constexpr double first_step = 0.1;  // of the distance
+  constexpr double shrink = 0.7;
+  if (children.size() == 1) return children.front();
+  Node node{{{}, unbounded}, {}};
+  for (const Node& child : children) {
+    node.box.include(child.box.low);
+    node.box.include(child.box.high);
+  }
+  glm::dvec3 centre = node.box.centre();
+  double step = first_step;
+  for (int i = 0; i <= steps; ++i, step *= shrink) {
+    const Reach reach = farthest_reach(children, centre);
+    if (reach.distance < node.sphere.radius) node.sphere = {centre, reach.distance};
+    centre += step * reach.distance * reach.towards;
+  }
+  return node;
+}
+
+/// The nodes one level above: one for each `run` in a row.
+std::vector<Node> level_above(const std::vector<Node>& below, std::size_t run) {
+  std::vector<Node> level;
+  level.reserve((below.size() - 1) / run + 1);
+  for (std::size_t first = 0; first < below.size(); first += run)
+    level.push_back(around(std::span(below).subspan(first, std::min(run, below.size() - first))));
+  return level;
+}
+
+std::vector<Sphere> spheres_of(const std::vector<Node>& nodes) {
+  std::vector<Sphere> spheres;
+  spheres.reserve(nodes.size());
+  for (const Node& node : nodes) spheres.push_back(node.sphere);
+  return spheres;
+}
+
+template <bool counting>
+class Search {
+ public:
+  Search(const Problem& problem, const SphereTreeParameters& parameters, const SphereTree& tree,
+         const std::vector<std::uint32_t>& order, const RunOptions& options)
+      : problem_(problem),
+        parameters_(parameters),
+        tree_(tree),
+        order_(order),
+        options_(options),
+        collector_(problem, options),
+        lists_(tree.levels.size()) {}
+
+  void run(Outcome& outcome) && {
+    visit(tree_.levels.size() - 1, 0, list_of(problem_.rays));
+    tally_.add(&Counts<std::uint64_t>::rebuilds, tree_.nodes());
+    tally_.add(&Counts<std::uint64_t>::sorted, order_.size());
+    outcome.counts = tally_.counts();
+    outcome.stopped = stopped_;
+    std::move(collector_).give(outcome);
+  }
+
+ private:
+  void visit(std::size_t level, std::size_t number, const RayList& outer) {
+    RayList& inside = lists_[level];
+    cull(outer, tree_.levels[level][number], problem_.slack, inside);
+    tally_.add(&Counts<std::uint64_t>::sphere_tests, outer.size());
+    tally_.add(&Counts<std::uint64_t>::copies, inside.size());
+    if (inside.empty()) return;
+    level == 0 ? test_discs(number, inside) : visit_children(level, number, inside);
+  }
+
+  void visit_children(std::size_t level, std::size_t number, const RayList& inside) {
+    const auto fan_out = static_cast<std::size_t>(parameters_.fan_out);
+    const std::size_t end = std::min((number + 1) * fan_out, tree_.levels[level - 1].size());
+    for (std::size_t child = number * fan_out; child < end && !stopped_; ++child) visit(level - 1, child, inside);
+  }
+
+  void test_discs(std::size_t number, const RayList& inside) {
+    const auto leaf = static_cast<std::size_t>(parameters_.leaf);
+    const std::size_t end = std::min((number + 1) * leaf, order_.size());
+    for (std::size_t i = number * leaf; i < end && !stopped_; ++i) {
+      test_disc(inside, problem_.discs[order_[i]], order_[i], collector_, tally_);
+      stopped_ = options_.stop.stop_requested();
+    }
+  }
+
+  const Problem& problem_;
+  const SphereTreeParameters& parameters_;
+  const SphereTree& tree_;
+  const std::vector<std::uint32_t>& order_;
+  const RunOptions& options_;
+  HitCollector collector_;
+  Tally<counting> tally_;
+  std::vector<RayList> lists_;  ///< one a level: children are visited one after another
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::size_t SphereTree::nodes() const {
+  std::size_t sum = 0;
+  for (const std::vector<Sphere>& level : levels) sum += level.size();
+  return sum;
+}
+
+SphereTree make_sphere_tree(std::span<const Disc> discs, std::span<const std::uint32_t> order,
+                            const SphereTreeParameters& parameters) {
+  check({Technique::sphere_tree, parameters});
+  require_count("number of discs", static_cast<double>(discs.size()), 1, 1e18);
+  std::vector<Node> nodes;
+  nodes.reserve(order.size());
+  for (const std::uint32_t i : order)
+    nodes.push_back({{discs[i].centre, discs[i].radius}, {discs[i].centre, discs[i].centre}});
+  SphereTree tree;
+  for (auto run = static_cast<std::size_t>(parameters.leaf);; run = static_cast<std::size_t>(parameters.fan_out)) {
+    nodes = level_above(nodes, run);
+    tree.levels.push_back(spheres_of(nodes));
+    if (nodes.size() == 1) return tree;
+  }
+}
+
+void run_sphere_tree(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
+                     Outcome& outcome) {
+  Stopwatch watch;
+  const std::vector<std::uint32_t> order = along_curve(problem.discs);
+  outcome.seconds.order = watch.lap();
+  const SphereTree tree = make_sphere_tree(problem.discs, order, parameters);
+  outcome.seconds.build = watch.lap();
+  options.count ? Search<true>(problem, parameters, tree, order, options).run(outcome)
+                : Search<false>(problem, parameters, tree, order, options).run(outcome);
+  outcome.seconds.search = watch.lap();
+}
+
+}  // namespace detp::sim
