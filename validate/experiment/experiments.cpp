@@ -12,9 +12,9 @@ std::vector<Finding> all_findings(const Experiment& experiment, const Progress& 
     Run run;
     double share;  ///< of the whole time, roughly
   };
-  constexpr std::array steps{Step{"lines against spheres and discs", line_hit_findings, 0.2},
-                             Step{"sphere cache", sphere_cache_findings, 0.6},
-                             Step{"index of discs", disc_index_findings, 0.2}};
+  constexpr std::array steps{
+      Step{"lines against spheres and discs", line_hit_findings, 0.2}, Step{"sphere cache", sphere_cache_findings, 0.5},
+      Step{"hierarchies of spheres", sphere_hierarchy_findings, 0.1}, Step{"index of discs", disc_index_findings, 0.2}};
   std::vector<Finding> findings;
   double done = 0;
   for (const Step& step : steps) {

@@ -18,6 +18,9 @@ namespace detp::validate {
 /// k, m_i, T_R and T_I: the sphere cache on sorted samples, at several Q.
 [[nodiscard]] std::vector<Finding> sphere_cache_findings(const Experiment& experiment);
 
+/// Sphere and disc tests of cell spheres and of the sphere tree.
+[[nodiscard]] std::vector<Finding> sphere_hierarchy_findings(const Experiment& experiment);
+
 /// Cells per line, ray-disc tests per line of an octree, and the hits of all discs.
 [[nodiscard]] std::vector<Finding> disc_index_findings(const Experiment& experiment);
 

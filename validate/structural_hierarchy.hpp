@@ -1,0 +1,25 @@
+#pragma once
+
+#include "detp/model/vocabulary.hpp"
+#include "detp/sim/technique/technique.hpp"
+
+/// What hierarchies of spheres say of their own search, before any ray.
+namespace detp::validate {
+
+/// Expected counts of cell-spheres or sphere-tree on isotropic lines through S₀:
+///
+///     sphere_tests = n_R Σ P(parent)        copies = n_R Σ P(sphere)        disc_tests = n_R Σ_discs P(innermost
+///     sphere) P(sphere) = (r/r₀)² × share of the lines through the sphere that also cross S₀
+///
+/// with the sums over all spheres of the hierarchy, each built once. As each lies in its parent's, a list holds all
+/// rays that cross both its sphere and S₀, and no others. The share is 1 for a sphere in S₀, else both_hit_share. Hits
+/// are left at 0.
+///
+/// Source     our derivation.
+/// Valid      lines of the measure μ_ℓ through S₀; discs of any radii.
+/// Accuracy   exact, but for sphere-tree where a sphere pokes out of S₀.
+/// Throws     std::invalid_argument for another technique, or parameters out of range.
+[[nodiscard]] Counts<double> structural_hierarchy_counts(const sim::Problem& problem, double rays,
+                                                         const Candidate& candidate);
+
+}  // namespace detp::validate
