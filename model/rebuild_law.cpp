@@ -7,69 +7,96 @@
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
+#include <string_view>
 
 namespace detp::model {
 namespace {
 
-constexpr std::size_t phases = 16;
+constexpr std::size_t phases = 32;
 constexpr int least_power = -9;
-constexpr std::size_t single_rows = 22;
-constexpr std::size_t coarse_counts = 5;
-constexpr std::size_t coarse_steps = 81;
+constexpr std::size_t single_rows = 23;
+constexpr std::size_t columns = 5;  // 10³ … 10⁷ samples
 constexpr double coarse_from = -1;
-constexpr double coarse_to = 4;
-constexpr std::array chain_ratios{0.2, 0.3, 0.4, 0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95};
+constexpr double coarse_to = 4.5;  // fading from half a halving before
+constexpr std::size_t coarse_phases = 64;
+constexpr std::size_t coarse_steps = 353;
+constexpr double chain_from = 0.5;
+constexpr std::array<std::size_t, 2> dense_chain_steps{401, 305};  // of the last column
+constexpr std::size_t chain_steps = 129;                           // of the others
+constexpr std::array octave_steps{2.,  3.,  4.,  5.,  6.,  7.,  8.,  10., 12., 14., 16., 18.,
+                                  20., 22., 24., 26., 28., 30., 32., 36., 40., 48., 56., 72.};  // 32 u
 
 #include "rebuild_law_tables.inc"
 
+static_assert(chain_table.size() ==
+              (8 * chain_steps + dense_chain_steps[0] + dense_chain_steps[1]) * octave_steps.size());
+
 double mix(double a, double b, double weight) { return (1 - weight) * a + weight * b; }
 
-/// A row of a table at a phase in [0, 1], linear between its columns, which wrap around.
-double at_phase(const double* row, double phase) {
+double weight_of_volume(double dimension) { return std::clamp(dimension - 2, 0.0, 1.0); }
+
+/// A law of surfaces (2) and of volumes (3), for a dimension between.
+template <class Law>
+double between_dimensions(double dimension, const Law& law) {
+  const double weight = weight_of_volume(dimension);
+  if (weight <= 0) return law(2);
+  return weight >= 1 ? law(3) : mix(law(2), law(3), weight);
+}
+
+/// ln(m/n) at a tabulated phase; the rows go by λ 2^{Dφ}, so that one set of samples serves all phases.
+double log_share_at(int dimension, double log_lambda, std::size_t phase) {
+  const auto at = [&](std::size_t row) {
+    return single_table[(static_cast<std::size_t>(dimension - 2) * single_rows + row) * phases + phase];
+  };
+  constexpr double last = single_rows - 1;
+  const double place = log_lambda + dimension * static_cast<double>(phase) / phases - least_power;
+  if (place <= 0) return at(0) * std::exp2(place);  // 1 - m/n ∝ λ
+  if (place >= last) return at(single_rows - 1) - (place - last) * std::numbers::ln2;
+  const auto row = static_cast<std::size_t>(place);
+  return mix(at(row), at(row + 1), place - static_cast<double>(row));
+}
+
+/// log₂ λ, for the λ of a double's range.
+double log_of(double lambda) { return std::log2(std::max(lambda, 1e-300)); }
+
+/// ln(m/n) of surfaces (2) or volumes (3), linear between the phases, which wrap around.
+double log_share(int dimension, double log_lambda, double phase) {
   const double place = phase * phases;
   const auto left = static_cast<std::size_t>(place) % phases;
-  return mix(row[left], row[(left + 1) % phases], place - std::floor(place));
+  return mix(log_share_at(dimension, log_lambda, left), log_share_at(dimension, log_lambda, (left + 1) % phases),
+             place - std::floor(place));
 }
 
-double single_row(int dimension, std::size_t row, double phase) {
-  return at_phase(&single_table[(static_cast<std::size_t>(dimension - 2) * single_rows + row) * phases], phase);
-}
+/// log₂ of the cube's volume or faces, in cubes or squares of its side.
+double log_extent(int dimension) { return dimension == 3 ? 0 : 2.584962500721156; }
 
-/// ln(m/n) of surfaces (2) or volumes (3).
-double log_share(int dimension, double lambda, double phase) {
-  constexpr double last = single_rows - 1;
-  const double place = std::log2(std::max(lambda, 1e-300)) - least_power;
-  if (place <= 0) return single_row(dimension, 0, phase) * std::exp2(place);  // 1 - m/n ∝ λ
-  if (place >= last) return single_row(dimension, single_rows - 1, phase) - (place - last) * std::numbers::ln2;
-  const auto row = static_cast<std::size_t>(place);
-  return mix(single_row(dimension, row, phase), single_row(dimension, row + 1, phase), place - std::floor(place));
+constexpr double log2_of_10 = 3.321928094887362;
+
+/// Where a table's columns 10³ … 10⁷ stand for as many samples as the cube would hold at the ball's density.
+double column_of(int dimension, double log_lambda, double halvings) {
+  const double log_samples = log_lambda + log_extent(dimension) + dimension * halvings;
+  return std::clamp(log_samples / log2_of_10 - 3, 0.0, columns - 1.0);
 }
 
 /// ln of a large ball's count among as many samples as a column of the table stands for, over the law of small balls.
-double coarse_column(int dimension, std::size_t column, double halvings, double extent) {
-  const double place = (std::max(halvings, coarse_from) - coarse_from) / (coarse_to - coarse_from) * (coarse_steps - 1);
+double coarse_column(int dimension, std::size_t column, double halvings) {
+  const double place = std::max(halvings - coarse_from, 0.0) * coarse_phases;
   const auto step = std::min(static_cast<std::size_t>(place), coarse_steps - 2);
-  const double* row = &coarse_table[(static_cast<std::size_t>(dimension - 2) * coarse_counts + column) * coarse_steps];
+  const double* row = &coarse_table[(static_cast<std::size_t>(dimension - 2) * columns + column) * coarse_steps];
   const double counted = mix(row[step], row[step + 1], place - static_cast<double>(step));
-  const double samples = std::pow(10.0, 3 + static_cast<double>(column));
-  const double lambda = samples * std::exp2(-dimension * halvings) / extent;
-  return counted - std::log(samples) - log_share(dimension, lambda, halvings - std::floor(halvings));
+  const double log_samples = (3 + static_cast<double>(column)) * log2_of_10;
+  const double log_lambda = log_samples - dimension * halvings - log_extent(dimension);
+  return counted - log_samples * std::numbers::ln2 - log_share(dimension, log_lambda, halvings - std::floor(halvings));
 }
 
-/// The same, between the columns by the samples that the cube would hold at this density.
-double log_coarse_factor(int dimension, double halvings, double lambda) {
+double log_coarse_factor(int dimension, double log_lambda, double halvings) {
   if (halvings >= coarse_to) return 0;
-  const double extent = dimension == 3 ? 1 : 6;  // in cubes or squares of the side
-  const double log_samples = std::log10(std::max(lambda, 1e-300) * extent) + dimension * halvings * std::log10(2.0);
-  const double place = std::clamp(log_samples - 3, 0.0, coarse_counts - 1.0);
-  const auto column = std::min(static_cast<std::size_t>(place), coarse_counts - 2);
-  const double factor =
-      mix(coarse_column(dimension, column, halvings, extent), coarse_column(dimension, column + 1, halvings, extent),
-          place - static_cast<double>(column));
-  return factor * std::min(1.0, coarse_to - halvings);
+  const double place = column_of(dimension, log_lambda, halvings);
+  const auto column = std::min(static_cast<std::size_t>(place), columns - 2);
+  const double factor = mix(coarse_column(dimension, column, halvings), coarse_column(dimension, column + 1, halvings),
+                            place - static_cast<double>(column));
+  return factor * std::min(1.0, 2 * (coarse_to - halvings));
 }
-
-double weight_of_volume(double dimension) { return std::clamp(dimension - 2, 0.0, 1.0); }
 
 /// Probability that two uniform points of a unit cube lie within t of each other.
 ///
@@ -94,70 +121,137 @@ void require_dimension(double dimension) {
     throw std::invalid_argument(fmt::format("sample dimension must be from 1 to 3 (got {})", dimension));
 }
 
-/// The share that chains, for many samples a ball; 1 for balls all alike.
-double dense_chain_share(int dimension, double ratio, double phase) {
-  constexpr double half_bin = 0.5 / phases;  // the columns are means over a sixteenth of a phase
-  const double place = phase >= half_bin ? phase - half_bin : phase - half_bin + 1;
-  const auto at = [&](std::size_t i) {
-    return at_phase(&chain_table[(static_cast<std::size_t>(dimension - 2) * chain_ratios.size() + i) * phases], place);
-  };
-  if (ratio >= chain_ratios.back())
-    return mix(at(chain_ratios.size() - 1), 1, (ratio - chain_ratios.back()) / (1 - chain_ratios.back()));
-  if (ratio <= chain_ratios.front()) return at(0);
-  std::size_t i = 1;
-  while (ratio > chain_ratios[i]) ++i;
-  return mix(at(i - 1), at(i), (ratio - chain_ratios[i - 1]) / (chain_ratios[i] - chain_ratios[i - 1]));
-}
-
 void require_share(std::string_view what, double value) {
   if (!(value >= 0 && value <= 1))
     throw std::invalid_argument(fmt::format("{} must be from 0 to 1 (got {})", what, value));
 }
 
+/// b as a character of the table has it: 90 b/(1 + b) after '#', the question mark and the backslash left out.
+double tabulated_b(std::size_t row, std::size_t octaves) {
+  const char character = chain_table[row * octave_steps.size() + octaves];
+  const int ninetieths = character - '#' - (character > '?' ? 1 : 0) - (character > '\\' ? 1 : 0);
+  return ninetieths / (90.0 - ninetieths);
+}
+
+/// A column's b, linear between its halvings and its octaves.
+double chain_column(int dimension, std::size_t column, double halvings, double octaves) {
+  const std::size_t surfaces = (columns - 1) * chain_steps + dense_chain_steps[0];
+  const std::size_t first = (dimension == 3 ? surfaces : 0) + column * chain_steps;
+  const std::size_t steps = column + 1 < columns ? chain_steps : dense_chain_steps[dimension == 3 ? 1 : 0];
+  const double place = std::clamp((halvings - chain_from) * phases, 0.0, static_cast<double>(steps - 1));
+  const auto step = std::min(static_cast<std::size_t>(place), steps - 2);
+  const double u = std::clamp(32 * octaves, octave_steps.front(), octave_steps.back());
+  std::size_t i = 0;
+  while (i + 2 < octave_steps.size() && u > octave_steps[i + 1]) ++i;
+  const double weight = (u - octave_steps[i]) / (octave_steps[i + 1] - octave_steps[i]);
+  const auto at = [&](std::size_t row) { return mix(tabulated_b(row, i), tabulated_b(row, i + 1), weight); };
+  return mix(at(first + step), at(first + step + 1), place - static_cast<double>(step));
+}
+
+/// b of a large ball: between the columns by the number of samples.
+double large_ball_b(int dimension, double log_lambda, double halvings, double octaves) {
+  const double place = column_of(dimension, log_lambda, halvings);
+  const auto column = std::min(static_cast<std::size_t>(place), columns - 2);
+  return mix(chain_column(dimension, column, halvings, octaves), chain_column(dimension, column + 1, halvings, octaves),
+             place - static_cast<double>(column));
+}
+
+/// b of a small ball: in the column of 10⁷ samples, at the halvings of the same phase between which a ball has this λ.
+double small_ball_b(int dimension, double log_lambda, double halvings, double octaves) {
+  constexpr double least = coarse_to - 0.5;
+  const double same_lambda = (7 * log2_of_10 - log_extent(dimension) - log_lambda) / dimension;
+  const double phase = halvings - std::floor(halvings);
+  const double place = std::clamp(same_lambda - phase, least, 20.0);
+  const double above = std::floor(place) + phase;
+  return mix(chain_column(dimension, columns - 1, above, octaves),
+             chain_column(dimension, columns - 1, above + 1, octaves), place - std::floor(place));
+}
+
+double chain_b(int dimension, const Ball& ball, double octaves) {
+  const double log_lambda = log_of(ball.lambda);
+  const double large = std::clamp(2 * (coarse_to - ball.halvings), 0.0, 1.0);
+  if (large <= 0) return small_ball_b(dimension, log_lambda, ball.halvings, octaves);
+  if (large >= 1) return large_ball_b(dimension, log_lambda, ball.halvings, octaves);
+  return mix(small_ball_b(dimension, log_lambda, ball.halvings, octaves),
+             large_ball_b(dimension, log_lambda, ball.halvings, octaves), large);
+}
+
+constexpr double least_octaves = 1.0 / 16;
+
+/// m_{i-1}/s_i in a nest of the smallest tabulated ratio whose balls hold many samples: as m ∝ ρ^{-D},
+/// x (2^{D/16} - 1) = e^{-bx}, by Newton's method.
+double crowding_of_nest(int dimension, double b) {
+  const double growth = std::exp2(dimension * least_octaves) - 1;
+  double x = 0;
+  for (int step = 0; step < 6; ++step) {
+    const double remaining = std::exp(-b * x);
+    x += (remaining - growth * x) / (growth + b * remaining);
+  }
+  return x;
+}
+
+double own_share(int dimension, const Ball& ball, double octaves, double crowding) {
+  const double b = chain_b(dimension, ball, octaves);
+  if (octaves >= least_octaves) return std::exp(-b * crowding);
+  const double apart = (dimension == 3 ? 0.45 : 0.9) * std::pow(std::max(ball.lambda, 1e-9), -1.0 / dimension);
+  const double lowered = std::expm1(-octaves / apart) / std::expm1(-least_octaves / apart);
+  return lowered * std::exp(-b * std::min(crowding, crowding_of_nest(dimension, b)));
+}
+
 }  // namespace
+
+Ball ball_of(const Workload& workload, double radius) {
+  check(workload);
+  require_positive("radius of the ball", radius);
+  const double lambda = workload.samples * std::pow(radius, workload.dimension) / sample_extent(workload);
+  return {std::min(lambda, 1e300), std::log2(scene_side(workload)) - std::log2(radius)};
+}
 
 double single_rebuild_share(double dimension, double lambda, double phase) {
   require_non_negative("samples per ball", lambda);
   require_share("phase", phase);
   require_dimension(dimension);
-  const double weight = std::max(dimension - 2, 0.0);
-  return std::exp((1 - weight) * log_share(2, lambda, phase) + weight * log_share(3, lambda, phase));
+  return std::exp(between_dimensions(dimension, [&](int d) { return log_share(d, log_of(lambda), phase); }));
+}
+
+double single_rebuilds(double dimension, double samples, const Ball& ball) {
+  require_dimension(dimension);
+  require_positive("number of samples", samples);
+  require_non_negative("samples per ball", ball.lambda);
+  require_finite("halvings", ball.halvings);
+  if (ball.halvings < coarse_from) return 1;
+  const double phase = ball.halvings - std::floor(ball.halvings);
+  const double log_lambda = log_of(ball.lambda);
+  const double log_rebuilds = between_dimensions(dimension, [&](int d) {
+    return log_share(d, log_lambda, phase) + log_coarse_factor(d, log_lambda, ball.halvings);
+  });
+  return std::max(1.0, std::min(samples, samples * std::exp(log_rebuilds)));
 }
 
 double single_rebuilds(const Workload& workload, double radius, SampleOrder order) {
-  check(workload);
   require_finite("radius of the ball", radius);
-  const double n = workload.samples;
-  if (radius <= 0) return n;
-  if (order == SampleOrder::none) return std::max(1.0, n * (1 - share_within(workload, radius)));
-  const double halvings = std::log2(scene_side(workload) / radius);
-  if (halvings < -1) return 1;
-  const double lambda = n * std::pow(radius, workload.dimension) / sample_extent(workload);
-  const double share = single_rebuild_share(workload.dimension, lambda, halvings - std::floor(halvings));
-  const double weight = weight_of_volume(workload.dimension);
-  const double coarse = mix(log_coarse_factor(2, halvings, lambda), log_coarse_factor(3, halvings, lambda), weight);
-  return std::clamp(n * share * std::exp(coarse), 1.0, n);
+  if (order == SampleOrder::lebesgue && radius > 0)
+    return single_rebuilds(workload.dimension, workload.samples, ball_of(workload, radius));
+  check(workload);
+  return radius > 0 ? std::max(1.0, workload.samples * (1 - share_within(workload, radius))) : workload.samples;
 }
 
-double chain_share(double dimension, double ratio, double halvings, double alone) {
+double own_rebuild_share(double dimension, const Ball& ball, double octaves, double crowding) {
   require_dimension(dimension);
-  require_share("ratio of the balls", ratio);
-  require_finite("halvings", halvings);
-  require_share("share of rebuilds", alone);
-  const double weight = weight_of_volume(dimension);
-  const double phase = halvings - std::floor(halvings);
-  const double dense = mix(dense_chain_share(2, ratio, phase), dense_chain_share(3, ratio, phase), weight);
-  const double sparse = 1 - mix(0.5, 0.33, weight) * std::pow(alone, 4);
-  const double large = 1 - mix(0.4, 0.1, weight) * std::min(1.0, std::exp2(-halvings));
-  return dense * sparse * large;
+  require_non_negative("samples per ball", ball.lambda);
+  require_finite("halvings", ball.halvings);
+  require_non_negative("octaves between the balls", octaves);
+  require_non_negative("crowding", crowding);
+  return between_dimensions(dimension, [&](int d) { return own_share(d, ball, octaves, crowding); });
 }
 
-double chained_rebuilds(double alone, double outer, double share, double samples) {
+double nested_rebuilds(double alone, double outer, double own_share, double samples) {
   require_non_negative("rebuilds of the sphere alone", alone);
   require_non_negative("rebuilds of the outer sphere", outer);
-  require_non_negative("share that chains", share);
+  require_share("share of own rebuilds", own_share);
   require_positive("number of samples", samples);
-  return std::min(samples, (alone + share * outer) / (1 + share * outer / samples));
+  const double free = std::max(0.0, 1 - outer / samples);
+  return std::min(samples, outer + std::min(alone, samples) * own_share * free);
 }
 
 }  // namespace detp::model

@@ -8,53 +8,67 @@
 /// is self-similar under halving, so that the share m/n of samples that start a new ball depends, but for the ends of
 /// the cube, on two numbers only:
 ///
-///     m/n = F_D(λ, φ)      λ = n ρ^D / extent      φ = frac(log₂(s/ρ))
+///     m/n = F_D(λ, φ)      λ = n ρ^D / extent      φ = frac(h),  h = log₂(s/ρ)
 ///
 ///   where  n        samples;   D   their dimension;   extent   the volume (D = 3) or area (D = 2) that they fill
 ///          ρ        radius of the ball, length: r_i - d, for the disc must lie in the sphere, not only its centre
-///          s        side of the curve's cube, length
+///          s        side of the curve's cube, length;   h   halvings from it to the ball
 ///          λ        samples in a cube of side ρ;   φ   where ρ lies between two halvings
 ///
 /// F_D → 1 for λ → 0 (each sample starts a ball) and ∝ 1/λ for λ → ∞: m ∝ ρ^{-D}, times a factor periodic in log ρ that
-/// varies by a factor of two. Balls larger than a sixteenth of the cube see its ends: their counts, in a cube or on its
-/// faces, are tabulated apart.
+/// varies by a factor of two, with jumps where the ball just holds a cell of the curve. Balls larger than a sixteenth
+/// of the cube see its ends: their counts, in a cube or on its faces, are tabulated apart.
 ///
-/// Nested balls. S_i is also rebuilt where an outer sphere is. That adds nothing where S_i would have been left at the
-/// same sample anyway. With s_i the rebuilds of S_i alone:
+/// Nested balls. S_i is rebuilt where the sphere around it is, and at those of its own rebuilds that still come:
 ///
-///     m_i = (s_i + α m_{i-1}) / (1 + α m_{i-1}/n)
+///     m_i = m_{i-1} + s_i (1 - m_{i-1}/n) w      w = exp(-b m_{i-1}/s_i)
 ///
-///   where  α    share of the outer sphere's rebuilds that come at a sample at which S_i alone would have stayed; by
-///               renewal theory ½ if S_i moved in equal steps that knew nothing of S_{i-1}; it depends on the ratio of
-///               the two balls and, as both follow the same curve, on the phase
+///   where  s_i  rebuilds of S_i alone;   m_{i-1}/s_i   how crowded they are by those of the sphere around it
+///          w    share of them that remain at samples at which the outer sphere stays: would S_i move in equal steps
+///               that knew nothing of S_{i-1}, b would be about ½; as both follow the same curve, it depends on the
+///               ratio of the balls, on their phase and on λ
+///
+/// For ever more spheres (ratio → 1) the samples' own distance matters: a ball that is but a little smaller than the
+/// one around it is left alone only if a sample lands between both. So w ∝ the logarithm of the ratio, once that is
+/// less than the distance of samples over ρ, λ^{-1/D}.
 ///
 /// All is tabulated (rebuild_law_tables.inc, made by validate/tables/rebuild_law_table.cpp).
 namespace detp::model {
 
-/// m/n of one ball alone, in (0, 1].
+/// A ball around a sample, as the curve sees it.
+struct Ball {
+  double lambda = 0;    ///< λ: samples in a cube of its radius
+  double halvings = 0;  ///< h = log₂(s/ρ)
+};
+
+/// The ball of radius ρ > 0 among the workload's samples. Throws std::invalid_argument for numbers out of range.
+[[nodiscard]] Ball ball_of(const Workload& workload, double radius);
+
+/// m/n of one small ball alone, in (0, 1].
 ///
-/// Source     our tabulation.  Accuracy  of the table 2 %; between D = 2 and 3 the geometric interpolation is a guess.
+/// Source     our tabulation.  Accuracy  of the table 1 % (the nearer to a jump in φ, the less: up to 5 %); between
+///            D = 2 and 3 the geometric interpolation is a guess.
 /// Throws     std::invalid_argument unless λ >= 0, 0 <= φ <= 1 and 1 <= D <= 3.
 [[nodiscard]] double single_rebuild_share(double dimension, double lambda, double phase);
 
-/// s_i: rebuilds of one ball of radius ρ for the workload's samples, from 1 to n_P. ρ <= 0: each sample.
+/// s_i along the curve: rebuilds of one ball alone among so many samples, from 1 to all.
+[[nodiscard]] double single_rebuilds(double dimension, double samples, const Ball& ball);
+
+/// The same for the workload's samples in order or in none. ρ <= 0: each sample.
 [[nodiscard]] double single_rebuilds(const Workload& workload, double radius, SampleOrder order);
 
-/// α of a ball of radius ρ_i inside one of radius ρ_{i-1}.
+/// w: share of a ball's own rebuilds that remain inside another.
 ///
-///     α = α₀(ρ_i/ρ_{i-1}, φ) (1 - c (s_i/n)⁴) (1 - e ρ_i/s)
+///   octaves    log₂(ρ_{i-1}/ρ_i), >= 0; tabulated from 1/16 to 9/4, beyond which b is kept
+///   crowding   m_{i-1}/s_i, >= 0
 ///
-///   ratio      ρ_i/ρ_{i-1}, in [0, 1]
-///   halvings   log₂(s/ρ_i), whose fraction is φ
-///   alone      s_i/n, in [0, 1]
-///
-/// Source     α₀: our tabulation for small balls that hold many samples; c and e (0.5 and 0.4 for D = 2, 0.33 and 0.1
-/// for
-///            D = 3): our fit to counted walks. Below the tabulated ratio of 0.2 α matters little, for m_{i-1} is then
-///            small beside m_i.
-[[nodiscard]] double chain_share(double dimension, double ratio, double halvings, double alone);
+/// Source     b: our tabulation over nests of one ratio. Below 1/16 of an octave w is taken from there, at the crowding
+///            that such a nest has, and lowered by (1 - e^{-x}) in x = octaves/(c λ^{-1/D}); c = 0.9 (D = 2) and 0.45
+///            (D = 3): our fit to nests of 1/32 … 1/256.
+/// Throws     std::invalid_argument for a number out of range.
+[[nodiscard]] double own_rebuild_share(double dimension, const Ball& ball, double octaves, double crowding);
 
-/// m_i from the rebuilds of S_i alone and those of S_{i-1}.
-[[nodiscard]] double chained_rebuilds(double alone, double outer, double share, double samples);
+/// m_i from the rebuilds of S_i alone, those of S_{i-1} and w. From m_{i-1} to n.
+[[nodiscard]] double nested_rebuilds(double alone, double outer, double own_share, double samples);
 
 }  // namespace detp::model

@@ -1,56 +1,19 @@
 #include "sphere_cache.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "line_measure.hpp"
+#include "listed_rays.hpp"
 #include "rebuild_law.hpp"
+#include "sphere_count.hpp"
 
 namespace detp::model {
 namespace {
 
-constexpr std::size_t ancestors = 6;
-constexpr std::int64_t most_groups = 4096;
-
-/// H on a grid of (size of the inner sphere, reach of the offset), both relative to the outer sphere, in [0, 1].
-class OffsetShares {
- public:
-  OffsetShares() {
-    for (int i = 0; i <= sizes; ++i)
-      for (int j = 0; j <= reaches; ++j)
-        entry(i, j) = average(static_cast<double>(i) / sizes, static_cast<double>(j) / reaches);
-  }
-
-  [[nodiscard]] double operator()(double size, double reach) const {
-    const double x = std::clamp(size, 0.0, 1.0) * sizes;
-    const double y = std::clamp(reach, 0.0, 1.0) * reaches;
-    const int i = std::min(static_cast<int>(x), sizes - 1);
-    const int j = std::min(static_cast<int>(y), reaches - 1);
-    const double u = x - i;
-    const double v = y - j;
-    return (1 - u) * ((1 - v) * entry(i, j) + v * entry(i, j + 1)) +
-           u * ((1 - v) * entry(i + 1, j) + v * entry(i + 1, j + 1));
-  }
-
- private:
-  static constexpr int sizes = 32;
-  static constexpr int reaches = 16;
-
-  static double average(double size, double reach) {
-    constexpr int offsets = 8;
-    double sum = 0;
-    for (int i = 0; i < offsets; ++i)
-      sum += both_hit_share(1, std::max(size, 1e-6), reach * std::sqrt((i + 0.5) / offsets));
-    return sum / offsets;
-  }
-
-  double& entry(int i, int j) { return values_[static_cast<std::size_t>(i * (reaches + 1) + j)]; }
-  [[nodiscard]] double entry(int i, int j) const { return values_[static_cast<std::size_t>(i * (reaches + 1) + j)]; }
-
-  std::array<double, (sizes + 1) * (reaches + 1)> values_{};
-};
+constexpr std::size_t remembered = 6;
+constexpr std::int64_t most_groups = 4096;  // of equal ratio
 
 /// √2 times the samples' root mean square distance from the centre of S₀: uniform in a box, or on its faces.
 double sample_reach(const Workload& workload) {
@@ -60,78 +23,111 @@ double sample_reach(const Workload& workload) {
   return std::sqrt(2 * squares * (volume / 12 + (1 - volume) * 5 / 36));
 }
 
-/// Goes through the spheres from the outside in, keeping what the next one needs of those around it.
+/// Goes through the spheres from the outside in.
 class Walk {
  public:
   Walk(const Workload& workload, const SphereCacheParameters& parameters)
       : workload_(workload), parameters_(parameters) {
     check(workload);
     check(Candidate{Technique::sphere_cache, parameters});
-    current_ = {.radius = workload.sphere_radius, .rays = workload.rays, .listed = workload.rays, .rebuilds = 1};
-    outwards_.push_back({workload.sphere_radius, 0, sample_reach(workload)});
+    log_ratio_ = std::log(parameters.ratio);
+    current_ = {.radius = workload.sphere_radius, .rays = workload.rays, .listed = workload.rays};
   }
 
   /// The sphere i, `step` spheres inside the last one.
   const SphereLevel& to(std::int64_t i, std::int64_t step) {
-    using std::numbers::pi;
     const SphereLevel outer = current_;
-    if (outer.i > 0) remember(outer);
+    const auto spheres = static_cast<double>(step);
     const double r = workload_.sphere_radius * std::pow(parameters_.ratio, static_cast<double>(i));
-    current_ = {.i = i, .radius = r, .tests = outer.listed};
-    current_.rays = workload_.rays * crossing_probability(workload_, 4 * pi / 3 * r * r * r, 4 * pi * r * r);
-    const double alone = single_rebuilds(workload_, r - workload_.disc_radius, parameters_.order);
-    current_.rebuilds = outer.rebuilds;
-    const double chain = chain_to(r, alone);
-    for (std::int64_t n = 0; n < std::min<std::int64_t>(step, 64); ++n)
-      current_.rebuilds = chained_rebuilds(alone, current_.rebuilds, chain, workload_.samples);
-    current_.rebuilds = std::max(current_.rebuilds, outer.rebuilds);
-    current_.listed = std::min(outer.listed, current_.rays * listed_share(current_, outwards_));
+    current_ = {.i = i, .radius = r, .rays = rays_through(workload_, r)};
+    current_.rebuilds = rebuilds(outer, spheres);
+    current_.listed = std::min(outer.listed, current_.rays * share_listed(outer));
+    current_.tests = tests(outer, spheres);
     return current_;
   }
 
- private:
-  /// The share of the next larger sphere's rebuilds that add to those of the sphere of radius r.
-  double chain_to(double r, double alone) const {
-    const double ball = r - workload_.disc_radius;
-    const double around = r / parameters_.ratio - workload_.disc_radius;
-    if (parameters_.order == SampleOrder::none || !(ball > 0 && around > 0)) return 0;
-    return chain_share(workload_.dimension, std::min(1.0, ball / around), std::log2(scene_side(workload_) / ball),
-                       alone / workload_.samples);
+  /// Tests of a disc: rays listed for the last sphere while it serves, one disc after the other.
+  [[nodiscard]] double disc_tests() const {
+    return longer(current_, 0.25 * (1 - std::min(1.0, current_.rebuilds / workload_.samples)));
   }
 
-  void remember(const SphereLevel& sphere) {
-    outwards_.insert(outwards_.begin(),
-                     {sphere.radius, sphere.rebuilds, std::max(0.0, sphere.radius - workload_.disc_radius)});
-    if (outwards_.size() > ancestors) outwards_.pop_back();
+ private:
+  /// m_i, `step` spheres inside the last: at each, n - m shrinks by the same share, that of the sphere in the middle.
+  [[nodiscard]] double rebuilds(const SphereLevel& outer, double step) const {
+    const double n = workload_.samples;
+    const double d = workload_.disc_radius;
+    if (current_.radius <= d) return n;
+    const double middle = current_.radius * std::exp(-0.5 * (step - 1) * log_ratio_);
+    if (parameters_.order == SampleOrder::none)
+      return std::max(outer.rebuilds, single_rebuilds(workload_, middle - d, SampleOrder::none));
+    const Ball ball = ball_of(workload_, middle - d);
+    const double alone = single_rebuilds(workload_.dimension, n, ball);
+    // ρ_{i-1}/ρ_i - 1, without cancellation as Q → 1
+    const double apart = std::min(1e300, -std::expm1(log_ratio_) / parameters_.ratio * (middle / (middle - d)));
+    const double own =
+        own_rebuild_share(workload_.dimension, ball, std::log1p(apart) / std::numbers::ln2, outer.rebuilds / alone);
+    if (outer.i == 0 && step == 1) return alone;
+    if (step == 1) return nested_rebuilds(alone, outer.rebuilds, own, n);
+    const double shrinking = std::exp(step * std::log1p(-std::min(1.0, alone / n * own)));
+    return std::max(alone, n - (n - outer.rebuilds) * shrinking);
+  }
+
+  /// L_{i-1}, mean over the builds of S_i; `step` spheres inside the last, between its list and the new one.
+  [[nodiscard]] double tests(const SphereLevel& outer, double step) const {
+    const double again = std::pow(outer.rebuilds / current_.rebuilds, 1 / step);
+    const double lengthening = 0.6 * again * (1 - again);
+    if (step == 1) return longer(outer, lengthening);
+    if (!(current_.listed > 0)) return 0;
+    SphereLevel around = current_;
+    around.listed *= std::pow(outer.listed / current_.listed, 1 / step);
+    around.rays = around.listed / std::min(1.0, current_.listed / current_.rays);
+    return longer(around, lengthening);
+  }
+
+  /// A list's length, mean over what happens while it serves instead of over its builds.
+  [[nodiscard]] double longer(const SphereLevel& sphere, double lengthening) const {
+    if (sphere.i == 0 || parameters_.order == SampleOrder::none || !(sphere.rays > 0)) return sphere.listed;
+    return sphere.listed * (1 + lengthening * (1 - sphere.listed / sphere.rays));
+  }
+
+  double share_listed(const SphereLevel& outer) {
+    if (parameters_.order != SampleOrder::none)
+      return listed_share(workload_, current_.radius, -log_ratio_ / std::numbers::ln2);
+    const bool outermost = outer.i == 0;
+    around_.insert(around_.begin(),
+                   {outer.radius, outer.rebuilds,
+                    outermost ? sample_reach(workload_) : std::max(0.0, outer.radius - workload_.disc_radius)});
+    if (around_.size() > remembered) around_.pop_back();
+    return unsorted_listed_share(current_.radius, current_.rebuilds, around_);
   }
 
   const Workload& workload_;
   SphereCacheParameters parameters_;
+  double log_ratio_ = 0;
   SphereLevel current_;
-  std::vector<Enclosing> outwards_;
+  std::vector<Enclosing> around_;  ///< the nearest first; of samples in no order
 };
 
-}  // namespace
-
-double listed_share(const SphereLevel& sphere, const std::vector<Enclosing>& outwards) {
-  require_non_negative("sphere radius", sphere.radius);
-  require_positive("rebuilds of the sphere", sphere.rebuilds);
-  static const OffsetShares offset_shares;
-  double product = 1;
-  double least = 1;
-  for (const Enclosing& outer : outwards) {
-    require_non_negative("sphere radius", outer.radius);
-    require_non_negative("rebuilds of the outer sphere", outer.rebuilds);
-    const double concentric = std::min(1.0, outer.rebuilds / sphere.rebuilds);
-    require_non_negative("reach of the offsets", outer.reach);
-    const double size = outer.radius > 0 ? sphere.radius / outer.radius : 1;  // both may be too small for a double
-    const double reach = outer.radius > 0 ? std::min(1.0, outer.reach / outer.radius) : 1;
-    const double share = concentric + (1 - concentric) * offset_shares(size, reach);
-    product *= share;
-    least = std::min(least, share);
-  }
-  return std::sqrt(product * least);
+/// Sum of `terms` terms at one ratio, the last of them b, a being the one before the first; where b is too small for a
+/// double, with the ratio given by `log_ratio`.
+double sum_of_terms(double a, double b, double terms, double log_ratio) {
+  if (terms == 1) return b;
+  if (!(a > 0)) return terms * b / 2;
+  if (b > 0) log_ratio = (std::log(b) - std::log(a)) / terms;
+  if (std::abs(log_ratio) < 1e-14) return terms * b;
+  return log_ratio < 0 ? a * std::exp(log_ratio) * (std::expm1(terms * log_ratio) / std::expm1(log_ratio))
+                       : b * (std::expm1(-terms * log_ratio) / std::expm1(-log_ratio));
 }
+
+/// Of the k spheres, those with r_i >= d; of a few, all: they need no groups.
+std::int64_t spheres_that_hold(const Workload& workload, const SphereCacheParameters& parameters) {
+  if (parameters.spheres <= most_groups) return parameters.spheres;
+  if (workload.disc_radius >= workload.sphere_radius) return 0;
+  return std::min(parameters.spheres,
+                  sphere_count(Form::corrected, {parameters.ratio}, {workload.disc_radius}, {workload.sphere_radius}));
+}
+
+}  // namespace
 
 std::vector<SphereLevel> sphere_levels(const Workload& workload, const SphereCacheParameters& parameters,
                                        std::int64_t most) {
@@ -145,21 +141,32 @@ Counts<double> sphere_cache_counts(const Workload& workload, const SphereCachePa
   Walk walk(workload, parameters);
   Counts<double> counts{.sorted = parameters.order == SampleOrder::none ? 0 : workload.samples,
                         .hits = expected_hits(workload)};
+  const double vanishing = 2 * std::log(parameters.ratio);  // lists of spheres too small to see: ∝ r_i²
+  double tests = 0;
+  double copies = 0;
+  double rebuilds = 0;
+  // Groups of equal ratio, but smaller towards `to`, where r_i - d goes to 0.
+  const auto add_groups = [&](std::int64_t from, std::int64_t to) {
+    const std::int64_t largest = (to - from - 1) / most_groups + 1;
+    for (std::int64_t i = from; i < to;) {
+      const std::int64_t step = std::clamp<std::int64_t>((to - i) / 16, 1, largest);
+      const auto spheres = static_cast<double>(step);
+      const SphereLevel& sphere = walk.to(i += step, step);
+      const double added_tests = sphere.rebuilds * sphere.tests;
+      const double added_copies = sphere.rebuilds * sphere.listed;
+      counts.sphere_tests += sum_of_terms(tests, added_tests, spheres, vanishing);
+      counts.rebuilds += sum_of_terms(rebuilds, sphere.rebuilds, spheres, vanishing);
+      counts.copies += sum_of_terms(copies, added_copies, spheres, vanishing);
+      tests = added_tests;
+      copies = added_copies;
+      rebuilds = sphere.rebuilds;
+    }
+  };
   const std::int64_t k = parameters.spheres;
-  const std::int64_t groups = std::min(k, most_groups);
-  double innermost = workload.rays;
-  std::int64_t last = 0;
-  for (std::int64_t group = 1; group <= groups; ++group) {
-    const std::int64_t i = k / groups * group + k % groups * group / groups;
-    const auto spheres = static_cast<double>(i - last);
-    const SphereLevel& sphere = walk.to(i, i - last);
-    counts.sphere_tests += spheres * sphere.rebuilds * sphere.tests;
-    counts.rebuilds += spheres * sphere.rebuilds;
-    counts.copies += spheres * sphere.rebuilds * sphere.listed;
-    innermost = sphere.listed;
-    last = i;
-  }
-  counts.disc_tests = workload.samples * innermost;
+  const std::int64_t holding = spheres_that_hold(workload, parameters);
+  add_groups(0, holding);
+  add_groups(holding, k);
+  counts.disc_tests = workload.samples * walk.disc_tests();
   return counts;
 }
 

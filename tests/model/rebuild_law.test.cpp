@@ -110,45 +110,66 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("a sphere rebuilt with those around it: never less than alone, never more than samples, or than both") {
+  TEST_CASE("a sphere rebuilt with those around it: never less than those, or than alone by much; at most samples") {
     support::RandomNumbers random(6);
     for (int run = 0; run < 5000; ++run) {
       const double samples = random.count(1, 1e9);
       const double alone = random.log_uniform(1, samples + 1e-9);
       const double outer = random.log_uniform(1, samples + 1e-9);
       const double share = random.uniform(0, 1);
-      const double chained = chained_rebuilds(alone, outer, share, samples);
-      REQUIRE(chained >= std::min(alone, samples) * (1 - 1e-14));
-      REQUIRE(chained <= samples);
-      REQUIRE(chained <= alone + share * outer);
-      REQUIRE(chained_rebuilds(alone, outer, 0, samples) == std::min(alone, samples));
+      const double nested = nested_rebuilds(alone, outer, share, samples);
+      REQUIRE(nested >= std::min(outer, samples));
+      REQUIRE(nested <= samples);
+      REQUIRE(nested <= outer + share * alone);
+      REQUIRE(nested_rebuilds(alone, 0, 1, samples) == std::min(alone, samples));
     }
-    CHECK(chained_rebuilds(1000, 10, 1, 1000) == 1000);
-    CHECK(chained_rebuilds(100, 50, 1, 1e15) == Approx(150).epsilon(1e-9));
+    CHECK(nested_rebuilds(1000, 10, 1, 1000) == 1000);
+    CHECK(nested_rebuilds(100, 50, 0.5, 1e15) == Approx(100).epsilon(1e-9));
   }
 
-  TEST_CASE(
-      "the share that chains is from 0 to 1, falls with fewer samples a ball, and is between dimensions in the "
-      "middle") {
+  TEST_CASE("own rebuilds remain where there are none around, and the fewer the more there are") {
     support::RandomNumbers random(8);
     for (int run = 0; run < 5000; ++run) {
-      const double ratio = random.uniform(0, 1);
-      const double halvings = random.uniform(-1, 20);
-      const double alone = random.uniform(0, 1);
-      const double surface = chain_share(2, ratio, halvings, alone);
-      const double volume = chain_share(3, ratio, halvings, alone);
-      REQUIRE(surface > 0);
-      REQUIRE(volume > 0);
-      REQUIRE(surface <= 1);
-      REQUIRE(volume <= 1);
-      REQUIRE(chain_share(3, ratio, halvings, std::min(1.0, alone + 0.1)) <= volume);
-      const double between = chain_share(2.5, ratio, halvings, alone);
-      REQUIRE(between >= std::min(surface, volume) * 0.99);
-      REQUIRE(between <= std::max(surface, volume) * 1.01);
-      REQUIRE(chain_share(1.5, ratio, halvings, alone) == surface);
-      REQUIRE(chain_share(3, ratio, halvings + 1e-9, alone) == Approx(volume).epsilon(1e-6));
+      const double dimension = random.uniform(1, 3);
+      const Ball ball{random.log_uniform(1e-3, 1e6), random.uniform(-1, 20)};
+      const double octaves = random.uniform(0.0625, 3);
+      const double crowding = random.log_uniform(1e-3, 10);
+      const double share = own_rebuild_share(dimension, ball, octaves, crowding);
+      REQUIRE(own_rebuild_share(dimension, ball, octaves, 0) == 1);
+      REQUIRE(share <= 1);
+      REQUIRE(share > 0);
+      REQUIRE(own_rebuild_share(dimension, ball, octaves, 2 * crowding) <= share);
     }
-    CHECK(chain_share(3, 1, 60, 0) == Approx(1).epsilon(1e-9));
+  }
+
+  TEST_CASE("the share that remains is continuous in the ball and the ratio, and between dimensions in the middle") {
+    support::RandomNumbers random(9);
+    for (int run = 0; run < 5000; ++run) {
+      const Ball ball{random.log_uniform(1e-3, 1e6), random.uniform(-1, 20)};
+      const double octaves = random.uniform(0.07, 3);
+      const double crowding = random.uniform(0, 3);
+      const double surface = own_rebuild_share(2, ball, octaves, crowding);
+      const double volume = own_rebuild_share(3, ball, octaves, crowding);
+      REQUIRE(own_rebuild_share(3, ball, octaves + 1e-9, crowding) == Approx(volume).epsilon(1e-6));
+      REQUIRE(own_rebuild_share(3, {ball.lambda * (1 + 1e-9), ball.halvings}, octaves, crowding) ==
+              Approx(volume).epsilon(1e-6));
+      REQUIRE(own_rebuild_share(3, {ball.lambda, ball.halvings + 1e-9}, octaves, crowding) ==
+              Approx(volume).epsilon(1e-5));
+      const double between = own_rebuild_share(2.5, ball, octaves, crowding);
+      REQUIRE(between >= std::min(surface, volume) * (1 - 1e-14));
+      REQUIRE(between <= std::max(surface, volume) * (1 + 1e-14));
+      REQUIRE(own_rebuild_share(1.5, ball, octaves, crowding) == surface);
+    }
+  }
+
+  TEST_CASE("with ever more spheres, the own rebuilds of each are in proportion to their distance") {
+    for (const double dimension : {2.0, 3.0})
+      for (const double lambda : {0.1, 10.0, 1e5}) {
+        const double share = own_rebuild_share(dimension, {lambda, 5.3}, 1e-9, 2);
+        CHECK(share > 0);
+        CHECK(own_rebuild_share(dimension, {lambda, 5.3}, 1e-10, 2) == Approx(share / 10).epsilon(1e-6));
+        CHECK(own_rebuild_share(dimension, {lambda, 5.3}, 0, 2) == 0);
+      }
   }
 }
 
@@ -224,17 +245,24 @@ TEST_SUITE("bad input") {
     }
     CHECK_THROWS_WITH_AS((void)single_rebuilds(in_volume, support::not_a_number, SampleOrder::lebesgue),
                          Contains("radius of the ball"), std::invalid_argument);
-    for (const double bad : {-0.1, 1.1, support::not_a_number})
-      CHECK_THROWS_WITH_AS((void)chain_share(3, bad, 1, 0.5), Contains("ratio of the balls"), std::invalid_argument);
+    const Ball ball{10, 5};
     for (const double bad : support::not_a_dimension)
-      CHECK_THROWS_WITH_AS((void)chain_share(bad, 0.5, 1, 0.5), Contains("sample dimension"), std::invalid_argument);
-    for (const double bad : support::not_a_size) {
-      CHECK_THROWS_WITH_AS((void)chained_rebuilds(bad, 1, 0.5, 10), Contains("rebuilds"), std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)chained_rebuilds(1, bad, 0.5, 10), Contains("rebuilds"), std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)chained_rebuilds(1, 1, bad, 10), Contains("share"), std::invalid_argument);
-    }
-    for (const double bad : support::not_a_length)
-      CHECK_THROWS_WITH_AS((void)chained_rebuilds(1, 1, 0.5, bad), Contains("number of samples"),
+      CHECK_THROWS_WITH_AS((void)own_rebuild_share(bad, ball, 1, 1), Contains("sample dimension"),
                            std::invalid_argument);
+    for (const double bad : support::not_a_size) {
+      CHECK_THROWS_WITH_AS((void)own_rebuild_share(3, {bad, 5}, 1, 1), Contains("samples per ball"),
+                           std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)own_rebuild_share(3, ball, bad, 1), Contains("octaves"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)own_rebuild_share(3, ball, 1, bad), Contains("crowding"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)nested_rebuilds(bad, 1, 0.5, 10), Contains("rebuilds"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)nested_rebuilds(1, bad, 0.5, 10), Contains("rebuilds"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)nested_rebuilds(1, 1, bad, 10), Contains("share"), std::invalid_argument);
+    }
+    CHECK_THROWS_WITH_AS((void)own_rebuild_share(3, {10, support::not_a_number}, 1, 1), Contains("halvings"),
+                         std::invalid_argument);
+    for (const double bad : support::not_a_length) {
+      CHECK_THROWS_WITH_AS((void)nested_rebuilds(1, 1, 0.5, bad), Contains("number of samples"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)ball_of(in_volume, bad), Contains("radius of the ball"), std::invalid_argument);
+    }
   }
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <stdexcept>
 
 #include "detp/model/line_measure.hpp"
@@ -18,6 +19,42 @@ using doctest::Contains;
 
 namespace {
 
+/// What some spheres did, counted: printed by `rebuild_law_table counted`, means over 400 sets of 10³ samples and 24 of
+/// 10⁵; their standard errors are below 1 % of m_i and below 0.005 of the listed share.
+struct CountedSphere {
+  double dimension, samples, disc_share, ratio;
+  std::int64_t i;
+  double rebuilds;
+  double listed_share;
+};
+
+constexpr CountedSphere counted_spheres[] = {
+    {2, 1000, 0.001, 0.5, 2, 185.35, 0.9549},   {2, 1000, 0.001, 0.5, 3, 427.50, 0.9450},
+    {2, 1000, 0.001, 0.8, 2, 36.53, 0.7249},    {2, 1000, 0.001, 0.8, 8, 372.13, 0.7884},
+    {2, 1000, 0.001, 0.9, 6, 86.07, 0.6483},    {2, 1000, 0.001, 0.9, 18, 465.76, 0.7406},
+    {2, 1000, 0.05, 0.5, 2, 226.26, 0.9769},    {2, 1000, 0.05, 0.5, 3, 609.11, 0.9850},
+    {2, 1000, 0.05, 0.8, 2, 40.21, 0.7573},     {2, 1000, 0.05, 0.8, 8, 484.08, 0.8806},
+    {2, 1000, 0.05, 0.9, 6, 89.13, 0.6932},     {2, 1000, 0.05, 0.9, 18, 602.85, 0.8536},
+    {2, 100000, 0.001, 0.5, 2, 295.62, 0.9616}, {2, 100000, 0.001, 0.5, 3, 1339.17, 0.9628},
+    {2, 100000, 0.001, 0.8, 2, 53.92, 0.7442},  {2, 100000, 0.001, 0.8, 8, 943.92, 0.7819},
+    {2, 100000, 0.001, 0.9, 6, 114.46, 0.6548}, {2, 100000, 0.001, 0.9, 18, 1926.62, 0.6912},
+    {2, 100000, 0.05, 0.5, 2, 347.92, 0.9740},  {2, 100000, 0.05, 0.5, 3, 2597.25, 0.9880},
+    {2, 100000, 0.05, 0.8, 2, 58.79, 0.7694},   {2, 100000, 0.05, 0.8, 8, 1719.54, 0.8738},
+    {2, 100000, 0.05, 0.9, 6, 113.21, 0.7057},  {2, 100000, 0.05, 0.9, 18, 3152.29, 0.8229},
+    {3, 1000, 0.001, 0.5, 2, 219.19, 0.9529},   {3, 1000, 0.001, 0.5, 3, 570.09, 0.9274},
+    {3, 1000, 0.001, 0.8, 2, 28.15, 0.7468},    {3, 1000, 0.001, 0.8, 8, 488.27, 0.7660},
+    {3, 1000, 0.001, 0.9, 6, 82.26, 0.6388},    {3, 1000, 0.001, 0.9, 18, 586.18, 0.7184},
+    {3, 1000, 0.05, 0.5, 2, 295.27, 0.9755},    {3, 1000, 0.05, 0.5, 3, 788.30, 0.9799},
+    {3, 1000, 0.05, 0.8, 2, 30.86, 0.7780},     {3, 1000, 0.05, 0.8, 8, 622.88, 0.8708},
+    {3, 1000, 0.05, 0.9, 6, 89.84, 0.6803},     {3, 1000, 0.05, 0.9, 18, 744.31, 0.8456},
+    {3, 100000, 0.001, 0.5, 2, 512.79, 0.9737}, {3, 100000, 0.001, 0.5, 3, 3804.54, 0.9749},
+    {3, 100000, 0.001, 0.8, 2, 67.46, 0.7490},  {3, 100000, 0.001, 0.8, 8, 2208.17, 0.7607},
+    {3, 100000, 0.001, 0.9, 6, 153.00, 0.6481}, {3, 100000, 0.001, 0.9, 18, 4721.04, 0.6572},
+    {3, 100000, 0.05, 0.5, 2, 595.42, 0.9844},  {3, 100000, 0.05, 0.5, 3, 7422.71, 0.9890},
+    {3, 100000, 0.05, 0.8, 2, 73.50, 0.7755},   {3, 100000, 0.05, 0.8, 8, 4874.83, 0.8626},
+    {3, 100000, 0.05, 0.9, 6, 161.46, 0.6922},  {3, 100000, 0.05, 0.9, 18, 8377.62, 0.8072},
+};
+
 const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
 
 bool all_finite(const Counts<double>& counts) {
@@ -29,14 +66,12 @@ bool all_finite(const Counts<double>& counts) {
 /// The counts by the sums of the header, over all levels.
 Counts<double> summed(const Workload& w, const SphereCacheParameters& parameters) {
   Counts<double> sum;
-  double innermost = w.rays;
   for (const SphereLevel& level : sphere_levels(w, parameters, parameters.spheres)) {
     sum.sphere_tests += level.rebuilds * level.tests;
     sum.rebuilds += level.rebuilds;
     sum.copies += level.rebuilds * level.listed;
-    innermost = level.listed;
+    sum.disc_tests = w.samples * level.listed;  // before the share by which lists that serve long are longer
   }
-  sum.disc_tests = w.samples * innermost;
   return sum;
 }
 
@@ -44,7 +79,8 @@ void check_close(const Counts<double>& counts, const Counts<double>& expected, d
   CHECK(counts.sphere_tests == Approx(expected.sphere_tests).epsilon(tolerance));
   CHECK(counts.rebuilds == Approx(expected.rebuilds).epsilon(tolerance));
   CHECK(counts.copies == Approx(expected.copies).epsilon(tolerance));
-  CHECK(counts.disc_tests == Approx(expected.disc_tests).epsilon(tolerance));
+  CHECK(counts.disc_tests >= expected.disc_tests * (1 - 1e-14));
+  CHECK(counts.disc_tests <= 1.15 * expected.disc_tests);
 }
 
 }  // namespace
@@ -94,7 +130,9 @@ TEST_SUITE("identity") {
         REQUIRE(level.listed >= 0);
         REQUIRE(level.rebuilds >= outer.rebuilds);
         REQUIRE(level.rebuilds <= w.samples);
-        REQUIRE(level.tests == outer.listed);
+        REQUIRE(level.tests >= outer.listed);
+        REQUIRE(level.tests <= outer.rays * (1 + 1e-14));
+        if (level.rebuilds == outer.rebuilds || order == SampleOrder::none) REQUIRE(level.tests == outer.listed);
         outer = level;
       }
     }
@@ -112,13 +150,28 @@ TEST_SUITE("identity") {
     CHECK(sphere_levels(typical, {0.6, 9}, 0).empty());
   }
 
-  TEST_CASE("more spheres than 4096 up to 20 000 are grouped within 2.5 % of the sum over all") {
-    for (const std::int64_t k : {4097, 5000, 8191, 8192, 12345, 20000}) {
-      CAPTURE(k);
-      const double ratio = std::exp(-4.0 / static_cast<double>(k));
-      const SphereCacheParameters parameters{ratio, k};
-      check_close(sphere_cache_counts(typical, parameters), summed(typical, parameters), 0.025);
-    }
+  TEST_CASE("more spheres than 4096 are grouped within 0.3 % of the sum over all") {
+    for (const double dimension : {2.0, 3.0})
+      for (const std::int64_t k : {4097, 8192, 20'000, 50'000}) {
+        CAPTURE(dimension);
+        CAPTURE(k);
+        const Workload w = cube_workload(1e6, 1e5, 0.01, 2, dimension);
+        const double ratio = std::exp(std::log(w.disc_radius / w.sphere_radius) / static_cast<double>(k));
+        check_close(sphere_cache_counts(w, {ratio, k}), summed(w, {ratio, k}), 0.003);
+      }
+  }
+
+  TEST_CASE("spheres smaller than the disc, of a number too large to sum, add what a geometric series adds") {
+    const std::int64_t k = 1'000'000'000;
+    const double ratio = std::exp(-20.0 / static_cast<double>(k));
+    const Counts<double> all = sphere_cache_counts(typical, {ratio, k});
+    const std::int64_t holding =
+        static_cast<std::int64_t>(std::log(typical.disc_radius / typical.sphere_radius) / std::log(ratio));
+    const Counts<double> held = sphere_cache_counts(typical, {ratio, holding});
+    const double rays = typical.rays * std::pow(typical.disc_radius / typical.sphere_radius, 2);
+    CHECK(all.rebuilds - held.rebuilds == Approx(typical.samples * static_cast<double>(k - holding)).epsilon(1e-4));
+    CHECK(all.copies - held.copies ==
+          Approx(typical.samples * rays / (2 * 20.0 / static_cast<double>(k))).epsilon(0.01));
   }
 
   TEST_CASE("unsorted samples are not sorted, and need more rebuilds") {
@@ -130,13 +183,33 @@ TEST_SUITE("identity") {
       CHECK(none.sphere_tests > lebesgue.sphere_tests);
     }
   }
+}
 
-  TEST_CASE("spheres that share their centres with all around hold all their rays") {
-    const SphereLevel sphere{.i = 3, .radius = 0.2, .rebuilds = 50};
-    CHECK(listed_share(sphere, {}) == 1);
-    CHECK(listed_share(sphere, {{0.4, 50, 0.39}, {0.8, 50, 0.79}}) == 1);
-    CHECK(listed_share(sphere, {{0.4, 20, 0.39}}) < 1);
-    CHECK(listed_share(sphere, {{0.4, 20, 0.39}, {0.8, 5, 0.79}}) < listed_share(sphere, {{0.4, 20, 0.39}}));
+TEST_SUITE("known answer") {
+  TEST_CASE("rebuilds within 8 %, listed rays within 4 %, of counted ones") {
+    double rebuilds = 0;
+    double listed = 0;
+    double published = 0;
+    for (const CountedSphere& counted : counted_spheres) {
+      const double d = counted.disc_share * std::sqrt(3.0) / (1 - counted.disc_share);
+      const Workload w = cube_workload(1e6, counted.samples, d, 2, counted.dimension);
+      const SphereLevel sphere = sphere_levels(w, {counted.ratio, counted.i}, counted.i).back();
+      CAPTURE(counted.dimension);
+      CAPTURE(counted.samples);
+      CAPTURE(counted.disc_share);
+      CAPTURE(counted.ratio);
+      CAPTURE(counted.i);
+      CHECK(sphere.rebuilds == Approx(counted.rebuilds).epsilon(0.08));
+      CHECK(sphere.listed / sphere.rays == Approx(counted.listed_share).epsilon(0.04));
+      rebuilds += std::abs(std::log(sphere.rebuilds / counted.rebuilds));
+      listed += std::abs(std::log(sphere.listed / sphere.rays / counted.listed_share));
+      published +=
+          std::abs(std::log(std::pow(counted.ratio, -3.0 * static_cast<double>(counted.i)) / counted.rebuilds));
+    }
+    const double spheres = std::size(counted_spheres);
+    CHECK_MESSAGE(rebuilds / spheres < 0.015, "mean deviation of rebuilds: ", rebuilds / spheres);
+    CHECK_MESSAGE(listed / spheres < 0.01, "mean deviation of listed rays: ", listed / spheres);
+    CHECK_MESSAGE(published / spheres > 0.5, "the published form is far off: ", published / spheres);
   }
 }
 
@@ -150,7 +223,8 @@ TEST_SUITE("known answer") {
     CHECK(levels[0].listed < levels[0].rays);  // it pokes out of S0 at the cube's corners
     CHECK(levels[0].listed > 0.9 * levels[0].rays);
     const Counts<double> counts = sphere_cache_counts(typical, {0.5, 1});
-    CHECK(counts.disc_tests == Approx(levels[0].listed * typical.samples).epsilon(1e-12));
+    CHECK(counts.disc_tests > levels[0].listed * typical.samples);
+    CHECK(counts.disc_tests < 1.02 * levels[0].listed * typical.samples);
   }
 
   TEST_CASE("a sphere as large as the disc is built for each sample") {
@@ -166,9 +240,9 @@ TEST_SUITE("known answer") {
     CHECK(sphere_levels(typical, {0.3, 2000}, 2000).back().rebuilds == typical.samples);
   }
 
-  TEST_CASE("1e15 spheres have finite counts, whatever the ratio") {
+  TEST_CASE("1e18 spheres have finite counts, whatever the ratio") {
     for (const double ratio : {0.05, 0.65, 0.999, 1 - 1e-12, 1 - 0x1p-53})
-      for (const std::int64_t k : {100'000LL, 1'000'000'000LL, 1'000'000'000'000'000LL})
+      for (const std::int64_t k : {100'000LL, 1'000'000'000LL, 1'000'000'000'000'000'000LL})
         for (const auto order : {SampleOrder::lebesgue, SampleOrder::none})
           CHECK(all_finite(sphere_cache_counts(typical, {ratio, k, order})));
   }
@@ -193,24 +267,6 @@ TEST_SUITE("bad input") {
       w.disc_radius = bad;
       CHECK_THROWS_WITH_AS((void)sphere_levels(w, {0.5, 3}, 3), Contains("disc radius"), std::invalid_argument);
       CHECK_THROWS_WITH_AS((void)sphere_cache_counts(w, {0.5, 3}), Contains("disc radius"), std::invalid_argument);
-    }
-  }
-
-  TEST_CASE("a sphere never built, or a radius that is none, has no share") {
-    const SphereLevel sphere{.i = 3, .radius = 0.2, .rebuilds = 50};
-    for (const double bad : support::not_a_size)
-      CHECK_THROWS_WITH_AS((void)listed_share(sphere, {{0.4, 20, bad}}), Contains("reach of the offsets"),
-                           std::invalid_argument);
-    for (const double bad : support::not_a_length)
-      CHECK_THROWS_WITH_AS((void)listed_share({.radius = 0.2, .rebuilds = bad}, {{0.4, 20, 0.39}}),
-                           Contains("rebuilds of the sphere"), std::invalid_argument);
-    for (const double bad : support::not_a_size) {
-      CHECK_THROWS_WITH_AS((void)listed_share({.radius = bad, .rebuilds = 9}, {{0.4, 2, 0.39}}),
-                           Contains("sphere radius"), std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)listed_share(sphere, {{bad, 20, 0.39}}), Contains("sphere radius"),
-                           std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)listed_share(sphere, {{0.4, bad, 0.39}}), Contains("rebuilds of the outer sphere"),
-                           std::invalid_argument);
     }
   }
 }

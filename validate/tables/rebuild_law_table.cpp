@@ -1,160 +1,192 @@
-// Makes model/rebuild_law_tables.inc: how often the spheres of a cache are rebuilt along the Lebesgue curve.
+// Makes model/rebuild_law_tables.inc and model/listed_rays_tables.inc: how often the spheres of a cache are rebuilt
+// along the Lebesgue curve, and which share of their rays they list.
 //
-//   cmake --build build --target rebuild_law_table && build/rebuild_law_table > model/rebuild_law_tables.inc
+//   cmake --build build --target rebuild_law_table
+//   build/rebuild_law_table rebuilds > model/rebuild_law_tables.inc      (ten minutes)
+//   build/rebuild_law_table lists > model/listed_rays_tables.inc         (ten minutes)
+//   build/rebuild_law_table counted      (half a minute: the rows of tests/model/sphere_cache.test.cpp)
 //
-// Walks as the sphere cache does, with no rays: samples uniform in the cube [-1, 1]³ (D = 3) or on its faces (D = 2),
-// sorted along the curve; a ball is centred at a sample and kept while the next samples lie within its radius ρ. It
-// takes some minutes. Printed are, for D = 2 and then D = 3,
-//   single   ln(m/n) of small balls: λ = 2⁻⁹ … 2¹², samples in a ball's cube n ρ^D/extent, by 16 phases of log₂(2/ρ)
-//   coarse   ln(m) of large balls, for n = 10³ … 10⁷ samples by log₂(2/ρ) from -1 to 4 in steps of 1/16
-//   chain    share of an outer ball's rebuilds that add to an inner one's, nested at the ratio q = 0.2 … 0.95, by 16
-//            phases of the inner ball
+// Walks as the sphere cache does, with samples uniform in the cube [-1, 1]³ (D = 3) or on its faces (D = 2), sorted
+// along the curve: a ball is centred at a sample and kept while it and those around it hold the next samples. Tables of
+// rebuilds hold, for D = 2 and then D = 3, with h = log₂(2/ρ) the halvings from the cube's side to the radius ρ,
+//   single   ln(m/n) of small balls alone, by 32 phases φ of h, in rows of λ 2^{Dφ} = 2⁻⁹ … 2¹³, λ = n ρ^D/extent
+//   coarse   ln m of large balls alone, for n = 10³ … 10⁷ by h from -1 to 4.5 in steps of 1/64
+//   chain    for n = 10³ … 10⁷ by h from 0.5 in steps of 1/32, then by u (log₂ of the ratio to the ball around): what
+//            becomes of a ball's own rebuilds inside a nest of the ratio 2^{-u}. Of s alone, all of the nest's m_{i-1}
+//            and a share exp(-b m_{i-1}/s) (1 - m_{i-1}/n) remain; b is printed as the character 90 b/(1 + b) after
+//            '#', without the question mark and the backslash.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
+#include <map>
+#include <string_view>
 
-#include "detp/sim/lebesgue.hpp"
-#include "detp/sim/uniform_discs.hpp"
+#include "counted_spheres.hpp"
+#include "listed_rays_table.hpp"
+#include "sample_walk.hpp"
 
 namespace {
 
-using namespace detp::sim;
-using Points = std::vector<glm::dvec3>;
+using namespace detp::tables;
 
-constexpr int phases = 16;
+constexpr int phases = 32;
 constexpr std::uint64_t seed = 20261121;
+constexpr std::array sample_counts{1'000UL, 10'000UL, 100'000UL, 1'000'000UL, 10'000'000UL};
+constexpr std::array chain_steps{2,  3,  4,  5,  6,  7,  8,  10, 12, 14, 16, 18,
+                                 20, 22, 24, 26, 28, 30, 32, 36, 40, 48, 56, 72};  // 32 u
 
-double extent_of(int dimension) { return dimension == 3 ? 8 : 24; }
+double balls(const Points& walk, double radius) { return moves(walk, {radius}).front(); }
 
-Points sorted_samples(int dimension, std::size_t count, std::uint64_t set = seed) {
-  Points points;
-  points.reserve(count);
-  for (const Disc& disc : uniform_discs(dimension == 3 ? Body::cube : Body::cube_faces, 2, count, 1, set))
-    points.push_back(disc.centre);
-  Points walk;
-  walk.reserve(count);
-  for (const std::uint32_t i : lebesgue_order(points)) walk.push_back(points[i]);
-  return walk;
-}
-
-bool within(const glm::dvec3& a, const glm::dvec3& b, double radius) {
-  return glm::dot(a - b, a - b) <= radius * radius;
-}
-
-double balls(const Points& walk, double radius) {
-  double count = 0;
-  const glm::dvec3* centre = nullptr;
-  for (const glm::dvec3& point : walk) {
-    if (centre != nullptr && within(point, *centre, radius)) continue;
-    centre = &point;
-    ++count;
-  }
-  return count;
+/// Sets of samples: the fewer in each, the more.
+std::vector<Points> sets_of(int dimension, std::size_t samples, std::size_t in_all) {
+  std::vector<Points> sets;
+  for (std::size_t set = 0; set < std::clamp<std::size_t>(in_all / samples, 1, 400); ++set)
+    sets.push_back(sorted_samples(dimension, samples, seed + set));
+  return sets;
 }
 
 /// ln(m/n): a ball of at most 1/8 of the cube's side, so that its faces matter little, and at least 2²⁰ samples.
-double log_single(int dimension, double lambda, double phase) {
-  double radius = 0.25 * std::exp2(-phase);
-  const auto count = [&] { return lambda * extent_of(dimension) / std::pow(radius, dimension); };
-  while (count() < 0x1p20) radius /= 2;
-  const double samples = std::round(count());
-  return std::log(balls(sorted_samples(dimension, static_cast<std::size_t>(samples)), radius) / samples);
-}
+class Single {
+ public:
+  double log_share(int dimension, int row, int phase) {
+    const double halvings_to_row = std::log2(std::pow(side, dimension) / extent_of(dimension));
+    int halvings = 3;
+    while (row + dimension * halvings - halvings_to_row < 20) ++halvings;
+    const auto samples = static_cast<std::size_t>(std::round(std::exp2(row + dimension * halvings - halvings_to_row)));
+    auto& sets = sets_[{dimension, samples}];
+    if (sets.empty()) sets = sets_of(dimension, samples, 4 * samples);
+    double sum = 0;
+    for (const Points& walk : sets) sum += balls(walk, side * std::exp2(-halvings - phase / double(phases)));
+    return std::log(sum / static_cast<double>(samples * sets.size()));
+  }
+
+ private:
+  std::map<std::pair<int, std::size_t>, std::vector<Points>> sets_;
+};
 
 void print_single() {
+  Single single;
   for (const int dimension : {2, 3})
-    for (int power = -9; power <= 12; ++power) {
-      for (int phase = 0; phase < phases; ++phase)
-        fmt::print("{:.3f},", log_single(dimension, std::exp2(power), phase / static_cast<double>(phases)));
+    for (int row = -9; row <= 13; ++row) {
+      for (int phase = 0; phase < phases; ++phase) fmt::print("{:.4f},", single.log_share(dimension, row, phase));
       fmt::print("\n");
     }
-}
-
-/// ln of the mean count over sets of samples: the fewer the samples, the more sets.
-double log_coarse(const std::vector<Points>& walks, double radius) {
-  double sum = 0;
-  for (const Points& walk : walks) sum += balls(walk, radius);
-  return std::log(sum / static_cast<double>(walks.size()));
 }
 
 void print_coarse() {
+  constexpr int steps = 64;  // a halving: the counts jump where a ball just holds a cell of the curve
   for (const int dimension : {2, 3})
-    for (const std::size_t samples : {1'000UL, 10'000UL, 100'000UL, 1'000'000UL, 10'000'000UL}) {
-      std::vector<Points> walks;
-      for (std::size_t set = 0; set < std::clamp<std::size_t>(1'000'000 / samples, 1, 64); ++set)
-        walks.push_back(sorted_samples(dimension, samples, seed + set));
-      for (int step = -16; step <= 64; ++step)
-        fmt::print("{:.3f},{}", log_coarse(walks, 2 * std::exp2(-step / 16.0)), step % 16 == 15 ? "\n" : "");
+    for (const std::size_t samples : sample_counts) {
+      const std::vector<Points> sets = sets_of(dimension, samples, 10'000'000);
+      for (int step = -steps; step <= 9 * steps / 2; ++step) {
+        double sum = 0;
+        for (const Points& walk : sets) sum += balls(walk, side * std::exp2(-step / double(steps)));
+        fmt::print("{:.3f},{}", std::log(sum / static_cast<double>(sets.size())), step % 16 == 15 ? "\n" : "");
+      }
       fmt::print("\n");
     }
 }
 
-/// Rebuilds of all balls of a nest, from the outermost inwards.
-std::vector<double> nested_balls(const Points& walk, const std::vector<double>& radii) {
-  std::vector<double> count(radii.size());
-  Points centres(radii.size(), walk.front());
-  bool first = true;
-  for (const glm::dvec3& point : walk) {
-    std::size_t i = 0;
-    if (!first)
-      while (i < radii.size() && within(point, centres[i], radii[i])) ++i;
-    for (; i < radii.size(); ++i) {
-      centres[i] = point;
-      ++count[i];
+/// What is left of each ball's own rebuilds, by the ball's size and the ratio of its nest.
+class Chain {
+ public:
+  Chain(int dimension, std::size_t samples)
+      : samples_(static_cast<double>(samples)), steps_(steps_of(dimension, samples)) {
+    outer_.resize(static_cast<std::size_t>(steps_));
+    nested_.resize(outer_.size());
+    alone_.resize(outer_.size());
+    const std::vector<Points> sets = sets_of(dimension, samples, 4'000'000);
+    for (const Points& walk : sets) {
+      for (int step = 0; step < steps_; ++step) alone_[static_cast<std::size_t>(step)] += balls(walk, radius(step));
+      for (std::size_t u = 0; u < chain_steps.size(); ++u)
+        for (int offset = 0; offset < chain_steps[u]; ++offset) add_nest(walk, u, offset);
     }
-    first = false;
+    samples_ *= static_cast<double>(sets.size());  // all counts are sums over the sets
   }
-  return count;
-}
 
-/// Sums over the balls of many nests, by phase: what the outer rebuilds added, and the outer rebuilds.
-struct Chain {
-  std::array<double, phases> added{};
-  std::array<double, phases> outer{};
+  void print() const {
+    for (int step = 0; step < steps_; ++step) {
+      fmt::print("\"");
+      for (std::size_t u = 0; u < chain_steps.size(); ++u) {
+        int known = step;  // the largest balls have none around them: as the next smaller ones
+        while (outer_[static_cast<std::size_t>(known)][u] == 0 && known + 1 < steps_) ++known;
+        fmt::print("{}", character(static_cast<std::size_t>(known), u));
+      }
+      fmt::print("\"{}", step % 5 == 4 ? "\n" : "");
+    }
+    fmt::print("\n");
+  }
 
-  void add_nest(const Points& walk, double start, double ratio, double smallest) {
+ private:
+  static constexpr int first_step = phases / 2;
+  /// The largest ball that a cache can have, short of S₀ itself: √3/2 of the side.
+  static constexpr double least_halvings = 0.2075;
+
+  /// To 4.5 halvings; among the most samples, on to balls of less than one sample.
+  static int steps_of(int dimension, std::size_t samples) {
+    const int half_halvings = samples < sample_counts.back() ? 9 : dimension == 3 ? 20 : 26;
+    return half_halvings * phases / 2 + 1 - first_step;
+  }
+
+  static double halvings(int step) { return (first_step + step) / double(phases); }
+  static double radius(int step) { return side * std::exp2(-halvings(step)); }
+
+  /// A nest has no ball larger than one step of its ratio inside S₀ (to half a step).
+  void add_nest(const Points& walk, std::size_t u, int offset) {
+    const int apart = chain_steps[u];
+    int first = offset - first_step;
+    while (halvings(first) < least_halvings + 0.5 * apart / phases) first += apart;
     std::vector<double> radii;
-    for (double radius = start; radius >= smallest; radius *= ratio) radii.push_back(radius);
-    const std::vector<double> nested = nested_balls(walk, radii);
-    for (std::size_t i = 1; i < radii.size(); ++i) {
-      if (radii[i] > 0.25) continue;  // the cube's own size shows
-      const double halvings = std::log2(2 / radii[i]);
-      const auto phase = static_cast<std::size_t>(phases * (halvings - std::floor(halvings))) % phases;
-      const double alone = balls(walk, radii[i]);
-      added[phase] += (nested[i] - alone) / (1 - nested[i] / static_cast<double>(walk.size())) / nested[i];
-      outer[phase] += nested[i - 1] / nested[i];
+    for (int step = first; step < steps_; step += apart) radii.push_back(radius(step));
+    const std::vector<double> count = moves(walk, radii);
+    for (std::size_t i = 0; i < radii.size(); ++i) {
+      const int step = first + static_cast<int>(i) * apart;
+      if (step < 0) continue;
+      nested_[static_cast<std::size_t>(step)][u] += count[i];
+      if (i > 0) outer_[static_cast<std::size_t>(step)][u] += count[i - 1];
     }
   }
+
+  [[nodiscard]] char character(std::size_t step, std::size_t u) const {
+    const double outer = outer_[step][u];
+    const double own = (nested_[step][u] - outer) / (1 - outer / samples_) / alone_[step];
+    const double b = outer > 0 ? std::max(0.0, -std::log(std::max(own, 1e-9)) * alone_[step] / outer) : 0;
+    const auto plain = static_cast<char>('#' + std::min(89L, std::lround(90 * b / (1 + b))));
+    const auto place = static_cast<char>(plain < '?' ? plain : plain + 1);
+    return place < '\\' ? place : static_cast<char>(place + 1);
+  }
+
+  double samples_;
+  int steps_;
+  std::vector<std::array<double, chain_steps.size()>> outer_, nested_;
+  std::vector<double> alone_;
 };
 
-void print_chain() {
-  for (const int dimension : {2, 3}) {
-    const Points walk = sorted_samples(dimension, 1'000'000);
-    const double smallest = std::pow(8 * extent_of(dimension) / 1e6, 1.0 / dimension);  // 8 samples a ball
-    for (const double ratio : {0.2, 0.3, 0.4, 0.5, 0.6, 0.65, 0.7, 0.75, 0.8, 0.85, 0.9, 0.95}) {
-      Chain chain;
-      for (int offset = 0; offset < phases; ++offset)
-        chain.add_nest(walk, 1.2 * std::exp2(-(offset + 0.5) / phases), ratio, smallest);
-      for (std::size_t phase = 0; phase < phases; ++phase)
-        fmt::print("{:.3f},", chain.added[phase] / chain.outer[phase]);
-      fmt::print("\n");
-    }
-  }
+void print_rebuilds() {
+  fmt::print("constexpr std::array<double, 2 * single_rows * phases> single_table{{{{\n");
+  print_single();
+  fmt::print("}}}};\n\nconstexpr std::array<double, 2 * columns * coarse_steps> coarse_table{{{{\n");
+  print_coarse();
+  fmt::print("}}}};\n\nconstexpr std::string_view chain_table =\n");
+  for (const int dimension : {2, 3})
+    for (const std::size_t samples : sample_counts) Chain(dimension, samples).print();
+  fmt::print(";\n");
 }
 
 }  // namespace
 
-int main() {
-  fmt::print("// Made by validate/tables/rebuild_law_table.cpp.\n\n");
-  fmt::print("constexpr std::array<double, 2 * single_rows * phases> single_table{{{{\n");
-  print_single();
-  fmt::print("}}}};\n\nconstexpr std::array<double, 2 * coarse_counts * coarse_steps> coarse_table{{{{\n");
-  print_coarse();
-  fmt::print("}}}};\n\nconstexpr std::array<double, 2 * chain_ratios.size() * phases> chain_table{{{{\n");
-  print_chain();
-  fmt::print("}}}};\n");
+int main(int arguments, char** argument) {
+  const std::string_view table = arguments > 1 ? argument[1] : "";
+  if (table == "counted") {
+    print_counted_spheres();
+  } else if (table == "rebuilds" || table == "lists") {
+    fmt::print("// Made by validate/tables/rebuild_law_table.cpp.\n\n");
+    table == "rebuilds" ? print_rebuilds() : print_listed_rays();
+  } else {
+    fmt::print(stderr, "usage: rebuild_law_table rebuilds|lists|counted\n");
+    return 1;
+  }
 }
