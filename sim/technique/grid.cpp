@@ -16,7 +16,7 @@ using Cell = std::array<std::int64_t, 3>;
 class Grid {
  public:
   Grid(const Problem& problem, int cells, Insertion insertion, const std::stop_token& stop)
-      : problem_(problem), insertion_(insertion), box_(index_box(problem.discs)) {
+      : problem_(problem), insertion_(insertion), box_(index_box(problem)) {
     const glm::dvec3 size = box_.size();
     side_ = std::max({size.x, size.y, size.z}) / cells;
     double total = 1;

@@ -79,4 +79,11 @@ void search_index(const Index& index, const Problem& problem, bool mailboxing, c
   return {box.low - largest, box.high + largest};
 }
 
+/// What the cells of an index fill: 2 slack beyond the discs, so that a ray along an outer face, or just outside it,
+/// is still among the cells when it passes the discs that touch that face (sim/README.md, "The culls").
+[[nodiscard]] inline Box index_box(const Problem& problem) {
+  const Box box = index_box(problem.discs);
+  return {box.low - 2 * problem.slack, box.high + 2 * problem.slack};
+}
+
 }  // namespace detp::sim

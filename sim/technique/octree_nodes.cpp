@@ -13,7 +13,7 @@ class Builder {
  public:
   Builder(const Problem& problem, int depth, Insertion insertion, const std::stop_token& stop)
       : problem_(problem), insertion_(insertion), stop_(stop) {
-    const Box box = index_box(problem.discs);
+    const Box box = index_box(problem);
     const glm::dvec3 size = box.size();
     tree_.depth = depth;
     tree_.cube = {box.low, box.low + glm::dvec3{std::max({size.x, size.y, size.z})}};

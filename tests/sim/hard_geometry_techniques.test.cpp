@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "detp/sim/technique/disc_index.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/hard_geometry.hpp"
 
@@ -58,6 +59,10 @@ const Candidate brute{Technique::brute_force, BruteForceParameters{}};
 const std::vector<Candidate>& culling_candidates() {
   static const std::vector<Candidate> list{{Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
                                            {Technique::sphere_cache, SphereCacheParameters{0.9, 1000}},
+                                           {Technique::cell_spheres, CellSpheresParameters{2}},
+                                           {Technique::cell_spheres, CellSpheresParameters{6}},
+                                           {Technique::sphere_tree, SphereTreeParameters{2, 1}},
+                                           {Technique::sphere_tree, SphereTreeParameters{8, 4}},
                                            {Technique::octree, OctreeParameters{3}},
                                            {Technique::octree, OctreeParameters{5}},
                                            {Technique::grid, GridParameters{8}},
@@ -66,8 +71,7 @@ const std::vector<Candidate>& culling_candidates() {
 }
 
 /// Pairs that one technique finds and brute force does not, or the other way round.
-std::size_t differences(const Problem& problem, const Outcome& expected, const Candidate& candidate) {
-  const Outcome outcome = run(problem, candidate, {.pairs = true});
+std::size_t differences(const Outcome& outcome, const Outcome& expected) {
   std::vector<Pair> different;
   std::set_symmetric_difference(expected.pairs.begin(), expected.pairs.end(), outcome.pairs.begin(),
                                 outcome.pairs.end(), std::back_inserter(different));
@@ -85,7 +89,7 @@ void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, 
       const Outcome expected = run(problem, brute, {.pairs = true});
       hits += expected.total_hits;
       for (const Candidate& candidate : culling_candidates()) {
-        const std::size_t different = differences(problem, expected, candidate);
+        const std::size_t different = differences(run(problem, candidate, {.pairs = true}), expected);
         INFO(families[family].name, ", scene ", i, ", ", name(candidate.technique));
         CHECK(different == 0);
         all_different += different;
@@ -138,8 +142,11 @@ TEST_SUITE("identity") {
       const Problem problem = make_problem(scene.rays, scene.discs);
       const Outcome expected = run(problem, brute, {.pairs = true});
       hits += expected.total_hits;
+      const IndexVariant restart{.traversal = Traversal::restart};
+      for (const int depth : {3, 5})
+        CHECK(differences(search_octree(problem, {depth}, restart, {.pairs = true}), expected) == 0);
       for (const Candidate& candidate : culling_candidates())
-        if (candidate.technique != Technique::grid) CHECK(differences(problem, expected, candidate) == 0);
+        CHECK(differences(run(problem, candidate, {.pairs = true}), expected) == 0);
     }
     CHECK(hits > 3000);
   }
