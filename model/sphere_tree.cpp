@@ -10,7 +10,7 @@
 namespace detp::model {
 namespace {
 
-constexpr std::array<double, 7> single_runs{2, 4, 8, 16, 32, 64, 256};
+constexpr std::array<double, 9> single_runs{2, 4, 8, 16, 32, 64, 256, 4096, 65536};
 constexpr std::size_t single_steps = 57;  // of log₂N, each ¼
 constexpr std::size_t nested_fan_outs = 4;
 constexpr std::size_t nested_levels = 4;
@@ -61,7 +61,7 @@ double single_radius(std::size_t dimension, Term term, double run, double log_ru
 
 /// K.
 double nested_growth(std::size_t dimension, Term term, double fan_out, double level, double log_runs) {
-  if (level == 0) return 1;
+  if (level <= 0) return 1;
   return between(std::log2(fan_out) - 1, nested_fan_outs, [&](std::size_t f) {
     return between(std::log2(level), nested_levels, [&](std::size_t l) {
       const std::size_t row = ((2 * (dimension - 2) + term) * nested_fan_outs + f) * nested_levels + l;
@@ -87,17 +87,38 @@ double radius(const Workload& workload, const SphereTreeParameters& parameters, 
   return shape * std::pow(cube / runs, 2 / dimension);
 }
 
-TreeLevel level_of(const Workload& workload, const SphereTreeParameters& parameters, double run, double level) {
+/// Mean square distance of the samples from the centre of their box: in its volume, or on its faces.
+double mean_square_distance(const Workload& workload) {
+  double squares = 0;
+  for (const double side : workload.box) squares += side * side;
+  const double volume = std::clamp(workload.dimension - 2, 0.0, 1.0);
+  return squares * (volume / 12 + (1 - volume) * 5 / 36);
+}
+
+/// P(node) of a sphere of radius r around a run.
+double crossed(const Workload& workload, double run, double r) {
   using std::numbers::pi;
+  if (workload.path_length > 0) return crossing_probability(workload, 4 * pi / 3 * r * r * r, 4 * pi * r * r);
+  const SphereTreeParameters alone;
+  const double around_all = radius(workload, alone, mean_square, workload.samples, 0);
+  const double around_run = radius(workload, alone, mean_square, run, 0);
+  const double inside = around_all > 0 ? std::min(1.0, around_run / around_all) : 1;
+  const double offset = std::sqrt(mean_square_distance(workload) * (1 - inside));
+  const double ratio = r / workload.sphere_radius;
+  return std::min(1.0, ratio * ratio * both_hit_share(workload.sphere_radius, r, offset));
+}
+
+TreeLevel level_of(const Workload& workload, const SphereTreeParameters& parameters, double run, double level) {
   const double d = workload.disc_radius;
-  const double mean = std::sqrt(radius(workload, parameters, square_of_mean, run, level));
   const double square = radius(workload, parameters, mean_square, run, level);
+  // Near the root all spheres are alike, and the tables' last digit must not make their mean the larger.
+  const double mean = std::sqrt(std::min(square, radius(workload, parameters, square_of_mean, run, level)));
   const double r = std::sqrt(square + 2 * d * mean + d * d);
   return {.nodes = std::ceil(workload.samples / run),
           .samples = run,
           .mean_radius = mean + d,
           .rms_radius = r,
-          .rays = workload.rays * crossing_probability(workload, 4 * pi / 3 * r * r * r, 4 * pi * r * r)};
+          .rays = workload.rays * crossed(workload, run, r)};
 }
 
 }  // namespace
@@ -107,11 +128,14 @@ std::vector<TreeLevel> sphere_tree_levels(const Workload& workload, const Sphere
   check(Candidate{Technique::sphere_tree, parameters});
   std::vector<TreeLevel> levels;
   double run = std::min<double>(parameters.leaf, workload.samples);
-  for (double level = 0;; ++level, run = std::min(run * parameters.fan_out, workload.samples)) {
+  // Samples have no extent of their own: spheres around leaves of one are spheres around samples alone.
+  for (double level = parameters.leaf == 1 ? -1 : 0;;
+       ++level, run = std::min(run * parameters.fan_out, workload.samples)) {
     levels.push_back(level_of(workload, parameters, run, level));
     if (run >= workload.samples) break;
   }
   std::reverse(levels.begin(), levels.end());
+  for (std::size_t i = 1; i < levels.size(); ++i) levels[i].rays = std::min(levels[i].rays, levels[i - 1].rays);
   return levels;
 }
 
