@@ -57,17 +57,22 @@ TEST_SUITE("known answer") {
       CHECK(json.at("spheres").back().at("radius").get<double>() >= disc);
       double rebuild_time = 0;
       double listed = rays;
+      double around = rays;  // that cross the sphere around: what is tested lies between it and what is listed
       for (const Json& sphere : json.at("spheres")) {
         const int i = sphere.at("i");
+        const double cost = sphere.at("rebuild_cost");
         CHECK(sphere.at("rays").get<double>() == near(rays * std::pow(ratio, 2 * i)));
-        CHECK(sphere.at("rebuild_cost").get<double>() == near(3 * listed));
+        CHECK(cost >= 3 * listed * (1 - 1e-12));
+        CHECK(cost <= 3 * around * (1 + 1e-12));
         CHECK(sphere.at("rebuilds").get<double>() <= samples * (1 + 1e-12));
-        rebuild_time += sphere.at("rebuilds").get<double>() * sphere.at("rebuild_cost").get<double>();
+        rebuild_time += sphere.at("rebuilds").get<double>() * cost;
         listed = sphere.at("listed");
-        CHECK(listed <= sphere.at("rays").get<double>() * (1 + 1e-12));
+        around = sphere.at("rays");
+        CHECK(listed <= around * (1 + 1e-12));
       }
       CHECK(json.at("rebuild_time").get<double>() == Approx(rebuild_time).epsilon(1e-9));
-      CHECK(json.at("intersect_time").get<double>() == near(5 * samples * listed));
+      CHECK(json.at("intersect_time").get<double>() >= 5 * samples * listed * (1 - 1e-12));
+      CHECK(json.at("intersect_time").get<double>() <= 5 * samples * around * (1 + 1e-12));
       CHECK(json.at("total_time").get<double>() ==
             near(json.at("rebuild_time").get<double>() + json.at("intersect_time").get<double>()));
     }
