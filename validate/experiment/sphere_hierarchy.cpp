@@ -42,11 +42,10 @@ Subject cell_spheres(const Workload& workload) {
 Subject sphere_tree() {
   Subject subject{"sphere-tree",
                   {},
-                  "geometric mean over 4, 8 children a node and 8, 16 samples a leaf",
+                  "geometric mean over 8 children a node, 8 samples a leaf and 4 and 16",
                   "tabulated spheres of runs, our derivation"};
-  for (const int fan_out : {4, 8})
-    for (const int leaf : {8, 16})
-      subject.candidates.push_back({Technique::sphere_tree, SphereTreeParameters{fan_out, leaf}});
+  for (const auto& parameters : {SphereTreeParameters{8, 8}, SphereTreeParameters{4, 16}})
+    subject.candidates.push_back({Technique::sphere_tree, parameters});
   return subject;
 }
 
