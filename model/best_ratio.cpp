@@ -4,126 +4,213 @@
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
-#include <stdexcept>
+#include <queue>
+#include <vector>
 
-#include "predict.hpp"
-#include "sphere_cache_published.hpp"
+#include "sphere_cache.hpp"
 #include "sphere_count.hpp"
+#include "step_pieces.hpp"
 
 namespace detp::model {
 namespace {
 
-constexpr double least_ratio = 0.02;
-constexpr double most_ratio = 0.98;
+/// T of the sphere cache at one Q for all stops, in one pass from the outside in.
+class Times {
+ public:
+  Times(const Workload& workload, const UnitCosts& costs) : workload_(workload), costs_(costs) { check(costs); }
 
-double corrected_time(const Workload& workload, const UnitCosts& costs, double ratio, std::int64_t k) {
-  return price(predict(workload, {Technique::sphere_cache, SphereCacheParameters{ratio, k, SampleOrder::lebesgue}}),
-               costs)
-      .total();
+  /// T with k spheres.
+  [[nodiscard]] double at(double ratio, std::int64_t k) const {
+    double time = 0;
+    pass(ratio, k, [&](std::int64_t, double with_discs, double) {
+      time = with_discs;
+      return true;
+    });
+    return time;
+  }
+
+  /// The fastest of the stops 1 … last; spheres = 0 if last = 0. Gives up where the spheres alone take longer than
+  /// `enough`: what it returns is then slower than that.
+  [[nodiscard]] BestRatio best_stop(double ratio, std::int64_t last, double enough) const {
+    BestRatio best{ratio, 0, 0};
+    if (last >= 1)
+      pass(ratio, last, [&](std::int64_t i, double with_discs, double spheres) {
+        if (best.spheres == 0 || with_discs < best.time) best = {ratio, i, with_discs};
+        return spheres < std::min(enough, best.time);
+      });
+    return best;
+  }
+
+ private:
+  /// Calls visit(i, T with i spheres, the same without testing discs) until it returns false.
+  template <class Visit>
+  void pass(double ratio, std::int64_t last, const Visit& visit) const {
+    double spheres = costs_.sort * workload_.samples;
+    for_each_level(workload_, {ratio, last, SampleOrder::lebesgue}, [&](const SphereLevel& level) {
+      spheres += level.rebuilds * (level.tests * costs_.sphere_test + level.listed * costs_.copy + costs_.rebuild);
+      return visit(level.i, spheres + workload_.samples * level.served * costs_.disc_test, spheres);
+    });
+  }
+
+  const Workload& workload_;
+  const UnitCosts& costs_;
+};
+
+/// ln(ln 1/Q): sphere i moves by i steps of ln Q, and spheres down to d take ln(d/r₀)/ln Q, so that T has about as many
+/// ups and downs in each unit of it.
+double place_of(double ratio) { return std::log(-std::log(ratio)); }
+
+/// The first ratios of a search, with all steps Q_j of j <= most_spheres.
+std::vector<double> first_ratios(const StepPieces& pieces, std::int64_t most_spheres) {
+  constexpr int parts = 128;
+  const double from = place_of(least_ratio);
+  const double to = place_of(most_ratio);
+  std::vector<double> ratios;
+  for (int i = 0; i <= parts; ++i) ratios.push_back(std::exp(-std::exp(from + (to - from) * i / parts)));
+  for (std::int64_t j = 1; j <= most_spheres && pieces.above(j) <= most_ratio; ++j)
+    if (pieces.above(j) >= least_ratio) ratios.push_back(pieces.above(j));
+  std::sort(ratios.begin(), ratios.end());
+  return ratios;
 }
 
-double published_time(const Workload& workload, const UnitCosts& costs, double ratio, std::int64_t k) {
-  return published::rebuild_time(workload, {ratio}, k, costs.sphere_test) +
-         published::intersect_time(workload, {ratio}, k, costs.disc_test);
-}
+/// Halves, best first, the intervals that may hold a better ratio, and narrows down the minima that are left.
+class Search {
+ public:
+  /// Stops up to most_spheres are free; 0: `run` is given one.
+  Search(const Times& times, const StepPieces& pieces, std::int64_t most_spheres)
+      : times_(times), pieces_(pieces), most_spheres_(most_spheres) {}
 
-void check_spheres_pay(const Workload& workload) {
-  check(workload);
-  if (workload.disc_radius >= workload.sphere_radius)
-    throw std::invalid_argument("the disc radius must be smaller than the sphere radius, or no sphere pays");
-}
-
-/// The best of a piece [low, high] with k spheres: its ends, and Brent's minimum around the best of a few points, for
-/// the rebuild law goes up and down with log Q.
-template <class Time>
-void improve(BestRatio& best, double low, double high, std::int64_t k, const Time& time) {
-  low = std::max(low, least_ratio);
-  high = std::min(high, most_ratio);
-  if (!(low < high)) return;
-  const auto consider = [&](double ratio) {
-    const double t = time(ratio, k);
-    if (best.spheres == 0 || t < best.time) best = {ratio, k, t};
-    return t;
-  };
-  constexpr int parts = 32;
-  const double part = (high - low) / parts;
-  int least = 0;
-  double least_time = consider(low);
-  for (int i = 1; i <= parts; ++i)
-    if (const double t = consider(i < parts ? low + i * part : high); t < least_time) {
-      least = i;
-      least_time = t;
+  /// The best of evaluate(Q, enough) from the first to the last of the ratios.
+  template <class Evaluate>
+  BestRatio run(const std::vector<double>& ratios, const Evaluate& evaluate) {
+    for (const double ratio : ratios) add(evaluate(ratio, enough()));
+    const std::vector<BestRatio> first = points_;
+    for (std::size_t i = 1; i < first.size(); ++i) split_later(first[i - 1], first[i]);
+    while (!intervals_.empty() && intervals_.top().hope < best_.time) {
+      const Interval interval = intervals_.top();
+      intervals_.pop();
+      const BestRatio middle = evaluate(0.5 * (interval.left.ratio + interval.right.ratio), enough());
+      add(middle);
+      split_later(interval.left, middle);
+      split_later(middle, interval.right);
     }
-  constexpr int bits = std::numeric_limits<double>::digits / 2;
-  std::uintmax_t evaluations = 60;
-  const double left = low + std::max(0, least - 1) * part;
-  const double right = std::min(high, low + (least + 1) * part);
-  consider(boost::math::tools::brent_find_minima([&](double q) { return time(q, k); }, left, right, bits, evaluations)
-               .first);
-}
+    narrow_down();
+    return best_;
+  }
 
-/// The smallest double at or above Q_j for which the corrected k is still j.
-double piece_start(const Workload& workload, std::int64_t j) {
-  const DiscRadius d{workload.disc_radius};
-  const SphereRadius r0{workload.sphere_radius};
-  double q = step_ratio(j, d, r0);
-  while (q < 1 && sphere_count(Form::corrected, {q}, d, r0) < j) q = std::nextafter(q, 1.0);
-  return q;
+ private:
+  struct Interval {
+    BestRatio left;
+    BestRatio right;
+    double hope;  ///< the least T that it may hold
+
+    bool operator<(const Interval& other) const { return hope > other.hope; }
+  };
+
+  /// By how much, relatively, T may fall in a unit of ln(ln 1/Q): seen to suffice, not proved.
+  static constexpr double steepness = 5;
+  static constexpr double narrowest = 1e-3;  ///< in ln(ln 1/Q): the knots of the tables are farther apart
+  static constexpr double next_to = 1.0005;  ///< minima of T that near the best are narrowed down
+
+  [[nodiscard]] double enough() const { return best_.spheres > 0 ? 1.5 * best_.time : HUGE_VAL; }
+
+  void add(const BestRatio& point) {
+    if (point.spheres == 0) return;
+    points_.push_back(point);
+    if (best_.spheres == 0 || point.time < best_.time) best_ = point;
+  }
+
+  void split_later(const BestRatio& left, const BestRatio& right) {
+    const double width = place_of(left.ratio) - place_of(right.ratio);
+    if (width <= narrowest || left.spheres == 0 || right.spheres == 0) return;
+    intervals_.push({left, right, std::min(left.time, right.time) * (1 - steepness * width / 2)});
+  }
+
+  void narrow_down() {
+    std::sort(points_.begin(), points_.end(), [](const BestRatio& a, const BestRatio& b) { return a.ratio < b.ratio; });
+    const std::size_t last = points_.empty() ? 0 : points_.size() - 1;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      const BestRatio& left = points_[i > 0 ? i - 1 : 0];
+      const BestRatio& right = points_[std::min(i + 1, last)];
+      const BestRatio& point = points_[i];
+      if (point.time > next_to * best_.time || left.time < point.time || right.time < point.time) continue;
+      for (const std::int64_t k : stops_around(point)) minimise(std::max(left.ratio, pieces_.above(k)), right.ratio, k);
+    }
+  }
+
+  /// The point's stop, and those beside it that are about as good there; only itself where k is given.
+  [[nodiscard]] std::vector<std::int64_t> stops_around(const BestRatio& point) const {
+    std::vector<std::int64_t> stops{point.spheres};
+    for (const std::int64_t k : {point.spheres - 1, point.spheres + 1})
+      if (k >= 1 && k <= most_spheres_ && times_.at(point.ratio, k) <= next_to * best_.time) stops.push_back(k);
+    return stops;
+  }
+
+  /// Brent's method, in a coordinate from -1 to 1: its tolerance is then 1e-8 of the width, at a kink too.
+  void minimise(double low, double high, std::int64_t k) {
+    if (!(low < high)) return;
+    const auto ratio = [&](double place) { return low + (high - low) * (place + 1) / 2; };
+    std::uintmax_t evaluations = 60;
+    const auto [place, time] = boost::math::tools::brent_find_minima(
+        [&](double y) { return times_.at(ratio(y), k); }, -1.0, 1.0, std::numeric_limits<double>::digits, evaluations);
+    if (time < best_.time) best_ = {ratio(place), k, time};
+  }
+
+  const Times& times_;
+  const StepPieces& pieces_;
+  std::int64_t most_spheres_;
+  std::priority_queue<Interval> intervals_;
+  std::vector<BestRatio> points_;
+  BestRatio best_;
+};
+
+/// The largest k with r_k >= d, at most `most`; Q off the steps, or just above one.
+std::int64_t last_stop(const Workload& workload, double ratio, std::int64_t most) {
+  const double exact = std::log(workload.disc_radius / workload.sphere_radius) / std::log(ratio);
+  return static_cast<std::int64_t>(std::min(static_cast<double>(most), std::floor(exact * (1 + 1e-12))));
 }
 
 }  // namespace
 
-BestRatio best_ratio(Form form, const Workload& workload, const UnitCosts& costs, std::int64_t most_spheres) {
-  check_spheres_pay(workload);
+BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs, std::int64_t most_spheres) {
+  const StepPieces pieces(workload);
   require_count("largest number of spheres", static_cast<double>(most_spheres), 1, 1e18);
-  BestRatio best;
-  const auto time = [&](double q, std::int64_t k) {
-    return form == Form::published ? published_time(workload, costs, q, k) : corrected_time(workload, costs, q, k);
-  };
-  // Corrected: k = j on [Q_j, Q_{j+1}).  Published: k = j on (Q_{j-1}, Q_j].
-  for (std::int64_t j = 1; j <= most_spheres; ++j) {
-    const std::int64_t first = form == Form::published ? j - 1 : j;
-    double low = first == 0 ? least_ratio : piece_start(workload, first);
-    if (form == Form::published && first > 0) low = std::nextafter(low, 1.0);  // past Q_{j-1}, even where it is a tie
-    const double high = std::nextafter(piece_start(workload, first + 1), 0.0);
-    improve(best, low, high, j, time);
-  }
-  return best;
+  const Times times(workload, costs);
+  return Search(times, pieces, most_spheres)
+      .run(first_ratios(pieces, std::min<std::int64_t>(most_spheres, 40)), [&](double ratio, double enough) {
+        return times.best_stop(ratio, last_stop(workload, ratio, most_spheres), enough);
+      });
 }
 
-BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs, std::int64_t most_spheres) {
-  check_spheres_pay(workload);
-  require_count("largest number of spheres", static_cast<double>(most_spheres), 1, 1e18);
+BestRatio good_ratio_and_stop(const Workload& workload, const UnitCosts& costs) {
+  const StepPieces pieces(workload);
+  const Times times(workload, costs);
   BestRatio best;
-  std::int64_t worse = 0;
-  for (std::int64_t k = 1; k <= most_spheres && worse < 6; ++k) {
-    const BestRatio before = best;
-    improve(best, piece_start(workload, k), most_ratio, k,
-            [&](double q, std::int64_t spheres) { return corrected_time(workload, costs, q, spheres); });
-    worse = best.spheres == before.spheres && k > 1 ? worse + 1 : 0;
+  // Chosen one after the other, each to lower the mean square of what is left above the best T.
+  for (const double ratio : {0.575, 0.47, 0.765, 0.425, 0.49, 0.6, 0.455, 0.635}) {
+    const BestRatio stop = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), HUGE_VAL);
+    if (best.spheres == 0 || stop.time < best.time) best = stop;
   }
-  // Long pieces may hide a minimum that the short ones between the steps of k find.
-  const BestRatio down_to_disc = best_ratio(Form::corrected, workload, costs, most_spheres);
-  return down_to_disc.spheres > 0 && down_to_disc.time < best.time ? down_to_disc : best;
+  return best;
 }
 
 BestRatio best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio) {
-  check_spheres_pay(workload);
+  const StepPieces pieces(workload);
   constexpr std::int64_t most = 4096;
   const std::int64_t last = sphere_count(Form::corrected, ratio, {workload.disc_radius}, {workload.sphere_radius});
-  BestRatio best{ratio.value, 1, corrected_time(workload, costs, ratio.value, 1)};
-  for (std::int64_t k = 2; k <= std::min(last, most); ++k)
-    if (const double t = corrected_time(workload, costs, ratio.value, k); t < best.time) best = {ratio.value, k, t};
-  return best;
+  return Times(workload, costs).best_stop(ratio.value, std::clamp<std::int64_t>(last, 1, most), HUGE_VAL);
 }
 
 BestRatio best_ratio_for(const Workload& workload, const UnitCosts& costs, std::int64_t spheres) {
-  check_spheres_pay(workload);
-  BestRatio best;
-  improve(best, piece_start(workload, spheres), most_ratio, spheres,
-          [&](double q, std::int64_t k) { return corrected_time(workload, costs, q, k); });
-  if (best.spheres == 0) best = {most_ratio, spheres, corrected_time(workload, costs, most_ratio, spheres)};
-  return best;
+  const StepPieces pieces(workload);
+  require_count("number of spheres", static_cast<double>(spheres), 1, 1e18);
+  const Times times(workload, costs);
+  std::vector<double> ratios = first_ratios(pieces, 0);
+  std::erase_if(ratios, [&](double ratio) { return ratio <= pieces.above(spheres); });
+  ratios.insert(ratios.begin(), std::min(most_ratio, std::max(least_ratio, pieces.above(spheres))));
+  return Search(times, pieces, 0).run(ratios, [&](double ratio, double) {
+    return BestRatio{ratio, spheres, times.at(ratio, spheres)};
+  });
 }
 
 }  // namespace detp::model

@@ -43,13 +43,11 @@ class Walk {
     current_.rebuilds = rebuilds(outer, spheres);
     current_.listed = std::min(outer.listed, current_.rays * share_listed(outer));
     current_.tests = tests(outer, spheres);
+    current_.served = longer(current_, 0.25 * (1 - std::min(1.0, current_.rebuilds / workload_.samples)));
     return current_;
   }
 
-  /// Tests of a disc: rays listed for the last sphere while it serves, one disc after the other.
-  [[nodiscard]] double disc_tests() const {
-    return longer(current_, 0.25 * (1 - std::min(1.0, current_.rebuilds / workload_.samples)));
-  }
+  [[nodiscard]] const SphereLevel& innermost() const { return current_; }
 
  private:
   /// m_i, `step` spheres inside the last: at each, n - m shrinks by the same share, that of the sphere in the middle.
@@ -57,7 +55,7 @@ class Walk {
     const double n = workload_.samples;
     const double d = workload_.disc_radius;
     if (current_.radius <= d) return n;
-    const double middle = current_.radius * std::exp(-0.5 * (step - 1) * log_ratio_);
+    const double middle = step == 1 ? current_.radius : current_.radius * std::exp(-0.5 * (step - 1) * log_ratio_);
     if (parameters_.order == SampleOrder::none)
       return std::max(outer.rebuilds, single_rebuilds(workload_, middle - d, SampleOrder::none));
     const Ball ball = ball_of(workload_, middle - d);
@@ -74,7 +72,8 @@ class Walk {
 
   /// L_{i-1}, mean over the builds of S_i; `step` spheres inside the last, between its list and the new one.
   [[nodiscard]] double tests(const SphereLevel& outer, double step) const {
-    const double again = std::pow(outer.rebuilds / current_.rebuilds, 1 / step);
+    const double more = outer.rebuilds / current_.rebuilds;
+    const double again = step == 1 ? more : std::pow(more, 1 / step);
     const double lengthening = 0.6 * again * (1 - again);
     if (step == 1) return longer(outer, lengthening);
     if (!(current_.listed > 0)) return 0;
@@ -137,6 +136,13 @@ std::vector<SphereLevel> sphere_levels(const Workload& workload, const SphereCac
   return levels;
 }
 
+void for_each_level(const Workload& workload, const SphereCacheParameters& parameters,
+                    const std::function<bool(const SphereLevel&)>& visit) {
+  Walk walk(workload, parameters);
+  for (std::int64_t i = 1; i <= parameters.spheres; ++i)
+    if (!visit(walk.to(i, 1))) return;
+}
+
 Counts<double> sphere_cache_counts(const Workload& workload, const SphereCacheParameters& parameters) {
   Walk walk(workload, parameters);
   Counts<double> counts{.sorted = parameters.order == SampleOrder::none ? 0 : workload.samples,
@@ -166,7 +172,7 @@ Counts<double> sphere_cache_counts(const Workload& workload, const SphereCachePa
   const std::int64_t holding = spheres_that_hold(workload, parameters);
   add_groups(0, holding);
   add_groups(holding, k);
-  counts.disc_tests = workload.samples * walk.disc_tests();
+  counts.disc_tests = workload.samples * walk.innermost().served;
   return counts;
 }
 

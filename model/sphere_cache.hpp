@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "vocabulary.hpp"
@@ -33,11 +34,16 @@ struct SphereLevel {
   double listed = 0;    ///< L_i: rays in its list
   double rebuilds = 0;  ///< m_i
   double tests = 0;     ///< ray-sphere tests of one rebuild: L'_{i-1}
+  double served = 0;    ///< L"_i: ray-disc tests of a disc, were S_i the innermost sphere
 };
 
 /// The first `most` of the k spheres. Throws std::invalid_argument for numbers out of range.
 [[nodiscard]] std::vector<SphereLevel> sphere_levels(const Workload& workload, const SphereCacheParameters& parameters,
                                                      std::int64_t most);
+
+/// Calls visit with S_1 … S_k from the outside in, until it returns false.
+void for_each_level(const Workload& workload, const SphereCacheParameters& parameters,
+                    const std::function<bool(const SphereLevel&)>& visit);
 
 /// Expected counts, in bounded time for any k: beyond 4096 spheres they are summed in groups. Over a group s_i w_i/n of
 /// the rebuild law is held, so that n - m_i shrinks by the same factor at each sphere, and so is the ratio of the terms

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "structural_hierarchy.hpp"
 #include "structural_index.hpp"
 #include "structural_walk.hpp"
 
@@ -24,31 +25,18 @@ class RaylessProblem {
   sim::Problem problem_;
 };
 
-/// Rays listed by all builds of each sphere: its builds times the mean length of its list. That length is known at the
-/// builds of the next sphere (or, of the innermost, at the discs it serves), where long lists are read more often: up
-/// to 4 % too many.
-double expected_copies(const ExpectedWalk& walk, double discs) {
-  double copies = 0;
-  for (std::size_t i = 0; i < walk.spheres.size(); ++i) {
-    const bool last = i + 1 == walk.spheres.size();
-    const double tests = last ? walk.disc_tests : walk.spheres[i + 1].tests;
-    const double readings = last ? discs : walk.spheres[i + 1].rebuilds;
-    copies += walk.spheres[i].rebuilds * tests / readings;
-  }
-  return copies;
-}
-
 Counts<double> cache_counts(const sim::Problem& problem, double rays, const SphereCacheParameters& parameters) {
   if (parameters.order != SampleOrder::lebesgue)
-    throw std::logic_error(fmt::format(
+    throw std::invalid_argument(fmt::format(
         "the sphere cache has a structural tier along the Lebesgue curve only (got order {})", name(parameters.order)));
   const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, parameters);
-  const auto discs = static_cast<double>(problem.discs.size());
   Counts<double> counts{.sphere_tests = rays * walk.sphere_tests,
                         .disc_tests = rays * walk.disc_tests,
-                        .copies = rays * expected_copies(walk, discs),
-                        .sorted = discs};
-  for (const ExpectedSphere& sphere : walk.spheres) counts.rebuilds += sphere.rebuilds;
+                        .sorted = static_cast<double>(problem.discs.size())};
+  for (const ExpectedSphere& sphere : walk.spheres) {
+    counts.rebuilds += sphere.rebuilds;
+    counts.copies += rays * sphere.listed;
+  }
   return counts;
 }
 
@@ -65,12 +53,16 @@ Counts<double> technique_counts(const sim::Problem& problem, double rays, const 
       return {.disc_tests = rays * static_cast<double>(problem.discs.size())};
     case Technique::sphere_cache:
       return cache_counts(problem, rays, std::get<SphereCacheParameters>(candidate.parameters));
+    case Technique::cell_spheres:
+    case Technique::sphere_tree:
+      return structural_hierarchy_counts(problem, rays, candidate);
     case Technique::octree:
     case Technique::grid:
       return structural_index_counts(problem, rays, candidate);
-    default:
-      throw std::logic_error(fmt::format("{} has no structural tier", name(candidate.technique)));
+    case Technique::sphere_cache_published:
+      throw std::invalid_argument("sphere-cache-published has no structural tier: its walk loses rays");
   }
+  throw std::logic_error("a technique without a structural tier");
 }
 
 }  // namespace

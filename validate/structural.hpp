@@ -11,6 +11,7 @@ namespace detp::validate {
 ///
 ///     octree, grid    built, and its nodes' surface areas summed (structural_index.hpp)
 ///     sphere cache    walked along the sorted samples (structural_walk.hpp)
+///     hierarchies     built, and their spheres' surface areas summed (structural_hierarchy.hpp)
 ///     brute force     n_R n_P tests
 ///     hits            n_R Σ d²/(2 r₀²)
 ///
@@ -23,8 +24,8 @@ namespace detp::validate {
 ///            in them: nodes 0.2, 0.7 %; steps 0.3, 0.5 %; disc tests of an index 0.5, 1.4 %, of the cache 0.5, 1.6 %;
 ///            sphere tests 0.3, 1.0 %; copies, too many, 1.9, 3.8 %.
 /// Throws     std::invalid_argument for no discs, malformed ones, a number of rays or parameters out of range;
-///            std::length_error where an index would not fit the memory; std::logic_error for a technique that has no
-///            structural tier.
+///            std::length_error where an index would not fit the memory; std::invalid_argument too for
+///            sphere-cache-published, whose walk loses rays, and for a sphere cache in another order.
 [[nodiscard]] Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays,
                                                const Candidate& candidate);
 

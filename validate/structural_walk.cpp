@@ -63,6 +63,7 @@ class Walk {
     const std::size_t lines = expected.rebuilds < 500 ? 64 : 8;
     const double ratio = levels_[i].sphere.radius / levels_[0].sphere.radius;
     levels_[i].listed = ratio * ratio * share_listed(i, lines);
+    expected.listed += levels_[i].listed;
   }
 
   /// Share of the lines through S_i that also cross the spheres around it, S₀ among them (S_i may poke out of it): the

@@ -15,6 +15,7 @@ namespace detp::validate {
 struct ExpectedSphere {
   double rebuilds = 0;  ///< exact: the walk is the technique's own
   double tests = 0;     ///< ray-sphere tests of all its builds, per ray
+  double listed = 0;    ///< rays listed by all its builds, per ray
 };
 
 struct ExpectedWalk {

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "detp/model/best_ratio.hpp"
+#include "detp/model/best_published_ratio.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/model/disc_index_published.hpp"
 #include "detp/model/sphere_count.hpp"
@@ -79,7 +79,7 @@ TEST_SUITE("reference value") {
         return GrowthCase{.technique = technique, .dimension = dimension, .form = Form::published};
       };
       check_growth(asked(Technique::sphere_cache),
-                   [](const Workload& at) { return best_ratio(Form::published, at, costs).time; });
+                   [](const Workload& at) { return published::best_ratio(at, costs).time; });
       check_growth(asked(Technique::octree),
                    [&](const Workload& at) { return published::octree_time(at, depth(at), 1); });
       check_growth(asked(Technique::grid),

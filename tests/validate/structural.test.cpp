@@ -20,6 +20,8 @@ namespace {
 const std::vector<Candidate>& candidates() {
   static const std::vector<Candidate> list{{Technique::brute_force, BruteForceParameters{}},
                                            {Technique::sphere_cache, SphereCacheParameters{0.65, 4}},
+                                           {Technique::cell_spheres, CellSpheresParameters{4}},
+                                           {Technique::sphere_tree, SphereTreeParameters{8, 4}},
                                            {Technique::octree, OctreeParameters{0}},
                                            {Technique::octree, OctreeParameters{4}},
                                            {Technique::octree, OctreeParameters{6}},
@@ -75,10 +77,10 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_AS((void)structural_counts(discs, 10, {Technique::octree, OctreeParameters{-1}}),
                     std::invalid_argument);
     CHECK_THROWS_AS((void)structural_counts(discs, 10, {Technique::sphere_cache_published, SphereCacheParameters{}}),
-                    std::logic_error);
+                    std::invalid_argument);
     CHECK_THROWS_AS(
         (void)structural_counts(discs, 10, {Technique::sphere_cache, SphereCacheParameters{0.5, 2, SampleOrder::none}}),
-        std::logic_error);
+        std::invalid_argument);
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
+#include "detp/model/best_published_ratio.hpp"
 #include "detp/model/best_ratio.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/model/disc_index.hpp"
@@ -73,8 +74,10 @@ void add_choices() {
     w.disc_radius = 0.01 * q;
     return w;
   };
-  add("best_ratio, published", [=](double q) { return best_ratio(Form::published, vary(q), {}).time; });
+  add("published::best_ratio", [=](double q) { return published::best_ratio(vary(q), {}).time; });
   add("best_ratio_and_stop", [=](double q) { return best_ratio_and_stop(vary(q), {}).time; });
+  add("good_ratio_and_stop", [=](double q) { return good_ratio_and_stop(vary(q), {}).time; });
+  add("best_stop, Q = 0.65", [=](double q) { return best_stop(vary(q), {}, {0.65}).time; });
   add("rank all techniques", [=](double q) { return rank(vary(q), {}).size(); });
 }
 

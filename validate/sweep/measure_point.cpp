@@ -12,6 +12,7 @@
 #include "detp/model/sphere_count.hpp"
 #include "detp/sim/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/structural.hpp"
 
 namespace detp::validate {
 namespace {
@@ -146,6 +147,9 @@ bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidat
     if (outcome.stopped) return false;
     all.of_candidates[i].counts.push_back(as_expected(outcome.counts));
     all.of_candidates[i].spheres.push_back(outcome.spheres);
+    if (set < point.structural_sets)
+      all.of_candidates[i].structural.push_back(
+          structural_counts(discs, static_cast<double>(point.lines), candidates[i]));
   }
   return true;
 }

@@ -69,6 +69,12 @@ std::vector<Candidate> sweep_candidates(const SweepPoint& point) {
     candidates.push_back({Technique::grid, GridParameters{1 << levels}});
     if (levels == 1) break;
   }
+  // As many levels as leave some samples to a cell.
+  const int levels = std::clamp(static_cast<int>(std::log2(point.samples) / point.dimension) - 1, 1, 6);
+  candidates.push_back({Technique::cell_spheres, CellSpheresParameters{levels}});
+  candidates.push_back({Technique::cell_spheres, CellSpheresParameters{std::max(1, levels - 2)}});
+  candidates.push_back({Technique::sphere_tree, SphereTreeParameters{4, 4}});
+  candidates.push_back({Technique::sphere_tree, SphereTreeParameters{8, 16}});
   return candidates;
 }
 

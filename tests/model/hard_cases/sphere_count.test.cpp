@@ -100,7 +100,8 @@ TEST_SUITE("reference value") {
 TEST_SUITE("known answer") {
   TEST_CASE("discs as large as S0 or larger: no sphere pays, and choose gives brute force") {
     for (const double share : {1.0, 1 + 0x1p-52, 7.0}) {
-      const Workload w{.rays = 1e6, .samples = 1e6, .disc_radius = share, .sphere_radius = 1, .box = {1, 1, 1}};
+      const Workload w{
+          .rays = 1e6, .samples = 1e6, .disc_radius = share, .sphere_radius = 1, .box = {1e-3, 1e-3, 1e-3}};
       const UnitCosts costs{.sphere_test = 1, .disc_test = 1, .step = 1, .node = 1, .placement = 1};
       CHECK(!model::best_of(Technique::sphere_cache, w, costs));
       CHECK(model::rank(w, costs).front().candidate.technique == Technique::brute_force);
