@@ -22,8 +22,10 @@ class Fastest {
   Fastest(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits)
       : workload_(workload), costs_(costs), limits_(limits) {}
 
-  void consider(const Candidate& candidate) {
-    const Ranked ranked = assess(workload_, candidate, costs_);
+  void consider(const Candidate& candidate) { consider(candidate, predict(workload_, candidate)); }
+
+  void consider(const Candidate& candidate, const Counts<double>& counts) {
+    const Ranked ranked{candidate, counts, price(counts, costs_)};
     if (ranked.counts.references > limits_.most_references) return;
     if (!best_ || ranked.time.total() < best_->time.total()) best_ = ranked;
   }
@@ -53,8 +55,9 @@ std::optional<Ranked> best_cells(const Workload& workload, const UnitCosts& cost
 
 std::optional<Ranked> best_octree(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
   Fastest fastest(workload, costs, limits);
-  for (int depth = 0; depth <= limits.most_depth; ++depth)
-    fastest.consider({Technique::octree, OctreeParameters{depth}});
+  int depth = 0;
+  for (const Counts<double>& counts : octree_counts_by_depth(workload, limits.most_depth))
+    fastest.consider({Technique::octree, OctreeParameters{depth++}}, counts);
   return fastest.best();
 }
 
@@ -69,6 +72,7 @@ std::optional<Ranked> best_grid(const Workload& workload, const UnitCosts& costs
 }  // namespace
 
 Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCosts& costs) {
+  check(costs);
   const Counts<double> counts = predict(workload, candidate);
   return {candidate, counts, price(counts, costs)};
 }

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "vocabulary/checks.hpp"
+#include "vocabulary/saturated.hpp"
 
 namespace detp::model {
 namespace {
@@ -171,7 +172,7 @@ class Collector {
 
 double overlapped_cells(double x) {
   require_non_negative("disc radius over cell side", x);
-  return 1 + 1.5 * pi * x * (1 + x);
+  return saturated(1 + 1.5L * pi * x * (1 + static_cast<long double>(x)));
 }
 
 double boxed_cells(double x) {

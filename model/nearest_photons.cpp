@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <stdexcept>
 
@@ -10,12 +9,6 @@ namespace detp::model {
 namespace {
 
 constexpr long double pi = std::numbers::pi_v<long double>;
-
-/// The largest double where the value lies beyond it.
-double within_doubles(long double value) {
-  constexpr long double largest = std::numeric_limits<double>::max();
-  return static_cast<double>(std::clamp(value, -largest, largest));
-}
 
 void check(const SmoothDensity& density, double photons) {
   require_positive("density", density.value);
@@ -41,15 +34,15 @@ DensityError nearest_photons_error(const SmoothDensity& density, double photons,
   const long double n = photons;
   const long double k = nearest;
   const long double f = density.value;
-  return {.variance = within_doubles(f * f * (n - k + 1) / n / (k - 2)),
-          .bias = within_doubles((k - 1) / (8 * pi * n) * (density.laplacian / f))};
+  return {.variance = saturated(f * f * (n - k + 1) / n / (k - 2)),
+          .bias = saturated((k - 1) / (8 * pi * n) * (density.laplacian / f))};
 }
 
 DensityError plain_nearest_photons_error(const SmoothDensity& density, double photons, double nearest) {
   const DensityError unbiased = nearest_photons_error(density, photons, nearest);
   const long double wider = 1 + 1 / (static_cast<long double>(nearest) - 1);
-  return {.variance = within_doubles(unbiased.variance * wider * wider),
-          .bias = within_doubles(unbiased.bias * wider + density.value * (wider - 1))};
+  return {.variance = saturated(unbiased.variance * wider * wider),
+          .bias = saturated(unbiased.bias * wider + density.value * (wider - 1))};
 }
 
 double best_nearest_photons(const SmoothDensity& density, double photons) {
@@ -73,7 +66,7 @@ double photons_for_nearest_error(const SmoothDensity& density, double relative_e
   const long double f = density.value;
   const long double square = static_cast<long double>(relative_error) * relative_error;
   const long double y = (3 + std::sqrt(9 + 8 * square)) / (4 * square);
-  return within_doubles(std::abs(density.laplacian) / (f * f) * y * std::sqrt(2 * (y + 1)) / (8 * pi));
+  return saturated(std::abs(density.laplacian) / (f * f) * y * std::sqrt(2 * (y + 1)) / (8 * pi));
 }
 
 }  // namespace detp::model

@@ -133,9 +133,11 @@ std::string to_text(const ChooseAnswer& answer) {
   text += fmt::format("paper     its rule takes {} {}: predicted {:.3g} s\n", name(answer.paper.candidate.technique),
                       describe(answer.paper.candidate.parameters), answer.paper.time.total());
   if (answer.analysis) text += regret_line(*answer.analysis);
-  text += fmt::format("rigor     {}: closed forms, in {:.2g} ms; unit costs {}\n", answer.rigor,
-                      1e3 * answer.choosing_seconds,
-                      !answer.costs_given ? "built in, not calibrated on this machine" : "as given");
+  text += fmt::format(
+      "rigor     {}: {}, in {:.2g} ms; unit costs {}\n", answer.rigor,
+      answer.rigor == "structural" ? "parameters by closed forms, counts by the structures built with them"
+                                   : "closed forms",
+      1e3 * answer.choosing_seconds, !answer.costs_given ? "built in, not calibrated on this machine" : "as given");
   return text;
 }
 

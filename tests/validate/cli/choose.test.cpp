@@ -24,6 +24,26 @@ void check_ranked(const Json& json) {
 }  // namespace
 
 TEST_SUITE("end to end") {
+  TEST_CASE("the structural tier ranks by the structures themselves, on isotropic lines only") {
+    const std::string uniform = "choose @uniform --samples 2000 --rays 20000 --disc-radius 2% --format json";
+    const Json estimate = detp(uniform).json();
+    const Finished finished = detp(uniform + " --rigor structural --analyze");
+    CHECK(finished.code == 0);
+    const Json structural = finished.json();
+    CHECK(structural.at("rigor") == "structural");
+    CHECK(structural.at("candidates").size() == estimate.at("candidates").size());
+    double last = 0;
+    for (const Json& candidate : structural.at("candidates")) {
+      CHECK(candidate.at("predicted_seconds").get<double>() >= last);
+      last = candidate.at("predicted_seconds").get<double>();
+      if (!candidate.contains("counted")) continue;
+      const auto predicted = candidate.at("predicted").at("disc_tests").get<double>();
+      CHECK(predicted == doctest::Approx(candidate.at("counted").at("disc_tests").get<double>()).epsilon(0.05));
+      CHECK(candidate.at("predicted").at("references") == candidate.at("counted").at("references"));
+    }
+    check_refused({{"choose @tree --rays 1000 --rigor structural", "--field isotropic"}});
+  }
+
   TEST_CASE("numbers alone are answered at once, ranked by predicted time") {
     for (const std::string workload :
          {"--rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2", "--rays 1 --samples 1 --disc-radius 1e-3",
