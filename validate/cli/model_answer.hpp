@@ -1,0 +1,32 @@
+#pragma once
+
+#include "command.hpp"
+#include "detp/model/form.hpp"
+#include "workload_options.hpp"
+
+/// What the closed forms say of each technique, as the `model` command shows it.
+namespace detp::cli {
+
+/// A resolved question to the closed forms.
+struct ModelQuestion {
+  Workload workload;
+  Technique technique;
+  model::Form form;
+  UnitCosts costs;
+  std::int64_t levels;
+  const CandidateOptions& options;
+};
+
+[[nodiscard]] Json sphere_cache_answer(const ModelQuestion& question);
+
+/// Levels left out are the best at the unit costs; so are fan-out and leaf.
+[[nodiscard]] Json cell_spheres_answer(const ModelQuestion& question);
+[[nodiscard]] Json sphere_tree_answer(const ModelQuestion& question);
+
+[[nodiscard]] Json octree_answer(const ModelQuestion& question);
+[[nodiscard]] Json grid_answer(const ModelQuestion& question);
+
+/// Throws std::invalid_argument where the published form is asked for and the paper has none.
+void refuse_published(const ModelQuestion& question);
+
+}  // namespace detp::cli

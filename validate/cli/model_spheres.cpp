@@ -1,0 +1,151 @@
+#include <algorithm>
+
+#include "detp/model/best_ratio.hpp"
+#include "detp/model/cell_spheres.hpp"
+#include "detp/model/choose.hpp"
+#include "detp/model/predict.hpp"
+#include "detp/model/sphere_cache.hpp"
+#include "detp/model/sphere_cache_published.hpp"
+#include "detp/model/sphere_count.hpp"
+#include "detp/model/sphere_tree.hpp"
+#include "model_answer.hpp"
+
+namespace detp::cli {
+namespace {
+
+using model::Form;
+
+SphereCacheParameters cache_parameters(const ModelQuestion& question) {
+  SphereCacheParameters parameters{question.options.ratio.value_or(model::published_ratio), 0,
+                                   question.options.sample_order()};
+  parameters.spheres = model::sphere_count(question.form, {parameters.ratio}, {question.workload.disc_radius},
+                                           {question.workload.sphere_radius});
+  if (question.options.spheres) {
+    require_count("number of spheres", static_cast<double>(*question.options.spheres), 0, 1e18);
+    parameters.spheres = *question.options.spheres;
+  }
+  return parameters;
+}
+
+Json published_levels(const ModelQuestion& question, const SphereCacheParameters& parameters) {
+  Json levels = Json::array();
+  const bool sorted = parameters.order == SampleOrder::lebesgue;
+  for (std::int64_t i = 1; i <= std::min(question.levels, parameters.spheres); ++i)
+    levels.push_back(
+        {{"i", i},
+         {"radius", question.workload.sphere_radius * std::pow(parameters.ratio, static_cast<double>(i))},
+         {"rays", model::published::rays_in_sphere(question.workload.rays, {parameters.ratio}, i)},
+         {"rebuilds", sorted ? model::published::rebuilds({parameters.ratio}, i) : question.workload.samples},
+         {"rebuild_cost",
+          model::published::rebuild_cost(question.workload.rays, {parameters.ratio}, i, question.costs.sphere_test)}});
+  return levels;
+}
+
+Json published_cache(const ModelQuestion& question, const SphereCacheParameters& parameters) {
+  Json json{{"spheres", published_levels(question, parameters)}};
+  if (parameters.order == SampleOrder::none) {
+    json["total_time"] = model::published::unsorted_time(question.workload, question.costs.disc_test);
+    return json;
+  }
+  const double rebuild = model::published::rebuild_time(question.workload, {parameters.ratio}, parameters.spheres,
+                                                        question.costs.sphere_test);
+  const double intersect = model::published::intersect_time(question.workload, {parameters.ratio}, parameters.spheres,
+                                                            question.costs.disc_test);
+  json["rebuild_time"] = rebuild;
+  json["intersect_time"] = intersect;
+  json["total_time"] = rebuild + intersect;
+  json["rebuild_time_few_samples"] =
+      model::published::rebuild_time_few_samples(question.workload, {parameters.ratio}, question.costs.sphere_test);
+  return json;
+}
+
+Json corrected_levels(const ModelQuestion& question, const SphereCacheParameters& parameters) {
+  Json levels = Json::array();
+  if (parameters.spheres == 0) return levels;
+  for (const model::SphereLevel& level : model::sphere_levels(question.workload, parameters, question.levels))
+    levels.push_back({{"i", level.i},
+                      {"radius", level.radius},
+                      {"rays", level.rays},
+                      {"listed", level.listed},
+                      {"rebuilds", level.rebuilds},
+                      {"rebuild_cost", question.costs.sphere_test * level.tests}});
+  return levels;
+}
+
+Json corrected_cache(const ModelQuestion& question, const SphereCacheParameters& parameters) {
+  const Candidate candidate = parameters.spheres == 0 ? Candidate{Technique::brute_force, BruteForceParameters{}}
+                                                      : Candidate{Technique::sphere_cache, parameters};
+  const Counts<double> counts = model::predict(question.workload, candidate);
+  const CostBreakdown time = price(counts, question.costs);
+  return {{"spheres", corrected_levels(question, parameters)},
+          {"rebuild_time", time.rebuild},
+          {"intersect_time", time.intersect},
+          {"copy_time", time.copy},
+          {"order_time", time.order},
+          {"total_time", time.total()},
+          {"counts", to_json(counts)}};
+}
+
+/// Parameters, time by part and counts, after the levels.
+Json with_spheres(const ModelQuestion& question, const Parameters& parameters, Json levels) {
+  const Counts<double> counts = model::predict(question.workload, {question.technique, parameters});
+  const CostBreakdown time = price(counts, question.costs);
+  return {{"parameters", to_json(parameters)}, {"form", name(question.form)},      {"spheres", std::move(levels)},
+          {"rebuild_time", time.rebuild},      {"intersect_time", time.intersect}, {"copy_time", time.copy},
+          {"order_time", time.order},          {"total_time", time.total()},       {"counts", to_json(counts)}};
+}
+
+}  // namespace
+
+Json sphere_cache_answer(const ModelQuestion& question) {
+  const SphereCacheParameters parameters = cache_parameters(question);
+  Json json{{"parameters", to_json(Parameters{parameters})}, {"form", name(question.form)}, {"k", parameters.spheres}};
+  json.update(question.form == Form::published ? published_cache(question, parameters)
+                                               : corrected_cache(question, parameters));
+  return json;
+}
+
+Json cell_spheres_answer(const ModelQuestion& question) {
+  refuse_published(question);
+  const Workload& w = question.workload;
+  const auto best = [&] {
+    return std::get<CellSpheresParameters>(
+        model::best_of(Technique::cell_spheres, w, question.costs)->candidate.parameters);
+  };
+  const CellSpheresParameters parameters =
+      question.options.depth ? CellSpheresParameters{*question.options.depth} : best();
+  check(Candidate{Technique::cell_spheres, parameters});
+  Json levels = Json::array();
+  double around = w.rays;
+  for (int i = 1; i <= std::min<std::int64_t>(question.levels, parameters.depth); ++i) {
+    const double rays = model::rays_in_cell_sphere(w, i);
+    levels.push_back({{"i", i},
+                      {"radius", model::cell_sphere_radius(w, i)},
+                      {"rays", rays},
+                      {"rebuilds", model::occupied_cell_spheres(w, i)},
+                      {"rebuild_cost", question.costs.sphere_test * around}});
+    around = rays;
+  }
+  return with_spheres(question, parameters, std::move(levels));
+}
+
+Json sphere_tree_answer(const ModelQuestion& question) {
+  refuse_published(question);
+  const SphereTreeParameters parameters =
+      model::best_sphere_tree(question.workload, question.costs, question.options.fan_out, question.options.leaf);
+  Json levels = Json::array();
+  double around = question.workload.rays;
+  for (const model::TreeLevel& level : model::sphere_tree_levels(question.workload, parameters)) {
+    if (static_cast<std::int64_t>(levels.size()) == question.levels) break;
+    levels.push_back({{"i", levels.size()},
+                      {"radius", level.rms_radius},
+                      {"rays", level.rays},
+                      {"rebuilds", level.nodes},
+                      {"rebuild_cost", question.costs.sphere_test * around},
+                      {"samples", level.samples}});
+    around = level.rays;
+  }
+  return with_spheres(question, parameters, std::move(levels));
+}
+
+}  // namespace detp::cli
