@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "detp/model/disc_index_published.hpp"
+#include "detp/model/predict.hpp"
 #include "detp/model/sphere_count.hpp"
 #include "detp/sim/uniform_discs.hpp"
 
@@ -25,8 +26,44 @@ struct Amount {
   int structural_sets;
 };
 
-constexpr std::array amounts{Amount{1e7, 2, 2500, 0}, Amount{1e6, 6, 2000, 0}, Amount{1e5, 32, 500, 4},
-                             Amount{1e4, 96, 300, 16}, Amount{1e3, 256, 250, 64}};
+constexpr std::array amounts{Amount{1e7, 2, 1500, 0}, Amount{1e6, 4, 2000, 0}, Amount{1e5, 16, 500, 2},
+                             Amount{1e4, 64, 300, 8}, Amount{1e3, 256, 250, 32}};
+
+/// More tests than that, on one set, take too long: such a candidate is hopeless anyway.
+constexpr double most_tests = 1e9;
+
+std::vector<Candidate> caches(const SweepPoint& point) {
+  std::vector<Candidate> candidates;
+  const Workload workload = point.workload();
+  for (const double ratio : ratios) {
+    const std::int64_t k =
+        model::sphere_count(model::Form::corrected, {ratio}, {workload.disc_radius}, {workload.sphere_radius});
+    candidates.push_back({Technique::sphere_cache, SphereCacheParameters{ratio, std::max<std::int64_t>(k, 1)}});
+  }
+  return candidates;
+}
+
+std::vector<Candidate> indices(const SweepPoint& point) {
+  std::vector<Candidate> candidates;
+  const Workload workload = point.workload();
+  const int published = model::published::octree_depth({workload.disc_radius}, scene_side(workload));
+  const int depth = std::clamp(published, 1, 7);
+  for (const int levels : {depth, depth - 2}) {
+    if (levels < 1) break;
+    candidates.push_back({Technique::octree, OctreeParameters{levels}});
+    candidates.push_back({Technique::grid, GridParameters{1 << levels}});
+  }
+  return candidates;
+}
+
+/// Cells down to as many levels as leave some samples to a cell.
+std::vector<Candidate> hierarchies(const SweepPoint& point) {
+  const int levels = std::clamp(static_cast<int>(std::log2(point.samples) / point.dimension) - 1, 1, 6);
+  return {{Technique::cell_spheres, CellSpheresParameters{levels}},
+          {Technique::cell_spheres, CellSpheresParameters{std::max(1, levels - 2)}},
+          {Technique::sphere_tree, SphereTreeParameters{4, 4}},
+          {Technique::sphere_tree, SphereTreeParameters{8, 16}}};
+}
 
 }  // namespace
 
@@ -54,27 +91,13 @@ std::vector<SweepPoint> sweep_points() {
 }
 
 std::vector<Candidate> sweep_candidates(const SweepPoint& point) {
-  std::vector<Candidate> candidates;
-  const Workload workload = point.workload();
-  for (const double ratio : ratios) {
-    const std::int64_t k =
-        model::sphere_count(model::Form::corrected, {ratio}, {workload.disc_radius}, {workload.sphere_radius});
-    candidates.push_back({Technique::sphere_cache, SphereCacheParameters{ratio, std::max<std::int64_t>(k, 1)}});
-  }
-  const int published = model::published::octree_depth({workload.disc_radius}, scene_side(workload));
-  const int depth = std::clamp(published, 1, 7);
-  for (const int less : {0, 2}) {
-    const int levels = std::max(1, depth - less);
-    candidates.push_back({Technique::octree, OctreeParameters{levels}});
-    candidates.push_back({Technique::grid, GridParameters{1 << levels}});
-    if (levels == 1) break;
-  }
-  // As many levels as leave some samples to a cell.
-  const int levels = std::clamp(static_cast<int>(std::log2(point.samples) / point.dimension) - 1, 1, 6);
-  candidates.push_back({Technique::cell_spheres, CellSpheresParameters{levels}});
-  candidates.push_back({Technique::cell_spheres, CellSpheresParameters{std::max(1, levels - 2)}});
-  candidates.push_back({Technique::sphere_tree, SphereTreeParameters{4, 4}});
-  candidates.push_back({Technique::sphere_tree, SphereTreeParameters{8, 16}});
+  std::vector<Candidate> candidates = caches(point);
+  for (const auto& others : {indices(point), hierarchies(point)})
+    candidates.insert(candidates.end(), others.begin(), others.end());
+  std::erase_if(candidates, [&](const Candidate& candidate) {
+    const Counts<double> counts = model::predict(point.workload(), candidate);
+    return tests(counts) + counts.nodes + counts.steps > most_tests;
+  });
   return candidates;
 }
 

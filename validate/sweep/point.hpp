@@ -35,7 +35,8 @@ struct SweepPoint {
 /// n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3; the largest first, so that two cores end together.
 [[nodiscard]] std::vector<SweepPoint> sweep_points();
 
-/// What is run on a point: sphere caches at five Q, indices and hierarchies at two resolutions.
+/// What is run on a point: sphere caches at five Q, indices and hierarchies at two resolutions, but for
+/// those of more than 10⁹ tests on one set.
 [[nodiscard]] std::vector<Candidate> sweep_candidates(const SweepPoint& point);
 
 }  // namespace detp::validate
