@@ -79,11 +79,16 @@ void search_index(const Index& index, const Problem& problem, bool mailboxing, c
   return {box.low - largest, box.high + largest};
 }
 
-/// What the cells of an index fill: 2 slack beyond the discs, so that a ray along an outer face, or just outside it,
-/// is still among the cells when it passes the discs that touch that face (sim/README.md, "The culls").
+/// What the cells of an index fill: over 2 slack beyond the discs, so that a ray along an outer face, or just outside
+/// it, is still among the cells when it passes the discs that touch that face (sim/README.md, "The culls").
+///
+/// Discs of man-made scenes lie just where the box is halved or quartered. The planes there move by a part of the
+/// margin that depends on their place; were it one slack for any j/N of small N, rounding would tell which cells they
+/// overlap.
 [[nodiscard]] inline Box index_box(const Problem& problem) {
+  constexpr double slacks = 2.618;
   const Box box = index_box(problem.discs);
-  return {box.low - 2 * problem.slack, box.high + 2 * problem.slack};
+  return {box.low - slacks * problem.slack, box.high + slacks * problem.slack};
 }
 
 }  // namespace detp::sim

@@ -108,6 +108,7 @@ TEST_SUITE("statistical") {
         CHECK(std::abs(of_structure / of_run - 1) < 0.02);
         CHECK_MESSAGE(std::abs(1.04 * of_structure / of_run - 1) > 0.02, "4 % off must show");
       };
+      CHECK(expected.references == counted.references);
       check(expected.disc_tests, counted.disc_tests);
       check(expected.hits, counted.hits);
       if (counted.nodes > 0) check(expected.nodes, counted.nodes);

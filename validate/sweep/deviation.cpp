@@ -42,7 +42,6 @@ void fill(DeviationSummary& summary, std::span<const Deviation> deviations) {
 }  // namespace
 
 Goal goal_of(const Deviation& deviation) {
-  if (deviation.tier == "structural") return {0.02, 0.02};
   if (deviation.quantity == "L_i") return {0.02, 0.02};
   if (deviation.technique == "sphere-cache") return {0.10, 0.04};
   return {0.03, 0.03};

@@ -19,7 +19,7 @@ struct Deviation {
   std::string parameters;   ///< "Q 0.65, k 9"
   std::string quantity;     ///< a term of Counts for the whole run, or "m_i" or "L_i" of one sphere
   std::int64_t sphere = 0;  ///< i; 0: the whole run
-  std::string tier;         ///< "published" or "corrected" (closed forms), or "structural"
+  std::string tier;         ///< "published" or "corrected"
   double predicted = 0;
   Estimate observed;  ///< mean over sets of samples, and its standard error
 
@@ -50,7 +50,7 @@ struct DeviationSummary {
   [[nodiscard]] bool met() const { return beyond == 0 && median <= goal.median; }
 };
 
-/// The goal of a quantity; the same for all tiers but the structural one.
+/// The goal of a quantity.
 [[nodiscard]] Goal goal_of(const Deviation& deviation);
 
 /// One summary for each technique, quantity and tier, in the order of their first appearance.

@@ -1,8 +1,9 @@
 #include "measure_point.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <numbers>
+#include <numeric>
 #include <optional>
 
 #include "detp/model/disc_index_published.hpp"
@@ -12,7 +13,6 @@
 #include "detp/model/sphere_count.hpp"
 #include "detp/sim/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/structural.hpp"
 
 namespace detp::validate {
 namespace {
@@ -23,7 +23,6 @@ constexpr double least_rebuilds = 30;
 struct Observed {
   std::vector<Counts<double>> counts;
   std::vector<std::vector<sim::SphereCounts>> spheres;
-  std::vector<Counts<double>> structural;  ///< predicted for the first sets
 };
 
 struct Observations {
@@ -61,25 +60,33 @@ class Rows {
 };
 
 /// Terms of one name, over the sets.
-std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_view wanted, std::size_t most) {
+std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_view wanted) {
   std::vector<double> values;
-  for (std::size_t set = 0; set < std::min(most, sets.size()); ++set)
-    for_each_term(sets[set], [&](std::string_view term, double value) {
+  for (const Counts<double>& counts : sets)
+    for_each_term(counts, [&](std::string_view term, double value) {
       if (term == wanted) values.push_back(value);
     });
   return values;
 }
 
-/// Every count of the whole run by one tier's mean prediction, over the sets that it was made for.
-void compare_counts(Rows& rows, std::string_view tier, const std::vector<Counts<double>>& predicted,
+/// A mean over so many events is no surer than if they were independent: two sets may agree by chance.
+Estimate allow_for_few(Estimate estimate, double events) {
+  if (events > 0) estimate.standard_error = std::max(estimate.standard_error, estimate.mean / std::sqrt(events));
+  return estimate;
+}
+
+bool depends_on_lines(std::string_view term) {
+  return term != "rebuilds" && term != "references" && term != "placements";
+}
+
+/// Every count of the whole run.
+void compare_counts(Rows& rows, std::string_view tier, const Counts<double>& predicted,
                     const std::vector<Counts<double>>& counted) {
-  for_each_term(predicted.front(), [&](std::string_view term, double value) {
+  for_each_term(predicted, [&](std::string_view term, double value) {
     if (value == 0 || term == "sorted") return;
-    const std::size_t sets = predicted.size() == 1 ? counted.size() : predicted.size();
-    const std::vector<double> expected = column(predicted, term, sets);
-    double mean = 0;
-    for (const double one : expected) mean += one / static_cast<double>(expected.size());
-    rows.add(term, 0, tier, mean, batch_means(column(counted, term, sets)));
+    Estimate observed = batch_means(column(counted, term));
+    if (depends_on_lines(term)) observed = allow_for_few(observed, observed.mean * static_cast<double>(counted.size()));
+    rows.add(term, 0, tier, value, observed);
   });
 }
 
@@ -118,7 +125,8 @@ void compare_spheres(Rows& rows, const Workload& workload, const SphereCachePara
     rows.add("m_i", index, "corrected", levels[i].rebuilds, m);
     rows.add("m_i", index, "published",
              std::min(workload.samples, model::published::rebuilds({parameters.ratio}, index)), m);
-    rows.add("L_i", index, "corrected", levels[i].listed, batch_ratio(listed, rebuilds));
+    const double events = std::accumulate(listed.begin(), listed.end(), 0.0);
+    rows.add("L_i", index, "corrected", levels[i].listed, allow_for_few(batch_ratio(listed, rebuilds), events));
   }
 }
 
@@ -126,9 +134,8 @@ std::vector<Deviation> compare(const SweepPoint& point, const Workload& workload
                                const Observed& observed) {
   Rows rows(point, candidate);
   if (const auto published = published_counts(workload, candidate))
-    compare_counts(rows, "published", {*published}, observed.counts);
-  compare_counts(rows, "corrected", {model::predict(workload, candidate)}, observed.counts);
-  if (!observed.structural.empty()) compare_counts(rows, "structural", observed.structural, observed.counts);
+    compare_counts(rows, "published", *published, observed.counts);
+  compare_counts(rows, "corrected", model::predict(workload, candidate), observed.counts);
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters))
     compare_spheres(rows, workload, *cache, observed);
   return std::move(rows).give();
@@ -147,9 +154,6 @@ bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidat
     if (outcome.stopped) return false;
     all.of_candidates[i].counts.push_back(as_expected(outcome.counts));
     all.of_candidates[i].spheres.push_back(outcome.spheres);
-    if (set < point.structural_sets)
-      all.of_candidates[i].structural.push_back(
-          structural_counts(discs, static_cast<double>(point.lines), candidates[i]));
   }
   return true;
 }

@@ -15,11 +15,10 @@ namespace detp::validate {
 /// One workload of the sweep, and how much of it is simulated.
 struct SweepPoint {
   int dimension = 3;
-  double samples = 0;       ///< n_P
-  double disc_share = 0;    ///< d/r₀
-  int sets = 0;             ///< independent sets of samples
-  std::size_t lines = 0;    ///< isotropic lines through S₀ for each set
-  int structural_sets = 0;  ///< of them, those on which the structural tier is compared too
+  double samples = 0;     ///< n_P
+  double disc_share = 0;  ///< d/r₀
+  int sets = 0;           ///< independent sets of samples
+  std::size_t lines = 0;  ///< isotropic lines through S₀ for each set
 
   [[nodiscard]] double disc_radius() const;
   [[nodiscard]] Workload workload() const;

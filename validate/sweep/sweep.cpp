@@ -19,8 +19,8 @@ std::uint64_t fingerprint(std::span<const SweepPoint> points) {
   std::uint64_t hash = 14695981039346656037ULL;
   const auto mix = [&hash](double value) { hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211ULL; };
   for (const SweepPoint& point : points) {
-    for (const double part : {double(point.dimension), point.samples, point.disc_share, double(point.sets),
-                              double(point.lines), double(point.structural_sets)})
+    for (const double part :
+         {double(point.dimension), point.samples, point.disc_share, double(point.sets), double(point.lines)})
       mix(part);
     for (const Candidate& candidate : sweep_candidates(point))
       for_each_term(model::predict(point.workload(), candidate), [&](std::string_view, double value) { mix(value); });

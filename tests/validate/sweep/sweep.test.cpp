@@ -15,7 +15,7 @@ using sim::support::ScratchFolder;
 namespace {
 
 /// Two points small enough to be measured in a blink.
-std::vector<SweepPoint> small_points() { return {{3, 300, 0.05, 4, 40, 2}, {2, 200, 0.2, 4, 40, 0}}; }
+std::vector<SweepPoint> small_points() { return {{3, 300, 0.05, 4, 40}, {2, 200, 0.2, 4, 40}}; }
 
 std::vector<double> numbers(const SweepResult& result) {
   std::vector<double> all;
