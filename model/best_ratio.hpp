@@ -32,7 +32,7 @@ struct BestRatio {
 ///
 /// Accuracy   T within 2e-11 of the least on 10 000 ratios, the steps of k and ever finer grids around the best, on 220
 ///            random workloads. No bound below T is proved: how steeply T may fall is taken from what was seen.
-/// Cost       1.3 … 1.5 ms.
+/// Cost       1.2 … 1.5 ms.
 /// Limits     no such Q (d > 0.98 r₀): spheres = 0.
 /// Throws     std::invalid_argument for a workload or costs out of range or d >= r₀: there is no sphere then.
 [[nodiscard]] BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs,
