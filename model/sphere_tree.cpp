@@ -113,7 +113,7 @@ TreeLevel level_of(const Workload& workload, const SphereTreeParameters& paramet
   const double square = radius(workload, parameters, mean_square, run, level);
   // Near the root all spheres are alike, and the tables' last digit must not make their mean the larger.
   const double mean = std::sqrt(std::min(square, radius(workload, parameters, square_of_mean, run, level)));
-  const double r = std::sqrt(square + 2 * d * mean + d * d);
+  const double r = std::max(d, std::sqrt(square + 2 * d * mean + d * d));  // the square of d may be 0
   return {.nodes = std::ceil(workload.samples / run),
           .samples = run,
           .mean_radius = mean + d,
