@@ -7,6 +7,7 @@
 #include "line_measure.hpp"
 #include "listed_rays.hpp"
 #include "rebuild_law.hpp"
+#include "sample_spread.hpp"
 #include "sphere_count.hpp"
 
 namespace detp::model {
@@ -14,14 +15,6 @@ namespace {
 
 constexpr std::size_t remembered = 6;
 constexpr std::int64_t most_groups = 4096;  // of equal ratio
-
-/// √2 times the samples' root mean square distance from the centre of S₀: uniform in a box, or on its faces.
-double sample_reach(const Workload& workload) {
-  double squares = 0;
-  for (const double side : workload.box) squares += side * side;
-  const double volume = std::clamp(workload.dimension - 2, 0.0, 1.0);
-  return std::sqrt(2 * squares * (volume / 12 + (1 - volume) * 5 / 36));
-}
 
 /// Goes through the spheres from the outside in.
 class Walk {
@@ -93,9 +86,9 @@ class Walk {
     if (parameters_.order != SampleOrder::none)
       return listed_share(workload_, current_.radius, -log_ratio_ / std::numbers::ln2);
     const bool outermost = outer.i == 0;
-    around_.insert(around_.begin(),
-                   {outer.radius, outer.rebuilds,
-                    outermost ? sample_reach(workload_) : std::max(0.0, outer.radius - workload_.disc_radius)});
+    around_.insert(around_.begin(), {outer.radius, outer.rebuilds,
+                                     outermost ? std::sqrt(2 * mean_square_distance(workload_))
+                                               : std::max(0.0, outer.radius - workload_.disc_radius)});
     if (around_.size() > remembered) around_.pop_back();
     return unsorted_listed_share(current_.radius, current_.rebuilds, around_);
   }

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "line_measure.hpp"
+#include "sample_spread.hpp"
 
 namespace detp::model {
 namespace {
@@ -85,14 +86,6 @@ double radius(const Workload& workload, const SphereTreeParameters& parameters, 
                            : std::pow(of_dimension(2), 3 - dimension) * std::pow(of_dimension(3), dimension - 2);
   const double cube = sample_extent(workload) / std::pow(6, 3 - dimension);
   return shape * std::pow(cube / runs, 2 / dimension);
-}
-
-/// Mean square distance of the samples from the centre of their box: in its volume, or on its faces.
-double mean_square_distance(const Workload& workload) {
-  double squares = 0;
-  for (const double side : workload.box) squares += side * side;
-  const double volume = std::clamp(workload.dimension - 2, 0.0, 1.0);
-  return squares * (volume / 12 + (1 - volume) * 5 / 36);
 }
 
 /// P(node) of a sphere of radius r around a run.
