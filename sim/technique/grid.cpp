@@ -154,6 +154,7 @@ IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters,
 Outcome search_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
                     const RunOptions& options) {
   check({Technique::grid, parameters});
+  check_options(options, problem);
   Outcome outcome;
   Stopwatch watch;
   const Grid grid(problem, parameters.cells, variant.insertion, options.stop);

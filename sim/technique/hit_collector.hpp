@@ -1,8 +1,8 @@
 #pragma once
 
 #include <algorithm>
-#include <numbers>
 
+#include "detp/sim/dominant_axis.hpp"
 #include "detp/sim/predicates.hpp"
 #include "technique.hpp"
 
@@ -23,12 +23,15 @@ class Tally {
 
 /// Decides by the canonical predicate, and keeps what was hit.
 ///
-/// Every technique must show it the rays of one disc in rising order of their index: then powers are summed in the same
-/// order by all, and irradiance is the same to the last bit.
+/// Every technique must show it the rays of one disc and one dominant axis in rising order of their index: then powers
+/// are summed in the same order by all, and irradiance is the same to the last bit.
 class HitCollector {
  public:
+  /// Borrows the problem, and the options' totals if there are any.
   HitCollector(const Problem& problem, const RunOptions& options)
-      : problem_(problem), keep_pairs_(options.pairs), hits_(problem.discs.size()), power_(problem.discs.size()) {}
+      : problem_(problem), keep_pairs_(options.pairs), shared_(options.totals) {
+    if (totals().empty()) totals().resize(problem.discs.size());
+  }
 
   /// Whether the ray counts as a hit of the disc.
   [[nodiscard]] bool decide(const Ray& ray, const Disc& disc) const {
@@ -36,30 +39,31 @@ class HitCollector {
   }
 
   void keep(std::uint32_t ray, std::uint32_t disc) {
-    ++hits_[disc];
-    power_[disc] += problem_.rays[ray].power;
+    const Ray& kept = problem_.rays[ray];
+    DiscTotals& sums = totals()[disc];
+    ++sums.hits;
+    sums.power[dominant_axis(kept.direction)] += kept.power;
+    ++kept_;
     if (keep_pairs_) pairs_.push_back({ray, disc});
   }
 
-  /// Moves what was found into the outcome: powers become irradiance.
+  /// Moves what was found into the outcome: powers become irradiance, unless the totals are another's.
   void give(Outcome& outcome) && {
-    for (std::size_t i = 0; i < power_.size(); ++i) {
-      const double radius = problem_.discs[i].radius;
-      power_[i] /= std::numbers::pi * radius * radius;
-      outcome.total_hits += hits_[i];
-    }
     std::sort(pairs_.begin(), pairs_.end());
-    outcome.hits = std::move(hits_);
-    outcome.irradiance = std::move(power_);
     outcome.pairs = std::move(pairs_);
-    outcome.counts.hits = outcome.total_hits;
+    outcome.total_hits = kept_;
+    outcome.counts.hits = kept_;
+    if (shared_ == nullptr) finish(own_, problem_.discs, outcome);
   }
 
  private:
+  [[nodiscard]] Totals& totals() { return shared_ == nullptr ? own_ : *shared_; }
+
   const Problem& problem_;
   bool keep_pairs_;
-  std::vector<std::uint64_t> hits_;
-  std::vector<double> power_;
+  Totals* shared_;
+  Totals own_;
+  std::uint64_t kept_ = 0;
   std::vector<Pair> pairs_;
 };
 

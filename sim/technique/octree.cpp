@@ -152,6 +152,7 @@ IndexSize inspect_octree(const Problem& problem, const OctreeParameters& paramet
 Outcome search_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
                       const RunOptions& options) {
   check({Technique::octree, parameters});
+  check_options(options, problem);
   Outcome outcome;
   Stopwatch watch;
   const Octree octree(problem, parameters.depth, variant, options.stop);

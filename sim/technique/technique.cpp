@@ -85,8 +85,25 @@ Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, boo
   return problem;
 }
 
+void check_options(const RunOptions& options, const Problem& problem) {
+  require_count("number of threads", options.threads, 0, 4096);
+  if (options.totals != nullptr && !options.totals->empty() && options.totals->size() != problem.discs.size())
+    throw std::invalid_argument(fmt::format("totals of {} discs cannot go on with {}; give those of the same discs",
+                                            options.totals->size(), problem.discs.size()));
+}
+
+void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome) {
+  outcome.hits.resize(discs.size());
+  outcome.irradiance.resize(discs.size());
+  for (std::size_t disc = 0; disc < discs.size(); ++disc) {
+    outcome.hits[disc] = totals[disc].hits;
+    outcome.irradiance[disc] = irradiance(totals[disc], discs[disc]);
+  }
+}
+
 Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
   check(candidate);
+  check_options(options, problem);
   Outcome outcome;
   switch (candidate.technique) {
     case Technique::brute_force:

@@ -7,6 +7,7 @@
 
 #include "detp/model/vocabulary.hpp"
 #include "detp/sim/geometry.hpp"
+#include "totals.hpp"
 
 /// One question, many techniques: which rays cross which discs? All answers but the published walk's are the same.
 namespace detp::sim {
@@ -53,6 +54,10 @@ struct RunOptions {
   bool count = true;          ///< fill in Outcome::counts; a timing run turns it off and pays nothing for it
   bool pairs = false;         ///< fill in Outcome::pairs
   std::stop_token stop = {};  ///< asked between discs or blocks of rays
+  int threads = 1;            ///< 0: all cores, at most 4096; what is found and counted does not depend on it
+  /// Sums of rays before these: the run adds to them and leaves hits and irradiance to `finish`. If empty, it starts
+  /// them. So blocks of rays run one after another give, bit for bit, what one run over all of them gives.
+  Totals* totals = nullptr;
 };
 
 /// What happened to one sphere of the cache, counted.
@@ -65,7 +70,9 @@ struct SphereCounts {
 /// What a technique found, per disc in the order of the problem's discs.
 struct Outcome {
   std::vector<std::uint64_t> hits;  ///< rays that cross the disc
-  std::vector<double> irradiance;   ///< their power over π d², powers summed in the rays' order
+  /// Their power over π d²: ((x + y) + z) / π d², each of x, y, z the sum, in the rays' order, over the rays of that
+  /// dominant_axis. All exact techniques give the same bits.
+  std::vector<double> irradiance;
   std::uint64_t total_hits = 0;
   Counts<std::uint64_t> counts;       ///< all zero unless asked for (`hits` always holds total_hits)
   std::vector<SphereCounts> spheres;  ///< S₁ … S_k of a sphere cache; empty unless counting
@@ -74,8 +81,12 @@ struct Outcome {
   bool stopped = false;  ///< the stop was asked for: what is here is partial
 };
 
-/// Runs one technique. Throws std::invalid_argument for parameters out of range or not the technique's, and
-/// std::length_error, naming the bytes, where an index would not fit the memory.
+/// Runs one technique. Throws std::invalid_argument for parameters out of range or not the technique's, a number of
+/// threads out of range or totals of other discs, and std::length_error, naming the bytes, where an index would not fit
+/// the memory.
 [[nodiscard]] Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions& options = {});
+
+/// Fills in the outcome's hits and irradiance from totals, one for each disc.
+void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
 
 }  // namespace detp::sim

@@ -20,6 +20,9 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
+/// Throws std::invalid_argument for options that no technique can run with.
+void check_options(const RunOptions& options, const Problem& problem);
+
 /// Every disc against every ray.
 void run_brute_force(const Problem& problem, const RunOptions& options, Outcome& outcome);
 
