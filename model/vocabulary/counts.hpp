@@ -20,6 +20,20 @@ struct Counts {
   T hits{};          ///< (ray, disc) pairs found
 
   bool operator==(const Counts&) const = default;
+
+  constexpr Counts& operator+=(const Counts& more) {
+    sphere_tests += more.sphere_tests;
+    disc_tests += more.disc_tests;
+    steps += more.steps;
+    nodes += more.nodes;
+    copies += more.copies;
+    rebuilds += more.rebuilds;
+    references += more.references;
+    placements += more.placements;
+    sorted += more.sorted;
+    hits += more.hits;
+    return *this;
+  }
 };
 
 /// Calls visit(name, term) for each term, in the order in which results list them.

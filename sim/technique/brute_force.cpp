@@ -1,24 +1,36 @@
 #include "hit_collector.hpp"
+#include "ray_search.hpp"
 #include "techniques.hpp"
 
 namespace detp::sim {
 namespace {
 
+/// A chunk of rays stays in the cache while disc after disc is tested against it.
+template <bool counting>
+class BruteForceSearch final : public RaySearch {
+ public:
+  explicit BruteForceSearch(const Problem& problem) : problem_(problem) {}
+
+  void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
+    for (std::uint32_t d = 0; d < problem_.discs.size(); ++d) {
+      const Disc disc = problem_.discs[d];
+      for (std::uint32_t r = first; r < last; ++r)
+        if (counts_as_hit(problem_, problem_.rays[r], disc)) hits.push_back({r, d});
+    }
+    tally_.add(&Counts<std::uint64_t>::disc_tests, problem_.discs.size() * (last - first));
+  }
+
+  [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
+
+ private:
+  const Problem& problem_;
+  Tally<counting> tally_;
+};
+
 template <bool counting>
 void search(const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  HitCollector collector(problem, options);
-  Tally<counting> tally;
-  const auto discs = static_cast<std::uint32_t>(problem.discs.size());
-  const auto rays = static_cast<std::uint32_t>(problem.rays.size());
-  for (std::uint32_t d = 0; d < discs && !outcome.stopped; ++d) {
-    const Disc disc = problem.discs[d];
-    for (std::uint32_t r = 0; r < rays; ++r)
-      if (collector.decide(problem.rays[r], disc)) collector.keep(r, d);
-    tally.add(&Counts<std::uint64_t>::disc_tests, rays);
-    outcome.stopped = options.stop.stop_requested();
-  }
-  outcome.counts = tally.counts();
-  std::move(collector).give(outcome);
+  search_rays(
+      problem, options, [&] { return std::make_unique<BruteForceSearch<counting>>(problem); }, outcome);
 }
 
 }  // namespace

@@ -21,6 +21,11 @@ class Tally {
   Counts<std::uint64_t> counts_;
 };
 
+/// Whether the ray counts as a hit of the disc: the canonical predicate, and the problem's wish for a face.
+[[nodiscard]] inline bool counts_as_hit(const Problem& problem, const Ray& ray, const Disc& disc) {
+  return hits(ray, disc) && (!problem.front_facing || arrives_in_front(ray, disc));
+}
+
 /// Decides by the canonical predicate, and keeps what was hit.
 ///
 /// Every technique must show it the rays of one disc and one dominant axis in rising order of their index: then powers
@@ -33,10 +38,7 @@ class HitCollector {
     if (totals().empty()) totals().resize(problem.discs.size());
   }
 
-  /// Whether the ray counts as a hit of the disc.
-  [[nodiscard]] bool decide(const Ray& ray, const Disc& disc) const {
-    return hits(ray, disc) && (!problem_.front_facing || arrives_in_front(ray, disc));
-  }
+  [[nodiscard]] bool decide(const Ray& ray, const Disc& disc) const { return counts_as_hit(problem_, ray, disc); }
 
   void keep(std::uint32_t ray, std::uint32_t disc) {
     const Ray& kept = problem_.rays[ray];

@@ -2,16 +2,27 @@
 
 #include "disc_index.hpp"
 #include "hit_collector.hpp"
+#include "ray_search.hpp"
 
 namespace detp::sim {
 
-/// Tests a ray against the discs of the cells it enters. The hit of a disc met in several cells is kept once. Without
-/// mailboxes the disc is tested in each (what is tested again counts again, though the answer is known).
-template <bool counting, bool mailboxing>
-class IndexedSearch {
+/// Traces rays through an index and tests each against the discs of the cells it enters. The hit of a disc met in
+/// several cells is kept once. Without mailboxes the disc is tested in each (what is tested again counts again, though
+/// the answer is known).
+///
+/// An index offers trace(ray, search), which calls visit and test, and size().
+template <bool counting, bool mailboxing, class Index>
+class IndexedSearch final : public RaySearch {
  public:
-  IndexedSearch(const Problem& problem, const RunOptions& options)
-      : problem_(problem), collector_(problem, options), last_ray_(problem.discs.size(), 0) {}
+  IndexedSearch(const Index& index, const Problem& problem)
+      : index_(index), problem_(problem), last_ray_(problem.discs.size(), 0) {}
+
+  void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
+    hits_ = &hits;
+    for (std::uint32_t ray = first; ray < last; ++ray) index_.trace(ray, *this);
+  }
+
+  [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
 
   /// Counts a visit to a cell (steps) or a node (nodes).
   void visit(std::uint64_t Counts<std::uint64_t>::*term) { tally_.add(term); }
@@ -23,40 +34,33 @@ class IndexedSearch {
       const bool seen = last_ray_[disc] == ray + 1;
       if (mailboxing && seen) ++known;
       if (seen) continue;
-      const bool hit = collector_.decide(tested, problem_.discs[disc]);
+      const bool hit = counts_as_hit(problem_, tested, problem_.discs[disc]);
       if (mailboxing || hit) last_ray_[disc] = ray + 1;
-      if (hit) collector_.keep(ray, disc);
+      if (hit) hits_->push_back({ray, disc});
     }
     tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size() - known);
   }
 
-  void give(Outcome& outcome, const IndexSize& size) && {
-    tally_.add(&Counts<std::uint64_t>::references, size.references);
-    tally_.add(&Counts<std::uint64_t>::placements, size.placements);
-    outcome.counts = tally_.counts();
-    std::move(collector_).give(outcome);
-  }
-
  private:
+  const Index& index_;
   const Problem& problem_;
-  HitCollector collector_;
   Tally<counting> tally_;
   std::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray known to hit it or not; 0: none yet
+  std::vector<Pair>* hits_ = nullptr;
 };
 
-/// Traces every ray through an index, asking for a stop between blocks of them. An index offers trace(ray, search) and
-/// size().
 template <bool counting, bool mailboxing, class Index>
 void trace_all(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  constexpr std::uint32_t block = 64;
-  IndexedSearch<counting, mailboxing> search(problem, options);
-  for (std::uint32_t ray = 0; ray < problem.rays.size() && !outcome.stopped; ++ray) {
-    outcome.stopped = ray % block == 0 && options.stop.stop_requested();
-    if (!outcome.stopped) index.trace(ray, search);
+  search_rays(
+      problem, options, [&] { return std::make_unique<IndexedSearch<counting, mailboxing, Index>>(index, problem); },
+      outcome);
+  if constexpr (counting) {
+    outcome.counts.references += index.size().references;
+    outcome.counts.placements += index.size().placements;
   }
-  std::move(search).give(outcome, index.size());
 }
 
+/// Traces every ray through an index.
 template <class Index>
 void search_index(const Index& index, const Problem& problem, bool mailboxing, const RunOptions& options,
                   Outcome& outcome) {

@@ -54,7 +54,9 @@ struct RunOptions {
   bool count = true;          ///< fill in Outcome::counts; a timing run turns it off and pays nothing for it
   bool pairs = false;         ///< fill in Outcome::pairs
   std::stop_token stop = {};  ///< asked between discs or blocks of rays
-  int threads = 1;            ///< 0: all cores, at most 4096; what is found and counted does not depend on it
+  /// 0: all cores; at most 4096. What is found and counted does not depend on it. Techniques that trace rays one by one
+  /// use them all, those that cull lists of rays one.
+  int threads = 1;
   /// Sums of rays before these: the run adds to them and leaves hits and irradiance to `finish`. If empty, it starts
   /// them. So blocks of rays run one after another give, bit for bit, what one run over all of them gives.
   Totals* totals = nullptr;

@@ -12,12 +12,12 @@
 #include <limits>
 #include <new>
 #include <stdexcept>
-#include <thread>
 
 #include "command.hpp"
 #include "detp/model/vocabulary.hpp"
 #include "detp/sim/scene/file_error.hpp"
 #include "detp/sim/scene/output_file.hpp"
+#include "detp/sim/threads.hpp"
 #include "interruption.hpp"
 
 namespace detp::cli {
@@ -74,8 +74,7 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
 }
 
 int run(const Command& command, const CommonOptions& common, Interruption& interruption) {
-  const int cores = static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
-  const int threads = common.threads > 0 ? common.threads : cores;
+  const int threads = sim::thread_count(common.threads);
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads));
   require_non_negative("--time-limit", common.time_limit);

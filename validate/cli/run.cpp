@@ -91,14 +91,14 @@ struct Timing {
 
 /// The timed runs: of the counting one itself, or of `repeat` others that do nothing but find hits; the median of them.
 Timing time_runs(const validate::Job& job, const Candidate& candidate, const sim::Outcome& counted, double prepare,
-                 int repeat, const std::stop_token& stop) {
+                 int repeat, const sim::RunOptions& options) {
   std::vector<Timing> timings{{counted.seconds, prepare, {}}};
   if (repeat > 0) timings.clear();
   for (int i = 0; i < repeat; ++i) {
     const auto start = std::chrono::steady_clock::now();
     const sim::Problem problem = job.problem();
     const double preparing = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const sim::Outcome outcome = sim::run(problem, candidate, {.count = false, .stop = stop});
+    const sim::Outcome outcome = sim::run(problem, candidate, options);
     if (outcome.stopped) break;
     timings.push_back({outcome.seconds, preparing, {}});
   }
@@ -161,8 +161,10 @@ Result run_run(const RunOptions& options, const CommonOptions& common, const std
   const auto start = std::chrono::steady_clock::now();
   const sim::Problem problem = job.problem();
   const double prepare = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const sim::Outcome outcome = sim::run(problem, candidate, {.pairs = options.pairs.has_value(), .stop = stop});
-  const Timing timing = time_runs(job, candidate, outcome, prepare, outcome.stopped ? 0 : options.repeat, stop);
+  const sim::Outcome outcome =
+      sim::run(problem, candidate, {.pairs = options.pairs.has_value(), .stop = stop, .threads = common.threads});
+  const Timing timing = time_runs(job, candidate, outcome, prepare, outcome.stopped ? 0 : options.repeat,
+                                  {.count = false, .stop = stop, .threads = common.threads});
   if (outcome.stopped && (options.per_disc || options.pairs))
     note(common, "stopped before the end: --per-disc and --pairs are not written, for they would be partial");
   if (options.per_disc && !outcome.stopped) write_text(*options.per_disc, per_disc_csv(outcome));

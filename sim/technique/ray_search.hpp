@@ -1,0 +1,32 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "technique.hpp"
+
+/// Techniques that trace rays one by one, on any number of threads.
+namespace detp::sim {
+
+/// What one thread searches with: mailboxes and counts of its own.
+class RaySearch {
+ public:
+  virtual ~RaySearch() = default;
+
+  /// Appends the hits of rays first … last - 1; those of any one disc in the order of the rays.
+  virtual void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) = 0;
+
+  [[nodiscard]] virtual Counts<std::uint64_t> counts() const = 0;
+};
+
+using MakeRaySearch = std::function<std::unique_ptr<RaySearch>()>;
+
+/// Searches all rays of the problem, asking for a stop between chunks of them, and fills in the outcome.
+///
+/// Chunks of 64 rays are searched by options.threads threads at once, each with a search of its own. Their hits are
+/// added to the totals chunk after chunk, while later ones are searched, so that powers are summed in the rays' order
+/// whatever the threads do. No more than four chunks a thread are under way: in memory are the hits of so many.
+void search_rays(const Problem& problem, const RunOptions& options, const MakeRaySearch& make, Outcome& outcome);
+
+}  // namespace detp::sim
