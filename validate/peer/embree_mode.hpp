@@ -1,0 +1,44 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+/// The ways in which Embree can be asked for all hits.
+namespace detp::validate {
+
+/// With a filter that refuses every hit both kinds of query visit every hit. They differ in the order in which nodes
+/// are visited (nearest first, or any) and in what a ray carries.
+enum class EmbreeQuery { intersect, occluded };
+
+/// How many rays a call takes.
+enum class EmbreeRays {
+  one,             ///< rtcIntersect1
+  packet_8,        ///< rtcIntersect8
+  packet_16,       ///< rtcIntersect16
+  stream_of_rays,  ///< rtcIntersect1M, 64 rays
+  stream_of_packets  ///< rtcIntersectNM, 8 packets of 8
+};
+
+enum class EmbreeQuality { low, medium, high };
+
+struct EmbreeMode {
+  EmbreeQuery query = EmbreeQuery::intersect;
+  EmbreeRays rays = EmbreeRays::one;
+  EmbreeQuality quality = EmbreeQuality::medium;
+  bool coherent = false;  ///< the context's flag
+  bool operator==(const EmbreeMode&) const = default;
+};
+
+/// The function called: "rtcIntersect8".
+[[nodiscard]] std::string call_of(const EmbreeMode& mode);
+
+/// "low", "medium" or "high".
+[[nodiscard]] std::string name(EmbreeQuality quality);
+
+/// "rtcIntersect8, low, coherent".
+[[nodiscard]] std::string describe(const EmbreeMode& mode);
+
+/// All 60.
+[[nodiscard]] std::vector<EmbreeMode> all_embree_modes();
+
+}  // namespace detp::validate

@@ -1,0 +1,139 @@
+#include "embree_tracer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+
+#include "embree_calls.hpp"
+
+namespace detp::validate {
+namespace {
+
+/// What Embree hands back to the filter; the context proper must come first.
+struct Collecting {
+  RTCIntersectContext context;
+  const sim::Ray* rays;
+  DiscTally* tallies;
+
+  void add(unsigned ray, unsigned disc) const {
+    tallies[disc].power += rays[ray].power;
+    ++tallies[disc].hits;
+  }
+};
+static_assert(std::is_standard_layout_v<Collecting>);
+
+/// Takes note of every hit and refuses it, so that the search goes on: collecting all hits of a ray is what the
+/// documentation gives the context's filter for. Rays may come in other packets and orders than they were sent in, so a
+/// ray is told by its id.
+void collect_and_refuse(const RTCFilterFunctionNArguments* arguments) {
+  const auto& collecting = *reinterpret_cast<const Collecting*>(arguments->context);
+  if (arguments->N == 1) {
+    collecting.add(reinterpret_cast<const RTCRay*>(arguments->ray)->id,
+                   reinterpret_cast<const RTCHit*>(arguments->hit)->primID);
+    arguments->valid[0] = 0;
+    return;
+  }
+  for (unsigned lane = 0; lane < arguments->N; ++lane) {
+    if (arguments->valid[lane] == 0) continue;
+    collecting.add(RTCRayN_id(arguments->ray, arguments->N, lane), RTCHitN_primID(arguments->hit, arguments->N, lane));
+    arguments->valid[lane] = 0;
+  }
+}
+
+// The documentation: a coherent stream should be of around 64 rays.
+constexpr std::size_t stream = 64;
+
+}  // namespace
+
+/// The rays from `first` on into a packet; lanes past `count` are made inactive, as streams know it: they end before
+/// they start.
+template <class Packet>
+void EmbreeTracer::put(std::size_t first, std::size_t count, Packet& packet) const {
+  auto& rays = embree::ray_of(packet);
+  for (std::size_t lane = 0; lane < count; ++lane)
+    maker_.put(rays_[first + lane], static_cast<unsigned>(first + lane), rays, lane);
+  for (std::size_t lane = count; lane < embree::width<Packet>; ++lane) {
+    maker_.put(rays_[first], static_cast<unsigned>(first), rays, lane);
+    rays.tfar[lane] = -1;
+  }
+  embree::clear_hit(packet);
+}
+
+template <class RayHit>
+void EmbreeTracer::ones(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+  RayHit ray{};
+  for (; first < last; ++first) {
+    maker_.put(rays_[first], static_cast<unsigned>(first), embree::ray_of(ray));
+    embree::clear_hit(ray);
+    embree::query(scene_, context, ray);
+  }
+}
+
+template <class RayHit>
+void EmbreeTracer::ray_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+  std::array<RayHit, stream> rays{};
+  while (first < last) {
+    const std::size_t count = std::min(stream, last - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      maker_.put(rays_[first + i], static_cast<unsigned>(first + i), embree::ray_of(rays[i]));
+      embree::clear_hit(rays[i]);
+    }
+    embree::query_stream(scene_, context, rays.data(), static_cast<unsigned>(count));
+    first += count;
+  }
+}
+
+template <class Packet>
+void EmbreeTracer::packets(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+  constexpr std::size_t width = embree::width<Packet>;
+  Packet packet{};
+  alignas(64) std::array<int, width> valid{};
+  for (; first < last; first += width) {
+    const std::size_t count = std::min(width, last - first);
+    put(first, count, packet);
+    for (std::size_t lane = 0; lane < width; ++lane) valid[lane] = lane < count ? -1 : 0;
+    embree::query(valid.data(), scene_, context, packet);
+  }
+}
+
+template <class Packet>
+void EmbreeTracer::packet_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+  constexpr std::size_t width = embree::width<Packet>;
+  std::array<Packet, stream / width> sent{};
+  while (first < last) {
+    unsigned filled = 0;
+    for (; filled < sent.size() && first < last; first += width)
+      put(first, std::min(width, last - first), sent[filled++]);
+    embree::query_stream(scene_, context, sent.data(), filled);
+  }
+}
+
+template <class RayHit, class Packet8, class Packet16>
+void EmbreeTracer::trace_as(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+  switch (mode_.rays) {
+    case EmbreeRays::one:
+      return ones<RayHit>(first, last, context);
+    case EmbreeRays::packet_8:
+      return packets<Packet8>(first, last, context);
+    case EmbreeRays::packet_16:
+      return packets<Packet16>(first, last, context);
+    case EmbreeRays::stream_of_rays:
+      return ray_streams<RayHit>(first, last, context);
+    case EmbreeRays::stream_of_packets:
+      return packet_streams<Packet8>(first, last, context);
+  }
+}
+
+void EmbreeTracer::trace(std::size_t first, std::size_t last, std::vector<DiscTally>& tallies) const {
+  const FlushDenormals flush;
+  Collecting collecting{.context = {}, .rays = rays_.data(), .tallies = tallies.data()};
+  rtcInitIntersectContext(&collecting.context);
+  collecting.context.filter = collect_and_refuse;
+  if (mode_.coherent) collecting.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  if (mode_.query == EmbreeQuery::intersect)
+    trace_as<RTCRayHit, RTCRayHit8, RTCRayHit16>(first, last, collecting.context);
+  else
+    trace_as<RTCRay, RTCRay8, RTCRay16>(first, last, collecting.context);
+}
+
+}  // namespace detp::validate

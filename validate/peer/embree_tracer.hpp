@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "embree_mode.hpp"
+#include "embree_rays.hpp"
+
+namespace detp::validate {
+
+/// What one disc has received. Both in one cache line: a hit touches one.
+struct DiscTally {
+  double power = 0;
+  std::uint32_t hits = 0;
+};
+
+/// Traces rays through a scene of discs and adds up what each disc receives.
+class EmbreeTracer {
+ public:
+  EmbreeTracer(RTCScene scene, std::span<const sim::Ray> rays, const sim::Sphere& around, const EmbreeMode& mode)
+      : scene_(scene), rays_(rays), maker_(around), mode_(mode) {}
+
+  /// Rays first … last - 1 into the tallies, one a disc. Safe from many threads with tallies of their own.
+  void trace(std::size_t first, std::size_t last, std::vector<DiscTally>& tallies) const;
+
+ private:
+  template <class Packet>
+  void put(std::size_t first, std::size_t count, Packet& packet) const;
+  template <class RayHit>
+  void ones(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
+  template <class RayHit>
+  void ray_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
+  template <class Packet>
+  void packets(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
+  template <class Packet>
+  void packet_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
+  template <class RayHit, class Packet8, class Packet16>
+  void trace_as(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
+
+  RTCScene scene_;
+  std::span<const sim::Ray> rays_;
+  EmbreeRayMaker maker_;
+  EmbreeMode mode_;
+};
+
+}  // namespace detp::validate

@@ -1,0 +1,42 @@
+#pragma once
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace detp::validate {
+
+/// While it lives, this thread takes denormal numbers for zero: Embree's documentation strongly recommends it. What was
+/// set before is restored, for the exact techniques count on denormals.
+class FlushDenormals {
+ public:
+  FlushDenormals(const FlushDenormals&) = delete;
+  FlushDenormals& operator=(const FlushDenormals&) = delete;
+
+#if defined(__SSE2__)
+  FlushDenormals() : before_(_mm_getcsr()) { _mm_setcsr(before_ | flush_to_zero | denormals_are_zero); }
+  ~FlushDenormals() { _mm_setcsr(before_); }
+
+ private:
+  static constexpr unsigned flush_to_zero = 0x8000;
+  static constexpr unsigned denormals_are_zero = 0x0040;
+  unsigned before_;
+#else
+  FlushDenormals() = default;
+#endif
+};
+
+/// Four floats in one store, to an address divisible by 16. Embree loads them as four; its documentation warns of the
+/// stall that four stores of one would cause.
+inline void store_four(float* to, float a, float b, float c, float d) {
+#if defined(__SSE2__)
+  _mm_store_ps(to, _mm_setr_ps(a, b, c, d));
+#else
+  to[0] = a;
+  to[1] = b;
+  to[2] = c;
+  to[3] = d;
+#endif
+}
+
+}  // namespace detp::validate
