@@ -28,6 +28,7 @@
 #include "detp/sim/technique/technique.hpp"
 #include "detp/sim/uniform_discs.hpp"
 #include "detp/validate/analysis.hpp"
+#include "detp/validate/bench/summary.hpp"
 #include "detp/validate/experiment/experiments.hpp"
 #include "detp/validate/job.hpp"
 #include "detp/validate/measure.hpp"

@@ -45,6 +45,7 @@ struct Command {
 [[nodiscard]] Command run_command(CLI::App& program);
 [[nodiscard]] Command validate_command(CLI::App& program);
 [[nodiscard]] Command scene_command(CLI::App& program);
+[[nodiscard]] Command bench_command(CLI::App& program);
 
 /// Warns or informs on stderr, unless quiet.
 void note(const CommonOptions& common, const std::string& message);

@@ -102,8 +102,8 @@ int guarded_main(int argc, char** argv) {
   program.set_version_flag("--version", "detp " DETP_VERSION);
   program.require_subcommand(0, 1);  // with 1 needed, an unknown command would be reported as a missing one
   CommonOptions common;
-  const std::array commands{model_command(program), choose_command(program), run_command(program),
-                            validate_command(program), scene_command(program)};
+  const std::array commands{model_command(program),    choose_command(program), run_command(program),
+                            validate_command(program), scene_command(program),  bench_command(program)};
   for (const Command& command : commands) add_common_options(*command.app, common);
   for (int i = 1; i < argc; ++i)
     if (*argv[i] == '\0')  // the parser would take an empty value for none, as of --rays "$n" where n is not set
@@ -116,7 +116,8 @@ int guarded_main(int argc, char** argv) {
   }
   for (const Command& command : commands)
     if (command.app->parsed()) return run(command, common, interruption);
-  throw std::invalid_argument("a command is needed: model, choose, run, validate or scene (detp --help tells more)");
+  throw std::invalid_argument(
+      "a command is needed: model, choose, run, validate, scene or bench (detp --help tells more)");
 }
 
 }  // namespace

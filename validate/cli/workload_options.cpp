@@ -15,8 +15,6 @@ std::string known_techniques() {
   return list;
 }
 
-std::string_view name(sim::Field field) { return field == sim::Field::isotropic ? "isotropic" : "photons"; }
-
 /// 100000 as "100 000".
 std::string spaced(double count) {
   std::string digits = fmt::format("{:.0f}", count);
@@ -26,6 +24,8 @@ std::string spaced(double count) {
 }
 
 }  // namespace
+
+std::string_view name(sim::Field field) { return field == sim::Field::isotropic ? "isotropic" : "photons"; }
 
 void WorkloadOptions::add_to(CLI::App& command) {
   command.add_option("SCENE", request_.scene,

@@ -43,6 +43,9 @@ class CandidateOptions {
   void refuse_foreign(Technique technique) const;
 };
 
+/// "isotropic" or "photons".
+[[nodiscard]] std::string_view name(sim::Field field);
+
 [[nodiscard]] Json to_json(const Parameters& parameters);
 [[nodiscard]] Json to_json(const Workload& workload);
 template <class T>

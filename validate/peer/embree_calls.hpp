@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <iterator>
 
-/// Embree's calls under one name each, told apart by the kind of ray: RTCRay (rtcOccluded) and RTCRayHit (rtcIntersect),
-/// alone or in packets of 8 or 16.
+/// Embree's calls under one name each, told apart by the kind of ray: RTCRay (rtcOccluded) and RTCRayHit
+/// (rtcIntersect), alone or in packets of 8 or 16.
 namespace detp::validate::embree {
 
 /// The ray, or packet of rays, in what a call takes.

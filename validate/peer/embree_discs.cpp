@@ -1,5 +1,8 @@
 #include "embree_discs.hpp"
 
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
 #include <stdexcept>
 #include <string>
 
@@ -42,13 +45,15 @@ EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::
   float* vertex = new_buffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 4, discs.size());
   float* normal = new_buffer(geometry.get(), RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, 3, discs.size());
   require_no_embree_error(device);
-  for (const sim::Disc& disc : discs) {
-    store_four(vertex, static_cast<float>(disc.centre.x), static_cast<float>(disc.centre.y),
-               static_cast<float>(disc.centre.z), static_cast<float>(disc.radius));
-    for (int axis = 0; axis < 3; ++axis) normal[axis] = static_cast<float>(disc.normal[axis]);
-    vertex += 4;
-    normal += 3;
-  }
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  oneapi::tbb::parallel_for(Range(0, discs.size(), 4096), [&](const Range& part) {
+    for (std::size_t i = part.begin(); i < part.end(); ++i) {
+      const sim::Disc& disc = discs[i];
+      store_four(vertex + 4 * i, static_cast<float>(disc.centre.x), static_cast<float>(disc.centre.y),
+                 static_cast<float>(disc.centre.z), static_cast<float>(disc.radius));
+      for (int axis = 0; axis < 3; ++axis) normal[3 * i + axis] = static_cast<float>(disc.normal[axis]);
+    }
+  });
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(scene.get(), geometry.get());
   rtcCommitScene(scene.get());

@@ -12,10 +12,10 @@ enum class EmbreeQuery { intersect, occluded };
 
 /// How many rays a call takes.
 enum class EmbreeRays {
-  one,             ///< rtcIntersect1
-  packet_8,        ///< rtcIntersect8
-  packet_16,       ///< rtcIntersect16
-  stream_of_rays,  ///< rtcIntersect1M, 64 rays
+  one,               ///< rtcIntersect1
+  packet_8,          ///< rtcIntersect8
+  packet_16,         ///< rtcIntersect16
+  stream_of_rays,    ///< rtcIntersect1M, 64 rays
   stream_of_packets  ///< rtcIntersectNM, 8 packets of 8
 };
 

@@ -2,8 +2,8 @@
 
 #include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
-#include <oneapi/tbb/task_arena.h>
 
 #include <numbers>
 
@@ -14,8 +14,10 @@ namespace detp::validate {
 namespace {
 
 using Tallies = std::vector<DiscTally>;
+using Range = oneapi::tbb::blocked_range<std::size_t>;
 
-/// Rays that one thread takes at a time: few enough to share the work out and to heed a stop, a multiple of a stream.
+/// Rays, or discs, that one thread takes at a time: few enough to share the work out and to heed a stop, a multiple of
+/// a stream.
 constexpr std::size_t block = 4096;
 
 sim::Sphere sphere_around(RTCScene scene) {
@@ -28,23 +30,25 @@ sim::Sphere sphere_around(RTCScene scene) {
 
 PeerOutcome merged(oneapi::tbb::enumerable_thread_specific<Tallies>& all, std::span<const sim::Disc> discs) {
   PeerOutcome outcome{std::vector<std::uint64_t>(discs.size()), std::vector<double>(discs.size())};
-  for (const Tallies& tallies : all)
-    for (std::size_t i = 0; i < discs.size(); ++i) {
-      outcome.hits[i] += tallies[i].hits;
-      outcome.irradiance[i] += tallies[i].power;
+  oneapi::tbb::parallel_for(Range(0, discs.size(), block), [&](const Range& part) {
+    for (std::size_t i = part.begin(); i < part.end(); ++i) {
+      for (const Tallies& tallies : all) {
+        outcome.hits[i] += tallies[i].hits;
+        outcome.irradiance[i] += tallies[i].power;
+      }
+      outcome.irradiance[i] /= std::numbers::pi * discs[i].radius * discs[i].radius;
     }
-  for (std::size_t i = 0; i < discs.size(); ++i)
-    outcome.irradiance[i] /= std::numbers::pi * discs[i].radius * discs[i].radius;
+  });
   return outcome;
 }
 
 }  // namespace
 
 struct EmbreePeer::Threads {
-  explicit Threads(int threads) : device(make_embree_device(threads)), arena(threads) {}
+  explicit Threads(int threads) : count(threads), device(make_embree_device(threads)) {}
 
+  int count;
   EmbreeOwned<RTCDevice> device;
-  mutable oneapi::tbb::task_arena arena;
 };
 
 EmbreePeer::EmbreePeer(int threads) : threads_(std::make_unique<Threads>(threads)) {}
@@ -53,16 +57,16 @@ EmbreePeer::~EmbreePeer() = default;
 
 PeerOutcome EmbreePeer::run(std::span<const sim::Ray> rays, std::span<const sim::Disc> discs, const EmbreeMode& mode,
                             const std::stop_token& stop) const {
+  // A device builds with as many threads as the largest of all devices alive may have, whatever was asked of it.
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads_->count));
   const auto scene = build_embree_discs(threads_->device.get(), discs, mode.quality);
   const EmbreeTracer tracer(scene.get(), rays, sphere_around(scene.get()), mode);
   oneapi::tbb::enumerable_thread_specific<Tallies> all(Tallies(discs.size()));
   const std::size_t blocks = (rays.size() + block - 1) / block;
-  threads_->arena.execute([&] {
-    oneapi::tbb::parallel_for(
-        oneapi::tbb::blocked_range<std::size_t>(0, blocks, 1), [&](const oneapi::tbb::blocked_range<std::size_t>& part) {
-          for (std::size_t i = part.begin(); i < part.end() && !stop.stop_requested(); ++i)
-            tracer.trace(i * block, std::min(rays.size(), (i + 1) * block), all.local());
-        });
+  oneapi::tbb::parallel_for(Range(0, blocks, 1), [&](const Range& part) {
+    for (std::size_t i = part.begin(); i < part.end() && !stop.stop_requested(); ++i)
+      tracer.trace(i * block, std::min(rays.size(), (i + 1) * block), all.local());
   });
   PeerOutcome outcome = merged(all, discs);
   outcome.stopped = stop.stop_requested();

@@ -11,9 +11,9 @@
 
 /// What a user would do instead: all hits by Embree, in its single precision.
 ///
-/// No other peer is measured. nanoflann finds points near points: lines would have to be cut into balls, and discs found
-/// twice told apart. CGAL's tree of boxes, which could hold discs in double precision, brings GMP and MPFR with it and
-/// has neither packets nor SIMD: it would not be the fastest thing at hand on any workload.
+/// No other peer is measured. nanoflann finds points near points: lines would have to be cut into balls, and discs
+/// found twice told apart. CGAL's tree of boxes, which could hold discs in double precision, brings GMP and MPFR with
+/// it and has neither packets nor SIMD: it would not be the fastest thing at hand on any workload.
 namespace detp::validate {
 
 /// What a peer found, per disc.
@@ -23,9 +23,9 @@ struct PeerOutcome {
   bool stopped = false;            ///< the stop was asked for: what is here is partial
 };
 
-/// Embree 3 as its documentation advises: RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT, hits collected by the context's filter,
-/// denormals flushed, aligned rays in single stores, coherent streams of 64. Its decisions are its own: a hit near a
-/// disc's rim may be wrong by single precision's rounding.
+/// Embree 3 as its documentation advises: RTC_GEOMETRY_TYPE_ORIENTED_DISC_POINT, hits collected by the context's
+/// filter, denormals flushed, aligned rays in single stores, coherent streams of 64. Its decisions are its own: a hit
+/// near a disc's rim may be wrong by single precision's rounding.
 ///
 /// The device is made once and its threads started before any timing.
 class EmbreePeer {

@@ -127,7 +127,7 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("a missing command is told from an unknown one, which is named") {
-    check_refused({{"", "a command is needed: model, choose, run, validate or scene"},
+    check_refused({{"", "a command is needed: model, choose, run, validate, scene or bench"},
                    {"quux", "quux"},
                    {"quux --rays 5", "quux"},
                    {"--format json", "--format"}});

@@ -46,7 +46,7 @@ TEST_SUITE("end to end") {
     const Finished program = detp("--help");
     CHECK(program.code == 0);
     CHECK(program.err.empty());
-    for (const std::string name : {"model", "choose", "run", "validate", "scene"}) {
+    for (const std::string name : {"model", "choose", "run", "validate", "scene", "bench"}) {
       CAPTURE(name);
       CHECK(program.out.find("\n  " + name + " ") != std::string::npos);
       const Finished help = detp(name + " --help");

@@ -1,0 +1,138 @@
+#include "detp/validate/bench/bench.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+#include "detp/validate/bench/summary.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+
+namespace {
+
+Finish finish(const Competitor& competitor, std::vector<double> seconds, std::uint64_t wrong = 0) {
+  return {.competitor = competitor, .seconds = std::move(seconds), .hits = 100, .wrong_hits = wrong};
+}
+
+/// A race in which ours took 1 s and Embree, at its best, `embree` seconds.
+BenchEntry entry(double embree, int threads = 1) {
+  BenchEntry made;
+  made.threads = threads;
+  made.race.complete = true;
+  made.race.finishes = {finish(Candidate{}, {9, 1, 1}), finish(Candidate{Technique::grid, GridParameters{}}, {3}),
+                        finish(EmbreeMode{}, {embree, 2 * embree, 0}, 3),
+                        finish(EmbreeMode{.coherent = true}, {2 * embree})};
+  return made;
+}
+
+Job small_job() {
+  JobRequest request;
+  request.scene = "@uniform";
+  request.rays = 500;
+  request.samples = 300;
+  request.disc_radius = Length{0.05, true};
+  return make_job(request);
+}
+
+std::size_t count_of(const BenchSet& set, const auto& predicate) {
+  return static_cast<std::size_t>(std::count_if(set.workloads.begin(), set.workloads.end(), predicate));
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("ratios are of medians, best against best; the summary has their geometric mean and the worst") {
+    const std::vector<BenchEntry> entries{entry(8), entry(2), entry(100, 2)};
+    CHECK(entries[0].ratio() == doctest::Approx(8));
+    const auto one = against_embree(entries, 1);
+    REQUIRE(one);
+    CHECK(one->races == 2);
+    CHECK(one->geometric_mean == doctest::Approx(4));
+    CHECK(one->worst == doctest::Approx(2));
+    CHECK(one->worst_entry == 1);
+    CHECK(against_embree(entries, 2)->geometric_mean == doctest::Approx(100));
+    CHECK_FALSE(against_embree(entries, 3));
+  }
+
+  TEST_CASE("a race that was stopped has no ratio and no part in the summary") {
+    std::vector<BenchEntry> entries{entry(8)};
+    entries[0].race.complete = false;
+    CHECK(entries[0].ratio() == 0);
+    CHECK_FALSE(against_embree(entries, 1));
+  }
+
+  TEST_CASE("wrong hits of ours are a disagreement, Embree's are added up") {
+    std::vector<BenchEntry> entries{entry(8), entry(2)};
+    CHECK(ours_agree(entries));
+    CHECK(embree_wrong_hits(entries).wrong == 6);
+    CHECK(embree_wrong_hits(entries).hits == 400);
+    entries[1].race.finishes[1].wrong_hits = 1;
+    CHECK_FALSE(ours_agree(entries));
+  }
+
+  TEST_CASE("wrong hits are counted disc by disc: one too many does not make up for one too few") {
+    const RightHits right{Technique::brute_force, {5, 5, 5}};
+    CHECK(right.wrong(std::vector<std::uint64_t>{5, 5, 5}) == 0);
+    CHECK(right.wrong(std::vector<std::uint64_t>{6, 4, 5}) == 2);
+  }
+
+  TEST_CASE("everyone runs once, the fastest two of each side as often as asked, and hits are compared") {
+    const Job job = small_job();
+    auto right = right_hits(job, Candidate{}, 0);
+    REQUIRE(right);
+    const std::vector<Competitor> competitors{
+        Candidate{},  Candidate{Technique::grid, GridParameters{4}}, Candidate{Technique::octree, OctreeParameters{2}},
+        EmbreeMode{}, EmbreeMode{.query = EmbreeQuery::occluded},    EmbreeMode{.rays = EmbreeRays::packet_8}};
+    const RaceOptions options{.repeats = 3, .enough = 60};
+    Race found = race(job, *right, EmbreePeer(1), competitors, options);
+    CHECK(found.complete);
+    REQUIRE(found.finishes.size() == competitors.size());
+    for (const bool ours : {true, false})
+      CHECK(std::count_if(found.finishes.begin(), found.finishes.end(), [&](const Finish& one) {
+              return is_ours(one.competitor) == ours && one.seconds.size() == 3;
+            }) == 2);
+    for (const Finish& one : found.finishes) CHECK(one.wrong_hits <= (is_ours(one.competitor) ? 0U : 2U));
+    ++right->hits[0];
+    found = race(job, *right, EmbreePeer(1), competitors, options);
+    for (const Finish& one : found.finishes) CHECK(one.wrong_hits >= 1);
+  }
+
+  TEST_CASE("the sets: what they hold, and what is missing without the meshes") {
+    const BenchSet quick = bench_set(BenchEffort::quick, {}, "");
+    CHECK(quick.workloads.size() == 28);  // 7 scenes with fields, 2 radii, 2 numbers of rays
+    CHECK(quick.missing.size() == 1);
+    const BenchSet thorough = bench_set(BenchEffort::thorough, {}, "/nowhere");
+    CHECK(thorough.missing.size() == 8);
+    CHECK(thorough.missing[0].find("/nowhere/stanford_bunny.obj does not exist") != std::string::npos);
+    CHECK(count_of(thorough, [](const BenchWorkload& one) { return one.scene == "@tree"; }) == 2 * (6 * 3 + 2));
+    CHECK(count_of(thorough, [](const BenchWorkload& one) { return one.samples == 1e6; }) == 6 * 3 + 2);
+  }
+
+  TEST_CASE("lists that are given take the place of the set's") {
+    const BenchAxes axes{
+        .scene = "@tree", .fields = {sim::Field::photons}, .samples = {}, .disc_radii = {{0.1}}, .rays = {1e6, 10}};
+    const BenchSet set = bench_set(BenchEffort::thorough, axes, "");
+    REQUIRE(set.workloads.size() == 2);
+    CHECK(set.workloads[0].rays == 10);
+    CHECK(set.workloads[1].rays == 1e6);
+    CHECK(set.workloads[0].disc_radius.value == 0.1);
+    CHECK(set.missing.empty());
+  }
+
+  TEST_CASE("what has more hits than allowed is skipped, as the model expects or fewer rays have shown") {
+    const BenchSet set = bench_set(BenchEffort::quick,
+                                   {.scene = "@uniform",
+                                    .fields = {},
+                                    .samples = {300},
+                                    .disc_radii = {{0.05, true}},
+                                    .rays = {100, 1000, 100000}},
+                                   "");
+    const BenchResult result =
+        run_bench(set.workloads, {.techniques = {}, .embree_modes = {EmbreeMode{}}, .repeats = 1, .most_hits = 5000});
+    CHECK(result.entries.size() == 2);
+    REQUIRE(result.skipped.size() == 1);
+    CHECK(result.skipped[0].workload.rays == 1e5);
+    CHECK_FALSE(result.stopped);
+  }
+}

@@ -1,0 +1,146 @@
+#include "bench.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <numeric>
+
+#include "detp/model/choose.hpp"
+#include "detp/validate/unit_costs.hpp"
+
+namespace detp::validate {
+namespace {
+
+JobRequest request_of(const BenchWorkload& workload, std::uint64_t seed) {
+  JobRequest request;
+  request.scene = workload.path;
+  request.field = workload.field;
+  request.samples = workload.samples;
+  request.disc_radius = workload.disc_radius;
+  request.rays = workload.rays;
+  request.seed = seed;
+  return request;
+}
+
+std::vector<model::Ranked> ranked_ours(const Workload& workload, const BenchOptions& options) {
+  std::vector<model::Ranked> ranking = model::rank(workload, built_in_unit_costs());
+  if (!options.techniques.empty())
+    std::erase_if(ranking, [&](const model::Ranked& ranked) {
+      return std::find(options.techniques.begin(), options.techniques.end(), ranked.candidate.technique) ==
+             options.techniques.end();
+    });
+  return ranking;
+}
+
+std::vector<Competitor> competitors_of(const std::vector<model::Ranked>& ranking, const BenchOptions& options) {
+  std::vector<Competitor> competitors;
+  for (const model::Ranked& ranked : ranking)
+    if (ranked.time.total() <= options.hopeless * ranking.front().time.total()) competitors.push_back(ranked.candidate);
+  for (const EmbreeMode& mode : options.embree_modes) competitors.push_back(mode);
+  return competitors;
+}
+
+class Benchmark {
+ public:
+  Benchmark(std::span<const BenchWorkload> workloads, const BenchOptions& options)
+      : workloads_(workloads), options_(options) {
+    result_.workloads = workloads.size();
+    for (const int threads : options.threads) peers_.try_emplace(threads, std::make_unique<EmbreePeer>(threads));
+  }
+
+  BenchResult go() {
+    for (std::size_t i = 0; i < workloads_.size() && !options_.stop.stop_requested(); ++i) {
+      if (i == 0 || !same_but_rays(workloads_[i - 1], workloads_[i])) hits_per_ray_ = 0;
+      share_ = static_cast<double>(i) / static_cast<double>(workloads_.size());
+      run(workloads_[i]);
+    }
+    result_.stopped = options_.stop.stop_requested();
+    return std::move(result_);
+  }
+
+ private:
+  void show(const BenchWorkload& workload, std::string_view what) const {
+    if (options_.progress)
+      options_.progress(fmt::format("{} {:g} rays, {}", workload.scene, workload.rays, what), share_);
+  }
+
+  /// Skips what would have too many hits, as few rays have shown (`hits_per_ray_`, 0 where they have not been tried) or
+  /// the model expects.
+  bool too_many_hits(const BenchWorkload& workload, double expected) {
+    if (expected <= options_.most_hits) return false;
+    result_.skipped.push_back(
+        {workload, fmt::format("{:.1e} hits expected, more than {:g}", expected, options_.most_hits)});
+    return true;
+  }
+
+  void run(const BenchWorkload& workload) {
+    if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return;
+    show(workload, "making rays");
+    const Job job = make_job(request_of(workload, options_.seed));
+    const std::vector<model::Ranked> ranking = ranked_ours(job.workload, options_);
+    if (ranking.empty()) {
+      result_.skipped.push_back({workload, "none of the techniques named can be run on it"});
+      return;
+    }
+    if (hits_per_ray_ == 0) {
+      hits_per_ray_ = ranking.front().counts.hits / workload.rays;
+      if (too_many_hits(workload, ranking.front().counts.hits)) return;
+    }
+    show(workload, "hits");
+    const auto right = right_hits(job, ranking.front().candidate, options_.checkable, options_.stop);
+    if (!right) return;
+    const auto sum = std::accumulate(right->hits.begin(), right->hits.end(), std::uint64_t{0});
+    hits_per_ray_ = static_cast<double>(sum) / workload.rays;
+    for (const int threads : options_.threads) {
+      show(workload, fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"));
+      const RaceOptions how{
+          .repeats = options_.repeats, .enough = options_.enough, .threads = threads, .stop = options_.stop};
+      Race found = race(job, *right, *peers_.at(threads), competitors_of(ranking, options_), how);
+      if (found.finishes.empty()) return;
+      result_.entries.push_back(
+          {workload, job.workload.samples, job.workload.disc_radius, threads, right->judge, std::move(found)});
+    }
+  }
+
+  std::span<const BenchWorkload> workloads_;
+  const BenchOptions& options_;
+  std::map<int, std::unique_ptr<EmbreePeer>> peers_;
+  BenchResult result_;
+  double hits_per_ray_ = 0;
+  double share_ = 0;
+};
+
+}  // namespace
+
+const Finish* BenchEntry::best(bool ours) const {
+  const Finish* fastest = nullptr;
+  for (const Finish& finish : race.finishes)
+    if (is_ours(finish.competitor) == ours &&
+        (fastest == nullptr || finish.median_seconds() < fastest->median_seconds()))
+      fastest = &finish;
+  return fastest;
+}
+
+double BenchEntry::ratio() const {
+  const Finish* ours = best(true);
+  const Finish* peer = best(false);
+  if (!race.complete || ours == nullptr || peer == nullptr) return 0;
+  return peer->median_seconds() / ours->median_seconds();
+}
+
+BenchResult run_bench(std::span<const BenchWorkload> workloads, const BenchOptions& options) {
+  return Benchmark(workloads, options).go();
+}
+
+std::vector<EmbreeMode> best_embree_modes() {
+  return {{EmbreeQuery::occluded, EmbreeRays::one, EmbreeQuality::low, false},
+          {EmbreeQuery::occluded, EmbreeRays::one, EmbreeQuality::medium, false},
+          {EmbreeQuery::occluded, EmbreeRays::one, EmbreeQuality::high, false},
+          {EmbreeQuery::occluded, EmbreeRays::packet_8, EmbreeQuality::medium, false},
+          {EmbreeQuery::occluded, EmbreeRays::stream_of_packets, EmbreeQuality::low, false},
+          {EmbreeQuery::intersect, EmbreeRays::one, EmbreeQuality::medium, false}};
+}
+
+}  // namespace detp::validate

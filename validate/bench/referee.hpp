@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "detp/model/vocabulary.hpp"
+#include "detp/validate/job.hpp"
+
+namespace detp::validate {
+
+/// The right hits of each disc, and who says so.
+struct RightHits {
+  Technique judge = Technique::brute_force;
+  std::vector<std::uint64_t> hits;
+
+  /// Sum over the discs of |hits - right hits|.
+  [[nodiscard]] std::uint64_t wrong(std::span<const std::uint64_t> others) const;
+};
+
+/// Brute force's, or where rays x discs are more than `checkable` those of the exact candidate; nothing if stopped.
+[[nodiscard]] std::optional<RightHits> right_hits(const Job& job, const Candidate& exact, double checkable,
+                                                  const std::stop_token& stop = {});
+
+}  // namespace detp::validate

@@ -1,0 +1,44 @@
+#include "summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace detp::validate {
+
+std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries, int threads) {
+  AgainstEmbree summary{.threads = threads, .worst_entry = 0};
+  double logarithms = 0;
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const double ratio = entries[i].ratio();
+    if (entries[i].threads != threads || !(ratio > 0)) continue;
+    if (summary.races == 0 || ratio < summary.worst) {
+      summary.worst = ratio;
+      summary.worst_entry = i;
+    }
+    ++summary.races;
+    logarithms += std::log(ratio);
+  }
+  if (summary.races == 0) return std::nullopt;
+  summary.geometric_mean = std::exp(logarithms / static_cast<double>(summary.races));
+  return summary;
+}
+
+bool ours_agree(std::span<const BenchEntry> entries) {
+  return std::all_of(entries.begin(), entries.end(), [](const BenchEntry& entry) {
+    return std::all_of(entry.race.finishes.begin(), entry.race.finishes.end(),
+                       [](const Finish& finish) { return !is_ours(finish.competitor) || finish.wrong_hits == 0; });
+  });
+}
+
+WrongHits embree_wrong_hits(std::span<const BenchEntry> entries) {
+  WrongHits sum;
+  for (const BenchEntry& entry : entries)
+    for (const Finish& finish : entry.race.finishes)
+      if (!is_ours(finish.competitor)) {
+        sum.wrong += finish.wrong_hits;
+        sum.hits += finish.hits;
+      }
+  return sum;
+}
+
+}  // namespace detp::validate
