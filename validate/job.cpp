@@ -12,7 +12,9 @@
 #include "detp/sim/memory.hpp"
 #include "detp/sim/scene/disc_file.hpp"
 #include "detp/sim/scene/photon_paths.hpp"
+#include "detp/sim/scene/photon_source.hpp"
 #include "detp/sim/scene/ray_file.hpp"
+#include "detp/sim/technique/streamed.hpp"
 #include "detp/sim/uniform_discs.hpp"
 #include "measure.hpp"
 
@@ -121,18 +123,43 @@ class JobMaker {
       job_.field = sim::Field::photons;
       return;
     }
-    const std::size_t count = count_in_memory("rays", request_.rays.value_or(default_rays), sizeof(sim::Ray));
+    const double rays = request_.rays.value_or(default_rays);
+    require_count("number of rays", rays, 1, 1e18);
     job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
+    const auto block = static_cast<double>(sim::default_block(job_.discs.size()));
+    if (request_.stream && rays > block && rays < UINT32_MAX) return make_stream(static_cast<std::uint64_t>(rays));
+    const std::size_t count = count_in_memory("rays", rays, sizeof(sim::Ray));
     if (job_.field == sim::Field::isotropic) {
       job_.rays = sim::LineField(sim::enclosing_sphere(job_.discs), request_.seed).lines(0, count);
       return;
     }
+    job_.rays = sim::photon_paths(scene_for_photons(), count, request_.seed);
+  }
+
+  const sim::Scene& scene_for_photons() const {
     if (!scene_) throw std::invalid_argument("photon paths take a scene; name one, or use --field isotropic");
-    job_.rays = sim::photon_paths(*scene_, count, request_.seed);
+    return *scene_;
+  }
+
+  void make_stream(std::uint64_t count) {
+    if (job_.field == sim::Field::isotropic)
+      job_.stream = std::make_unique<sim::LinesOfField>(sim::enclosing_sphere(job_.discs), request_.seed, count);
+    else
+      job_.stream = std::make_unique<sim::PhotonSource>(scene_for_photons(), count, request_.seed);
+  }
+
+  /// Of a stream, on its first block.
+  Workload measure_rays_and_discs() const {
+    if (!job_.stream) return measure(job_.problem(), surface_);
+    std::vector<sim::Ray> block(sim::default_block(job_.discs.size()));
+    job_.stream->read(0, block);
+    Workload workload = measure(sim::make_problem(block, job_.discs, job_.front_facing), surface_);
+    workload.rays = static_cast<double>(job_.stream->size());
+    return workload;
   }
 
   void measure_workload() {
-    job_.workload = measure(job_.problem(), surface_);
+    job_.workload = measure_rays_and_discs();
     if (request_.numbers_alone()) {
       const Workload numbers = workload_of_numbers(request_);
       job_.workload.dimension = numbers.dimension;

@@ -1,12 +1,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "detp/model/vocabulary.hpp"
+#include "detp/sim/ray_source.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "detp/sim/technique/technique.hpp"
 
@@ -37,6 +39,7 @@ struct JobRequest {
   std::optional<sim::Field> field;
   bool front_facing = false;
   std::uint64_t seed = 1;
+  bool stream = false;  ///< rays that can be made by their number stay out of memory if they fill more than a block
 
   /// Neither a scene nor a file: a workload in numbers.
   [[nodiscard]] bool numbers_alone() const { return !scene && !disc_file && !ray_file; }
@@ -46,19 +49,20 @@ struct JobRequest {
 /// Throws std::invalid_argument where a number is missing or out of range.
 [[nodiscard]] Workload workload_of_numbers(const JobRequest& request);
 
-/// Rays and discs in memory, with what is known of them.
+/// Rays and discs, with what is known of them.
 struct Job {
   std::string name;  ///< "@tree", a file, or "uniform samples in a cube"
   std::vector<sim::Disc> discs;
-  std::vector<sim::Ray> rays;
+  std::vector<sim::Ray> rays;                    ///< all of them, or none if they are a stream
+  std::unique_ptr<const sim::RaySource> stream;  ///< makes rays by their number; null if they are in memory
   sim::Field field = sim::Field::isotropic;
   std::size_t triangles = 0;
-  Workload workload;  ///< measured on discs and rays
+  Workload workload;  ///< measured on discs and rays (the path length of a stream on its first block)
   sim::Notices notices;
   bool front_facing = false;
   double read_seconds = 0;  ///< reading or making scene and rays
 
-  /// The problem; borrows from this job.
+  /// The problem; borrows from this job. Throws std::invalid_argument where the rays are a stream.
   [[nodiscard]] sim::Problem problem() const { return sim::make_problem(rays, discs, front_facing); }
 };
 

@@ -164,6 +164,12 @@ Outcome search_grid(const Problem& problem, const GridParameters& parameters, co
   return outcome;
 }
 
+std::unique_ptr<Prepared> prepare_grid(const Problem& problem, const GridParameters& parameters,
+                                       const std::stop_token& stop) {
+  const IndexVariant variant;
+  return std::make_unique<PreparedIndex<Grid>>(problem, variant.mailboxing, parameters.cells, variant.insertion, stop);
+}
+
 void run_grid(const Problem& problem, const GridParameters& parameters, const RunOptions& options, Outcome& outcome) {
   outcome = search_grid(problem, parameters, {}, options);
 }

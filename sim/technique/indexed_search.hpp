@@ -2,6 +2,7 @@
 
 #include "disc_index.hpp"
 #include "hit_collector.hpp"
+#include "prepared.hpp"
 #include "ray_search.hpp"
 
 namespace detp::sim {
@@ -71,6 +72,26 @@ void search_index(const Index& index, const Problem& problem, bool mailboxing, c
     options.count ? trace_all<true, false>(index, problem, options, outcome)
                   : trace_all<false, false>(index, problem, options, outcome);
 }
+
+/// An index over the problem's discs, made of further arguments, and its search.
+template <class Index>
+class PreparedIndex final : public Prepared {
+ public:
+  template <class... Arguments>
+  PreparedIndex(const Problem& problem, bool mailboxing, const Arguments&... arguments)
+      : problem_(problem), mailboxing_(mailboxing), index_(problem, arguments...) {}
+
+  void search(const RunOptions& options, Outcome& outcome) const override {
+    search_index(index_, problem_, mailboxing_, options, outcome);
+  }
+
+  [[nodiscard]] std::size_t bytes() const override { return index_.size().bytes; }
+
+ private:
+  const Problem& problem_;
+  bool mailboxing_;
+  Index index_;
+};
 
 /// The box around the discs' centres, grown by the largest radius: no disc pokes out.
 [[nodiscard]] inline Box index_box(std::span<const Disc> discs) {

@@ -162,6 +162,12 @@ Outcome search_octree(const Problem& problem, const OctreeParameters& parameters
   return outcome;
 }
 
+std::unique_ptr<Prepared> prepare_octree(const Problem& problem, const OctreeParameters& parameters,
+                                         const std::stop_token& stop) {
+  const IndexVariant variant;
+  return std::make_unique<PreparedIndex<Octree>>(problem, variant.mailboxing, parameters.depth, variant, stop);
+}
+
 void run_octree(const Problem& problem, const OctreeParameters& parameters, const RunOptions& options,
                 Outcome& outcome) {
   outcome = search_octree(problem, parameters, {}, options);

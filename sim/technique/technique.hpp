@@ -19,6 +19,7 @@ struct Problem {
   Sphere enclosing;           ///< S₀: holds every disc whole; rays may start or pass outside it
   bool front_facing = false;  ///< count only rays that arrive at a disc's front
   double slack = 0;           ///< added to every cull, length: no hit comes so far from its disc (make_problem)
+  double farthest = 0;        ///< no ray's origin is farther from the centre of S₀
 };
 
 /// The smallest sphere around the box of the discs' centres, plus the largest radius.
@@ -35,6 +36,15 @@ struct Problem {
 /// rays that graze a disc near its rim, where rounding moves the crossing farthest; the third for cells far from the
 /// origin.
 [[nodiscard]] Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing = false);
+
+/// A problem whose rays are still to come, block by block: no origin of theirs is to be farther than `farthest` from
+/// the centre of S₀, from which the slack follows. Throws as make_problem does.
+[[nodiscard]] Problem make_problem_without_rays(std::span<const Disc> discs, double farthest,
+                                                bool front_facing = false);
+
+/// Puts other rays in the place of a problem's, borrowed. Throws as make_problem does, and std::invalid_argument where
+/// one starts too far away.
+void set_rays(Problem& problem, std::span<const Ray> rays);
 
 struct Pair {
   std::uint32_t ray;

@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <stdexcept>
 
 #include "command.hpp"
@@ -9,6 +8,7 @@
 #include "detp/model/choose.hpp"
 #include "detp/sim/scene/output_file.hpp"
 #include "detp/validate/unit_costs.hpp"
+#include "timed_run.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -81,36 +81,6 @@ void require_writable(const std::optional<std::string>& path) {
   if (path) sim::OutputFile{*path};
 }
 
-struct Timing {
-  sim::Phases phases;
-  double prepare = 0;  ///< checking rays and discs, S₀
-  std::vector<double> all;
-
-  [[nodiscard]] double total() const { return prepare + phases.total(); }
-};
-
-/// The timed runs: of the counting one itself, or of `repeat` others that do nothing but find hits; the median of them.
-Timing time_runs(const validate::Job& job, const Candidate& candidate, const sim::Outcome& counted, double prepare,
-                 int repeat, const sim::RunOptions& options) {
-  std::vector<Timing> timings{{counted.seconds, prepare, {}}};
-  if (repeat > 0) timings.clear();
-  for (int i = 0; i < repeat; ++i) {
-    const auto start = std::chrono::steady_clock::now();
-    const sim::Problem problem = job.problem();
-    const double preparing = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const sim::Outcome outcome = sim::run(problem, candidate, options);
-    if (outcome.stopped) break;
-    timings.push_back({outcome.seconds, preparing, {}});
-  }
-  if (timings.empty()) timings.push_back({counted.seconds, prepare, {}});
-  std::vector<double> all;
-  for (const Timing& timing : timings) all.push_back(timing.total());
-  std::sort(timings.begin(), timings.end(), [](const Timing& a, const Timing& b) { return a.total() < b.total(); });
-  Timing median = timings[timings.size() / 2];
-  median.all = std::move(all);
-  return median;
-}
-
 Json seconds_json(const Timing& timing, int repeat) {
   Json json{{"total", timing.total()},
             {"prepare", timing.prepare},
@@ -127,8 +97,8 @@ double mean_irradiance(const sim::Outcome& outcome) {
   return sum / static_cast<double>(outcome.irradiance.size());
 }
 
-std::string to_text(const validate::Job& job, const Candidate& candidate, const sim::Outcome& outcome,
-                    const Timing& timing) {
+std::string to_text(const validate::Job& job, const Candidate& candidate, const TimedRun& run, const Timing& timing) {
+  const sim::Outcome& outcome = run.outcome;
   std::string text = describe(job);
   text += fmt::format("technique {} {}\n", name(candidate.technique), describe(candidate.parameters));
   text += fmt::format("hits      {}, {:.4g} a disc; mean irradiance {:.6g}\n", outcome.total_hits,
@@ -136,7 +106,8 @@ std::string to_text(const validate::Job& job, const Candidate& candidate, const 
                       mean_irradiance(outcome));
   text += fmt::format(
       "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before\n",
-      timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search, job.read_seconds);
+      timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
+      job.read_seconds + run.read_seconds);
   text += "counts    ";
   std::string counts;
   for_each_term(outcome.counts, [&](std::string_view term, std::uint64_t value) {
@@ -153,18 +124,16 @@ Result run_run(const RunOptions& options, const CommonOptions& common, const std
   require_writable(options.pairs);
   const ProgressLine progress(common);
   progress.show("scene and rays", 0);
-  const validate::JobRequest request = options.workload.request(common);
+  validate::JobRequest request = options.workload.request(common);
+  request.stream = true;
   const validate::Job job = validate::make_job(request);
   for (const std::string& notice : job.notices) note(common, notice);
   const Candidate candidate = complete(options.candidate, job.workload);
-  progress.show(name(candidate.technique), 0.3);
-  const auto start = std::chrono::steady_clock::now();
-  const sim::Problem problem = job.problem();
-  const double prepare = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  const sim::Outcome outcome =
-      sim::run(problem, candidate, {.pairs = options.pairs.has_value(), .stop = stop, .threads = common.threads});
-  const Timing timing = time_runs(job, candidate, outcome, prepare, outcome.stopped ? 0 : options.repeat,
-                                  {.count = false, .stop = stop, .threads = common.threads});
+  const TimedRun run =
+      run_job(job, candidate, {.pairs = options.pairs.has_value(), .stop = stop, .threads = common.threads}, progress);
+  const sim::Outcome& outcome = run.outcome;
+  const Timing timing = time_runs(job, candidate, run, outcome.stopped ? 0 : options.repeat,
+                                  {.count = false, .stop = stop, .threads = common.threads}, progress);
   if (outcome.stopped && (options.per_disc || options.pairs))
     note(common, "stopped before the end: --per-disc and --pairs are not written, for they would be partial");
   if (options.per_disc && !outcome.stopped) write_text(*options.per_disc, per_disc_csv(outcome));
@@ -180,9 +149,10 @@ Result run_run(const RunOptions& options, const CommonOptions& common, const std
                  {"mean_irradiance", mean_irradiance(outcome)},
                  {"counts", to_json(outcome.counts)},
                  {"seconds", seconds_json(timing, options.repeat)},
-                 {"read_seconds", job.read_seconds},
+                 {"read_seconds", job.read_seconds + run.read_seconds},
+                 {"rays_in_memory", run.rays_in_memory},
                  {"stopped", outcome.stopped}};
-  result.text = to_text(job, candidate, outcome, timing);
+  result.text = to_text(job, candidate, run, timing);
   result.csv = per_disc_csv(outcome);
   return result;
 }

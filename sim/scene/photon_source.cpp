@@ -1,0 +1,78 @@
+#include "photon_source.hpp"
+
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "photon_rounds.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr std::uint64_t group_size = 1024;  // photons
+
+}  // namespace
+
+PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed)
+    : tracer_(scene, seed), count_(count), limit_(0), starts_{0} {
+  PhotonRounds rounds(scene.name, count);
+  limit_ = rounds.limit();
+  for (std::uint64_t photons = 0; starts_.back() < count;) {
+    photons += rounds.next(starts_.back());
+    count_rays((photons + group_size - 1) / group_size);
+  }
+  power_ = 1 / static_cast<double>(emitted());
+}
+
+PhotonPieces PhotonSource::trace_group(std::uint64_t group) const {
+  const std::uint64_t first = group * group_size;
+  return tracer_.trace(first, std::min(first + group_size, limit_));
+}
+
+/// Goes on until that many groups have been counted.
+void PhotonSource::count_rays(std::uint64_t groups) {
+  const std::uint64_t known = starts_.size() - 1;
+  if (groups <= known) return;
+  std::vector<std::uint64_t> rays(groups - known);
+  std::vector<Box> boxes(groups - known);
+  oneapi::tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
+    const PhotonPieces pieces = trace_group(known + i);
+    rays[i] = pieces.rays.size();
+    for (const Ray& ray : pieces.rays) boxes[i].include(ray.origin);
+  });
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    starts_.push_back(starts_.back() + rays[i]);
+    if (rays[i] == 0) continue;
+    origins_.include(boxes[i].low);
+    origins_.include(boxes[i].high);
+  }
+}
+
+std::uint64_t PhotonSource::emitted() const {
+  if (count_ == 0) return 1;
+  const auto group = static_cast<std::uint64_t>(std::ranges::lower_bound(starts_, count_) - starts_.begin()) - 1;
+  return trace_group(group).photons[count_ - 1 - starts_[group]] + 1;
+}
+
+void PhotonSource::read(std::uint64_t first, std::span<Ray> block) const {
+  const std::uint64_t last = first + block.size();
+  const auto begin = static_cast<std::uint64_t>(std::ranges::upper_bound(starts_, first) - starts_.begin()) - 1;
+  const auto end = static_cast<std::uint64_t>(std::ranges::lower_bound(starts_, last) - starts_.begin());
+  oneapi::tbb::parallel_for(begin, end, [&](std::uint64_t group) {
+    const std::vector<Ray> rays = trace_group(group).rays;
+    const std::uint64_t from = std::max(first, starts_[group]);
+    const std::uint64_t to = std::min(last, starts_[group] + rays.size());
+    for (std::uint64_t number = from; number < to; ++number) {
+      Ray& ray = block[number - first] = rays[number - starts_[group]];
+      ray.power = power_;
+    }
+  });
+}
+
+double PhotonSource::farthest_from(const glm::dvec3& point) const {
+  constexpr double rounding = 1 + 1e-12;
+  const glm::dvec3 farthest = glm::max(glm::abs(origins_.low - point), glm::abs(origins_.high - point));
+  return rounding * glm::length(farthest);
+}
+
+}  // namespace detp::sim

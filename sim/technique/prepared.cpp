@@ -1,0 +1,17 @@
+#include "prepared.hpp"
+
+namespace detp::sim {
+
+std::unique_ptr<Prepared> prepare(const Problem& problem, const Candidate& candidate, const std::stop_token& stop) {
+  check(candidate);
+  switch (candidate.technique) {
+    case Technique::octree:
+      return prepare_octree(problem, std::get<OctreeParameters>(candidate.parameters), stop);
+    case Technique::grid:
+      return prepare_grid(problem, std::get<GridParameters>(candidate.parameters), stop);
+    default:
+      return nullptr;
+  }
+}
+
+}  // namespace detp::sim

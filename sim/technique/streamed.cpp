@@ -1,0 +1,136 @@
+#include "streamed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+
+#include "detp/sim/memory.hpp"
+#include "detp/sim/threads.hpp"
+#include "prepared.hpp"
+#include "techniques.hpp"
+
+namespace detp::sim {
+namespace {
+
+class Stream {
+ public:
+  Stream(std::span<const Disc> discs, const RaySource& source, const Candidate& candidate, const StreamOptions& options)
+      : source_(source), candidate_(candidate), options_(options), run_(options.run) {
+    check(candidate);
+    require_few_enough();
+    Stopwatch watch;
+    problem_ =
+        make_problem_without_rays(discs, source.farthest_from(enclosing_sphere(discs).centre), options.front_facing);
+    check_options(run_, problem_);
+    streamed_.check_seconds = watch.lap();
+    const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());
+    streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, source.size()));
+    foretell(0);
+    prepared_ = prepare(problem_, candidate_, run_.stop);
+    streamed_.outcome.seconds.build = watch.lap();
+    foretell(prepared_ ? prepared_->bytes() : 0);
+    totals_.resize(discs.size());
+    block_.resize(streamed_.block);
+    run_.totals = &totals_;
+  }
+
+  Streamed go() && {
+    Outcome& outcome = streamed_.outcome;
+    for (std::uint64_t first = 0; first < source_.size() && !outcome.stopped; first += block_.size()) {
+      if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(source_.size()));
+      outcome.stopped = run_.stop.stop_requested();
+      if (!outcome.stopped) search(first);
+    }
+    finish(totals_, problem_.discs, outcome);
+    return std::move(streamed_);
+  }
+
+ private:
+  void require_few_enough() const {
+    if (run_.totals != nullptr) throw std::invalid_argument("a stream keeps totals of its own; give it none");
+    if (source_.size() == 0) throw std::invalid_argument("there must be at least one ray");
+    if (run_.pairs && source_.size() >= UINT32_MAX)
+      throw std::length_error(
+          fmt::format("{} rays are too many for pairs; the most is {}", source_.size(), UINT32_MAX - 1));
+  }
+
+  /// Refuses what would not fit, before it is taken.
+  void foretell(std::size_t index) {
+    const auto threads = static_cast<std::size_t>(thread_count(run_.threads));
+    const std::size_t for_a_disc =
+        sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) + threads * sizeof(std::uint32_t);
+    streamed_.bytes = static_cast<double>(problem_.discs.size()) * static_cast<double>(for_a_disc) +
+                      static_cast<double>(streamed_.block) * sizeof(Ray) + static_cast<double>(index);
+    require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs.size(), streamed_.block),
+                   streamed_.bytes);
+  }
+
+  void search(std::uint64_t first) {
+    Stopwatch watch;
+    const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(block_.size(), source_.size() - first));
+    const std::span<Ray> rays = std::span(block_).first(count);
+    on_threads(thread_count(run_.threads), [&] { source_.read(first, rays); });
+    streamed_.read_seconds += watch.lap();
+    set_rays(problem_, rays);
+    streamed_.check_seconds += watch.lap();
+    Outcome part;
+    if (prepared_) {
+      prepared_->search(run_, part);
+      part.seconds.search = watch.lap();
+    } else {
+      part = run(problem_, candidate_, run_);
+    }
+    add(std::move(part), static_cast<std::uint32_t>(first));
+  }
+
+  void add(Outcome part, std::uint32_t first) {
+    Outcome& sum = streamed_.outcome;
+    if (prepared_) sum.counts.references = sum.counts.placements = 0;  // of the one index, told by each search
+    sum.counts += part.counts;
+    sum.total_hits += part.total_hits;
+    sum.stopped = part.stopped;
+    sum.seconds.order += part.seconds.order;
+    sum.seconds.build += part.seconds.build;
+    sum.seconds.search += part.seconds.search;
+    add_spheres(part.spheres);
+    sum.pairs.reserve(std::max(sum.pairs.capacity(), std::bit_ceil(sum.pairs.size() + part.pairs.size())));
+    for (const Pair& pair : part.pairs) sum.pairs.push_back({pair.ray + first, pair.disc});
+  }
+
+  void add_spheres(const std::vector<SphereCounts>& part) {
+    std::vector<SphereCounts>& sum = streamed_.outcome.spheres;
+    sum.resize(std::max(sum.size(), part.size()));
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      sum[i].rebuilds += part[i].rebuilds;
+      sum[i].tests += part[i].tests;
+      sum[i].listed += part[i].listed;
+    }
+  }
+
+  const RaySource& source_;
+  const Candidate& candidate_;
+  const StreamOptions& options_;
+  RunOptions run_;
+  Problem problem_;
+  std::unique_ptr<Prepared> prepared_;
+  Totals totals_;
+  std::vector<Ray> block_;
+  Streamed streamed_;
+};
+
+}  // namespace
+
+std::size_t default_block(std::size_t discs) {
+  constexpr std::size_t least = std::size_t{1} << 20;
+  constexpr std::size_t most = std::size_t{1} << 22;
+  return std::bit_ceil(std::clamp(discs, least, most));
+}
+
+Streamed run_streamed(std::span<const Disc> discs, const RaySource& source, const Candidate& candidate,
+                      const StreamOptions& options) {
+  return Stream(discs, source, candidate, options).go();
+}
+
+}  // namespace detp::sim

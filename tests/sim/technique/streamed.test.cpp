@@ -1,0 +1,151 @@
+#include "detp/sim/technique/streamed.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "detp/sim/random.hpp"
+#include "detp/sim/uniform_discs.hpp"
+
+using namespace detp;
+using namespace detp::sim;
+
+namespace {
+
+const std::vector<Disc>& discs() {
+  static const std::vector<Disc> all = uniform_discs(Body::cube, 2, 80, 0.6, 3);
+  return all;
+}
+
+/// Lines and segments whose powers range over ten decades, so that another order of adding gives another sum.
+const std::vector<Ray>& rays() {
+  static const std::vector<Ray> all = [] {
+    std::vector<Ray> some = LineField(enclosing_sphere(discs()), 4).lines(0, 400);
+    for (std::size_t i = 0; i < some.size(); ++i) {
+      const auto random = uniform4(5, Stream::tests, i);
+      some[i].power = std::pow(10, 10 * random[0]);
+      if (i % 3 == 0) some[i].length = 0.1 + 2 * random[1];
+    }
+    return some;
+  }();
+  return all;
+}
+
+const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParameters{}},
+                                        {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
+                                        {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                                        {Technique::octree, OctreeParameters{2}},
+                                        {Technique::grid, GridParameters{6}}};
+
+/// Tells less than the truth about how far its rays start.
+class Understated final : public RaySource {
+ public:
+  std::uint64_t size() const override { return rays().size(); }
+  void read(std::uint64_t first, std::span<Ray> block) const override { RaysInMemory(rays()).read(first, block); }
+  double farthest_from(const glm::dvec3& point) const override {
+    return 0.9 * RaysInMemory(rays()).farthest_from(point);
+  }
+};
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("a stream in blocks of 1, 7 and 1000 rays gives the bytes of one run over rays in memory") {
+    for (const bool front : {false, true})
+      for (const Candidate& candidate : candidates) {
+        CAPTURE(name(candidate.technique));
+        const Outcome whole = run(make_problem(rays(), discs(), front), candidate, {.pairs = true});
+        CHECK(whole.total_hits > 500);
+        for (const std::size_t block : {1, 7, 1000}) {
+          CAPTURE(block);
+          const Streamed streamed = run_streamed(
+              discs(), RaysInMemory(rays()), candidate,
+              {.run = {.pairs = true, .threads = block == 7 ? 2 : 1}, .front_facing = front, .block = block});
+          CHECK(streamed.outcome.hits == whole.hits);
+          CHECK(streamed.outcome.irradiance == whole.irradiance);
+          CHECK(streamed.outcome.pairs == whole.pairs);
+          CHECK(streamed.outcome.total_hits == whole.total_hits);
+          CHECK(streamed.outcome.counts.hits == whole.total_hits);
+          CHECK(streamed.outcome.counts.disc_tests == whole.counts.disc_tests);
+        }
+      }
+  }
+
+  TEST_CASE("an index is built once, and what is counted of it does not depend on the block") {
+    for (const Candidate& candidate :
+         {Candidate{Technique::octree, OctreeParameters{2}}, {Technique::grid, GridParameters{6}}}) {
+      const Outcome whole = run(make_problem(rays(), discs()), candidate);
+      const Streamed streamed = run_streamed(discs(), RaysInMemory(rays()), candidate, {.run = {}, .block = 100});
+      CHECK(streamed.outcome.counts == whole.counts);
+      CHECK(whole.counts.references > 0);
+    }
+  }
+
+  TEST_CASE("lines of a field by number are those in memory") {
+    const Sphere sphere = enclosing_sphere(discs());
+    const std::vector<Ray> lines = LineField(sphere, 9).lines(0, 3000);
+    const Outcome whole = run(make_problem(lines, discs()), candidates.back());
+    const Streamed streamed =
+        run_streamed(discs(), LinesOfField(sphere, 9, lines.size()), candidates.back(), {.run = {}, .block = 512});
+    CHECK(streamed.outcome.irradiance == whole.irradiance);
+    CHECK(streamed.block == 512);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("a stop between blocks keeps the blocks before it, and is told") {
+    std::stop_source source;
+    int blocks = 0;
+    const auto stop_before_third = [&](double done) {
+      CHECK(done == blocks * 100 / 400.0);
+      if (++blocks == 3) source.request_stop();
+    };
+    const Streamed streamed =
+        run_streamed(discs(), RaysInMemory(rays()), candidates.back(),
+                     {.run = {.stop = source.get_token()}, .block = 100, .progress = stop_before_third});
+    const Outcome half = run(make_problem(std::span(rays()).first(200), discs()), candidates.back());
+    CHECK(streamed.outcome.stopped);
+    CHECK(streamed.outcome.hits == half.hits);
+    CHECK(streamed.outcome.total_hits == half.total_hits);
+  }
+
+  TEST_CASE("a block has as many rays as there are discs, from 2^20 to 2^22") {
+    CHECK(default_block(1) == 1U << 20);
+    CHECK(default_block(1U << 21) == 1U << 21);
+    CHECK(default_block(3'000'000) == 1U << 22);
+    CHECK(default_block(100'000'000) == 1U << 22);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("what would not fit the memory is refused before it is taken, naming the bytes") {
+    const LinesOfField lines(enclosing_sphere(discs()), 1, 1'000'000'000'000);
+    const auto stream = [&](const RaySource& source, const StreamOptions& options) {
+      static_cast<void>(run_streamed(discs(), source, candidates.front(), options));
+    };
+    CHECK_THROWS_WITH_AS(stream(lines, {.run = {}, .block = 1'000'000'000'000}), doctest::Contains("6.4e+04 GB"),
+                         std::length_error);
+    CHECK_THROWS_WITH_AS(stream(lines, {.run = {.pairs = true}}), doctest::Contains("too many for pairs"),
+                         std::length_error);
+  }
+
+  TEST_CASE("no rays, no discs, rays that are none or start where none should, and foreign totals are refused") {
+    const auto stream = [](std::span<const Disc> some, const RaySource& source, const RunOptions& options) {
+      static_cast<void>(run_streamed(some, source, candidates.back(), {.run = options, .block = 100}));
+    };
+    CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory({}), {}), doctest::Contains("at least one ray"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(stream({}, RaysInMemory(rays()), {}), doctest::Contains("at least one disc"),
+                         std::invalid_argument);
+    std::vector<Ray> bad = rays();
+    bad[250].power = -1;
+    CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory(bad), {}), doctest::Contains("power of a ray"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(stream(discs(), Understated(), {}), doctest::Contains("a ray starts"), std::invalid_argument);
+    Totals totals;
+    CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory(rays()), {.totals = &totals}), doctest::Contains("totals"),
+                         std::invalid_argument);
+  }
+}
