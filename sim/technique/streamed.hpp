@@ -27,7 +27,7 @@ struct Streamed {
 ///
 /// Each block costs techniques that cull lists a pass over the discs, and needs to bring as many rays to pay. The
 /// processor's caches have no say: techniques that trace rays one by one walk a block in chunks of 64, and the time of
-/// a grid is the same for blocks of 2¹⁶ and of 2²² rays.
+/// a grid (10⁶ discs) is the same for blocks of 2¹⁶ and of 10⁶ rays.
 [[nodiscard]] std::size_t default_block(std::size_t discs);
 
 /// What run gives, bit for bit (hits, irradiance, pairs), whatever the block. Indices over the discs are built once;

@@ -153,6 +153,19 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE("more rays than a block are never all in memory; --pairs tells their numbers among all") {
+    const Written written = run_and_read(words("run --samples 3 --disc-radius 0.3 --scene-side 2 --rays 1200000"),
+                                         "--technique grid --cells 2");
+    CHECK(written.json.at("rays_in_memory") == 1 << 20);
+    CHECK(written.json.at("inputs").at("rays") == 1.2e6);
+    const std::vector<std::string> pairs = rows_of(written.pairs);
+    CHECK(pairs.size() == written.hits);
+    const int last = std::stoi(pairs.back());
+    CHECK(last > 1'190'000);
+    CHECK(last < 1'200'000);
+    CHECK(result_of("run @cornell --rays 1000 --technique grid").at("rays_in_memory") == 1000);
+  }
+
   TEST_CASE("the files of `scene` are read back to the same result") {
     const ScratchFolder folder;
     const Arguments scene = words("scene @cornell --rays 1000 --samples 1500");
