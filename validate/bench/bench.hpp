@@ -18,7 +18,7 @@ struct BenchOptions {
   std::vector<EmbreeMode> embree_modes;  ///< at least one
   std::vector<int> threads = {1};        ///< each workload is run with each of these
   int repeats = 5;
-  double enough = 2;       ///< seconds after which no further round of a race is begun
+  double enough = 2;       ///< seconds after which no round of a race beyond the third is begun
   double most_hits = 5e6;  ///< a workload for which more are expected is skipped
   double hopeless = 30;    ///< one of ours predicted slower than this times our fastest prediction is not run
   double checkable = 2e7;  ///< rays x discs up to which brute force says which hits are right

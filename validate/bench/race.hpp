@@ -37,7 +37,7 @@ struct Finish {
 
 struct RaceOptions {
   int repeats = 5;    ///< rounds, at most
-  double enough = 2;  ///< seconds after which no further round is begun
+  double enough = 2;  ///< seconds after which no round beyond the third is begun
   int finalists = 2;  ///< of each side, that run after the first round
   int threads = 1;
   std::stop_token stop = {};

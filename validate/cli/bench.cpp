@@ -76,7 +76,7 @@ Json inputs_json(const BenchCommand& command, const validate::BenchSet& set, con
   Json json{{"effort", command.effort},          {"scenes", Json::array()},
             {"workloads", set.workloads.size()}, {"techniques", Json::array()},
             {"embree_modes", Json::array()},     {"threads", options.threads},
-            {"repeat", options.repeats},         {"seconds_after_which_no_round_begins", options.enough},
+            {"repeat", options.repeats},         {"seconds_after_which_no_fourth_round_begins", options.enough},
             {"most_hits", options.most_hits}};
   for (const validate::BenchWorkload& workload : set.workloads)
     if (json["scenes"].empty() || json["scenes"].back() != workload.path) json["scenes"].push_back(workload.path);
