@@ -58,10 +58,10 @@ struct BenchResult {
 /// Races on all workloads. Throws what make_job throws for a scene or a number that is wrong.
 [[nodiscard]] BenchResult run_bench(std::span<const BenchWorkload> workloads, const BenchOptions& options);
 
-/// Six modes: of the five workloads where all 60 were measured (CPU time, 10³ … 10⁵ rays), one of these was the fastest
-/// on four, and within 1 % of it on the fifth. All 60 lie close together: on discs neither the quality nor the
-/// coherent flag nor packets change much; rtcOccluded, which keeps no nearest hit, is ahead of rtcIntersect by 1 to 5
-/// %.
+/// Six modes. On the seven workloads where all 60 were measured (CPU time, 10³ … 10⁵ rays), one of these was the
+/// fastest on five, within 1 % of it on one, and 5 % behind on one where each ran only once. All 60 lie close together:
+/// on discs neither the quality nor the coherent flag nor packets change much; rtcOccluded, which keeps no nearest hit,
+/// is ahead of rtcIntersect by 1 to 5 %.
 [[nodiscard]] std::vector<EmbreeMode> best_embree_modes();
 
 }  // namespace detp::validate
