@@ -114,6 +114,9 @@ std::optional<Ranked> best_of(Technique technique, const Workload& workload, con
       return best_octree(workload, costs, limits);
     case Technique::grid:
       return best_grid(workload, costs, limits);
+    case Technique::bvh:
+    case Technique::photon_map:
+      return std::nullopt;
   }
   throw std::logic_error("a technique that cannot be chosen");
 }
@@ -121,7 +124,7 @@ std::optional<Ranked> best_of(Technique technique, const Workload& workload, con
 std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
   std::vector<Ranked> ranking;
   for (const Technique technique : all_techniques)
-    if (technique != Technique::sphere_cache_published)  // loses hits: never chosen
+    if (finds_all_hits(technique) && has_closed_form(technique))
       if (auto best = best_of(technique, workload, costs, limits)) ranking.push_back(std::move(*best));
   std::stable_sort(ranking.begin(), ranking.end(),
                    [](const Ranked& a, const Ranked& b) { return a.time.total() < b.time.total(); });

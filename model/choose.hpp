@@ -22,7 +22,7 @@ struct SearchLimits {
   double most_references = 1e9;  ///< to discs in an index: 4 bytes each
 };
 
-/// All exact techniques, each with its best parameters, fastest first.
+/// All exact techniques with a closed form, each with its best parameters, fastest first.
 ///
 /// The sphere caches by best_ratio_and_stop; cell spheres and the octree over their depths; the sphere tree over a
 /// table of fan-outs and leaves; the grid over cell counts in steps of 10 %. Throws std::invalid_argument for a
@@ -31,7 +31,7 @@ struct SearchLimits {
                                        const SearchLimits& limits = {});
 
 /// One technique with its best parameters; nothing where it has none within the limits (spheres as large as S₀, more
-/// references than allowed).
+/// references than allowed, no closed form).
 [[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
                                             const SearchLimits& limits = {});
 

@@ -29,6 +29,8 @@ Growth corrected_growth(const GrowthCase& asked) {
 Growth growth(const GrowthCase& asked) {
   if (!(asked.dimension >= 2 && asked.dimension <= 3))
     throw std::invalid_argument(fmt::format("sample dimension must be from 2 to 3 (got {})", asked.dimension));
+  if (!has_closed_form(asked.technique))
+    throw std::invalid_argument(fmt::format("there is no closed form of {}", name(asked.technique)));
   const bool unsorted = asked.order == SampleOrder::none && !is_tree_of_cells(asked.technique);
   if (asked.technique == Technique::brute_force || unsorted || asked.disc == DiscRule::fixed) return proportional;
   const bool published = asked.form == Form::published || asked.technique == Technique::sphere_cache_published;

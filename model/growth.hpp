@@ -53,7 +53,7 @@ struct GrowthCase {
 ///            the tree's fan-out) fixed. With d fixed the power is reached where n_P d^D is far above 1.
 /// Fitted     tests/model/growth: the best T of each over four decades of n_P from 10⁸, D = 2 and 3 (spheres also 2.5):
 ///            p to 0.012, published to 0.001. Spheres around cells and trees of spheres follow the derivation alone.
-/// Throws     std::invalid_argument unless 2 <= D <= 3.
+/// Throws     std::invalid_argument unless 2 <= D <= 3, and for a technique without a closed form.
 [[nodiscard]] Growth growth(const GrowthCase& asked);
 
 /// How k, the number of spheres, or the depth of a tree grows: log n_P where the discs shrink (eq 18 and section 4.2),

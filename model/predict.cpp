@@ -1,5 +1,7 @@
 #include "predict.hpp"
 
+#include <fmt/format.h>
+
 #include <stdexcept>
 
 #include "cell_spheres.hpp"
@@ -39,6 +41,10 @@ Counts<double> predict(const Workload& workload, const Candidate& candidate) {
       return octree_counts(workload, std::get<OctreeParameters>(candidate.parameters));
     case Technique::grid:
       return grid_counts(workload, std::get<GridParameters>(candidate.parameters));
+    case Technique::bvh:
+    case Technique::photon_map:
+      throw std::invalid_argument(
+          fmt::format("there is no closed form of {}; it can only be run", name(candidate.technique)));
   }
   throw std::logic_error("a technique without a model");
 }

@@ -7,7 +7,7 @@ namespace detp::model {
 /// Expected counts of a candidate on a workload, corrected formulas (for sphere-cache-published, which walks as the
 /// paper says, the paper's). Times the unit costs (`price`) they are its time.
 ///
-/// Throws std::invalid_argument for a workload or parameters out of range.
+/// Throws std::invalid_argument for a workload or parameters out of range, and for a technique without a closed form.
 [[nodiscard]] Counts<double> predict(const Workload& workload, const Candidate& candidate);
 
 }  // namespace detp::model

@@ -61,6 +61,10 @@ Counts<double> technique_counts(const sim::Problem& problem, double rays, const 
       return structural_index_counts(problem, rays, candidate);
     case Technique::sphere_cache_published:
       throw std::invalid_argument("sphere-cache-published has no structural tier: its walk loses rays");
+    case Technique::bvh:
+    case Technique::photon_map:
+      throw std::invalid_argument(
+          fmt::format("{} has no structural tier; it can only be run", name(candidate.technique)));
   }
   throw std::logic_error("a technique without a structural tier");
 }

@@ -26,7 +26,8 @@ namespace detp::validate {
 ///            each technique, hierarchies too: nothing off by more than 1.3 %, copies by 0.7 %.
 /// Throws     std::invalid_argument for no discs, malformed ones, a number of rays or parameters out of range;
 ///            std::length_error where an index would not fit the memory; std::invalid_argument too for
-///            sphere-cache-published, whose walk loses rays, and for a sphere cache in another order.
+///            sphere-cache-published, whose walk loses rays, for a sphere cache in another order, for bvh and
+///            photon-map.
 [[nodiscard]] Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays,
                                                const Candidate& candidate);
 

@@ -32,6 +32,10 @@ std::string_view name(Technique technique) {
       return "octree";
     case Technique::grid:
       return "grid";
+    case Technique::bvh:
+      return "bvh";
+    case Technique::photon_map:
+      return "photon-map";
   }
   throw std::logic_error("a technique without a name");
 }
@@ -50,6 +54,14 @@ std::optional<SampleOrder> order_named(std::string_view wanted) {
   return std::nullopt;
 }
 
+std::string_view name(BuildQuality quality) { return quality == BuildQuality::low ? "low" : "medium"; }
+
+std::optional<BuildQuality> quality_named(std::string_view wanted) {
+  for (const auto quality : {BuildQuality::low, BuildQuality::medium})
+    if (name(quality) == wanted) return quality;
+  return std::nullopt;
+}
+
 std::string describe(const Parameters& parameters) {
   return std::visit(
       Overload{[](const BruteForceParameters&) { return std::string{}; },
@@ -60,7 +72,9 @@ std::string describe(const Parameters& parameters) {
                [](const CellSpheresParameters& p) { return fmt::format("depth {}", p.depth); },
                [](const SphereTreeParameters& p) { return fmt::format("{} a node, {} a leaf", p.fan_out, p.leaf); },
                [](const OctreeParameters& p) { return fmt::format("depth {}", p.depth); },
-               [](const GridParameters& p) { return fmt::format("{} cells a side", p.cells); }},
+               [](const GridParameters& p) { return fmt::format("{} cells a side", p.cells); },
+               [](const BvhParameters& p) { return fmt::format("{} quality", name(p.quality)); },
+               [](const PhotonMapParameters& p) { return fmt::format("{} nearest photons", p.nearest); }},
       parameters);
 }
 
@@ -95,6 +109,13 @@ void check(const Candidate& candidate) {
       break;
     case Technique::grid:
       require_count("cells a side", want(static_cast<const GridParameters*>(nullptr)).cells, 1, 1048576);
+      break;
+    case Technique::bvh:
+      want(static_cast<const BvhParameters*>(nullptr));
+      break;
+    case Technique::photon_map:
+      require_count("number of nearest photons", want(static_cast<const PhotonMapParameters*>(nullptr)).nearest, 3,
+                    1e9);
       break;
   }
 }

@@ -11,12 +11,34 @@
 /// sim/technique.
 namespace detp {
 
-enum class Technique { brute_force, sphere_cache, sphere_cache_published, cell_spheres, sphere_tree, octree, grid };
+enum class Technique {
+  brute_force,
+  sphere_cache,
+  sphere_cache_published,
+  cell_spheres,
+  sphere_tree,
+  octree,
+  grid,
+  bvh,
+  photon_map
+};
 
 inline constexpr std::array all_techniques{
     Technique::brute_force,  Technique::sphere_cache, Technique::sphere_cache_published,
     Technique::cell_spheres, Technique::sphere_tree,  Technique::octree,
-    Technique::grid};
+    Technique::grid,         Technique::bvh,          Technique::photon_map};
+
+/// Whether it finds every hit: all but the published sphere cache, which loses some, and the photon map, which looks
+/// for none.
+[[nodiscard]] constexpr bool finds_all_hits(Technique technique) {
+  return technique != Technique::sphere_cache_published && technique != Technique::photon_map;
+}
+
+/// Whether the closed forms predict its counts, so that it can be chosen without being run. They know nothing of the
+/// tree that Embree builds, and what a photon map does is counted otherwise.
+[[nodiscard]] constexpr bool has_closed_form(Technique technique) {
+  return technique != Technique::bvh && technique != Technique::photon_map;
+}
 
 /// The name on the command line and in files: "sphere-cache".
 [[nodiscard]] std::string_view name(Technique technique);
@@ -71,8 +93,31 @@ struct GridParameters {
   bool operator==(const GridParameters&) const = default;
 };
 
-using Parameters = std::variant<BruteForceParameters, SphereCacheParameters, CellSpheresParameters,
-                                SphereTreeParameters, OctreeParameters, GridParameters>;
+/// How much time building a bounding volume hierarchy may take for the rays' sake.
+enum class BuildQuality {
+  low,    ///< along a Morton curve
+  medium  ///< by the surface area heuristic
+};
+
+[[nodiscard]] std::string_view name(BuildQuality quality);
+[[nodiscard]] std::optional<BuildQuality> quality_named(std::string_view name);
+
+/// Bounding volume hierarchy over the discs' boxes. (Embree's high quality builds the same tree as its medium one where
+/// there are no triangles.)
+struct BvhParameters {
+  BuildQuality quality = BuildQuality::low;
+  bool operator==(const BvhParameters&) const = default;
+};
+
+/// The nearest photons to each disc's centre.
+struct PhotonMapParameters {
+  int nearest = 50;  ///< k, photons looked for, 3 … 1 000 000 000, no more than there are
+  bool operator==(const PhotonMapParameters&) const = default;
+};
+
+using Parameters =
+    std::variant<BruteForceParameters, SphereCacheParameters, CellSpheresParameters, SphereTreeParameters,
+                 OctreeParameters, GridParameters, BvhParameters, PhotonMapParameters>;
 
 /// One technique with its parameters.
 struct Candidate {

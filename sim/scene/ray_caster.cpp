@@ -1,12 +1,9 @@
 #include "ray_caster.hpp"
 
-#include <embree3/rtcore.h>
-
 #include <cmath>
-#include <stdexcept>
-#include <string>
 #include <type_traits>
 
+#include "detp/sim/embree.hpp"
 #include "facet.hpp"
 
 namespace detp::sim {
@@ -76,26 +73,18 @@ double own_unit(const Box& box) {
   return std::exp2(std::ilogb(std::hypot(half.x, half.y, half.z)) + 1);
 }
 
-struct Release {
-  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
-  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
-  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
-};
-template <class Handle>
-using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
-
 }  // namespace
 
 struct RayCaster::Embree {
   std::vector<Facet> facets;
-  Owned<RTCDevice> device{rtcNewDevice(nullptr)};
-  Owned<RTCScene> scene;
+  embree::Owned<RTCDevice> device{rtcNewDevice(nullptr)};
+  embree::Owned<RTCScene> scene;
 
   explicit Embree(std::vector<Facet> all) : facets(std::move(all)) {
-    require_no_error();
+    embree::require_no_error(device);
     scene.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
-    const Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    const embree::Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(facets.size()));
     rtcSetGeometryUserData(geometry.get(), facets.data());
     rtcSetGeometryBoundsFunction(
@@ -104,13 +93,7 @@ struct RayCaster::Embree {
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene.get(), geometry.get());
     rtcCommitScene(scene.get());
-    require_no_error();
-  }
-
-  void require_no_error() const {
-    const RTCError error = rtcGetDeviceError(device.get());
-    if (error != RTC_ERROR_NONE)
-      throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
+    embree::require_no_error(device);
   }
 };
 

@@ -50,6 +50,12 @@ Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions
     case Technique::grid:
       run_grid(problem, std::get<GridParameters>(candidate.parameters), options, outcome);
       break;
+    case Technique::bvh:
+      run_bvh(problem, std::get<BvhParameters>(candidate.parameters), options, outcome);
+      break;
+    case Technique::photon_map:
+      run_photon_map(problem, std::get<PhotonMapParameters>(candidate.parameters), options, outcome);
+      break;
   }
   return outcome;
 }

@@ -55,4 +55,37 @@ void run_octree(const Problem& problem, const OctreeParameters& parameters, cons
 /// Uniform grid of cubic cells over the discs, walked cell by cell.
 void run_grid(const Problem& problem, const GridParameters& parameters, const RunOptions& options, Outcome& outcome);
 
+/// Bounding volume hierarchy over the discs by Embree. It finds the discs whose box a ray meets; each is a disc test in
+/// double precision (proof that none is missed: sim/README.md, "The culls"). Embree does not tell of the nodes it
+/// visits. It advises to flush tiny numbers to zero; the decision's doubles are left as they are.
+///
+/// Boxes are a user geometry, whose callback decides. Embree's own points, their radius inflated, all with the decision
+/// in a filter, took (build, search; ms; tests a hit; one thread, the least of 11 runs):
+///
+///                                @uniform, 100 000 discs, 50 000 lines    @tree, 85 967 discs, 100 000 paths
+///     boxes, low quality         11 + 103; 2.3                            9 + 93; 3.0
+///     boxes, medium quality      44 + 97;  2.3                            34 + 87; 3.0
+///     oriented discs             33 + 89;  1.0                            29 + 94; 2.0     loses grazing rays
+///     discs facing the ray       32 + 124; 2.0                            28 + 108; 3.4
+///     spheres                    33 + 140; 4.0                            28 + 129; 6.4    each disc told twice
+///
+/// Points get the same tree at low quality as at medium. Low quality is the default: with 10³ … 3·10⁵ rays on four
+/// scenes it took 0.3 to 1.1 times what medium did. Throws std::runtime_error where Embree fails.
+void run_bvh(const Problem& problem, const BvhParameters& parameters, const RunOptions& options, Outcome& outcome);
+
+/// Another estimator, for comparison: the irradiance at a disc's centre from the k nearest photons, wherever they came
+/// from. A photon is the end of a ray with a length; lines have none.
+///
+///     E = (power of the k - 1 nearest) / (π r_k²)        r_k: distance of the k-th nearest
+///
+/// Not k: that would be k/(k - 1) times too much where photons fall evenly (García, Ureña, Sbert, CGF 2012; its spread
+/// and bias: model/nearest_photons.hpp). The discs' radii and normals do not matter, except that with front_facing only
+/// photons count that arrive in front; a disc that fewer than k of them reach has irradiance 0.
+///
+/// Hits and pairs are the k - 1 photons used; counted are the photons stored (references) and these hits. On one
+/// thread. Throws std::invalid_argument where no ray has a length, where there are fewer than k photons or k of them in
+/// the very place of a disc's centre, and for totals to go on with, which nearest photons do not have.
+void run_photon_map(const Problem& problem, const PhotonMapParameters& parameters, const RunOptions& options,
+                    Outcome& outcome);
+
 }  // namespace detp::sim

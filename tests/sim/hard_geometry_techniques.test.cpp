@@ -66,7 +66,9 @@ const std::vector<Candidate>& culling_candidates() {
                                            {Technique::octree, OctreeParameters{3}},
                                            {Technique::octree, OctreeParameters{5}},
                                            {Technique::grid, GridParameters{8}},
-                                           {Technique::grid, GridParameters{27}}};
+                                           {Technique::grid, GridParameters{27}},
+                                           {Technique::bvh, BvhParameters{BuildQuality::low}},
+                                           {Technique::bvh, BvhParameters{BuildQuality::medium}}};
   return list;
 }
 

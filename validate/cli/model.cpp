@@ -1,5 +1,7 @@
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "command.hpp"
 #include "detp/model/predict.hpp"
 #include "model_answer.hpp"
@@ -49,6 +51,10 @@ Json answer(const ModelQuestion& question) {
     case Technique::grid:
       json.update(grid_answer(question));
       break;
+    case Technique::bvh:
+    case Technique::photon_map:
+      throw std::invalid_argument(fmt::format("there is no closed form of {}; try: detp run --technique {}",
+                                              name(question.technique), name(question.technique)));
   }
   return json;
 }

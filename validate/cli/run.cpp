@@ -51,6 +51,8 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
     return {technique, model::best_sphere_tree(workload, costs, options.fan_out, options.leaf)};
   if (technique == Technique::octree && options.depth) return {technique, OctreeParameters{*options.depth}};
   if (technique == Technique::grid && options.cells) return {technique, GridParameters{*options.cells}};
+  if (technique == Technique::bvh) return {technique, options.bvh()};
+  if (technique == Technique::photon_map) return {technique, options.photon_map()};
   const auto best = model::best_of(technique, workload, costs);
   if (!best) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
   return best->candidate;

@@ -65,6 +65,8 @@ void CandidateOptions::add_to(CLI::App& command) {
   command.add_option("--cells", cells, "cells of a grid along its longest side");
   command.add_option("--fan-out", fan_out, "children of a sphere tree's nodes, at least 2");
   command.add_option("--leaf", leaf, "most samples in a sphere tree's leaf");
+  command.add_option("--quality", quality, "of building a bvh: low or medium")->check(CLI::IsMember({"low", "medium"}));
+  command.add_option("--nearest", nearest, "photons that a photon-map looks for, at least 3");
 }
 
 Technique CandidateOptions::technique_or(Technique otherwise) const {
@@ -78,6 +80,14 @@ Technique CandidateOptions::technique_or(Technique otherwise) const {
 
 SampleOrder CandidateOptions::sample_order() const { return *order_named(order); }
 
+BvhParameters CandidateOptions::bvh() const {
+  return quality ? BvhParameters{*quality_named(*quality)} : BvhParameters{};
+}
+
+PhotonMapParameters CandidateOptions::photon_map() const {
+  return nearest ? PhotonMapParameters{*nearest} : PhotonMapParameters{};
+}
+
 void CandidateOptions::refuse_foreign(Technique chosen) const {
   const bool cache = chosen == Technique::sphere_cache || chosen == Technique::sphere_cache_published;
   const auto refuse = [&](const char* option) {
@@ -90,6 +100,8 @@ void CandidateOptions::refuse_foreign(Technique chosen) const {
   if (cells && chosen != Technique::grid) refuse("--cells");
   if (fan_out && chosen != Technique::sphere_tree) refuse("--fan-out");
   if (leaf && chosen != Technique::sphere_tree) refuse("--leaf");
+  if (quality && chosen != Technique::bvh) refuse("--quality");
+  if (nearest && chosen != Technique::photon_map) refuse("--nearest");
 }
 
 Json to_json(const Parameters& parameters) {
@@ -101,6 +113,8 @@ Json to_json(const Parameters& parameters) {
     json = {{"fan_out", tree->fan_out}, {"leaf", tree->leaf}};
   if (const auto* octree = std::get_if<OctreeParameters>(&parameters)) json = {{"depth", octree->depth}};
   if (const auto* grid = std::get_if<GridParameters>(&parameters)) json = {{"cells", grid->cells}};
+  if (const auto* bvh = std::get_if<BvhParameters>(&parameters)) json = {{"quality", detp::name(bvh->quality)}};
+  if (const auto* map = std::get_if<PhotonMapParameters>(&parameters)) json = {{"nearest", map->nearest}};
   return json;
 }
 

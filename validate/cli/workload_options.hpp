@@ -34,10 +34,14 @@ class CandidateOptions {
   std::optional<int> cells;
   std::optional<int> fan_out;
   std::optional<int> leaf;
+  std::optional<std::string> quality;
+  std::optional<int> nearest;
 
   /// The technique of that name, or `otherwise`. Throws std::invalid_argument for an unknown one, naming the known.
   [[nodiscard]] Technique technique_or(Technique otherwise) const;
   [[nodiscard]] SampleOrder sample_order() const;
+  [[nodiscard]] BvhParameters bvh() const;
+  [[nodiscard]] PhotonMapParameters photon_map() const;
 
   /// Throws std::invalid_argument for a parameter given that the technique does not have.
   void refuse_foreign(Technique technique) const;

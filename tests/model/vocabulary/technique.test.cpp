@@ -15,7 +15,8 @@ using doctest::Contains;
 namespace {
 
 const std::vector<Parameters> one_of_each{BruteForceParameters{}, SphereCacheParameters{}, OctreeParameters{},
-                                          GridParameters{},       CellSpheresParameters{}, SphereTreeParameters{}};
+                                          GridParameters{},       CellSpheresParameters{}, SphereTreeParameters{},
+                                          BvhParameters{},        PhotonMapParameters{}};
 
 /// Where a technique's own parameters are in one_of_each.
 std::size_t kind(Technique technique) {
@@ -33,6 +34,10 @@ std::size_t kind(Technique technique) {
       return 4;
     case Technique::sphere_tree:
       return 5;
+    case Technique::bvh:
+      return 6;
+    case Technique::photon_map:
+      return 7;
   }
   return one_of_each.size();
 }
@@ -51,6 +56,7 @@ TEST_SUITE("identity") {
 
   TEST_CASE("an order is found by its name") {
     for (const auto order : {SampleOrder::lebesgue, SampleOrder::none}) CHECK(order_named(name(order)) == order);
+    for (const auto quality : {BuildQuality::low, BuildQuality::medium}) CHECK(quality_named(name(quality)) == quality);
   }
 }
 
@@ -63,6 +69,10 @@ TEST_SUITE("known answer") {
     CHECK(name(Technique::sphere_tree) == "sphere-tree");
     CHECK(name(Technique::octree) == "octree");
     CHECK(name(Technique::grid) == "grid");
+    CHECK(name(Technique::bvh) == "bvh");
+    CHECK(name(Technique::photon_map) == "photon-map");
+    CHECK(name(BuildQuality::low) == "low");
+    CHECK(name(BuildQuality::medium) == "medium");
     CHECK(name(SampleOrder::lebesgue) == "lebesgue");
     CHECK(name(SampleOrder::none) == "none");
   }
@@ -75,6 +85,8 @@ TEST_SUITE("known answer") {
     CHECK(describe(SphereTreeParameters{8, 12}) == "8 a node, 12 a leaf");
     CHECK(describe(OctreeParameters{7}) == "depth 7");
     CHECK(describe(GridParameters{100}) == "100 cells a side");
+    CHECK(describe(BvhParameters{BuildQuality::low}) == "low quality");
+    CHECK(describe(PhotonMapParameters{20}) == "20 nearest photons");
   }
 
   TEST_CASE("parameters in range pass, ends included") {
@@ -87,6 +99,8 @@ TEST_SUITE("known answer") {
     for (const auto& tree : {SphereTreeParameters{2, 1}, SphereTreeParameters{1048576, 1048576}})
       CHECK_NOTHROW(check(Candidate{Technique::sphere_tree, tree}));
     for (const int cells : {1, 1048576}) CHECK_NOTHROW(check(Candidate{Technique::grid, GridParameters{cells}}));
+    for (const int nearest : {3, 1'000'000'000})
+      CHECK_NOTHROW(check(Candidate{Technique::photon_map, PhotonMapParameters{nearest}}));
     CHECK_NOTHROW(check(Candidate{}));
   }
 }
@@ -96,6 +110,7 @@ TEST_SUITE("bad input") {
     for (const char* bad : {"", "Octree", "octree ", "sphere", "sphere_cache", "all"}) {
       CHECK_FALSE(technique_named(bad).has_value());
       CHECK_FALSE(order_named(bad).has_value());
+      CHECK_FALSE(quality_named(bad).has_value());
     }
   }
 
@@ -131,6 +146,9 @@ TEST_SUITE("bad input") {
     for (const int bad : {0, -1, 1048577})
       CHECK_THROWS_WITH_AS(check(Candidate{Technique::sphere_tree, SphereTreeParameters{4, bad}}),
                            Contains("samples in a leaf"), std::invalid_argument);
+    for (const int bad : {2, 0, -50, 1'000'000'001})
+      CHECK_THROWS_WITH_AS(check(Candidate{Technique::photon_map, PhotonMapParameters{bad}}), Contains("nearest"),
+                           std::invalid_argument);
     for (const int bad : {0, -5, 1048577})
       CHECK_THROWS_WITH_AS(check(Candidate{Technique::grid, GridParameters{bad}}), Contains("cells a side"),
                            std::invalid_argument);

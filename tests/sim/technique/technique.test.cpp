@@ -36,7 +36,9 @@ const std::vector<Candidate>& exact_candidates() {
                                            {Technique::octree, OctreeParameters{6}},
                                            {Technique::grid, GridParameters{1}},
                                            {Technique::grid, GridParameters{7}},
-                                           {Technique::grid, GridParameters{50}}};
+                                           {Technique::grid, GridParameters{50}},
+                                           {Technique::bvh, BvhParameters{BuildQuality::low}},
+                                           {Technique::bvh, BvhParameters{BuildQuality::medium}}};
   return list;
 }
 

@@ -77,6 +77,8 @@ TEST_SUITE("bad input") {
     }
     check_refused(each(numbers + "--technique octree --depth", {"-1", "999", "1.5"}, "depth"));
     check_refused(each(numbers + "--technique grid --cells", {"0", "-1", "2.5"}, "cells"));
+    check_refused(each(uniform + "--technique bvh --quality", {"high", "Low", "1"}, "quality"));
+    check_refused(each(uniform + "--technique photon-map --nearest", {"2", "0", "-1", "1.5", "nan"}, "nearest"));
     for (const std::string technique : {"grid", "cell-spheres", "sphere-tree"})
       check_refused({{numbers + "--form published --technique " + technique, "--form corrected"}});
   }
@@ -92,6 +94,8 @@ TEST_SUITE("bad input") {
                      {command + "--technique octree --fan-out 3", "--fan-out"},
                      {command + "--technique cell-spheres --leaf 3", "--leaf"},
                      {command + "--technique sphere-tree --depth 3", "--depth"},
+                     {command + "--technique grid --quality low", "--quality"},
+                     {command + "--technique bvh --nearest 9", "--nearest"},
                      {command + "--technique brute-force --ratio 0.5", "--ratio"},
                      {command + "--technique brute-force --order none", "--order"}});
   }

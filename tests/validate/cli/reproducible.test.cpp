@@ -6,8 +6,8 @@ namespace detp::support {
 
 TEST_SUITE("end to end") {
   TEST_CASE("the number of threads changes nothing but the time") {
-    for (const std::string technique :
-         {"brute-force", "sphere-cache", "sphere-cache-published", "cell-spheres", "sphere-tree", "octree", "grid"}) {
+    for (const std::string technique : {"brute-force", "sphere-cache", "sphere-cache-published", "cell-spheres",
+                                        "sphere-tree", "octree", "grid", "bvh", "photon-map"}) {
       CAPTURE(technique);
       const std::string options = "--technique " + technique + " --threads ";
       const Written one = run_and_read(words("run @cornell --rays 5000"), options + "1");

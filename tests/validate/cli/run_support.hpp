@@ -74,7 +74,9 @@ inline const std::vector<std::string>& exact_techniques() {
                                             "--technique octree --depth 5",
                                             "--technique grid",
                                             "--technique grid --cells 1",
-                                            "--technique grid --cells 37"};
+                                            "--technique grid --cells 37",
+                                            "--technique bvh",
+                                            "--technique bvh --quality medium"};
   return all;
 }
 

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <type_traits>
+
+/// Embree's handles, released when they go, and its errors, thrown.
+namespace detp::sim::embree {
+
+struct Release {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+
+/// Owned<RTCDevice>, Owned<RTCScene>, Owned<RTCGeometry>.
+template <class Handle>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
+
+/// Throws std::runtime_error if anything failed on the device since this was last asked. No device (rtcNewDevice could
+/// make none): asks why.
+inline void require_no_error(const Owned<RTCDevice>& device) {
+  const RTCError error = rtcGetDeviceError(device.get());
+  if (error != RTC_ERROR_NONE || device == nullptr)
+    throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
+}
+
+}  // namespace detp::sim::embree
