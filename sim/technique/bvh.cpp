@@ -1,5 +1,3 @@
-#include <tbb/task_arena.h>
-
 #include <cmath>
 #include <exception>
 #include <optional>
@@ -7,8 +5,10 @@
 
 #include "detp/sim/embree.hpp"
 #include "detp/sim/memory.hpp"
+#include "detp/sim/threads.hpp"
 #include "disc_box.hpp"
 #include "hit_collector.hpp"
+#include "ray_search.hpp"
 #include "techniques.hpp"
 
 namespace detp::sim {
@@ -82,8 +82,7 @@ class Bvh {
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene_.get(), geometry.get());
     // (A device made with "threads=1" would hold the whole process to one thread.)
-    tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : threads);
-    arena.execute([&] { rtcCommitScene(scene_.get()); });
+    on_threads(thread_count(threads), [&] { rtcCommitScene(scene_.get()); });
     embree::require_no_error(device_);
   }
 
@@ -108,66 +107,59 @@ class Bvh {
 };
 
 template <bool counting>
-class Search {
+class BvhSearch final : public RaySearch {
  public:
-  Search(const Problem& problem, const RunOptions& options) : problem_(problem), collector_(problem, options) {}
+  BvhSearch(const Bvh& bvh, const Problem& problem) : bvh_(bvh), problem_(problem) {}
+
+  void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
+    Query query{.context = {}, .search = this};
+    rtcInitIntersectContext(&query.context);
+    hits_ = &hits;
+    for (ray_ = first; ray_ < last; ++ray_) bvh_.trace(problem_.rays[ray_], query.context);
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
 
   /// Embree shows a disc to the ray being traced. Says of none that it was met, so that Embree goes on.
   static void decide(const RTCOccludedFunctionNArguments* arguments) {
     if (arguments->valid[0] != 0) reinterpret_cast<Query*>(arguments->context)->search->test(arguments->primID);
   }
 
-  void trace(const Bvh& bvh, std::uint32_t ray) {
-    ray_ = ray;
-    Query query{.context = {}, .search = this};
-    rtcInitIntersectContext(&query.context);
-    bvh.trace(problem_.rays[ray], query.context);
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
-  void give(Outcome& outcome) && {
-    tally_.add(&Counts<std::uint64_t>::references, problem_.discs.size());
-    outcome.counts = tally_.counts();
-    std::move(collector_).give(outcome);
-  }
-
  private:
   /// What Embree hands back to us with each disc; the context proper must come first.
   struct Query {
     RTCIntersectContext context;
-    Search* search;
+    BvhSearch* search;
   };
   static_assert(std::is_standard_layout_v<Query>);
 
-  void test(std::uint32_t disc) {
+  void test(std::uint32_t disc) noexcept {
     tally_.add(&Counts<std::uint64_t>::disc_tests);
-    if (!collector_.decide(problem_.rays[ray_], problem_.discs[disc])) return;
+    if (!counts_as_hit(problem_, problem_.rays[ray_], problem_.discs[disc])) return;
     try {
-      collector_.keep(ray_, disc);
-    } catch (...) {  // no exception may pass through Embree
+      hits_->push_back({ray_, disc});
+    } catch (...) {  // must not pass through Embree
       failure_ = std::current_exception();
     }
   }
 
+  const Bvh& bvh_;
   const Problem& problem_;
-  HitCollector collector_;
   Tally<counting> tally_;
   std::uint32_t ray_ = 0;
+  std::vector<Pair>* hits_ = nullptr;
   std::exception_ptr failure_;
 };
 
 template <bool counting>
 void search_bvh(const Problem& problem, BuildQuality quality, const RunOptions& options, Outcome& outcome) {
-  constexpr std::uint32_t block = 64;
   Stopwatch watch;
-  const Bvh bvh(problem, quality, options.threads, Search<counting>::decide);
+  const Bvh bvh(problem, quality, options.threads, BvhSearch<counting>::decide);
   outcome.seconds.build = watch.lap();
-  Search<counting> search(problem, options);
-  for (std::uint32_t ray = 0; ray < problem.rays.size() && !outcome.stopped; ++ray) {
-    outcome.stopped = ray % block == 0 && options.stop.stop_requested();
-    if (!outcome.stopped) search.trace(bvh, ray);
-  }
-  std::move(search).give(outcome);
+  search_rays(
+      problem, options, [&] { return std::make_unique<BvhSearch<counting>>(bvh, problem); }, outcome);
+  if constexpr (counting) outcome.counts.references += problem.discs.size();
   outcome.seconds.search = watch.lap();
 }
 

@@ -62,7 +62,8 @@ TEST_SUITE("identity") {
     for (const Candidate& candidate : {Candidate{Technique::brute_force, BruteForceParameters{}},
                                        {Technique::sphere_tree, SphereTreeParameters{8, 4}},
                                        {Technique::octree, OctreeParameters{4}},
-                                       {Technique::grid, GridParameters{12}}}) {
+                                       {Technique::grid, GridParameters{12}},
+                                       {Technique::bvh, BvhParameters{}}}) {
       CAPTURE(name(candidate.technique));
       const Outcome alone = run(problem, candidate, {.pairs = true});
       CHECK(alone.total_hits > 5000);
