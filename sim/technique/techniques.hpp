@@ -55,12 +55,13 @@ void run_octree(const Problem& problem, const OctreeParameters& parameters, cons
 /// Uniform grid of cubic cells over the discs, walked cell by cell.
 void run_grid(const Problem& problem, const GridParameters& parameters, const RunOptions& options, Outcome& outcome);
 
-/// Bounding volume hierarchy over the discs by Embree. It finds the discs whose box a ray meets; each is a disc test in
-/// double precision (proof that none is missed: sim/README.md, "The culls"). Embree does not tell of the nodes it
-/// visits. It advises to flush tiny numbers to zero; the decision's doubles are left as they are.
+/// Bounding volume hierarchy over the discs by Embree. It shows the discs whose box a ray meets (and others of the same
+/// leaf where discs are few); each is a disc test in double precision. None is missed: sim/README.md, "The culls".
+/// Embree does not tell of the nodes it visits. It advises to flush tiny numbers to zero; the decision's doubles are
+/// left as they are.
 ///
-/// Boxes are a user geometry, whose callback decides. Embree's own points, their radius inflated, all with the decision
-/// in a filter, took (build, search; ms; tests a hit; one thread, the least of 11 runs):
+/// Boxes are a user geometry, whose callback decides. Beside them Embree's own points of inflated radius, with the same
+/// decision in a filter (build + search, ms of processor time; tests a hit; one thread, the least of 11 runs):
 ///
 ///                                @uniform, 100 000 discs, 50 000 lines    @tree, 85 967 discs, 100 000 paths
 ///     boxes, low quality         11 + 103; 2.3                            9 + 93; 3.0

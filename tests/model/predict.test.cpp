@@ -167,6 +167,8 @@ TEST_SUITE("bad input") {
     for (const double bad : support::not_a_ratio)
       CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::sphere_cache, SphereCacheParameters{bad, 3}}),
                            Contains("radius ratio Q"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::bvh, BvhParameters{}}), Contains("no closed form of bvh"),
+                         std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::octree, GridParameters{3}}), Contains("octree"),
                          std::invalid_argument);
   }

@@ -79,6 +79,10 @@ TEST_SUITE("bad input") {
     check_refused(each(numbers + "--technique grid --cells", {"0", "-1", "2.5"}, "cells"));
     check_refused(each(uniform + "--technique bvh --quality", {"high", "Low", "1"}, "quality"));
     check_refused(each(uniform + "--technique photon-map --nearest", {"2", "0", "-1", "1.5", "nan"}, "nearest"));
+    check_refused({{numbers + "--technique bvh", "no closed form of bvh"},
+                   {numbers + "--technique photon-map", "no closed form of photon-map"},
+                   {uniform + "--technique photon-map", "no ray is a segment"},
+                   {"run @cornell --rays 20 --technique photon-map", "fewer than the 50 nearest"}});
     for (const std::string technique : {"grid", "cell-spheres", "sphere-tree"})
       check_refused({{numbers + "--form published --technique " + technique, "--form corrected"}});
   }
