@@ -71,6 +71,8 @@ TEST_SUITE("end to end") {
                    {"bench @tree --most-hits -1", "--most-hits"},
                    {"bench @tree --techniques grid,none", "none"},
                    {"bench @tree --techniques sphere-cache-published", "loses hits"},
+                   {"bench @tree --techniques photon-map", "loses hits"},
+                   {"bench @tree --techniques bvh", "no closed form"},
                    {"bench @uniform --field photons", "light"},
                    {"bench missing.obj", "missing.obj"}});
   }
