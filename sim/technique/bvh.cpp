@@ -8,6 +8,7 @@
 #include "detp/sim/threads.hpp"
 #include "disc_box.hpp"
 #include "hit_collector.hpp"
+#include "prepared.hpp"
 #include "ray_search.hpp"
 #include "techniques.hpp"
 
@@ -62,11 +63,26 @@ class OwnFrame {
   double growth_;
 };
 
+/// Is shown discs whose box the ray being traced meets.
+class DiscTest {
+ public:
+  virtual void test(std::uint32_t disc) noexcept = 0;
+
+ protected:
+  ~DiscTest() = default;
+};
+
+/// What Embree hands back to us with each disc; the context proper must come first.
+struct Query {
+  RTCIntersectContext context;
+  DiscTest* discs;
+};
+static_assert(std::is_standard_layout_v<Query>);
+
 /// Embree's tree over the boxes of the discs.
 class Bvh {
  public:
-  Bvh(const Problem& problem, BuildQuality quality, int threads, RTCOccludedFunctionN decide)
-      : problem_(problem), frame_(problem) {
+  Bvh(const Problem& problem, BuildQuality quality, int threads) : problem_(problem), frame_(problem) {
     require_memory("the BVH", bytes_per_disc * static_cast<double>(problem.discs.size()));
     embree::require_no_error(device_);
     scene_.reset(rtcNewScene(device_.get()));
@@ -78,7 +94,7 @@ class Bvh {
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(problem.discs.size()));
     rtcSetGeometryUserData(geometry.get(), this);
     rtcSetGeometryBoundsFunction(geometry.get(), tell_bounds, nullptr);
-    rtcSetGeometryOccludedFunction(geometry.get(), decide);
+    rtcSetGeometryOccludedFunction(geometry.get(), show_disc);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene_.get(), geometry.get());
     // (A device made with "threads=1" would hold the whole process to one thread.)
@@ -86,9 +102,9 @@ class Bvh {
     embree::require_no_error(device_);
   }
 
-  /// Calls `decide` for every disc whose box the ray meets.
-  void trace(const Ray& ray, RTCIntersectContext& context) const {
-    if (std::optional<RTCRay> stretch = frame_.stretch(ray)) rtcOccluded1(scene_.get(), &context, &*stretch);
+  /// Shows the query every disc whose box the ray meets.
+  void trace(const Ray& ray, Query& query) const {
+    if (std::optional<RTCRay> stretch = frame_.stretch(ray)) rtcOccluded1(scene_.get(), &query.context, &*stretch);
   }
 
  private:
@@ -100,6 +116,11 @@ class Bvh {
     *arguments->bounds_o = {low.x, low.y, low.z, 0, high.x, high.y, high.z, 0};
   }
 
+  /// Says of no disc that it was met, so that Embree goes on.
+  static void show_disc(const RTCOccludedFunctionNArguments* arguments) {
+    if (arguments->valid[0] != 0) reinterpret_cast<Query*>(arguments->context)->discs->test(arguments->primID);
+  }
+
   const Problem& problem_;
   OwnFrame frame_;
   embree::Owned<RTCDevice> device_{rtcNewDevice(nullptr)};
@@ -107,34 +128,22 @@ class Bvh {
 };
 
 template <bool counting>
-class BvhSearch final : public RaySearch {
+class BvhSearch final : public RaySearch, private DiscTest {
  public:
   BvhSearch(const Bvh& bvh, const Problem& problem) : bvh_(bvh), problem_(problem) {}
 
   void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
-    Query query{.context = {}, .search = this};
+    Query query{.context = {}, .discs = this};
     rtcInitIntersectContext(&query.context);
     hits_ = &hits;
-    for (ray_ = first; ray_ < last; ++ray_) bvh_.trace(problem_.rays[ray_], query.context);
+    for (ray_ = first; ray_ < last; ++ray_) bvh_.trace(problem_.rays[ray_], query);
     if (failure_) std::rethrow_exception(failure_);
   }
 
   [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
 
-  /// Embree shows a disc to the ray being traced. Says of none that it was met, so that Embree goes on.
-  static void decide(const RTCOccludedFunctionNArguments* arguments) {
-    if (arguments->valid[0] != 0) reinterpret_cast<Query*>(arguments->context)->search->test(arguments->primID);
-  }
-
  private:
-  /// What Embree hands back to us with each disc; the context proper must come first.
-  struct Query {
-    RTCIntersectContext context;
-    BvhSearch* search;
-  };
-  static_assert(std::is_standard_layout_v<Query>);
-
-  void test(std::uint32_t disc) noexcept {
+  void test(std::uint32_t disc) noexcept override {
     tally_.add(&Counts<std::uint64_t>::disc_tests);
     if (!counts_as_hit(problem_, problem_.rays[ray_], problem_.discs[disc])) return;
     try {
@@ -153,21 +162,43 @@ class BvhSearch final : public RaySearch {
 };
 
 template <bool counting>
-void search_bvh(const Problem& problem, BuildQuality quality, const RunOptions& options, Outcome& outcome) {
-  Stopwatch watch;
-  const Bvh bvh(problem, quality, options.threads, BvhSearch<counting>::decide);
-  outcome.seconds.build = watch.lap();
+void search_bvh(const Bvh& bvh, const Problem& problem, const RunOptions& options, Outcome& outcome) {
   search_rays(
       problem, options, [&] { return std::make_unique<BvhSearch<counting>>(bvh, problem); }, outcome);
   if constexpr (counting) outcome.counts.references += problem.discs.size();
-  outcome.seconds.search = watch.lap();
 }
+
+class PreparedBvh final : public Prepared {
+ public:
+  PreparedBvh(const Problem& problem, BuildQuality quality, int threads)
+      : problem_(problem), bvh_(problem, quality, threads) {}
+
+  void search(const RunOptions& options, Outcome& outcome) const override {
+    options.count ? search_bvh<true>(bvh_, problem_, options, outcome)
+                  : search_bvh<false>(bvh_, problem_, options, outcome);
+  }
+
+  [[nodiscard]] std::size_t bytes() const override {
+    return static_cast<std::size_t>(bytes_per_disc) * problem_.discs.size();
+  }
+
+ private:
+  const Problem& problem_;
+  Bvh bvh_;
+};
 
 }  // namespace
 
+std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters) {
+  return std::make_unique<PreparedBvh>(problem, parameters.quality, 1);
+}
+
 void run_bvh(const Problem& problem, const BvhParameters& parameters, const RunOptions& options, Outcome& outcome) {
-  options.count ? search_bvh<true>(problem, parameters.quality, options, outcome)
-                : search_bvh<false>(problem, parameters.quality, options, outcome);
+  Stopwatch watch;
+  const PreparedBvh prepared(problem, parameters.quality, options.threads);
+  outcome.seconds.build = watch.lap();
+  prepared.search(options, outcome);
+  outcome.seconds.search = watch.lap();
 }
 
 }  // namespace detp::sim

@@ -9,6 +9,8 @@ std::unique_ptr<Prepared> prepare(const Problem& problem, const Candidate& candi
       return prepare_octree(problem, std::get<OctreeParameters>(candidate.parameters), stop);
     case Technique::grid:
       return prepare_grid(problem, std::get<GridParameters>(candidate.parameters), stop);
+    case Technique::bvh:
+      return prepare_bvh(problem, std::get<BvhParameters>(candidate.parameters));
     default:
       return nullptr;
   }

@@ -30,5 +30,6 @@ class Prepared {
                                                        const std::stop_token& stop);
 [[nodiscard]] std::unique_ptr<Prepared> prepare_grid(const Problem& problem, const GridParameters& parameters,
                                                      const std::stop_token& stop);
+[[nodiscard]] std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters);
 
 }  // namespace detp::sim

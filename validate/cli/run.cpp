@@ -127,7 +127,8 @@ Result run_run(const RunOptions& options, const CommonOptions& common, const std
   const ProgressLine progress(common);
   progress.show("scene and rays", 0);
   validate::JobRequest request = options.workload.request(common);
-  request.stream = true;
+  request.stream =
+      options.candidate.technique_or(Technique::brute_force) != Technique::photon_map;  // wants all at once
   const validate::Job job = validate::make_job(request);
   for (const std::string& notice : job.notices) note(common, notice);
   const Candidate candidate = complete(options.candidate, job.workload);

@@ -37,6 +37,7 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
                                         {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
                                         {Technique::sphere_tree, SphereTreeParameters{8, 4}},
                                         {Technique::octree, OctreeParameters{2}},
+                                        {Technique::bvh, BvhParameters{}},
                                         {Technique::grid, GridParameters{6}}};
 
 /// Tells less than the truth about how far its rays start.
