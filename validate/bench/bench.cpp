@@ -2,13 +2,11 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <numeric>
 
-#include "detp/model/choose.hpp"
-#include "detp/validate/unit_costs.hpp"
+#include "contenders.hpp"
 
 namespace detp::validate {
 namespace {
@@ -22,24 +20,6 @@ JobRequest request_of(const BenchWorkload& workload, std::uint64_t seed) {
   request.rays = workload.rays;
   request.seed = seed;
   return request;
-}
-
-std::vector<model::Ranked> ranked_ours(const Workload& workload, const BenchOptions& options) {
-  std::vector<model::Ranked> ranking = model::rank(workload, built_in_unit_costs());
-  if (!options.techniques.empty())
-    std::erase_if(ranking, [&](const model::Ranked& ranked) {
-      return std::find(options.techniques.begin(), options.techniques.end(), ranked.candidate.technique) ==
-             options.techniques.end();
-    });
-  return ranking;
-}
-
-std::vector<Competitor> competitors_of(const std::vector<model::Ranked>& ranking, const BenchOptions& options) {
-  std::vector<Competitor> competitors;
-  for (const model::Ranked& ranked : ranking)
-    if (ranked.time.total() <= options.hopeless * ranking.front().time.total()) competitors.push_back(ranked.candidate);
-  for (const EmbreeMode& mode : options.embree_modes) competitors.push_back(mode);
-  return competitors;
 }
 
 class Benchmark {
@@ -79,25 +59,27 @@ class Benchmark {
     if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return;
     show(workload, "making rays");
     const Job job = make_job(request_of(workload, options_.seed));
-    const std::vector<model::Ranked> ranking = ranked_ours(job.workload, options_);
-    if (ranking.empty()) {
-      result_.skipped.push_back({workload, "none of the techniques named can be run on it"});
+    const Contenders ours = contenders(job.workload, options_.techniques, options_.hopeless);
+    if (ours.candidates.empty()) {
+      result_.skipped.push_back({workload, "none of the techniques named fits in memory on it"});
       return;
     }
-    if (hits_per_ray_ == 0) {
-      hits_per_ray_ = ranking.front().counts.hits / workload.rays;
-      if (too_many_hits(workload, ranking.front().counts.hits)) return;
+    if (hits_per_ray_ == 0 && too_many_hits(workload, ours.hits)) {
+      hits_per_ray_ = ours.hits / workload.rays;
+      return;
     }
     show(workload, "hits");
-    const auto right = right_hits(job, ranking.front().candidate, options_.checkable, options_.stop);
+    const auto right = right_hits(job, ours.candidates.front(), options_.checkable, options_.stop);
     if (!right) return;
     const auto sum = std::accumulate(right->hits.begin(), right->hits.end(), std::uint64_t{0});
     hits_per_ray_ = static_cast<double>(sum) / workload.rays;
+    std::vector<Competitor> competitors(ours.candidates.begin(), ours.candidates.end());
+    competitors.insert(competitors.end(), options_.embree_modes.begin(), options_.embree_modes.end());
     for (const int threads : options_.threads) {
       show(workload, fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"));
       const RaceOptions how{
           .repeats = options_.repeats, .enough = options_.enough, .threads = threads, .stop = options_.stop};
-      Race found = race(job, *right, *peers_.at(threads), competitors_of(ranking, options_), how);
+      Race found = race(job, *right, *peers_.at(threads), competitors, how);
       if (found.finishes.empty()) return;
       result_.entries.push_back(
           {workload, job.workload.samples, job.workload.disc_radius, threads, right->judge, std::move(found)});
