@@ -189,8 +189,8 @@ class PreparedBvh final : public Prepared {
 
 }  // namespace
 
-std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters) {
-  return std::make_unique<PreparedBvh>(problem, parameters.quality, 1);
+std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters, int threads) {
+  return std::make_unique<PreparedBvh>(problem, parameters.quality, threads);
 }
 
 void run_bvh(const Problem& problem, const BvhParameters& parameters, const RunOptions& options, Outcome& outcome) {

@@ -2,15 +2,15 @@
 
 namespace detp::sim {
 
-std::unique_ptr<Prepared> prepare(const Problem& problem, const Candidate& candidate, const std::stop_token& stop) {
+std::unique_ptr<Prepared> prepare(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
   check(candidate);
   switch (candidate.technique) {
     case Technique::octree:
-      return prepare_octree(problem, std::get<OctreeParameters>(candidate.parameters), stop);
+      return prepare_octree(problem, std::get<OctreeParameters>(candidate.parameters), options.stop);
     case Technique::grid:
-      return prepare_grid(problem, std::get<GridParameters>(candidate.parameters), stop);
+      return prepare_grid(problem, std::get<GridParameters>(candidate.parameters), options.stop);
     case Technique::bvh:
-      return prepare_bvh(problem, std::get<BvhParameters>(candidate.parameters));
+      return prepare_bvh(problem, std::get<BvhParameters>(candidate.parameters), options.threads);
     default:
       return nullptr;
   }

@@ -22,14 +22,16 @@ class Prepared {
   [[nodiscard]] virtual std::size_t bytes() const = 0;
 };
 
-/// Builds the index of a technique that has one; null for all others. Throws as run does.
+/// Builds the index of a technique that has one, to be searched with these options; null for all others. Throws as run
+/// does.
 [[nodiscard]] std::unique_ptr<Prepared> prepare(const Problem& problem, const Candidate& candidate,
-                                                const std::stop_token& stop);
+                                                const RunOptions& options);
 
 [[nodiscard]] std::unique_ptr<Prepared> prepare_octree(const Problem& problem, const OctreeParameters& parameters,
                                                        const std::stop_token& stop);
 [[nodiscard]] std::unique_ptr<Prepared> prepare_grid(const Problem& problem, const GridParameters& parameters,
                                                      const std::stop_token& stop);
-[[nodiscard]] std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters);
+[[nodiscard]] std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters,
+                                                    int threads);
 
 }  // namespace detp::sim

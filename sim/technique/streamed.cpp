@@ -28,7 +28,7 @@ class Stream {
     const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());
     streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, source.size()));
     foretell(0);
-    prepared_ = prepare(problem_, candidate_, run_.stop);
+    prepared_ = prepare(problem_, candidate_, run_);
     streamed_.outcome.seconds.build = watch.lap();
     foretell(prepared_ ? prepared_->bytes() : 0);
     totals_.resize(discs.size());
