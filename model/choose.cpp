@@ -56,7 +56,7 @@ std::optional<Ranked> best_cells(const Workload& workload, const UnitCosts& cost
 std::optional<Ranked> best_octree(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
   Fastest fastest(workload, costs, limits);
   int depth = 0;
-  for (const Counts<double>& counts : octree_counts_by_depth(workload, limits.most_depth))
+  for (const Counts<double>& counts : octree_counts_by_depth(workload, {limits.most_depth}))
     fastest.consider({Technique::octree, OctreeParameters{depth++}}, counts);
   return fastest.best();
 }
@@ -114,6 +114,7 @@ std::optional<Ranked> best_of(Technique technique, const Workload& workload, con
       return best_octree(workload, costs, limits);
     case Technique::grid:
       return best_grid(workload, costs, limits);
+    case Technique::bsp:
     case Technique::bvh:
     case Technique::photon_map:
       return std::nullopt;

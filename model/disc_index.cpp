@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "line_measure.hpp"
 
@@ -29,16 +30,18 @@ double steps_of_ray(const Workload& workload, const Cells& cells) {
 
 }  // namespace
 
-std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, int most_depth,
+std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, const OctreeParameters& deepest,
                                                    const IndexVariant& variant) {
   check(workload);
-  require_count("depth", most_depth, 0, 300);
+  require_count("depth", deepest.depth, 0, 300);
+  if (deepest.traversal == Traversal::neighbour_links)
+    throw std::invalid_argument("an octree with neighbour links has no closed form; the other traversals have");
   std::vector<Counts<double>> by_depth;
   double above = 0;       // nodes visited by a ray above this level
   double left_out = 0;    // visits of its descents to octants left out, down to this level
   double placements = 0;  // down to this level
   double parents = 0;     // occupied nodes one level up
-  for (int level = 0; level <= most_depth; ++level) {
+  for (int level = 0; level <= deepest.depth; ++level) {
     const Cells nodes = index_cells(workload, std::ldexp(1.0, level), variant.insertion);
     const double occupied = occupied_cells(workload, nodes);
     if (level > 0) {
@@ -47,8 +50,8 @@ std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, int
     }
     Counts<double> counts = leaf_counts(workload, nodes, variant);
     const double leaves = nodes.crossing * occupied;
-    const bool top_down = variant.traversal == Traversal::top_down;
-    counts.nodes = workload.rays * (top_down ? above + leaves : left_out + (level + 1) * leaves);
+    const bool restart = deepest.traversal == Traversal::restart;
+    counts.nodes = workload.rays * (restart ? left_out + (level + 1) * leaves : above + leaves);
     counts.placements = placements;
     by_depth.push_back(counts);
     above += leaves;
@@ -59,7 +62,7 @@ std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, int
 
 Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters,
                              const IndexVariant& variant) {
-  return octree_counts_by_depth(workload, parameters.depth, variant).back();
+  return octree_counts_by_depth(workload, parameters, variant).back();
 }
 
 Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters, const IndexVariant& variant) {

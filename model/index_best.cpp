@@ -41,7 +41,7 @@ double golden_section(const Time& time, double most_cells) {
 }  // namespace
 
 int best_octree_depth(const Workload& workload, const UnitCosts& costs, const IndexVariant& variant, int most_depth) {
-  const std::vector<Counts<double>> depths = octree_counts_by_depth(workload, most_depth, variant);
+  const std::vector<Counts<double>> depths = octree_counts_by_depth(workload, {most_depth}, variant);
   const auto best = std::min_element(depths.begin(), depths.end(), [&](const auto& a, const auto& b) {
     return price(a, costs).total() < price(b, costs).total();
   });

@@ -6,8 +6,8 @@
 /// The size of an index that takes the least time, in place of the paper's, whose cells are as wide as a disc (eq 21).
 namespace detp::model {
 
-/// Depth of the fastest octree, from 0 to `most_depth`: all of them tried, each level predicted once.
-/// Throws std::invalid_argument for a workload or depth out of range.
+/// Depth of the fastest octree, searched top-down, from 0 to `most_depth`: all of them tried, each level predicted
+/// once. Throws std::invalid_argument for a workload or depth out of range.
 [[nodiscard]] int best_octree_depth(const Workload& workload, const UnitCosts& costs, const IndexVariant& variant = {},
                                     int most_depth = 20);
 

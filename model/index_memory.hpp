@@ -20,6 +20,8 @@ struct IndexLayout {
 ///
 /// Accuracy   within 2.1 % of the bytes taken (median 0.3 %; cases as in index_cells.hpp).
 ///
+/// Neighbour links are not in it.
+///
 /// While it is built it takes up to twice that, and the lists of the nodes that are being split.
 [[nodiscard]] double octree_bytes(const Workload& workload, const OctreeParameters& parameters,
                                   const IndexVariant& variant = {}, const IndexLayout& layout = {});

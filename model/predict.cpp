@@ -7,6 +7,7 @@
 #include "cell_spheres.hpp"
 #include "disc_index.hpp"
 #include "line_measure.hpp"
+#include "rebuild_law.hpp"
 #include "sphere_cache.hpp"
 #include "sphere_cache_published.hpp"
 #include "sphere_tree.hpp"
@@ -31,6 +32,7 @@ Counts<double> predict(const Workload& workload, const Candidate& candidate) {
       return sphere_cache_counts(workload, std::get<SphereCacheParameters>(candidate.parameters));
     case Technique::sphere_cache_published: {
       const auto& parameters = std::get<SphereCacheParameters>(candidate.parameters);
+      require_rebuild_law(parameters.order);
       return published::counts(workload, {parameters.ratio}, parameters.spheres);
     }
     case Technique::cell_spheres:
@@ -41,6 +43,7 @@ Counts<double> predict(const Workload& workload, const Candidate& candidate) {
       return octree_counts(workload, std::get<OctreeParameters>(candidate.parameters));
     case Technique::grid:
       return grid_counts(workload, std::get<GridParameters>(candidate.parameters));
+    case Technique::bsp:
     case Technique::bvh:
     case Technique::photon_map:
       throw std::invalid_argument(

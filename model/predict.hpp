@@ -7,7 +7,8 @@ namespace detp::model {
 /// Expected counts of a candidate on a workload, corrected formulas (for sphere-cache-published, which walks as the
 /// paper says, the paper's). Times the unit costs (`price`) they are its time.
 ///
-/// Throws std::invalid_argument for a workload or parameters out of range, and for a technique without a closed form.
+/// Throws std::invalid_argument for a workload or parameters out of range, and for candidates without a closed form:
+/// bsp, bvh and photon-map, octrees with neighbour links, sphere caches along the Hilbert curve.
 [[nodiscard]] Counts<double> predict(const Workload& workload, const Candidate& candidate);
 
 }  // namespace detp::model

@@ -228,7 +228,15 @@ double single_rebuilds(double dimension, double samples, const Ball& ball) {
   return std::max(1.0, std::min(samples, samples * std::exp(log_rebuilds)));
 }
 
+void require_rebuild_law(SampleOrder order) {
+  if (order == SampleOrder::hilbert)
+    throw std::invalid_argument(
+        "the closed forms know rebuilds along the Lebesgue curve or of samples in no order, not along the Hilbert "
+        "curve; use order lebesgue or none");
+}
+
 double single_rebuilds(const Workload& workload, double radius, SampleOrder order) {
+  require_rebuild_law(order);
   require_finite("radius of the ball", radius);
   if (order == SampleOrder::lebesgue && radius > 0)
     return single_rebuilds(workload.dimension, workload.samples, ball_of(workload, radius));

@@ -54,7 +54,11 @@ struct Ball {
 /// s_i along the curve: rebuilds of one ball alone among so many samples, from 1 to all.
 [[nodiscard]] double single_rebuilds(double dimension, double samples, const Ball& ball);
 
-/// The same for the workload's samples in order or in none. ρ <= 0: each sample.
+/// Throws std::invalid_argument for the Hilbert order: the law is tabulated along the Lebesgue curve, and there is no
+/// formula for another.
+void require_rebuild_law(SampleOrder order);
+
+/// The same for the workload's samples in order or in none. ρ <= 0: each sample. Throws as require_rebuild_law does.
 [[nodiscard]] double single_rebuilds(const Workload& workload, double radius, SampleOrder order);
 
 /// w: share of a ball's own rebuilds that remain inside another.

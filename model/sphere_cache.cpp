@@ -23,6 +23,7 @@ class Walk {
       : workload_(workload), parameters_(parameters) {
     check(workload);
     check(Candidate{Technique::sphere_cache, parameters});
+    require_rebuild_law(parameters.order);
     log_ratio_ = std::log(parameters.ratio);
     current_ = {.radius = workload.sphere_radius, .rays = workload.rays, .listed = workload.rays};
   }

@@ -37,7 +37,8 @@ struct SphereLevel {
   double served = 0;    ///< L"_i: ray-disc tests of a disc, were S_i the innermost sphere
 };
 
-/// The first `most` of the k spheres. Throws std::invalid_argument for numbers out of range.
+/// The first `most` of the k spheres. Throws std::invalid_argument for numbers out of range, and for the
+/// Hilbert order (require_rebuild_law).
 [[nodiscard]] std::vector<SphereLevel> sphere_levels(const Workload& workload, const SphereCacheParameters& parameters,
                                                      std::int64_t most);
 

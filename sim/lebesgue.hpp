@@ -9,12 +9,8 @@
 /// The Lebesgue (Morton, Z-order) curve, along which neighbours on the curve are mostly neighbours in space.
 namespace detp::sim {
 
-/// Place of a point on the curve: 16 bits a coordinate, interleaved, X before Y before Z in each triple, so that the
-/// code has 48 bits.
-///
-/// The coordinates are counted from the box's low corner in units of its longest side / 65536: cells are cubes. (The
-/// paper stretches each side to the full 16 bits; in a flat scene its cells, and so its runs, would be flat too.)
-/// Points outside the box go to its nearest cell.
+/// Place of a point on the curve: its cell (curve_cell), 16 bits a coordinate, interleaved, X before Y before Z in each
+/// triple, so that the code has 48 bits.
 [[nodiscard]] std::uint64_t lebesgue_code(const glm::dvec3& point, const Box& box);
 
 /// Indices of the points in the order of the curve through their bounding box; points of the same cell keep their

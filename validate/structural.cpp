@@ -58,6 +58,7 @@ Counts<double> technique_counts(const sim::Problem& problem, double rays, const 
       return structural_hierarchy_counts(problem, rays, candidate);
     case Technique::octree:
     case Technique::grid:
+    case Technique::bsp:
       return structural_index_counts(problem, rays, candidate);
     case Technique::sphere_cache_published:
       throw std::invalid_argument("sphere-cache-published has no structural tier: its walk loses rays");

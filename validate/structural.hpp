@@ -9,11 +9,11 @@ namespace detp::validate {
 
 /// The structural tier: every count of a candidate, expected from the discs themselves, without a ray.
 ///
-///     octree, grid    built, and its nodes' surface areas summed (structural_index.hpp)
-///     sphere cache    walked along the sorted samples (structural_walk.hpp)
-///     hierarchies     built, and their spheres' surface areas summed (structural_hierarchy.hpp)
-///     brute force     n_R n_P tests
-///     hits            n_R Σ d²/(2 r₀²)
+///     octree, grid, bsp    built, and its nodes' surface areas summed (structural_index.hpp)
+///     sphere cache         walked along the sorted samples (structural_walk.hpp)
+///     hierarchies          built, and their spheres' surface areas summed (structural_hierarchy.hpp)
+///     brute force          n_R n_P tests
+///     hits                 n_R Σ d²/(2 r₀²)
 ///
 /// It costs what building the index or walking the samples does.
 ///
@@ -27,7 +27,7 @@ namespace detp::validate {
 /// Throws     std::invalid_argument for no discs, malformed ones, a number of rays or parameters out of range;
 ///            std::length_error where an index would not fit the memory; std::invalid_argument too for
 ///            sphere-cache-published, whose walk loses rays, for a sphere cache in another order, for bvh and
-///            photon-map.
+///            photon-map, and for an octree that is not searched top-down or front to back.
 [[nodiscard]] Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays,
                                                const Candidate& candidate);
 

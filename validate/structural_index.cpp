@@ -1,5 +1,7 @@
 #include "structural_index.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -100,13 +102,18 @@ Counts<double> structural_index_counts(const sim::Problem& problem, double rays,
   };
   const auto* octree = std::get_if<OctreeParameters>(&candidate.parameters);
   const auto* grid = std::get_if<GridParameters>(&candidate.parameters);
-  if (octree == nullptr && grid == nullptr)
-    throw std::invalid_argument("an index of discs is an octree or a grid (got another technique)");
-  const sim::IndexSize size =
-      octree != nullptr ? inspect_octree(problem, *octree, {}, visit) : inspect_grid(problem, *grid, {}, visit);
+  const auto* bsp = std::get_if<BspParameters>(&candidate.parameters);
+  if (octree == nullptr && grid == nullptr && bsp == nullptr)
+    throw std::invalid_argument("an index of discs is an octree, a grid or a BSP tree (got another technique)");
+  if (octree != nullptr && octree->traversal != Traversal::top_down && octree->traversal != Traversal::front_to_back)
+    throw std::invalid_argument(fmt::format(
+        "the structural tier knows an octree top-down or front-to-back only (got {})", name(octree->traversal)));
+  const sim::IndexSize size = octree != nullptr ? inspect_octree(problem, *octree, {}, visit)
+                              : grid != nullptr ? inspect_grid(problem, *grid, {}, visit)
+                                                : inspect_bsp(problem, *bsp, visit);
   return {.disc_tests = rays * tests,
           .steps = grid != nullptr ? rays * visits : 0,
-          .nodes = octree != nullptr ? rays * visits : 0,
+          .nodes = grid == nullptr ? rays * visits : 0,
           .references = static_cast<double>(size.references),
           .placements = static_cast<double>(size.placements)};
 }

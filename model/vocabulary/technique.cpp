@@ -14,6 +14,11 @@ struct Overload : F... {
   using F::operator()...;
 };
 
+std::string_view words_for(SampleOrder order) {
+  if (order == SampleOrder::lebesgue) return "";
+  return order == SampleOrder::none ? ", unsorted" : ", Hilbert order";
+}
+
 }  // namespace
 
 std::string_view name(Technique technique) {
@@ -36,6 +41,8 @@ std::string_view name(Technique technique) {
       return "bvh";
     case Technique::photon_map:
       return "photon-map";
+    case Technique::bsp:
+      return "bsp";
   }
   throw std::logic_error("a technique without a name");
 }
@@ -46,10 +53,20 @@ std::optional<Technique> technique_named(std::string_view wanted) {
   return std::nullopt;
 }
 
-std::string_view name(SampleOrder order) { return order == SampleOrder::lebesgue ? "lebesgue" : "none"; }
+std::string_view name(SampleOrder order) {
+  switch (order) {
+    case SampleOrder::lebesgue:
+      return "lebesgue";
+    case SampleOrder::hilbert:
+      return "hilbert";
+    case SampleOrder::none:
+      return "none";
+  }
+  throw std::logic_error("an order without a name");
+}
 
 std::optional<SampleOrder> order_named(std::string_view wanted) {
-  for (const auto order : {SampleOrder::lebesgue, SampleOrder::none})
+  for (const auto order : {SampleOrder::lebesgue, SampleOrder::hilbert, SampleOrder::none})
     if (name(order) == wanted) return order;
   return std::nullopt;
 }
@@ -66,13 +83,16 @@ std::string describe(const Parameters& parameters) {
   return std::visit(
       Overload{[](const BruteForceParameters&) { return std::string{}; },
                [](const SphereCacheParameters& p) {
-                 return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres,
-                                    p.order == SampleOrder::none ? ", unsorted" : "");
+                 return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres, words_for(p.order));
                },
                [](const CellSpheresParameters& p) { return fmt::format("depth {}", p.depth); },
                [](const SphereTreeParameters& p) { return fmt::format("{} a node, {} a leaf", p.fan_out, p.leaf); },
-               [](const OctreeParameters& p) { return fmt::format("depth {}", p.depth); },
+               [](const OctreeParameters& p) {
+                 return fmt::format("depth {}{}{}", p.depth, p.traversal == Traversal::top_down ? "" : ", ",
+                                    p.traversal == Traversal::top_down ? "" : name(p.traversal));
+               },
                [](const GridParameters& p) { return fmt::format("{} cells a side", p.cells); },
+               [](const BspParameters& p) { return fmt::format("depth {}, {} a leaf", p.depth, p.leaf); },
                [](const BvhParameters& p) { return fmt::format("{} quality", name(p.quality)); },
                [](const PhotonMapParameters& p) { return fmt::format("{} nearest photons", p.nearest); }},
       parameters);
@@ -117,6 +137,12 @@ void check(const Candidate& candidate) {
       require_count("number of nearest photons", want(static_cast<const PhotonMapParameters*>(nullptr)).nearest, 3,
                     1e9);
       break;
+    case Technique::bsp: {
+      const auto p = want(static_cast<const BspParameters*>(nullptr));
+      require_count("depth", p.depth, 0, 64);
+      require_count("discs in a leaf", p.leaf, 1, 1048576);
+      break;
+    }
   }
 }
 

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <variant>
 
+#include "index_variant.hpp"
+
 /// The techniques and their parameters. A new one is one line in each list here, one file in model, one in
 /// sim/technique.
 namespace detp {
@@ -19,6 +21,7 @@ enum class Technique {
   sphere_tree,
   octree,
   grid,
+  bsp,
   bvh,
   photon_map
 };
@@ -26,7 +29,8 @@ enum class Technique {
 inline constexpr std::array all_techniques{
     Technique::brute_force,  Technique::sphere_cache, Technique::sphere_cache_published,
     Technique::cell_spheres, Technique::sphere_tree,  Technique::octree,
-    Technique::grid,         Technique::bvh,          Technique::photon_map};
+    Technique::grid,         Technique::bsp,          Technique::bvh,
+    Technique::photon_map};
 
 /// Whether it finds every hit: all but the published sphere cache, which loses some, and the photon map, which looks
 /// for none.
@@ -34,10 +38,10 @@ inline constexpr std::array all_techniques{
   return technique != Technique::sphere_cache_published && technique != Technique::photon_map;
 }
 
-/// Whether the closed forms predict its counts, so that it can be chosen without being run. They know nothing of the
-/// tree that Embree builds, and what a photon map does is counted otherwise.
+/// Whether the closed forms predict its counts, so that it can be chosen without being run. They know nothing of
+/// trees whose shape depends on the samples themselves (bsp, bvh), and what a photon map does is counted otherwise.
 [[nodiscard]] constexpr bool has_closed_form(Technique technique) {
-  return technique != Technique::bvh && technique != Technique::photon_map;
+  return technique != Technique::bsp && technique != Technique::bvh && technique != Technique::photon_map;
 }
 
 /// The name on the command line and in files: "sphere-cache".
@@ -49,6 +53,7 @@ inline constexpr std::array all_techniques{
 /// The curve along which the sphere cache visits the samples.
 enum class SampleOrder {
   lebesgue,  ///< Morton order, 16 bits a coordinate, X before Y before Z
+  hilbert,   ///< along the Hilbert curve through the same cells: each is the neighbour of the one before
   none       ///< as given
 };
 
@@ -84,6 +89,7 @@ struct SphereTreeParameters {
 /// Cube split into 8 at each of `depth` levels, empty nodes left out.
 struct OctreeParameters {
   int depth = 6;  ///< levels below the root, 0 … 20
+  Traversal traversal = Traversal::top_down;
   bool operator==(const OctreeParameters&) const = default;
 };
 
@@ -91,6 +97,13 @@ struct OctreeParameters {
 struct GridParameters {
   int cells = 64;  ///< cells along the longest side, 1 … 1 048 576
   bool operator==(const GridParameters&) const = default;
+};
+
+/// Box split in two by planes across its axes, down to leaves of few discs.
+struct BspParameters {
+  int depth = 32;  ///< most levels below the root, 0 … 64
+  int leaf = 64;   ///< a node of so many discs is split no further, 1 … 1 048 576
+  bool operator==(const BspParameters&) const = default;
 };
 
 /// How much time building a bounding volume hierarchy may take for the rays' sake.
@@ -117,7 +130,7 @@ struct PhotonMapParameters {
 
 using Parameters =
     std::variant<BruteForceParameters, SphereCacheParameters, CellSpheresParameters, SphereTreeParameters,
-                 OctreeParameters, GridParameters, BvhParameters, PhotonMapParameters>;
+                 OctreeParameters, GridParameters, BspParameters, BvhParameters, PhotonMapParameters>;
 
 /// One technique with its parameters.
 struct Candidate {

@@ -5,10 +5,10 @@
 #include "detp/model/vocabulary/index_variant.hpp"
 #include "technique.hpp"
 
-/// The indices of discs behind the techniques octree and grid: in their variants, and as they stand when built.
+/// The indices of discs behind the techniques octree, grid and bsp: in their variants, and as they stand when built.
 namespace detp::sim {
 
-/// A node of an octree, or a cell of a grid.
+/// A node of an octree or a BSP tree, or a cell of a grid.
 struct IndexNode {
   Box box;  ///< where rays meet it; of a grid's outermost cells the part inside the grid's box
   int level = 0;
@@ -34,6 +34,9 @@ IndexSize inspect_octree(const Problem& problem, const OctreeParameters& paramet
 /// The same for a grid: its cells, empty ones too.
 IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
                        const VisitNode& visit);
+
+/// The same for a BSP tree, empty leaves too.
+IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, const VisitNode& visit);
 
 /// Runs a variant of the octree. All variants find the same hits.
 [[nodiscard]] Outcome search_octree(const Problem& problem, const OctreeParameters& parameters,

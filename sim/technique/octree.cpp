@@ -1,10 +1,9 @@
-#include <array>
 #include <bit>
-#include <cmath>
 
 #include "indexed_search.hpp"
-#include "octree_nodes.hpp"
-#include "ray_box.hpp"
+#include "octree_descent.hpp"
+#include "octree_links.hpp"
+#include "octree_walk.hpp"
 #include "techniques.hpp"
 
 namespace detp::sim {
@@ -12,16 +11,21 @@ namespace {
 
 class Octree {
  public:
-  Octree(const Problem& problem, int depth, const IndexVariant& variant, const std::stop_token& stop)
+  Octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
+         const std::stop_token& stop)
       : problem_(problem),
-        traversal_(variant.traversal),
-        tree_(build_octree(problem, depth, variant.insertion, stop)) {}
+        traversal_(parameters.traversal),
+        tree_(build_octree(problem, parameters.depth, variant.insertion, stop)),
+        walk_(tree_.cube, tree_.depth) {
+    if (traversal_ == Traversal::neighbour_links) linked_ = link_neighbours(tree_, stop);
+  }
 
   [[nodiscard]] IndexSize size() const {
     return {.nodes = tree_.nodes.size(),
             .references = tree_.references.size(),
             .placements = tree_.placements,
-            .bytes = tree_.nodes.size() * sizeof(OctreeNode) + tree_.references.size() * sizeof(std::uint32_t)};
+            .bytes = tree_.nodes.size() * sizeof(OctreeNode) + tree_.references.size() * sizeof(std::uint32_t) +
+                     linked_.size() * sizeof(LinkedNode)};
   }
 
   void show(const VisitNode& visit) const { show(0, tree_.cube, 0, visit); }
@@ -29,24 +33,26 @@ class Octree {
   template <class Search>
   void trace(std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(problem_.rays[ray]);
-    const Stretch stretch = clipped.inside(grown(tree_.cube));
+    const Stretch stretch = clipped.inside({tree_.cube.low - problem_.slack, tree_.cube.high + problem_.slack});
     if (stretch.empty()) return;
-    if (traversal_ == Traversal::restart)
-      restart(ray, clipped, stretch, search);
-    else
-      enter(0, tree_.cube, 0, ray, clipped, search);
+    const OctreeDescent descent(tree_, clipped, problem_.slack);
+    switch (traversal_) {
+      case Traversal::top_down:
+        return descent.all(ray, search);
+      case Traversal::front_to_back:
+        return descent.in_order(ray, search);
+      case Traversal::restart:
+        return walk_.go(problem_.rays[ray], clipped, stretch,
+                        [&](const Leaf& place, int) { return from_root(place, ray, search); });
+      case Traversal::neighbour_links: {
+        std::uint32_t number = 0;
+        return walk_.go(problem_.rays[ray], clipped, stretch,
+                        [&](const Leaf& place, int face) { return along_link(number, place, face, ray, search); });
+      }
+    }
   }
 
  private:
-  Box grown(const Box& box) const { return {box.low - problem_.slack, box.high + problem_.slack}; }
-
-  template <class VisitChild>
-  void for_each_child(const OctreeNode& node, const Box& box, const VisitChild& visit) const {
-    std::uint32_t child = node.first;
-    for (unsigned octant = 0; octant < 8; ++octant)
-      if (node.octants >> octant & 1) visit(child++, octant_of(box, octant));
-  }
-
   void show(std::uint32_t number, const Box& box, int level, const VisitNode& visit) const {
     const OctreeNode& node = tree_.nodes[number];
     visit({box, level, level == tree_.depth, node.count});
@@ -54,89 +60,44 @@ class Octree {
       for_each_child(node, box, [&](std::uint32_t child, const Box& part) { show(child, part, level + 1, visit); });
   }
 
-  template <class Search>
-  void enter(std::uint32_t number, const Box& box, int level, std::uint32_t ray, const ClippedRay& clipped,
-             Search& search) const {
-    search.visit(&Counts<std::uint64_t>::nodes);
-    const OctreeNode& node = tree_.nodes[number];
-    if (level == tree_.depth) {
-      search.test(ray, tree_.references_in(node));
-      return;
-    }
-    for_each_child(node, box, [&](std::uint32_t child, const Box& part) {
-      if (!clipped.inside(grown(part)).empty()) enter(child, part, level + 1, ray, clipped, search);
-    });
-  }
-
-  /// Cubes of whole leaves: their lowest leaf and their side, both in leaves.
-  using Leaf = std::array<std::int64_t, 3>;
-  struct Cube {
-    Leaf low;
-    std::int64_t side;
-  };
-
   /// From the root towards that place among the leaves: tests the discs of the leaf there, or finds the octant that was
-  /// left out. What the ray may skip.
+  /// left out.
   template <class Search>
-  Cube descend(const Leaf& place, std::uint32_t ray, Search& search) const {
+  LeafCube from_root(const Leaf& place, std::uint32_t ray, Search& search) const {
     std::uint32_t number = 0;
     int below = tree_.depth;
     search.visit(&Counts<std::uint64_t>::nodes);
     for (; below > 0; --below) {
-      unsigned octant = 0;
-      for (int axis = 0; axis < 3; ++axis) octant |= static_cast<unsigned>(place[axis] >> (below - 1) & 1) << axis;
+      const unsigned octant = octant_of(place, below - 1);
       const unsigned octants = tree_.nodes[number].octants;
-      if ((octants >> octant & 1) == 0) break;
+      if ((octants >> octant & 1) == 0) return cube_around(place, std::int64_t{1} << (below - 1));
       number = tree_.nodes[number].first + static_cast<std::uint32_t>(std::popcount(octants & ((1U << octant) - 1)));
       search.visit(&Counts<std::uint64_t>::nodes);
     }
-    if (below == 0) search.test(ray, tree_.references_in(tree_.nodes[number]));
-    Cube cube{place, below == 0 ? 1 : std::int64_t{1} << (below - 1)};
-    for (std::int64_t& low : cube.low) low -= low % cube.side;
-    return cube;
+    search.test(ray, tree_.references_in(tree_.nodes[number]));
+    return cube_around(place, 1);
   }
 
-  Leaf leaf_at(const glm::dvec3& point, const Cube& within) const {
-    const double side = tree_.cube.size().x / std::ldexp(1.0, tree_.depth);
-    Leaf leaf{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const double place = std::floor((point[axis] - tree_.cube.low[axis]) / side);
-      const auto low = static_cast<double>(within.low[axis]);
-      leaf[axis] = static_cast<std::int64_t>(std::clamp(place, low, low + static_cast<double>(within.side - 1)));
-    }
-    return leaf;
-  }
-
-  /// Goes from leaf to leaf as the grid does from cell to cell, and descends anew to each.
+  /// From a leaf or empty octant (at first the root) across its face, and down to the leaf or empty octant at that
+  /// place, which `number` becomes.
   template <class Search>
-  void restart(std::uint32_t ray, const ClippedRay& clipped, const Stretch& stretch, Search& search) const {
-    const std::int64_t leaves = std::int64_t{1} << tree_.depth;
-    const double side = tree_.cube.size().x / static_cast<double>(leaves);
-    const glm::dvec3& direction = problem_.rays[ray].direction;
-    Leaf place = leaf_at(clipped.origin + stretch.from * direction, {{}, leaves});
-    for (;;) {
-      const Cube cube = descend(place, ray, search);
-      int next = 0;
-      double leave = unbounded;
-      for (int axis = 0; axis < 3; ++axis) {
-        if (std::isinf(clipped.inverse[axis])) continue;
-        const auto plane = static_cast<double>(cube.low[axis] + (clipped.inverse[axis] > 0 ? cube.side : 0));
-        const double t = (tree_.cube.low[axis] + plane * side - clipped.origin[axis]) * clipped.inverse[axis];
-        if (t < leave) {
-          leave = t;
-          next = axis;
-        }
-      }
-      if (!(leave < stretch.to)) return;
-      place = leaf_at(clipped.origin + leave * direction, cube);
-      place[next] = cube.low[next] + (clipped.inverse[next] > 0 ? cube.side : -1);
-      if (place[next] < 0 || place[next] >= leaves) return;
+  LeafCube along_link(std::uint32_t& number, const Leaf& place, int face, std::uint32_t ray, Search& search) const {
+    if (face >= 0) number = linked_[number].links[static_cast<std::size_t>(face)];
+    search.visit(&Counts<std::uint64_t>::nodes);
+    while (linked_[number].inner) {
+      number = linked_[number].first + octant_of(place, tree_.depth - linked_[number].level - 1);
+      search.visit(&Counts<std::uint64_t>::nodes);
     }
+    const LinkedNode& leaf = linked_[number];
+    search.test(ray, std::span(tree_.references).subspan(leaf.first, leaf.count));
+    return cube_around(place, std::int64_t{1} << (tree_.depth - leaf.level));
   }
 
   const Problem& problem_;
   Traversal traversal_;
   OctreeNodes tree_;
+  LeafWalk walk_;
+  std::vector<LinkedNode> linked_;  ///< only for the traversal that needs it
 };
 
 }  // namespace
@@ -144,7 +105,7 @@ class Octree {
 IndexSize inspect_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
                          const VisitNode& visit) {
   check({Technique::octree, parameters});
-  const Octree octree(problem, parameters.depth, variant, {});
+  const Octree octree(problem, parameters, variant, {});
   octree.show(visit);
   return octree.size();
 }
@@ -155,7 +116,7 @@ Outcome search_octree(const Problem& problem, const OctreeParameters& parameters
   check_options(options, problem);
   Outcome outcome;
   Stopwatch watch;
-  const Octree octree(problem, parameters.depth, variant, options.stop);
+  const Octree octree(problem, parameters, variant, options.stop);
   outcome.seconds.build = watch.lap();
   search_index(octree, problem, variant.mailboxing, options, outcome);
   outcome.seconds.search = watch.lap();
@@ -165,7 +126,7 @@ Outcome search_octree(const Problem& problem, const OctreeParameters& parameters
 std::unique_ptr<Prepared> prepare_octree(const Problem& problem, const OctreeParameters& parameters,
                                          const std::stop_token& stop) {
   const IndexVariant variant;
-  return std::make_unique<PreparedIndex<Octree>>(problem, variant.mailboxing, parameters.depth, variant, stop);
+  return std::make_unique<PreparedIndex<Octree>>(problem, variant.mailboxing, parameters, variant, stop);
 }
 
 void run_octree(const Problem& problem, const OctreeParameters& parameters, const RunOptions& options,

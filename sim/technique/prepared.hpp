@@ -33,5 +33,7 @@ class Prepared {
                                                      const std::stop_token& stop);
 [[nodiscard]] std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters,
                                                     int threads);
+[[nodiscard]] std::unique_ptr<Prepared> prepare_bsp(const Problem& problem, const BspParameters& parameters,
+                                                    const std::stop_token& stop);
 
 }  // namespace detp::sim

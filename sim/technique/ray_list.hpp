@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
+#include "detp/sim/hilbert.hpp"
 #include "detp/sim/lebesgue.hpp"
 #include "hit_collector.hpp"
 
@@ -45,12 +47,18 @@ void test_disc(const RayList& rays, const Disc& disc, std::uint32_t index, HitCo
   tally.add(&Counts<std::uint64_t>::disc_tests, rays.size());
 }
 
-/// The discs' numbers in the order of the Lebesgue curve through their centres.
-[[nodiscard]] inline std::vector<std::uint32_t> along_curve(std::span<const Disc> discs) {
+/// The discs' numbers in that order of their centres; by default along the Lebesgue curve.
+[[nodiscard]] inline std::vector<std::uint32_t> along_curve(std::span<const Disc> discs,
+                                                            SampleOrder order = SampleOrder::lebesgue) {
+  if (order == SampleOrder::none) {
+    std::vector<std::uint32_t> as_given(discs.size());
+    std::iota(as_given.begin(), as_given.end(), 0U);
+    return as_given;
+  }
   std::vector<glm::dvec3> centres;
   centres.reserve(discs.size());
   for (const Disc& disc : discs) centres.push_back(disc.centre);
-  return lebesgue_order(centres);
+  return order == SampleOrder::hilbert ? hilbert_order(centres) : lebesgue_order(centres);
 }
 
 }  // namespace detp::sim

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <numeric>
 
 #include "hit_collector.hpp"
 #include "ray_list.hpp"
@@ -90,20 +89,13 @@ class SphereCache {
   std::size_t valid_ = 1;
 };
 
-std::vector<std::uint32_t> visiting_order(const Problem& problem, SampleOrder order) {
-  if (order == SampleOrder::lebesgue) return along_curve(problem.discs);
-  std::vector<std::uint32_t> as_given(problem.discs.size());
-  std::iota(as_given.begin(), as_given.end(), 0U);
-  return as_given;
-}
-
 enum class Walk { exact, published };
 
 template <Walk walk, bool counting>
 void search(const Problem& problem, const SphereCacheParameters& parameters, const RunOptions& options,
             Outcome& outcome) {
   Stopwatch watch;
-  const std::vector<std::uint32_t> order = visiting_order(problem, parameters.order);
+  const std::vector<std::uint32_t> order = along_curve(problem.discs, parameters.order);
   outcome.seconds.order = watch.lap();
   HitCollector collector(problem, options);
   Tally<counting> tally;

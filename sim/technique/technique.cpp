@@ -50,6 +50,9 @@ Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions
     case Technique::grid:
       run_grid(problem, std::get<GridParameters>(candidate.parameters), options, outcome);
       break;
+    case Technique::bsp:
+      run_bsp(problem, std::get<BspParameters>(candidate.parameters), options, outcome);
+      break;
     case Technique::bvh:
       run_bvh(problem, std::get<BvhParameters>(candidate.parameters), options, outcome);
       break;

@@ -48,7 +48,7 @@ void run_cell_spheres(const Problem& problem, const CellSpheresParameters& param
 void run_sphere_tree(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
                      Outcome& outcome);
 
-/// Octree over the discs: all leaves at one depth, empty nodes left out, top-down traversal.
+/// Octree over the discs: all leaves at one depth, empty nodes left out.
 void run_octree(const Problem& problem, const OctreeParameters& parameters, const RunOptions& options,
                 Outcome& outcome);
 
@@ -88,5 +88,8 @@ void run_bvh(const Problem& problem, const BvhParameters& parameters, const RunO
 /// the very place of a disc's centre, and for totals to go on with, which nearest photons do not have.
 void run_photon_map(const Problem& problem, const PhotonMapParameters& parameters, const RunOptions& options,
                     Outcome& outcome);
+/// Axis-aligned BSP tree over the discs (BspNodes), empty leaves kept: rays go through it front to back, each with the
+/// stretch of it that is in the node.
+void run_bsp(const Problem& problem, const BspParameters& parameters, const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim

@@ -113,7 +113,7 @@ TEST_SUITE("identity") {
     w.samples = 1e15;
     const double hit = index_cells(w, 1).crossing;
     for (int depth = 0; depth <= 7; ++depth)  // deeper, a disc of 0.01 need not reach the corner cells
-      CHECK(octree_counts(w, {depth}, {.traversal = Traversal::restart}).nodes ==
+      CHECK(octree_counts(w, {depth, Traversal::restart}).nodes ==
             Approx(1e4 * hit * (depth + 1) * std::ldexp(1, depth)).epsilon(1e-12));
   }
 
@@ -125,7 +125,8 @@ TEST_SUITE("identity") {
       CHECK(once.disc_tests > once.hits);
       once.disc_tests = plain.disc_tests;
       CHECK(once == plain);
-      Counts<double> anew = octree_counts(in_cube, {depth}, {.traversal = Traversal::restart});
+      CHECK(octree_counts(in_cube, {depth, Traversal::front_to_back}) == plain);
+      Counts<double> anew = octree_counts(in_cube, {depth, Traversal::restart});
       CHECK(anew.nodes > plain.nodes);
       anew.nodes = plain.nodes;
       CHECK(anew == plain);
@@ -137,7 +138,7 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("by depth, one after the other, the counts of each depth") {
-    const auto depths = octree_counts_by_depth(in_cube, 7);
+    const auto depths = octree_counts_by_depth(in_cube, {7});
     REQUIRE(depths.size() == 8);
     for (int depth = 0; depth <= 7; ++depth) CHECK(depths[depth] == octree_counts(in_cube, {depth}));
   }
@@ -216,6 +217,8 @@ TEST_SUITE("bad input") {
   TEST_CASE("numbers out of range are refused by name") {
     for (const int bad : {-1, 301})
       CHECK_THROWS_WITH_AS((void)octree_counts(in_cube, {bad}), Contains("depth"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)octree_counts(in_cube, {4, Traversal::neighbour_links}), Contains("neighbour links"),
+                         std::invalid_argument);
     for (const int bad : {0, -1, 1'000'000'001})
       CHECK_THROWS_WITH_AS((void)grid_counts(in_cube, {bad}), Contains("cells a side"), std::invalid_argument);
     for (const double bad : support::not_a_length)

@@ -172,4 +172,12 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::octree, GridParameters{3}}), Contains("octree"),
                          std::invalid_argument);
   }
+
+  TEST_CASE("what has no closed form is refused, not guessed") {
+    CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::bsp, BspParameters{}}), Contains("no closed form"),
+                         std::invalid_argument);
+    for (const Technique technique : {Technique::sphere_cache, Technique::sphere_cache_published})
+      CHECK_THROWS_WITH_AS((void)predict(typical, {technique, SphereCacheParameters{0.6, 6, SampleOrder::hilbert}}),
+                           Contains("Hilbert"), std::invalid_argument);
+  }
 }

@@ -7,7 +7,6 @@
 #include <numbers>
 #include <vector>
 
-#include "detp/sim/technique/disc_index.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/hard_geometry.hpp"
 
@@ -57,18 +56,26 @@ HardScene hard_scene(std::size_t family_number, std::uint64_t index, std::size_t
 const Candidate brute{Technique::brute_force, BruteForceParameters{}};
 
 const std::vector<Candidate>& culling_candidates() {
-  static const std::vector<Candidate> list{{Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
-                                           {Technique::sphere_cache, SphereCacheParameters{0.9, 1000}},
-                                           {Technique::cell_spheres, CellSpheresParameters{2}},
-                                           {Technique::cell_spheres, CellSpheresParameters{6}},
-                                           {Technique::sphere_tree, SphereTreeParameters{2, 1}},
-                                           {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                           {Technique::octree, OctreeParameters{3}},
-                                           {Technique::octree, OctreeParameters{5}},
-                                           {Technique::grid, GridParameters{8}},
-                                           {Technique::grid, GridParameters{27}},
-                                           {Technique::bvh, BvhParameters{BuildQuality::low}},
-                                           {Technique::bvh, BvhParameters{BuildQuality::medium}}};
+  static const std::vector<Candidate> list{
+      {Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
+      {Technique::sphere_cache, SphereCacheParameters{0.9, 1000}},
+      {Technique::sphere_cache, SphereCacheParameters{0.65, 8, SampleOrder::hilbert}},
+      {Technique::cell_spheres, CellSpheresParameters{2}},
+      {Technique::cell_spheres, CellSpheresParameters{6}},
+      {Technique::sphere_tree, SphereTreeParameters{2, 1}},
+      {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+      {Technique::octree, OctreeParameters{3}},
+      {Technique::octree, OctreeParameters{5}},
+      {Technique::octree, OctreeParameters{5, Traversal::front_to_back}},
+      {Technique::octree, OctreeParameters{3, Traversal::restart}},
+      {Technique::octree, OctreeParameters{3, Traversal::neighbour_links}},
+      {Technique::octree, OctreeParameters{5, Traversal::neighbour_links}},
+      {Technique::grid, GridParameters{8}},
+      {Technique::grid, GridParameters{27}},
+      {Technique::bsp, BspParameters{6, 1}},
+      {Technique::bsp, BspParameters{18, 1}},
+      {Technique::bvh, BvhParameters{BuildQuality::low}},
+      {Technique::bvh, BvhParameters{BuildQuality::medium}}};
   return list;
 }
 
@@ -144,9 +151,6 @@ TEST_SUITE("identity") {
       const Problem problem = make_problem(scene.rays, scene.discs);
       const Outcome expected = run(problem, brute, {.pairs = true});
       hits += expected.total_hits;
-      const IndexVariant restart{.traversal = Traversal::restart};
-      for (const int depth : {3, 5})
-        CHECK(differences(search_octree(problem, {depth}, restart, {.pairs = true}), expected) == 0);
       for (const Candidate& candidate : culling_candidates())
         CHECK(differences(run(problem, candidate, {.pairs = true}), expected) == 0);
     }

@@ -98,9 +98,10 @@ TEST_SUITE("statistical") {
       CAPTURE(chosen.x);
       for (const Insertion insertion : {Insertion::exact, Insertion::bounding_box})
         for (const bool mailboxing : {false, true}) {
-          const IndexVariant variant{insertion, mailboxing, mailboxing ? Traversal::restart : Traversal::top_down};
-          const Counts<double> counted = as_expected(search_octree(problem, {chosen.depth}, variant).counts);
-          const Counts<double> expected = model::octree_counts(setting.workload, {chosen.depth}, variant);
+          const IndexVariant variant{insertion, mailboxing};
+          const OctreeParameters octree{chosen.depth, mailboxing ? Traversal::restart : Traversal::top_down};
+          const Counts<double> counted = as_expected(search_octree(problem, octree, variant).counts);
+          const Counts<double> expected = model::octree_counts(setting.workload, octree, variant);
           CAPTURE(mailboxing);
           CAPTURE((insertion == Insertion::exact));
           check_close("disc tests", per_line * expected.disc_tests, counted.disc_tests);

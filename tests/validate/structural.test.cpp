@@ -23,10 +23,11 @@ const std::vector<Candidate>& candidates() {
                                            {Technique::cell_spheres, CellSpheresParameters{4}},
                                            {Technique::sphere_tree, SphereTreeParameters{8, 4}},
                                            {Technique::octree, OctreeParameters{0}},
-                                           {Technique::octree, OctreeParameters{4}},
+                                           {Technique::octree, OctreeParameters{4, Traversal::front_to_back}},
                                            {Technique::octree, OctreeParameters{6}},
                                            {Technique::grid, GridParameters{5}},
-                                           {Technique::grid, GridParameters{40}}};
+                                           {Technique::grid, GridParameters{40}},
+                                           {Technique::bsp, BspParameters{}}};
   return list;
 }
 
@@ -81,6 +82,9 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_AS(
         (void)structural_counts(discs, 10, {Technique::sphere_cache, SphereCacheParameters{0.5, 2, SampleOrder::none}}),
         std::invalid_argument);
+    for (const Traversal traversal : {Traversal::restart, Traversal::neighbour_links})
+      CHECK_THROWS_AS((void)structural_counts(discs, 10, {Technique::octree, OctreeParameters{3, traversal}}),
+                      std::invalid_argument);
   }
 }
 
@@ -96,8 +100,9 @@ TEST_SUITE("statistical") {
     request.disc_radius = Length{radius, true};
     request.field = sim::Field::isotropic;
     const Job job = make_job(request);
-    for (const Candidate& candidate :
-         {Candidate{Technique::octree, OctreeParameters{6}}, {Technique::grid, GridParameters{40}}}) {
+    for (const Candidate& candidate : {Candidate{Technique::octree, OctreeParameters{6}},
+                                       {Technique::grid, GridParameters{40}},
+                                       {Technique::bsp, BspParameters{}}}) {
       const Counts<double> counted = as_expected(sim::run(job.problem(), candidate).counts);
       const Counts<double> expected = structural_counts(job.discs, rays, candidate);
       CAPTURE(scene);

@@ -51,6 +51,7 @@ Json answer(const ModelQuestion& question) {
     case Technique::grid:
       json.update(grid_answer(question));
       break;
+    case Technique::bsp:
     case Technique::bvh:
     case Technique::photon_map:
       throw std::invalid_argument(fmt::format("there is no closed form of {}; try: detp run --technique {}",

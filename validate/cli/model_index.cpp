@@ -47,7 +47,7 @@ Json corrected_index(const ModelQuestion& question, double parts, const Counts<d
 Json octree_answer(const ModelQuestion& question) {
   const int depth = question.options.depth.value_or(
       model::published::octree_depth({question.workload.disc_radius}, scene_side(question.workload)));
-  const OctreeParameters parameters{depth};
+  const OctreeParameters parameters{depth, question.options.chosen_traversal()};
   const Counts<double> counts = model::octree_counts(question.workload, parameters);
   Json json{{"parameters", to_json(Parameters{parameters})}, {"form", name(question.form)}, {"depth", depth}};
   json.update(question.form == Form::published ? published_octree(question, depth)

@@ -4,6 +4,7 @@
 #include "detp/model/cell_spheres.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/model/predict.hpp"
+#include "detp/model/rebuild_law.hpp"
 #include "detp/model/sphere_cache.hpp"
 #include "detp/model/sphere_cache_published.hpp"
 #include "detp/model/sphere_count.hpp"
@@ -99,6 +100,7 @@ Json with_spheres(const ModelQuestion& question, const Parameters& parameters, J
 
 Json sphere_cache_answer(const ModelQuestion& question) {
   const SphereCacheParameters parameters = cache_parameters(question);
+  model::require_rebuild_law(parameters.order);
   Json json{{"parameters", to_json(Parameters{parameters})}, {"form", name(question.form)}, {"k", parameters.spheres}};
   json.update(question.form == Form::published ? published_cache(question, parameters)
                                                : corrected_cache(question, parameters));

@@ -33,6 +33,21 @@ SphereCacheParameters complete_cache(const CandidateOptions& options, const Work
   return {best.ratio, std::max<std::int64_t>(1, best.spheres), options.sample_order()};
 }
 
+/// The depth that is best top-down serves for all traversals.
+OctreeParameters complete_octree(const CandidateOptions& options, const Workload& workload) {
+  const Traversal traversal = options.chosen_traversal();
+  if (options.depth) return {*options.depth, traversal};
+  const auto best = model::best_of(Technique::octree, workload, validate::built_in_unit_costs());
+  if (!best) throw std::length_error("octree would not fit in memory on this workload");
+  return {std::get<OctreeParameters>(best->candidate.parameters).depth, traversal};
+}
+
+/// There is no closed form to say which are best.
+BspParameters complete_bsp(const CandidateOptions& options) {
+  const BspParameters otherwise;
+  return {options.depth.value_or(otherwise.depth), options.leaf.value_or(otherwise.leaf)};
+}
+
 /// The technique asked for, or the one that the closed forms choose; parameters left out are the best by the same
 /// forms.
 Candidate complete(const CandidateOptions& options, const Workload& workload) {
@@ -49,7 +64,8 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
   if (technique == Technique::cell_spheres && options.depth) return {technique, CellSpheresParameters{*options.depth}};
   if (technique == Technique::sphere_tree)
     return {technique, model::best_sphere_tree(workload, costs, options.fan_out, options.leaf)};
-  if (technique == Technique::octree && options.depth) return {technique, OctreeParameters{*options.depth}};
+  if (technique == Technique::octree) return {technique, complete_octree(options, workload)};
+  if (technique == Technique::bsp) return {technique, complete_bsp(options)};
   if (technique == Technique::grid && options.cells) return {technique, GridParameters{*options.cells}};
   if (technique == Technique::bvh) return {technique, options.bvh()};
   if (technique == Technique::photon_map) return {technique, options.photon_map()};

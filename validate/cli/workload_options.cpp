@@ -15,6 +15,13 @@ std::string known_techniques() {
   return list;
 }
 
+std::string known_traversals() {
+  std::string list;
+  for (const Traversal traversal : all_traversals)
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", name(traversal));
+  return list;
+}
+
 /// 100000 as "100 000".
 std::string spaced(double count) {
   std::string digits = fmt::format("{:.0f}", count);
@@ -60,11 +67,13 @@ void CandidateOptions::add_to(CLI::App& command) {
   command.add_option("--technique", technique, known_techniques());
   command.add_option("--ratio", ratio, "Q of a sphere cache, between 0 and 1");
   command.add_option("--spheres", spheres, "k of a sphere cache, its innermost sphere");
-  command.add_option("--order", order, "lebesgue or none")->check(CLI::IsMember({"lebesgue", "none"}));
-  command.add_option("--depth", depth, "levels of an octree, or of cells with spheres");
+  command.add_option("--order", order, "lebesgue, hilbert or none")
+      ->check(CLI::IsMember({"lebesgue", "hilbert", "none"}));
+  command.add_option("--depth", depth, "levels of an octree, of a BSP tree at most, or of cells with spheres");
+  command.add_option("--traversal", traversal, "how rays go through an octree: " + known_traversals());
   command.add_option("--cells", cells, "cells of a grid along its longest side");
   command.add_option("--fan-out", fan_out, "children of a sphere tree's nodes, at least 2");
-  command.add_option("--leaf", leaf, "most samples in a sphere tree's leaf");
+  command.add_option("--leaf", leaf, "most samples in a leaf of a sphere tree or BSP tree");
   command.add_option("--quality", quality, "of building a bvh: low or medium")->check(CLI::IsMember({"low", "medium"}));
   command.add_option("--nearest", nearest, "photons that a photon-map looks for, at least 3");
 }
@@ -88,6 +97,15 @@ PhotonMapParameters CandidateOptions::photon_map() const {
   return nearest ? PhotonMapParameters{*nearest} : PhotonMapParameters{};
 }
 
+Traversal CandidateOptions::chosen_traversal() const {
+  if (!traversal) return Traversal::top_down;
+  const auto found = traversal_named(*traversal);
+  if (!found)
+    throw std::invalid_argument(
+        fmt::format("there is no traversal '{}'; there are {}", *traversal, known_traversals()));
+  return *found;
+}
+
 void CandidateOptions::refuse_foreign(Technique chosen) const {
   const bool cache = chosen == Technique::sphere_cache || chosen == Technique::sphere_cache_published;
   const auto refuse = [&](const char* option) {
@@ -96,10 +114,12 @@ void CandidateOptions::refuse_foreign(Technique chosen) const {
   if (ratio && !cache) refuse("--ratio");
   if (spheres && !cache) refuse("--spheres");
   if (order != "lebesgue" && !cache) refuse("--order");
-  if (depth && chosen != Technique::octree && chosen != Technique::cell_spheres) refuse("--depth");
+  const bool deep = chosen == Technique::octree || chosen == Technique::cell_spheres || chosen == Technique::bsp;
+  if (depth && !deep) refuse("--depth");
+  if (traversal && chosen != Technique::octree) refuse("--traversal");
   if (cells && chosen != Technique::grid) refuse("--cells");
   if (fan_out && chosen != Technique::sphere_tree) refuse("--fan-out");
-  if (leaf && chosen != Technique::sphere_tree) refuse("--leaf");
+  if (leaf && chosen != Technique::sphere_tree && chosen != Technique::bsp) refuse("--leaf");
   if (quality && chosen != Technique::bvh) refuse("--quality");
   if (nearest && chosen != Technique::photon_map) refuse("--nearest");
 }
@@ -111,10 +131,12 @@ Json to_json(const Parameters& parameters) {
   if (const auto* cells = std::get_if<CellSpheresParameters>(&parameters)) json = {{"depth", cells->depth}};
   if (const auto* tree = std::get_if<SphereTreeParameters>(&parameters))
     json = {{"fan_out", tree->fan_out}, {"leaf", tree->leaf}};
-  if (const auto* octree = std::get_if<OctreeParameters>(&parameters)) json = {{"depth", octree->depth}};
+  if (const auto* octree = std::get_if<OctreeParameters>(&parameters))
+    json = {{"depth", octree->depth}, {"traversal", detp::name(octree->traversal)}};
   if (const auto* grid = std::get_if<GridParameters>(&parameters)) json = {{"cells", grid->cells}};
   if (const auto* bvh = std::get_if<BvhParameters>(&parameters)) json = {{"quality", detp::name(bvh->quality)}};
   if (const auto* map = std::get_if<PhotonMapParameters>(&parameters)) json = {{"nearest", map->nearest}};
+  if (const auto* bsp = std::get_if<BspParameters>(&parameters)) json = {{"depth", bsp->depth}, {"leaf", bsp->leaf}};
   return json;
 }
 

@@ -31,6 +31,7 @@ class CandidateOptions {
   std::optional<std::int64_t> spheres;
   std::string order = "lebesgue";
   std::optional<int> depth;
+  std::optional<std::string> traversal;
   std::optional<int> cells;
   std::optional<int> fan_out;
   std::optional<int> leaf;
@@ -42,6 +43,10 @@ class CandidateOptions {
   [[nodiscard]] SampleOrder sample_order() const;
   [[nodiscard]] BvhParameters bvh() const;
   [[nodiscard]] PhotonMapParameters photon_map() const;
+
+  /// The traversal of that name, or the octree's own. Throws std::invalid_argument for an unknown one, naming the
+  /// known.
+  [[nodiscard]] Traversal chosen_traversal() const;
 
   /// Throws std::invalid_argument for a parameter given that the technique does not have.
   void refuse_foreign(Technique technique) const;

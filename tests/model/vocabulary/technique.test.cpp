@@ -16,7 +16,7 @@ namespace {
 
 const std::vector<Parameters> one_of_each{BruteForceParameters{}, SphereCacheParameters{}, OctreeParameters{},
                                           GridParameters{},       CellSpheresParameters{}, SphereTreeParameters{},
-                                          BvhParameters{},        PhotonMapParameters{}};
+                                          BvhParameters{},        PhotonMapParameters{},   BspParameters{}};
 
 /// Where a technique's own parameters are in one_of_each.
 std::size_t kind(Technique technique) {
@@ -38,6 +38,8 @@ std::size_t kind(Technique technique) {
       return 6;
     case Technique::photon_map:
       return 7;
+    case Technique::bsp:
+      return 8;
   }
   return one_of_each.size();
 }
@@ -55,7 +57,8 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("an order is found by its name") {
-    for (const auto order : {SampleOrder::lebesgue, SampleOrder::none}) CHECK(order_named(name(order)) == order);
+    for (const auto order : {SampleOrder::lebesgue, SampleOrder::hilbert, SampleOrder::none})
+      CHECK(order_named(name(order)) == order);
     for (const auto quality : {BuildQuality::low, BuildQuality::medium}) CHECK(quality_named(name(quality)) == quality);
   }
 }
@@ -73,7 +76,9 @@ TEST_SUITE("known answer") {
     CHECK(name(Technique::photon_map) == "photon-map");
     CHECK(name(BuildQuality::low) == "low");
     CHECK(name(BuildQuality::medium) == "medium");
+    CHECK(name(Technique::bsp) == "bsp");
     CHECK(name(SampleOrder::lebesgue) == "lebesgue");
+    CHECK(name(SampleOrder::hilbert) == "hilbert");
     CHECK(name(SampleOrder::none) == "none");
   }
 
@@ -81,9 +86,12 @@ TEST_SUITE("known answer") {
     CHECK(describe(BruteForceParameters{}).empty());
     CHECK(describe(SphereCacheParameters{0.607, 9}) == "Q 0.607, k 9");
     CHECK(describe(SphereCacheParameters{0.607, 9, SampleOrder::none}) == "Q 0.607, k 9, unsorted");
+    CHECK(describe(SphereCacheParameters{0.607, 9, SampleOrder::hilbert}) == "Q 0.607, k 9, Hilbert order");
     CHECK(describe(CellSpheresParameters{5}) == "depth 5");
     CHECK(describe(SphereTreeParameters{8, 12}) == "8 a node, 12 a leaf");
     CHECK(describe(OctreeParameters{7}) == "depth 7");
+    CHECK(describe(OctreeParameters{7, Traversal::neighbour_links}) == "depth 7, neighbour-links");
+    CHECK(describe(BspParameters{20, 6}) == "depth 20, 6 a leaf");
     CHECK(describe(GridParameters{100}) == "100 cells a side");
     CHECK(describe(BvhParameters{BuildQuality::low}) == "low quality");
     CHECK(describe(PhotonMapParameters{20}) == "20 nearest photons");
@@ -101,6 +109,8 @@ TEST_SUITE("known answer") {
     for (const int cells : {1, 1048576}) CHECK_NOTHROW(check(Candidate{Technique::grid, GridParameters{cells}}));
     for (const int nearest : {3, 1'000'000'000})
       CHECK_NOTHROW(check(Candidate{Technique::photon_map, PhotonMapParameters{nearest}}));
+    for (const auto& tree : {BspParameters{0, 1}, BspParameters{64, 1048576}})
+      CHECK_NOTHROW(check(Candidate{Technique::bsp, tree}));
     CHECK_NOTHROW(check(Candidate{}));
   }
 }
@@ -151,6 +161,12 @@ TEST_SUITE("bad input") {
                            std::invalid_argument);
     for (const int bad : {0, -5, 1048577})
       CHECK_THROWS_WITH_AS(check(Candidate{Technique::grid, GridParameters{bad}}), Contains("cells a side"),
+                           std::invalid_argument);
+    for (const int bad : {-1, 65})
+      CHECK_THROWS_WITH_AS(check(Candidate{Technique::bsp, BspParameters{bad, 4}}), Contains("depth"),
+                           std::invalid_argument);
+    for (const int bad : {0, -1, 1048577})
+      CHECK_THROWS_WITH_AS(check(Candidate{Technique::bsp, BspParameters{8, bad}}), Contains("discs in a leaf"),
                            std::invalid_argument);
   }
 }

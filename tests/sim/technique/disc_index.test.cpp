@@ -16,9 +16,7 @@ namespace {
 std::vector<IndexVariant> all_variants() {
   std::vector<IndexVariant> all;
   for (const Insertion insertion : {Insertion::exact, Insertion::bounding_box})
-    for (const bool mailboxing : {false, true})
-      for (const Traversal traversal : {Traversal::top_down, Traversal::restart})
-        all.push_back({insertion, mailboxing, traversal});
+    for (const bool mailboxing : {false, true}) all.push_back({insertion, mailboxing});
   return all;
 }
 
@@ -53,8 +51,11 @@ TEST_SUITE("identity") {
     const Outcome expected = run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true});
     REQUIRE(expected.total_hits > 1000);
     for (const IndexVariant& variant : all_variants()) {
-      for (const int depth : {0, 1, 4})
-        CHECK(search_octree(problem, {depth}, variant, {.pairs = true}).pairs == expected.pairs);
+      for (const Traversal traversal : all_traversals)
+        for (const int depth : {0, 1, 4}) {
+          CAPTURE(name(traversal));
+          CHECK(search_octree(problem, {depth, traversal}, variant, {.pairs = true}).pairs == expected.pairs);
+        }
       for (const int cells : {1, 7, 20})
         CHECK(search_grid(problem, {cells}, variant, {.pairs = true}).pairs == expected.pairs);
     }
@@ -68,7 +69,7 @@ TEST_SUITE("identity") {
     CHECK(once.disc_tests > plain.hits);
     once.disc_tests = plain.disc_tests;
     CHECK(once == plain);
-    Counts anew = search_octree(problem, {5}, {.traversal = Traversal::restart}).counts;
+    Counts anew = search_octree(problem, {5, Traversal::restart}, {}).counts;
     CHECK(anew.nodes > plain.nodes);
     // Where a ray runs in a plane between leaves, top-down it enters those of both sides.
     CHECK(anew.disc_tests <= plain.disc_tests);
@@ -78,6 +79,19 @@ TEST_SUITE("identity") {
     grid_once.disc_tests = grid.disc_tests;
     CHECK(grid_once == grid);
     CHECK(search_grid(problem, {32}, {.insertion = Insertion::bounding_box}).counts.references > grid.references);
+  }
+
+  TEST_CASE("front to back visits the nodes that top-down does; neighbour links the leaves that restarts do") {
+    const Problem problem = make_problem(setting().rays, setting().discs);
+    for (const int depth : {0, 2, 6}) {
+      const auto counts = [&](Traversal traversal) { return search_octree(problem, {depth, traversal}, {}).counts; };
+      CHECK(counts(Traversal::front_to_back) == counts(Traversal::top_down));
+      const Counts anew = counts(Traversal::restart);
+      Counts linked = counts(Traversal::neighbour_links);
+      if (depth > 0) CHECK(linked.nodes < anew.nodes);
+      linked.nodes = anew.nodes;
+      CHECK(linked == anew);
+    }
   }
 
   TEST_CASE("an index that is shown has the nodes, references and placements of one that is searched") {
@@ -97,6 +111,9 @@ TEST_SUITE("identity") {
       CHECK(octree.references == search_octree(problem, {4}, variant).counts.references);
       CHECK(octree.placements == search_octree(problem, {4}, variant).counts.placements);
       CHECK(octree.bytes == 12 * nodes + 4 * references);
+      const IndexSize linked = inspect_octree(problem, {4, Traversal::neighbour_links}, variant, [](const auto&) {});
+      CHECK(linked.nodes == octree.nodes);
+      CHECK(linked.bytes > octree.bytes);
       nodes = references = 0;
       const IndexSize grid = inspect_grid(problem, {20}, variant, count);
       CHECK(grid.nodes == nodes);
@@ -122,7 +139,7 @@ TEST_SUITE("known answer") {
     CHECK(search_octree(problem, {3}, {}).counts.nodes == 7);
     // Both leaves by 4 nodes; empty octants of 1/8 and 1/4 of the side by 3 and 2, at both ends, each with two more cut
     // off its sides; and two such of the root's by 1.
-    const std::uint64_t visits = search_octree(problem, {3}, {.traversal = Traversal::restart}).counts.nodes;
+    const std::uint64_t visits = search_octree(problem, {3, Traversal::restart}, {}).counts.nodes;
     CHECK(visits > 2 * 4 + 2 * (3 + 2));
     CHECK(visits <= 2 * 4 + 2 * 3 * (3 + 2) + 2);
   }
@@ -131,8 +148,10 @@ TEST_SUITE("known answer") {
     const auto discs = uniform_discs(Body::cube, 2, 3000, 0.2, 1);
     const std::vector<Ray> rays{{.origin = {0.1, 0.1, 0.1}, .direction = {1, 0, 0}}};
     const Problem problem = make_problem(rays, discs);
-    CHECK(search_octree(problem, {2}, {.traversal = Traversal::restart}).counts.nodes == 4 * 3);
+    CHECK(search_octree(problem, {2, Traversal::restart}, {}).counts.nodes == 4 * 3);
     CHECK(search_octree(problem, {2}, {}).counts.nodes == 1 + 2 + 4);
+    // Down to the first leaf, and from there by three links: all leaves are of one size.
+    CHECK(search_octree(problem, {2, Traversal::neighbour_links}, {}).counts.nodes == 3 + 3);
   }
 }
 

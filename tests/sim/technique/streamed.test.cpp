@@ -38,6 +38,8 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
                                         {Technique::sphere_tree, SphereTreeParameters{8, 4}},
                                         {Technique::octree, OctreeParameters{2}},
                                         {Technique::bvh, BvhParameters{}},
+                                        {Technique::octree, OctreeParameters{3, Traversal::neighbour_links}},
+                                        {Technique::bsp, BspParameters{8, 4}},
                                         {Technique::grid, GridParameters{6}}};
 
 /// Tells less than the truth about how far its rays start.
@@ -75,8 +77,9 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("an index is built once, and what is counted of it does not depend on the block") {
-    for (const Candidate& candidate :
-         {Candidate{Technique::octree, OctreeParameters{2}}, {Technique::grid, GridParameters{6}}}) {
+    for (const Candidate& candidate : {Candidate{Technique::octree, OctreeParameters{2}},
+                                       {Technique::grid, GridParameters{6}},
+                                       {Technique::bsp, BspParameters{8, 4}}}) {
       const Outcome whole = run(make_problem(rays(), discs()), candidate);
       const Streamed streamed = run_streamed(discs(), RaysInMemory(rays()), candidate, {.run = {}, .block = 100});
       CHECK(streamed.outcome.counts == whole.counts);

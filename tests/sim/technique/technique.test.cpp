@@ -20,25 +20,34 @@ using namespace detp::sim;
 namespace {
 
 const std::vector<Candidate>& exact_candidates() {
-  static const std::vector<Candidate> list{{Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
-                                           {Technique::sphere_cache, SphereCacheParameters{0.3, 3}},
-                                           {Technique::sphere_cache, SphereCacheParameters{0.9, 1'000'000'000}},
-                                           {Technique::sphere_cache, SphereCacheParameters{0.5, 5, SampleOrder::none}},
-                                           {Technique::sphere_cache, SphereCacheParameters{1e-9, 1}},
-                                           {Technique::cell_spheres, CellSpheresParameters{0}},
-                                           {Technique::cell_spheres, CellSpheresParameters{4}},
-                                           {Technique::cell_spheres, CellSpheresParameters{16}},
-                                           {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                           {Technique::sphere_tree, SphereTreeParameters{2, 1}},
-                                           {Technique::sphere_tree, SphereTreeParameters{7, 1'000'000}},
-                                           {Technique::octree, OctreeParameters{0}},
-                                           {Technique::octree, OctreeParameters{3}},
-                                           {Technique::octree, OctreeParameters{6}},
-                                           {Technique::grid, GridParameters{1}},
-                                           {Technique::grid, GridParameters{7}},
-                                           {Technique::grid, GridParameters{50}},
-                                           {Technique::bvh, BvhParameters{BuildQuality::low}},
-                                           {Technique::bvh, BvhParameters{BuildQuality::medium}}};
+  static const std::vector<Candidate> list{
+      {Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
+      {Technique::sphere_cache, SphereCacheParameters{0.3, 3}},
+      {Technique::sphere_cache, SphereCacheParameters{0.9, 1'000'000'000}},
+      {Technique::sphere_cache, SphereCacheParameters{0.5, 5, SampleOrder::none}},
+      {Technique::sphere_cache, SphereCacheParameters{0.65, 8, SampleOrder::hilbert}},
+      {Technique::sphere_cache, SphereCacheParameters{1e-9, 1}},
+      {Technique::cell_spheres, CellSpheresParameters{0}},
+      {Technique::cell_spheres, CellSpheresParameters{4}},
+      {Technique::cell_spheres, CellSpheresParameters{16}},
+      {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+      {Technique::sphere_tree, SphereTreeParameters{2, 1}},
+      {Technique::sphere_tree, SphereTreeParameters{7, 1'000'000}},
+      {Technique::octree, OctreeParameters{0}},
+      {Technique::octree, OctreeParameters{3}},
+      {Technique::octree, OctreeParameters{6}},
+      {Technique::octree, OctreeParameters{5, Traversal::front_to_back}},
+      {Technique::octree, OctreeParameters{5, Traversal::restart}},
+      {Technique::octree, OctreeParameters{5, Traversal::neighbour_links}},
+      {Technique::grid, GridParameters{1}},
+      {Technique::grid, GridParameters{7}},
+      {Technique::grid, GridParameters{50}},
+      {Technique::bsp, BspParameters{}},
+      {Technique::bsp, BspParameters{0, 1}},
+      {Technique::bsp, BspParameters{12, 8}},
+      {Technique::bsp, BspParameters{64, 1}},
+      {Technique::bvh, BvhParameters{BuildQuality::low}},
+      {Technique::bvh, BvhParameters{BuildQuality::medium}}};
   return list;
 }
 
@@ -265,6 +274,8 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_AS(try_run({Technique::octree, GridParameters{4}}), std::invalid_argument);
     CHECK_THROWS_AS(try_run({Technique::octree, OctreeParameters{21}}), std::invalid_argument);
     CHECK_THROWS_AS(try_run({Technique::grid, GridParameters{0}}), std::invalid_argument);
+    CHECK_THROWS_AS(try_run({Technique::bsp, BspParameters{65, 1}}), std::invalid_argument);
+    CHECK_THROWS_AS(try_run({Technique::bsp, BspParameters{8, 0}}), std::invalid_argument);
     for (const double bad : {0.0, 1.0, -0.5, 1.5, std::numeric_limits<double>::quiet_NaN()})
       CHECK_THROWS_AS(try_run({Technique::sphere_cache, SphereCacheParameters{bad, 3}}), std::invalid_argument);
     CHECK_THROWS_AS(try_run({Technique::sphere_cache, SphereCacheParameters{0.5, 0}}), std::invalid_argument);

@@ -22,17 +22,22 @@ const std::vector<std::string> no_count{"0", "-1", "nan", "inf", "1.5", "1e300",
 
 TEST_SUITE("bad input") {
   TEST_CASE("unknown options and names are refused, naming what there is") {
-    check_refused({{uniform + "--frob 3", "--frob"},
-                   {uniform + "--technique quadtree", "brute-force, sphere-cache"},
-                   {"run @moon", "@uniform, @tree, @tree-coarse, @courtyard, @cornell"},
-                   {"scene moon", "must end in .obj or .ply"},
-                   {"run @uniform @tree", "@tree"},
-                   {numbers + "--format xml", "text,json,csv"},
-                   {numbers + "--form wrong", "published,corrected"},
-                   {numbers + "--order hilbert", "lebesgue,none"},
-                   {uniform + "--field sound", "isotropic,photons"},
-                   {"choose @uniform --rigor pilot", "'estimate'"},
-                   {uniform + "--technique", "--technique"}});
+    check_refused(
+        {{uniform + "--frob 3", "--frob"},
+         {uniform + "--technique quadtree", "brute-force, sphere-cache"},
+         {"run @moon", "@uniform, @tree, @tree-coarse, @courtyard, @cornell"},
+         {"scene moon", "must end in .obj or .ply"},
+         {"run @uniform @tree", "@tree"},
+         {numbers + "--format xml", "text,json,csv"},
+         {numbers + "--form wrong", "published,corrected"},
+         {numbers + "--order peano", "lebesgue,hilbert,none"},
+         {numbers + "--order hilbert", "Hilbert curve"},
+         {numbers + "--technique octree --traversal neighbour-links", "no closed form"},
+         {numbers + "--technique bsp", "no closed form of bsp"},
+         {uniform + "--technique octree --traversal sideways", "top-down, front-to-back, restart, neighbour-links"},
+         {uniform + "--field sound", "isotropic,photons"},
+         {"choose @uniform --rigor pilot", "'estimate'"},
+         {uniform + "--technique", "--technique"}});
   }
 
   TEST_CASE("numbers alone need samples, a disc radius and a size, and the message says which is missing") {
@@ -69,6 +74,8 @@ TEST_SUITE("bad input") {
     check_refused(each(uniform + "--technique sphere-cache --ratio", no_ratio, "ratio"));
     check_refused(each(uniform + "--technique sphere-cache --spheres", {"0", "-1", "1.5", "nan"}, "spheres"));
     check_refused(each(uniform + "--technique octree --depth", {"-1", "21", "99", "1.5", "nan"}, "depth"));
+    check_refused(each(uniform + "--technique bsp --depth", {"-1", "65", "1.5", "nan"}, "depth"));
+    check_refused(each(uniform + "--technique bsp --leaf", {"0", "-1", "1.5", "nan"}, "leaf"));
     check_refused(each(uniform + "--technique grid --cells", {"0", "-1", "1e9", "1000000000", "nan"}, "cells"));
     for (const std::string& command : {uniform, numbers}) {
       check_refused(each(command + "--technique cell-spheres --depth", {"-1", "17", "1.5", "nan"}, "depth"));
@@ -96,6 +103,7 @@ TEST_SUITE("bad input") {
                      {command + "--technique grid --depth 3", "--depth"},
                      {command + "--technique grid --spheres 3", "--spheres"},
                      {command + "--technique octree --fan-out 3", "--fan-out"},
+                     {command + "--technique grid --traversal restart", "--traversal"},
                      {command + "--technique cell-spheres --leaf 3", "--leaf"},
                      {command + "--technique sphere-tree --depth 3", "--depth"},
                      {command + "--technique grid --quality low", "--quality"},

@@ -1,0 +1,126 @@
+#include "bsp_nodes.hpp"
+
+#include <array>
+#include <numeric>
+#include <optional>
+
+#include "detp/sim/memory.hpp"
+#include "disc_box.hpp"
+#include "indexed_search.hpp"
+
+namespace detp::sim {
+namespace {
+
+using Discs = std::vector<std::uint32_t>;
+
+/// A plane across an axis.
+struct Split {
+  int axis;
+  double plane;
+};
+
+Split halving(const Box& box) {
+  const glm::dvec3 size = box.size();
+  const int longer = size.x >= size.y ? 0 : 1;
+  const int axis = size[longer] >= size.z ? longer : 2;
+  return {axis, box.centre()[axis]};
+}
+
+double area_of(const glm::dvec3& size) { return 2 * (size.x * size.y + size.y * size.z + size.z * size.x); }
+
+class Builder {
+ public:
+  Builder(const Problem& problem, const BspParameters& parameters, const std::stop_token& stop)
+      : problem_(problem), parameters_(parameters), stop_(stop) {
+    tree_.box = index_box(problem);
+  }
+
+  BspNodes build() && {
+    require_memory("the bounds of the discs", static_cast<double>(problem_.discs.size()) * sizeof(Box));
+    bounds_.reserve(problem_.discs.size());
+    for (const Disc& disc : problem_.discs) bounds_.push_back(bounds(disc, problem_.slack));
+    Discs all(problem_.discs.size());
+    std::iota(all.begin(), all.end(), 0U);
+    listed_ = all.size();
+    tree_.nodes.emplace_back();
+    build(0, tree_.box, 0, std::move(all));
+    tree_.nodes.shrink_to_fit();
+    tree_.references.shrink_to_fit();
+    return std::move(tree_);
+  }
+
+ private:
+  void build(std::uint32_t number, const Box& box, int level, Discs discs) {
+    if (stop_.stop_requested()) return;
+    require_room(2 * discs.size());
+    const Split split = halving(box);
+    if (level == parameters_.depth || discs.size() <= static_cast<std::size_t>(parameters_.leaf) ||
+        !pays(split, box, discs))
+      return make_leaf(number, discs);
+    const std::array<Box, 2> boxes{part_of(box, split.axis, split.plane, false),
+                                   part_of(box, split.axis, split.plane, true)};
+    std::array<Discs, 2> parts{discs_in(boxes[0], discs), discs_in(boxes[1], discs)};
+    listed_ += parts[0].size() + parts[1].size() - discs.size();
+    tree_.placements += parts[0].size() + parts[1].size();
+    discs = {};
+    const auto first = static_cast<std::uint32_t>(tree_.nodes.size());
+    tree_.nodes[number] = {.plane = split.plane, .first = first, .axis = split.axis};
+    tree_.nodes.resize(first + 2);
+    for (unsigned part = 0; part < 2; ++part) build(first + part, boxes[part], level + 1, std::move(parts[part]));
+  }
+
+  /// Whether the search of the halves is expected to be cheaper than testing all discs.
+  [[nodiscard]] bool pays(const Split& split, const Box& box, const Discs& discs) const {
+    double in_parts = 0;
+    for (const std::uint32_t disc : discs) {
+      in_parts += bounds_[disc].low[split.axis] <= split.plane ? 1 : 0;
+      in_parts += bounds_[disc].high[split.axis] >= split.plane ? 1 : 0;
+    }
+    const double half = area_of(part_of(box, split.axis, split.plane, false).size());
+    const double visit = parameters_.leaf / 4.0;
+    return half * (2 * visit + in_parts) < area_of(box.size()) * static_cast<double>(discs.size());
+  }
+
+  void make_leaf(std::uint32_t number, const Discs& discs) {
+    tree_.nodes[number].first = static_cast<std::uint32_t>(tree_.references.size());
+    tree_.nodes[number].count = static_cast<std::uint32_t>(discs.size());
+    tree_.references.insert(tree_.references.end(), discs.begin(), discs.end());
+    listed_ -= discs.size();
+  }
+
+  Discs discs_in(const Box& box, const Discs& discs) const {
+    Discs inside;
+    for (const std::uint32_t disc : discs)
+      if (overlaps(problem_.discs[disc], box, problem_.slack)) inside.push_back(disc);
+    return inside;
+  }
+
+  /// For so many more references in lists, and two more nodes. Arrays that grow may take twice what they hold.
+  void require_room(std::size_t more) const {
+    const double references = static_cast<double>(listed_ + tree_.references.size() + more) * sizeof(std::uint32_t);
+    const double nodes = static_cast<double>(tree_.nodes.size() + 2) * sizeof(BspNode);
+    require_memory("the BSP tree", 2 * (references + nodes) + static_cast<double>(bounds_.size()) * sizeof(Box));
+    if (tree_.references.size() + more >= UINT32_MAX || tree_.nodes.size() + 2 >= UINT32_MAX)
+      throw std::length_error("the BSP tree would hold 2^32 or more references; a smaller depth is needed");
+  }
+
+  const Problem& problem_;
+  const BspParameters& parameters_;
+  const std::stop_token& stop_;
+  std::vector<Box> bounds_;
+  std::size_t listed_ = 0;  ///< in the lists of nodes not yet built
+  BspNodes tree_;
+};
+
+}  // namespace
+
+Box part_of(Box box, int axis, double plane, bool above) {
+  (above ? box.low : box.high)[axis] = plane;
+  return box;
+}
+
+BspNodes build_bsp(const Problem& problem, const BspParameters& parameters, const std::stop_token& stop) {
+  return Builder(problem, parameters, stop).build();
+}
+
+}  // namespace detp::sim
