@@ -11,6 +11,9 @@
 namespace detp::sim {
 namespace {
 
+/// Of sides or costs that differ by less, rounding and the slack do not choose: the same discs get the same tree.
+constexpr double clear = 1 - 1e-9;
+
 using Discs = std::vector<std::uint32_t>;
 
 /// A plane across an axis.
@@ -21,8 +24,8 @@ struct Split {
 
 Split halving(const Box& box) {
   const glm::dvec3 size = box.size();
-  const int longer = size.x >= size.y ? 0 : 1;
-  const int axis = size[longer] >= size.z ? longer : 2;
+  const int longer = clear * size.y <= size.x ? 0 : 1;
+  const int axis = clear * size.z <= size[longer] ? longer : 2;
   return {axis, box.centre()[axis]};
 }
 
@@ -78,7 +81,7 @@ class Builder {
     }
     const double half = area_of(part_of(box, split.axis, split.plane, false).size());
     const double visit = parameters_.leaf / 4.0;
-    return half * (2 * visit + in_parts) < area_of(box.size()) * static_cast<double>(discs.size());
+    return half * (2 * visit + in_parts) < clear * area_of(box.size()) * static_cast<double>(discs.size());
   }
 
   void make_leaf(std::uint32_t number, const Discs& discs) {
