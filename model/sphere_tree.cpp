@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "line_measure.hpp"
 #include "sample_spread.hpp"
@@ -119,6 +120,8 @@ TreeLevel level_of(const Workload& workload, const SphereTreeParameters& paramet
 std::vector<TreeLevel> sphere_tree_levels(const Workload& workload, const SphereTreeParameters& parameters) {
   check(workload);
   check(Candidate{Technique::sphere_tree, parameters});
+  if (parameters.bounds != Bounds::spheres)
+    throw std::invalid_argument("there are closed forms of sphere trees with spheres only, not with boxes");
   std::vector<TreeLevel> levels;
   double run = std::min<double>(parameters.leaf, workload.samples);
   // Samples have no extent of their own: spheres around leaves of one are spheres around samples alone.

@@ -79,6 +79,14 @@ std::optional<BuildQuality> quality_named(std::string_view wanted) {
   return std::nullopt;
 }
 
+std::string_view name(Bounds bounds) { return bounds == Bounds::spheres ? "spheres" : "boxes"; }
+
+std::optional<Bounds> bounds_named(std::string_view wanted) {
+  for (const auto bounds : {Bounds::spheres, Bounds::boxes})
+    if (name(bounds) == wanted) return bounds;
+  return std::nullopt;
+}
+
 std::string describe(const Parameters& parameters) {
   return std::visit(
       Overload{[](const BruteForceParameters&) { return std::string{}; },
@@ -86,7 +94,10 @@ std::string describe(const Parameters& parameters) {
                  return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres, words_for(p.order));
                },
                [](const CellSpheresParameters& p) { return fmt::format("depth {}", p.depth); },
-               [](const SphereTreeParameters& p) { return fmt::format("{} a node, {} a leaf", p.fan_out, p.leaf); },
+               [](const SphereTreeParameters& p) { 
+                 return fmt::format("{} a node, {} a leaf{}", p.fan_out, p.leaf,
+                                    p.bounds == Bounds::boxes ? ", boxes" : "");
+               },
                [](const OctreeParameters& p) {
                  return fmt::format("depth {}{}{}", p.depth, p.traversal == Traversal::top_down ? "" : ", ",
                                     p.traversal == Traversal::top_down ? "" : name(p.traversal));

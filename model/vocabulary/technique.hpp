@@ -79,10 +79,20 @@ struct CellSpheresParameters {
   bool operator==(const CellSpheresParameters&) const = default;
 };
 
-/// Nested spheres around runs of samples along the curve: rays are culled down the tree.
+/// What bounds the discs below a node of a sphere tree.
+enum class Bounds {
+  spheres,  ///< nested, over runs of equal length along the curve
+  boxes     ///< axis-aligned, over cells of the curve, joined as the surface-area heuristic advises
+};
+
+[[nodiscard]] std::string_view name(Bounds bounds);
+[[nodiscard]] std::optional<Bounds> bounds_named(std::string_view name);
+
+/// Nested spheres, or boxes, around neighbouring samples: rays are culled down the tree.
 struct SphereTreeParameters {
   int fan_out = 8;  ///< nodes that make a parent, 2 … 1 048 576
   int leaf = 4;     ///< samples in a leaf, the last one's may be fewer, 1 … 1 048 576
+  Bounds bounds = Bounds::spheres;
   bool operator==(const SphereTreeParameters&) const = default;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detp/sim/stream/search.hpp"
 #include "ray_list.hpp"
 #include "techniques.hpp"
 
@@ -156,6 +157,10 @@ SphereTree make_sphere_tree(std::span<const Disc> discs, std::span<const std::ui
 
 void run_sphere_tree(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
                      Outcome& outcome) {
+  if (parameters.bounds == Bounds::boxes && !options.plain && stream::can_search(problem)) {
+    stream::search_boxes(problem, parameters, options, outcome);
+    return;
+  }
   Stopwatch watch;
   const std::vector<std::uint32_t> order = along_curve(problem.discs);
   outcome.seconds.order = watch.lap();

@@ -63,6 +63,7 @@ struct Phases {
 struct RunOptions {
   bool count = true;          ///< fill in Outcome::counts; a timing run turns it off and pays nothing for it
   bool pairs = false;         ///< fill in Outcome::pairs
+  bool plain = false;         ///< in doubles, one ray and one disc at a time: the simple version, to compare with
   std::stop_token stop = {};  ///< asked between discs or blocks of rays
   /// 0: all cores; at most 4096. What is found and counted does not depend on it. Techniques that trace rays one by one
   /// use them all, those that cull lists of rays one.

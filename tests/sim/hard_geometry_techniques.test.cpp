@@ -63,6 +63,7 @@ const std::vector<Candidate>& culling_candidates() {
       {Technique::cell_spheres, CellSpheresParameters{2}},
       {Technique::cell_spheres, CellSpheresParameters{6}},
       {Technique::sphere_tree, SphereTreeParameters{2, 1}},
+      {Technique::sphere_tree, SphereTreeParameters{8, 8, Bounds::boxes}},
       {Technique::sphere_tree, SphereTreeParameters{8, 4}},
       {Technique::octree, OctreeParameters{3}},
       {Technique::octree, OctreeParameters{5}},

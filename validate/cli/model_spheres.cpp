@@ -133,8 +133,9 @@ Json cell_spheres_answer(const ModelQuestion& question) {
 
 Json sphere_tree_answer(const ModelQuestion& question) {
   refuse_published(question);
-  const SphereTreeParameters parameters =
+  SphereTreeParameters parameters =
       model::best_sphere_tree(question.workload, question.costs, question.options.fan_out, question.options.leaf);
+  if (question.options.bounds) parameters.bounds = *bounds_named(*question.options.bounds);
   Json levels = Json::array();
   double around = question.workload.rays;
   for (const model::TreeLevel& level : model::sphere_tree_levels(question.workload, parameters)) {

@@ -33,6 +33,13 @@ SphereCacheParameters complete_cache(const CandidateOptions& options, const Work
   return {best.ratio, std::max<std::int64_t>(1, best.spheres), options.sample_order()};
 }
 
+/// Boxes, unless spheres are asked for: they are the faster (sim/README.md).
+SphereTreeParameters complete_tree(const CandidateOptions& options, const Workload& workload) {
+  if (options.bounds && bounds_named(*options.bounds) == Bounds::spheres)
+    return model::best_sphere_tree(workload, validate::built_in_unit_costs(), options.fan_out, options.leaf);
+  return {options.fan_out.value_or(8), options.leaf.value_or(8), Bounds::boxes};
+}
+
 /// The depth that is best top-down serves for all traversals.
 OctreeParameters complete_octree(const CandidateOptions& options, const Workload& workload) {
   const Traversal traversal = options.chosen_traversal();
@@ -62,8 +69,7 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
   if (technique == Technique::sphere_cache || technique == Technique::sphere_cache_published)
     return {technique, complete_cache(options, workload)};
   if (technique == Technique::cell_spheres && options.depth) return {technique, CellSpheresParameters{*options.depth}};
-  if (technique == Technique::sphere_tree)
-    return {technique, model::best_sphere_tree(workload, costs, options.fan_out, options.leaf)};
+  if (technique == Technique::sphere_tree) return {technique, complete_tree(options, workload)};
   if (technique == Technique::octree) return {technique, complete_octree(options, workload)};
   if (technique == Technique::bsp) return {technique, complete_bsp(options)};
   if (technique == Technique::grid && options.cells) return {technique, GridParameters{*options.cells}};

@@ -76,6 +76,8 @@ void CandidateOptions::add_to(CLI::App& command) {
   command.add_option("--leaf", leaf, "most samples in a leaf of a sphere tree or BSP tree");
   command.add_option("--quality", quality, "of building a bvh: low or medium")->check(CLI::IsMember({"low", "medium"}));
   command.add_option("--nearest", nearest, "photons that a photon-map looks for, at least 3");
+  command.add_option("--bounds", bounds, "what bounds a sphere tree's nodes: spheres or boxes")
+      ->check(CLI::IsMember({"spheres", "boxes"}));
 }
 
 Technique CandidateOptions::technique_or(Technique otherwise) const {
@@ -122,6 +124,7 @@ void CandidateOptions::refuse_foreign(Technique chosen) const {
   if (leaf && chosen != Technique::sphere_tree && chosen != Technique::bsp) refuse("--leaf");
   if (quality && chosen != Technique::bvh) refuse("--quality");
   if (nearest && chosen != Technique::photon_map) refuse("--nearest");
+  if (bounds && chosen != Technique::sphere_tree) refuse("--bounds");
 }
 
 Json to_json(const Parameters& parameters) {
@@ -130,7 +133,7 @@ Json to_json(const Parameters& parameters) {
     json = {{"ratio", cache->ratio}, {"spheres", cache->spheres}, {"order", detp::name(cache->order)}};
   if (const auto* cells = std::get_if<CellSpheresParameters>(&parameters)) json = {{"depth", cells->depth}};
   if (const auto* tree = std::get_if<SphereTreeParameters>(&parameters))
-    json = {{"fan_out", tree->fan_out}, {"leaf", tree->leaf}};
+    json = {{"fan_out", tree->fan_out}, {"leaf", tree->leaf}, {"bounds", detp::name(tree->bounds)}};
   if (const auto* octree = std::get_if<OctreeParameters>(&parameters))
     json = {{"depth", octree->depth}, {"traversal", detp::name(octree->traversal)}};
   if (const auto* grid = std::get_if<GridParameters>(&parameters)) json = {{"cells", grid->cells}};

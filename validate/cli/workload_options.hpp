@@ -37,6 +37,7 @@ class CandidateOptions {
   std::optional<int> leaf;
   std::optional<std::string> quality;
   std::optional<int> nearest;
+  std::optional<std::string> bounds;
 
   /// The technique of that name, or `otherwise`. Throws std::invalid_argument for an unknown one, naming the known.
   [[nodiscard]] Technique technique_or(Technique otherwise) const;

@@ -32,6 +32,8 @@ const std::vector<Candidate>& exact_candidates() {
       {Technique::cell_spheres, CellSpheresParameters{16}},
       {Technique::sphere_tree, SphereTreeParameters{8, 4}},
       {Technique::sphere_tree, SphereTreeParameters{2, 1}},
+      {Technique::sphere_tree, SphereTreeParameters{8, 8, Bounds::boxes}},
+      {Technique::sphere_tree, SphereTreeParameters{2, 1, Bounds::boxes}},
       {Technique::sphere_tree, SphereTreeParameters{7, 1'000'000}},
       {Technique::octree, OctreeParameters{0}},
       {Technique::octree, OctreeParameters{3}},

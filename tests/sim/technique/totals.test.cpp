@@ -39,6 +39,7 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
                                         {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
                                         {Technique::cell_spheres, CellSpheresParameters{3}},
                                         {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                                        {Technique::sphere_tree, SphereTreeParameters{8, 4, Bounds::boxes}},
                                         {Technique::octree, OctreeParameters{3}},
                                         {Technique::grid, GridParameters{8}}};
 

@@ -1,0 +1,195 @@
+#include "disc_tree.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "curve_sort.hpp"
+
+namespace detp::sim::stream {
+namespace {
+
+struct FloatBox {
+  float low[3]{2, 2, 2};
+  float high[3]{-2, -2, -2};
+
+  void include(const FloatBox& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], box.low[axis]);
+      high[axis] = std::max(high[axis], box.high[axis]);
+    }
+  }
+
+  /// Half its surface: in proportion to the lines that cross it.
+  [[nodiscard]] float area() const {
+    const float x = high[0] - low[0];
+    const float y = high[1] - low[1];
+    const float z = high[2] - low[2];
+    return x * y + y * z + z * x;
+  }
+};
+
+FloatBox box_of(const FloatDisc& disc) {
+  FloatBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float u = disc.normal[(axis + 1) % 3];
+    const float v = disc.normal[(axis + 2) % 3];
+    const float reach = disc.radius * std::sqrt(u * u + v * v);
+    box.low[axis] = disc.centre[axis] - reach;
+    box.high[axis] = disc.centre[axis] + reach;
+  }
+  return box;
+}
+
+/// What a ray costs, in disc tests: measured on lists of some hundred rays (sim/README.md).
+constexpr float cull_cost = 1.6F;  ///< one test of a ray against a box, with its share of the list that is made
+constexpr float list_cost = 1.0F;  ///< each ray that is listed
+
+/// A node of the binary tree: children left and right, or a leaf.
+struct Binary {
+  FloatBox box;
+  std::uint32_t first;
+  std::uint32_t count;
+  std::uint32_t left = 0;
+  std::uint32_t right = 0;
+  float cost = 0;  ///< expected, times the area
+  [[nodiscard]] bool leaf() const { return right == 0; }
+};
+
+class Builder {
+ public:
+  Builder(const std::vector<CurvePlace>& places, DiscTree& tree, int fan_out, int leaf)
+      : places_(places), tree_(tree), fan_out_(static_cast<std::size_t>(fan_out)), leaf_(static_cast<std::uint32_t>(leaf)) {
+    binary_.reserve(2 * tree.discs.size() / std::max<std::size_t>(1, leaf_ / 2) + 64);
+  }
+
+  void build() {
+    split(0, static_cast<std::uint32_t>(tree_.discs.size()));
+    tree_.nodes.reserve(binary_.size());
+    tree_.nodes.emplace_back();
+    widen(0, 0);
+  }
+
+ private:
+  /// The binary tree over a run of discs; its number.
+  std::uint32_t split(std::uint32_t first, std::uint32_t count) {
+    const auto number = static_cast<std::uint32_t>(binary_.size());
+    binary_.push_back({.box = {}, .first = first, .count = count});
+    if (count <= leaf_) {
+      make_leaf(binary_[number]);
+      return number;
+    }
+    const std::uint32_t middle = boundary(first, count);
+    const std::uint32_t left = split(first, middle - first);
+    const std::uint32_t right = split(middle, first + count - middle);
+    Binary& node = binary_[number];
+    node.box = binary_[left].box;
+    node.box.include(binary_[right].box);
+    const float area = node.box.area();
+    const float children = binary_[left].box.area() + binary_[right].box.area();
+    // Joined into wide nodes, about every other split costs nothing.
+    const float inner = cull_cost * area + 0.5F * list_cost * children + binary_[left].cost + binary_[right].cost;
+    const float as_leaf = static_cast<float>(count) * area;
+    if (as_leaf <= inner && count <= most_in_a_leaf) {
+      node.cost = as_leaf;
+      binary_.resize(number + 1);
+    } else {
+      node.left = left;
+      node.right = right;
+      node.cost = inner;
+    }
+    return number;
+  }
+
+  void make_leaf(Binary& node) const {
+    for (std::uint32_t i = node.first; i < node.first + node.count; ++i) node.box.include(box_of(tree_.discs[i]));
+    node.cost = static_cast<float>(node.count) * node.box.area();
+  }
+
+  /// Where the run leaves the first half of the smallest cell that holds it.
+  std::uint32_t boundary(std::uint32_t first, std::uint32_t count) const {
+    const std::uint32_t low = place_code(places_[first]);
+    const std::uint32_t high = place_code(places_[first + count - 1]);
+    if (low == high) return first + count / 2;
+    const std::uint32_t start = high & ~(std::bit_floor(low ^ high) - 1);
+    const auto begin = places_.begin() + first;
+    const auto found = std::partition_point(begin, begin + count, [start](CurvePlace p) { return place_code(p) < start; });
+    return static_cast<std::uint32_t>(found - places_.begin());
+  }
+
+  /// Writes the node at that place, and its descendants.
+  void widen(std::uint32_t number, std::size_t place) {
+    const Binary& node = binary_[number];
+    if (node.leaf()) {
+      write(node, place, node.first, node.count, true);
+      return;
+    }
+    std::vector<std::uint32_t> children{node.left, node.right};
+    while (children.size() < fan_out_) {
+      const auto largest = std::max_element(children.begin(), children.end(), [&](std::uint32_t x, std::uint32_t y) {
+        return inner_area(x) < inner_area(y);
+      });
+      if (inner_area(*largest) < 0) break;
+      const Binary& opened = binary_[*largest];
+      *largest = opened.left;
+      children.insert(largest + 1, opened.right);
+    }
+    const std::size_t first = tree_.nodes.size();
+    tree_.nodes.resize(first + children.size());
+    write(node, place, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(children.size()), false);
+    for (std::size_t i = 0; i < children.size(); ++i) widen(children[i], first + i);
+  }
+
+  float inner_area(std::uint32_t number) const {
+    return binary_[number].leaf() ? -1.0F : binary_[number].box.area();
+  }
+
+  void write(const Binary& node, std::size_t place, std::uint32_t first, std::uint32_t count, bool leaf) {
+    TreeNode& written = tree_.nodes[place];
+    for (int axis = 0; axis < 3; ++axis) {
+      written.centre[axis] = 0.5F * (node.box.low[axis] + node.box.high[axis]);
+      written.half[axis] = 0.5F * (node.box.high[axis] - node.box.low[axis]);
+    }
+    written.first = first;
+    written.count = count & 0x7fff'ffff;
+    written.leaf = leaf ? 1 : 0;
+  }
+
+  static constexpr std::uint32_t most_in_a_leaf = 64;
+
+  const std::vector<CurvePlace>& places_;
+  DiscTree& tree_;
+  std::size_t fan_out_;
+  std::uint32_t leaf_;
+  std::vector<Binary> binary_;
+};
+
+FloatDisc to_float(const Disc& disc, const Frame& frame) {
+  FloatDisc as_float{};
+  const glm::dvec3 centre = frame(disc.centre);
+  for (int axis = 0; axis < 3; ++axis) {
+    as_float.centre[axis] = static_cast<float>(centre[axis]);
+    as_float.normal[axis] = static_cast<float>(disc.normal[axis]);
+  }
+  as_float.radius = static_cast<float>(disc.radius * frame.scale);
+  as_float.band = frame.band(disc.radius * frame.scale);
+  return as_float;
+}
+
+}  // namespace
+
+DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf) {
+  const std::vector<CurvePlace> places = sort_along_curve(problem.discs, frame);
+  DiscTree tree;
+  tree.order.reserve(places.size());
+  tree.discs.reserve(places.size());
+  for (const CurvePlace place : places) {
+    const std::uint32_t number = place_index(place);
+    tree.order.push_back(number);
+    tree.discs.push_back(to_float(problem.discs[number], frame));
+  }
+  Builder(places, tree, fan_out, leaf).build();
+  return tree;
+}
+
+}  // namespace detp::sim::stream

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "frame.hpp"
+
+/// A tree of boxes over the discs, for lists of rays to be culled down.
+namespace detp::sim::stream {
+
+/// A disc in the frame's coordinates.
+struct alignas(32) FloatDisc {
+  float centre[3];
+  float normal[3];
+  float radius;
+  float band;  ///< Frame::band
+};
+
+/// A box, and what is in it: nodes number first … first + count - 1, or, in a leaf, discs (places in the tree's order).
+struct TreeNode {
+  float centre[3];
+  float half[3];  ///< half its sides
+  std::uint32_t first;
+  std::uint32_t count : 31;
+  std::uint32_t leaf : 1;
+};
+
+struct DiscTree {
+  std::vector<TreeNode> nodes;       ///< the root first; children of a node are neighbours
+  std::vector<FloatDisc> discs;      ///< in the order of the leaves
+  std::vector<std::uint32_t> order;  ///< their numbers in the problem
+};
+
+/// Splits the discs, sorted along the Lebesgue curve, wherever the curve leaves a cell; then keeps those splits that
+/// pay, and joins them into nodes of up to `fan_out` children. A leaf holds up to `leaf` discs, more only where that
+/// costs less (or where they share a place on the curve: such are split in the middle).
+///
+/// What pays is judged by the surface-area heuristic: a line that crosses a node crosses a child with probability
+/// F(child)/F(node). (Runs of equal length along the curve, as nodes, take 1.7 to 2.3 times the tests: their boxes
+/// bridge the curve's jumps.)
+[[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf);
+
+}  // namespace detp::sim::stream

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "frame.hpp"
+
+/// Lists of rays as structures of arrays.
+namespace detp::sim::stream {
+
+/// More floats than any vector holds: arrays are readable and writable that far beyond their end.
+inline constexpr std::size_t padding = 16;
+
+/// Rays of one class, in rising order of their numbers. Borrows its arrays from a ListArena.
+struct RayList {
+  std::size_t size = 0;
+  float* a = nullptr;          ///< dx/dz
+  float* b = nullptr;          ///< dy/dz
+  float* p = nullptr;          ///< x at z = 0
+  float* q = nullptr;          ///< y at z = 0
+  std::uint32_t* id = nullptr; ///< number in the block; the top bit is set if the ray goes towards falling z
+  float* from = nullptr;       ///< of segments: the lower end's z; null in a list of lines
+  float* to = nullptr;         ///< of segments: the upper end's z
+};
+
+inline constexpr std::uint32_t falling = 1U << 31;
+
+/// One list for each class.
+using RayLists = std::array<RayList, classes>;
+
+[[nodiscard]] inline std::size_t size(const RayLists& lists) { return lists[0].size + lists[1].size + lists[2].size; }
+
+/// Memory for lists, last in, first out. Pages are touched only as far as lists are filled.
+class ListArena {
+ public:
+  /// Room for `capacity` rays.
+  [[nodiscard]] RayList take(std::size_t capacity, bool segments);
+
+  /// Room for as many rays as there are.
+  [[nodiscard]] RayLists take_like(const RayLists& lists, bool segments) {
+    return {take(lists[0].size, segments), take(lists[1].size, segments), take(lists[2].size, segments)};
+  }
+
+  struct Mark {
+    std::size_t chunk;
+    std::size_t used;
+  };
+  [[nodiscard]] Mark mark() const { return {chunk_, used_}; }
+
+  /// Gives back what was taken since the mark.
+  void release(const Mark& mark) {
+    chunk_ = mark.chunk;
+    used_ = mark.used;
+  }
+
+ private:
+  float* take_floats(std::size_t count);
+
+  struct Chunk {
+    std::unique_ptr<std::byte[]> bytes;
+    float* start;  ///< aligned to a cache line
+    std::size_t size;
+  };
+  std::vector<Chunk> chunks_;
+  std::size_t chunk_ = 0;
+  std::size_t used_ = 0;
+};
+
+/// Gives back at the end of a scope what was taken in it.
+class ArenaScope {
+ public:
+  explicit ArenaScope(ListArena& arena) : arena_(arena), mark_(arena.mark()) {}
+  ~ArenaScope() { arena_.release(mark_); }
+  ArenaScope(const ArenaScope&) = delete;
+  ArenaScope& operator=(const ArenaScope&) = delete;
+
+ private:
+  ListArena& arena_;
+  ListArena::Mark mark_;
+};
+
+}  // namespace detp::sim::stream
