@@ -178,16 +178,20 @@ FloatDisc to_float(const Disc& disc, const Frame& frame) {
 
 }  // namespace
 
+DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order) {
+  DiscTree tree;
+  tree.order = std::move(order);
+  tree.discs.reserve(tree.order.size());
+  for (const std::uint32_t number : tree.order) tree.discs.push_back(to_float(problem.discs[number], frame));
+  return tree;
+}
+
 DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf) {
   const std::vector<CurvePlace> places = sort_along_curve(problem.discs, frame);
-  DiscTree tree;
-  tree.order.reserve(places.size());
-  tree.discs.reserve(places.size());
-  for (const CurvePlace place : places) {
-    const std::uint32_t number = place_index(place);
-    tree.order.push_back(number);
-    tree.discs.push_back(to_float(problem.discs[number], frame));
-  }
+  std::vector<std::uint32_t> order;
+  order.reserve(places.size());
+  for (const CurvePlace place : places) order.push_back(place_index(place));
+  DiscTree tree = discs_in_order(problem, frame, std::move(order));
   Builder(places, tree, fan_out, leaf).build();
   return tree;
 }

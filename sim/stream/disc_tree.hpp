@@ -40,4 +40,7 @@ struct DiscTree {
 /// bridge the curve's jumps.)
 [[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf);
 
+/// The discs alone, in that order: a tree without nodes.
+[[nodiscard]] DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order);
+
 }  // namespace detp::sim::stream

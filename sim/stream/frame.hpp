@@ -10,12 +10,18 @@ namespace detp::sim::stream {
 /// u = 2⁻²⁴: half the distance from 1 to the next float.
 inline constexpr double float_unit = 0x1p-24;
 
+/// A sphere in the frame's coordinates, grown by the margin.
+struct FloatSphere {
+  float centre[3];
+  float radius;
+};
+
 /// Coordinates of the float kernels, and how far they may be off. The bounds are proved in sim/README.md, "Floats".
 struct Frame {
   glm::dvec3 centre{0.0};  ///< of S₀
   double scale = 1;        ///< a power of two: r₀ scale is in [½, 1)
   double slack = 0;        ///< Problem::slack in these units
-  float margin = 0;        ///< 32u + 2 slack: by how much boxes and spheres are grown
+  float margin = 0;        ///< 64u + 2 slack: by how much boxes and spheres are grown
 
   explicit Frame(const Problem& problem);
 
@@ -24,6 +30,7 @@ struct Frame {
     return static_cast<float>(32 * float_unit + 128 * float_unit * radius + 4 * slack);
   }
 
+  [[nodiscard]] FloatSphere operator()(const Sphere& sphere) const;
   [[nodiscard]] glm::dvec3 operator()(const glm::dvec3& point) const { return (point - centre) * scale; }
 };
 

@@ -87,6 +87,42 @@ HWY_INLINE void cull_box(const RayList& around, const TreeNode& box, float margi
   }
 }
 
+/// Lists those rays that may come within the sphere, whose radius has been grown by Frame::margin.
+///
+/// With w = (P, Q, 0) from the sphere's centre to the ray at the centre's z, the ray's distance is |w × D|/|D|. Of
+/// segments it is only asked besides whether they reach the sphere's extent in z: those that end before it in its
+/// corner are listed for nothing.
+template <bool segments, int k>
+HWY_INLINE void cull_sphere(const RayList& around, const FloatSphere& sphere, RayList& inside) {
+  const FloatLanes lanes;
+  constexpr auto axes = axes_of_class(k);
+  const Floats cx = hn::Set(lanes, sphere.centre[axes[0]]);
+  const Floats cy = hn::Set(lanes, sphere.centre[axes[1]]);
+  const Floats cz = hn::Set(lanes, sphere.centre[axes[2]]);
+  const Floats square = hn::Set(lanes, sphere.radius * sphere.radius);
+  [[maybe_unused]] const Floats low = hn::Set(lanes, sphere.centre[axes[2]] - sphere.radius);
+  [[maybe_unused]] const Floats high = hn::Set(lanes, sphere.centre[axes[2]] + sphere.radius);
+  inside.size = 0;
+  for (std::size_t i = 0; i < around.size; i += hn::Lanes(lanes)) {
+    const Floats a = hn::Load(lanes, around.a + i);
+    const Floats b = hn::Load(lanes, around.b + i);
+    const Floats p = hn::Load(lanes, around.p + i);
+    const Floats q = hn::Load(lanes, around.q + i);
+    const Floats P = hn::Sub(hn::MulAdd(a, cz, p), cx);
+    const Floats Q = hn::Sub(hn::MulAdd(b, cz, q), cy);
+    const Floats turn = hn::MulSub(P, b, hn::Mul(Q, a));
+    const Floats moment = hn::MulAdd(P, P, hn::MulAdd(Q, Q, hn::Mul(turn, turn)));
+    const Floats stretch = hn::MulAdd(a, a, hn::MulAdd(b, b, hn::Set(lanes, 1.0F)));
+    Mask kept = hn::Le(moment, hn::Mul(square, stretch));
+    if constexpr (segments) {
+      kept = hn::And(kept, hn::And(hn::Le(hn::Load(lanes, around.from + i), high),
+                                   hn::Ge(hn::Load(lanes, around.to + i), low)));
+    }
+    if (HWY_UNLIKELY(i + hn::Lanes(lanes) > around.size)) kept = hn::And(kept, in_list(i, around.size));
+    if (!hn::AllFalse(lanes, kept)) append<segments>(around, i, a, b, p, q, kept, inside);
+  }
+}
+
 /// Which lanes hit a disc for certain, and which may or may not.
 struct Decision {
   Mask sure;

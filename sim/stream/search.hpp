@@ -10,6 +10,9 @@ namespace detp::sim::stream {
 /// culled.)
 [[nodiscard]] bool can_search(const Problem& problem);
 
+/// Tests every ray against every disc. (Of rays that pass S₀ that takes no test; they count as tested.)
+void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome);
+
 /// Finds the hits of all rays. Same bytes for any number of threads.
 ///
 /// Counts: `rebuilds` are nodes that a list was culled for, `sphere_tests` tests of a ray against a box, `copies` rays

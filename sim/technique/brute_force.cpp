@@ -1,3 +1,4 @@
+#include "detp/sim/stream/search.hpp"
 #include "hit_collector.hpp"
 #include "ray_search.hpp"
 #include "techniques.hpp"
@@ -33,11 +34,18 @@ void search(const Problem& problem, const RunOptions& options, Outcome& outcome)
       problem, options, [&] { return std::make_unique<BruteForceSearch<counting>>(problem); }, outcome);
 }
 
+void search(const Problem& problem, const RunOptions& options, Outcome& outcome) {
+  options.count ? search<true>(problem, options, outcome) : search<false>(problem, options, outcome);
+}
+
 }  // namespace
 
 void run_brute_force(const Problem& problem, const RunOptions& options, Outcome& outcome) {
   Stopwatch watch;
-  options.count ? search<true>(problem, options, outcome) : search<false>(problem, options, outcome);
+  if (!options.plain && stream::can_search(problem))
+    stream::search_all(problem, options, outcome);
+  else
+    search(problem, options, outcome);
   outcome.seconds.search = watch.lap();
 }
 

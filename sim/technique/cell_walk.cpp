@@ -48,7 +48,7 @@ int CellWalk::enter(const Disc& disc) {
   }
   code_ = code;
   entered_ = true;
-  return std::min(first, depth + 1);
+  return std::clamp(first, 1, depth + 1);
 }
 
 }  // namespace detp::sim

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "detp/sim/geometry.hpp"
+#include "list_walk.hpp"
 
 /// The cells of an octree that samples lie in, met along the Lebesgue curve, and spheres around them.
 namespace detp::sim {
@@ -15,17 +15,19 @@ namespace detp::sim {
 ///
 /// Exact in floating point too: a sample may be coded into the cell beside its own, but then it lies within 3 ulp of
 /// the cube's size and place from that cell, the culls' slack being thousands of times more.
-class CellWalk {
+class CellWalk : public ListWalk {
  public:
   /// For levels 0 … depth.
   CellWalk(std::span<const Disc> discs, int depth);
 
-  /// Goes to the next disc's cells. The first level at which they are not those of the disc before: 0 for the first
-  /// disc, depth + 1 where all are.
-  int enter(const Disc& disc);
+  /// Goes to the next disc's cells. The first level, 1 or more, at which they are not those of the disc before; depth +
+  /// 1 where all are.
+  int enter(const Disc& disc) override;
+  [[nodiscard]] int innermost() const override { return deepest(); }
+  [[nodiscard]] int deepest() const override { return static_cast<int>(spheres_.size()) - 1; }
 
   /// The sphere of the cell of that level around the disc entered last.
-  [[nodiscard]] const Sphere& sphere(int level) const { return spheres_[static_cast<std::size_t>(level)]; }
+  [[nodiscard]] const Sphere& sphere(int level) const override { return spheres_[static_cast<std::size_t>(level)]; }
 
  private:
   Box box_;

@@ -1,0 +1,57 @@
+#pragma once
+
+#include "list_walk.hpp"
+#include "ray_list.hpp"
+#include "technique.hpp"
+
+namespace detp::sim {
+
+/// Adds up the spheres' counts.
+inline void add_spheres(const std::vector<SphereCounts>& spheres, Counts<std::uint64_t>& counts) {
+  for (const SphereCounts& sphere : spheres) {
+    counts.sphere_tests += sphere.tests;
+    counts.copies += sphere.listed;
+    counts.rebuilds += sphere.rebuilds;
+  }
+}
+
+/// The plain version of all techniques whose spheres follow the discs: tests each disc, in that order, against the
+/// innermost list, after building anew what the walk says.
+template <bool counting>
+void search_along_counting(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,
+                           const RunOptions& options, Outcome& outcome) {
+  HitCollector collector(problem, options);
+  Tally<counting> tally;
+  std::vector<RayList> lists(static_cast<std::size_t>(walk.deepest()) + 1);
+  std::vector<SphereCounts> events(lists.size() - 1);
+  lists[0] = list_of(problem.rays);
+  for (const std::uint32_t d : order) {
+    const Disc disc = problem.discs[d];
+    for (int level = walk.enter(disc); level <= walk.innermost(); ++level) {
+      const auto i = static_cast<std::size_t>(level);
+      cull(lists[i - 1], walk.sphere(level), problem.slack, lists[i]);
+      if constexpr (counting) {
+        ++events[i - 1].rebuilds;
+        events[i - 1].tests += lists[i - 1].size();
+        events[i - 1].listed += lists[i].size();
+      }
+    }
+    test_disc(lists[static_cast<std::size_t>(walk.innermost())], disc, d, collector, tally);
+    outcome.stopped = options.stop.stop_requested();
+    if (outcome.stopped) break;
+  }
+  outcome.counts = tally.counts();
+  if constexpr (counting) {
+    add_spheres(events, outcome.counts);
+    outcome.spheres = std::move(events);
+  }
+  std::move(collector).give(outcome);
+}
+
+inline void search_along(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,
+                         const RunOptions& options, Outcome& outcome) {
+  options.count ? search_along_counting<true>(walk, problem, order, options, outcome)
+                : search_along_counting<false>(walk, problem, order, options, outcome);
+}
+
+}  // namespace detp::sim
