@@ -88,25 +88,25 @@ std::optional<Bounds> bounds_named(std::string_view wanted) {
 }
 
 std::string describe(const Parameters& parameters) {
-  return std::visit(
-      Overload{[](const BruteForceParameters&) { return std::string{}; },
-               [](const SphereCacheParameters& p) {
-                 return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres, words_for(p.order));
-               },
-               [](const CellSpheresParameters& p) { return fmt::format("depth {}", p.depth); },
-               [](const SphereTreeParameters& p) { 
-                 return fmt::format("{} a node, {} a leaf{}", p.fan_out, p.leaf,
-                                    p.bounds == Bounds::boxes ? ", boxes" : "");
-               },
-               [](const OctreeParameters& p) {
-                 return fmt::format("depth {}{}{}", p.depth, p.traversal == Traversal::top_down ? "" : ", ",
-                                    p.traversal == Traversal::top_down ? "" : name(p.traversal));
-               },
-               [](const GridParameters& p) { return fmt::format("{} cells a side", p.cells); },
-               [](const BspParameters& p) { return fmt::format("depth {}, {} a leaf", p.depth, p.leaf); },
-               [](const BvhParameters& p) { return fmt::format("{} quality", name(p.quality)); },
-               [](const PhotonMapParameters& p) { return fmt::format("{} nearest photons", p.nearest); }},
-      parameters);
+  return std::visit(Overload{[](const BruteForceParameters&) { return std::string{}; },
+                             [](const SphereCacheParameters& p) {
+                               return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres, words_for(p.order));
+                             },
+                             [](const CellSpheresParameters& p) { return fmt::format("depth {}", p.depth); },
+                             [](const SphereTreeParameters& p) {
+                               return fmt::format("{} a node, {} a leaf{}", p.fan_out, p.leaf,
+                                                  p.bounds == Bounds::boxes ? ", boxes" : "");
+                             },
+                             [](const OctreeParameters& p) {
+                               return fmt::format("depth {}{}{}", p.depth,
+                                                  p.traversal == Traversal::top_down ? "" : ", ",
+                                                  p.traversal == Traversal::top_down ? "" : name(p.traversal));
+                             },
+                             [](const GridParameters& p) { return fmt::format("{} cells a side", p.cells); },
+                             [](const BspParameters& p) { return fmt::format("depth {}, {} a leaf", p.depth, p.leaf); },
+                             [](const BvhParameters& p) { return fmt::format("{} quality", name(p.quality)); },
+                             [](const PhotonMapParameters& p) { return fmt::format("{} nearest photons", p.nearest); }},
+                    parameters);
 }
 
 void check(const Candidate& candidate) {

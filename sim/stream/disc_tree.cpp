@@ -59,7 +59,10 @@ struct Binary {
 class Builder {
  public:
   Builder(const std::vector<CurvePlace>& places, DiscTree& tree, int fan_out, int leaf)
-      : places_(places), tree_(tree), fan_out_(static_cast<std::size_t>(fan_out)), leaf_(static_cast<std::uint32_t>(leaf)) {
+      : places_(places),
+        tree_(tree),
+        fan_out_(static_cast<std::size_t>(fan_out)),
+        leaf_(static_cast<std::uint32_t>(leaf)) {
     binary_.reserve(2 * tree.discs.size() / std::max<std::size_t>(1, leaf_ / 2) + 64);
   }
 
@@ -113,7 +116,8 @@ class Builder {
     if (low == high) return first + count / 2;
     const std::uint32_t start = high & ~(std::bit_floor(low ^ high) - 1);
     const auto begin = places_.begin() + first;
-    const auto found = std::partition_point(begin, begin + count, [start](CurvePlace p) { return place_code(p) < start; });
+    const auto found =
+        std::partition_point(begin, begin + count, [start](CurvePlace p) { return place_code(p) < start; });
     return static_cast<std::uint32_t>(found - places_.begin());
   }
 
@@ -140,9 +144,7 @@ class Builder {
     for (std::size_t i = 0; i < children.size(); ++i) widen(children[i], first + i);
   }
 
-  float inner_area(std::uint32_t number) const {
-    return binary_[number].leaf() ? -1.0F : binary_[number].box.area();
-  }
+  float inner_area(std::uint32_t number) const { return binary_[number].leaf() ? -1.0F : binary_[number].box.area(); }
 
   void write(const Binary& node, std::size_t place, std::uint32_t first, std::uint32_t count, bool leaf) {
     TreeNode& written = tree_.nodes[place];

@@ -77,10 +77,11 @@ HWY_INLINE void cull_box(const RayList& around, const TreeNode& box, float margi
     const Floats q = hn::Load(lanes, around.q + i);
     const Floats off_x = hn::Abs(hn::Sub(hn::MulAdd(a, cz, p), cx));
     const Floats off_y = hn::Abs(hn::Sub(hn::MulAdd(b, cz, q), cy));
-    Mask kept = hn::And(hn::Le(hn::NegMulAdd(hn::Abs(a), hz, off_x), hx), hn::Le(hn::NegMulAdd(hn::Abs(b), hz, off_y), hy));
+    Mask kept =
+        hn::And(hn::Le(hn::NegMulAdd(hn::Abs(a), hz, off_x), hx), hn::Le(hn::NegMulAdd(hn::Abs(b), hz, off_y), hy));
     if constexpr (segments) {
-      kept = hn::And(kept, hn::And(hn::Le(hn::Load(lanes, around.from + i), high),
-                                   hn::Ge(hn::Load(lanes, around.to + i), low)));
+      kept = hn::And(
+          kept, hn::And(hn::Le(hn::Load(lanes, around.from + i), high), hn::Ge(hn::Load(lanes, around.to + i), low)));
     }
     if (HWY_UNLIKELY(i + hn::Lanes(lanes) > around.size)) kept = hn::And(kept, in_list(i, around.size));
     if (!hn::AllFalse(lanes, kept)) append<segments>(around, i, a, b, p, q, kept, inside);
@@ -115,8 +116,8 @@ HWY_INLINE void cull_sphere(const RayList& around, const FloatSphere& sphere, Ra
     const Floats stretch = hn::MulAdd(a, a, hn::MulAdd(b, b, hn::Set(lanes, 1.0F)));
     Mask kept = hn::Le(moment, hn::Mul(square, stretch));
     if constexpr (segments) {
-      kept = hn::And(kept, hn::And(hn::Le(hn::Load(lanes, around.from + i), high),
-                                   hn::Ge(hn::Load(lanes, around.to + i), low)));
+      kept = hn::And(
+          kept, hn::And(hn::Le(hn::Load(lanes, around.from + i), high), hn::Ge(hn::Load(lanes, around.to + i), low)));
     }
     if (HWY_UNLIKELY(i + hn::Lanes(lanes) > around.size)) kept = hn::And(kept, in_list(i, around.size));
     if (!hn::AllFalse(lanes, kept)) append<segments>(around, i, a, b, p, q, kept, inside);

@@ -16,7 +16,8 @@ namespace detp::sim::stream {
 namespace HWY_NAMESPACE {
 
 /// Asks the canonical predicate about the lanes of a vector that floats could not decide; the lanes that hit.
-HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc, const std::uint32_t* ids, Mask unsure) {
+HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc, const std::uint32_t* ids,
+                                      Mask unsure) {
   const FloatLanes lanes;
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(lanes, unsure, bytes);

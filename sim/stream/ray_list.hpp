@@ -17,13 +17,13 @@ inline constexpr std::size_t padding = 16;
 /// Rays of one class, in rising order of their numbers. Borrows its arrays from a ListArena.
 struct RayList {
   std::size_t size = 0;
-  float* a = nullptr;          ///< dx/dz
-  float* b = nullptr;          ///< dy/dz
-  float* p = nullptr;          ///< x at z = 0
-  float* q = nullptr;          ///< y at z = 0
-  std::uint32_t* id = nullptr; ///< number in the block; the top bit is set if the ray goes towards falling z
-  float* from = nullptr;       ///< of segments: the lower end's z; null in a list of lines
-  float* to = nullptr;         ///< of segments: the upper end's z
+  float* a = nullptr;           ///< dx/dz
+  float* b = nullptr;           ///< dy/dz
+  float* p = nullptr;           ///< x at z = 0
+  float* q = nullptr;           ///< y at z = 0
+  std::uint32_t* id = nullptr;  ///< number in the block; the top bit is set if the ray goes towards falling z
+  float* from = nullptr;        ///< of segments: the lower end's z; null in a list of lines
+  float* to = nullptr;          ///< of segments: the upper end's z
 };
 
 inline constexpr std::uint32_t falling = 1U << 31;

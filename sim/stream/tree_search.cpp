@@ -14,7 +14,8 @@ namespace detp::sim::stream {
 namespace HWY_NAMESPACE {
 
 template <bool segments>
-HWY_INLINE void cull(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside, Worker& worker) {
+HWY_INLINE void cull(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
+                     Worker& worker) {
   cull_box<segments, 0>(around[0], node, block.frame.margin, inside[0]);
   cull_box<segments, 1>(around[1], node, block.frame.margin, inside[1]);
   cull_box<segments, 2>(around[2], node, block.frame.margin, inside[2]);
@@ -39,7 +40,8 @@ void visit(const BlockSearch& block, const TreeNode& node, const RayLists& lists
   }
 }
 
-void CullNode(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside, Worker& worker) {
+void CullNode(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
+              Worker& worker) {
   block.segments ? cull<true>(block, node, around, inside, worker) : cull<false>(block, node, around, inside, worker);
 }
 
@@ -63,7 +65,8 @@ HWY_EXPORT(CullNode);
 HWY_EXPORT(SearchBelow);
 HWY_EXPORT(InstructionSet);
 
-void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside, Worker& worker) {
+void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
+               Worker& worker) {
   HWY_DYNAMIC_DISPATCH(CullNode)(block, node, around, inside, worker);
 }
 

@@ -6,7 +6,8 @@
 namespace detp::sim::stream {
 
 /// Lists those rays that may meet the node's box. `inside` must have room for all of `around`.
-void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside, Worker& worker);
+void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
+               Worker& worker);
 
 /// Searches all that is below a node, whose lists these are. Asks for a stop now and then: then it leaves off early.
 void search_below(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker);

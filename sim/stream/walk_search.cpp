@@ -30,7 +30,8 @@ class ClassWalk {
     const ArenaScope scope(worker_.lists);
     for (std::uint32_t place = 0; place < block_.tree.order.size(); ++place) {
       const int first = walk_.enter(block_.problem.discs[block_.tree.order[place]]);
-      for (int level = first; level <= walk_.innermost(); ++level) build(static_cast<std::size_t>(level), level == first);
+      for (int level = first; level <= walk_.innermost(); ++level)
+        build(static_cast<std::size_t>(level), level == first);
       const RayList& rays = lists_[static_cast<std::size_t>(walk_.innermost())];
       if (rays.size > 0) test_discs(block_, k_, place, 1, rays, worker_);
       worker_.counts.disc_tests += rays.size;
