@@ -31,16 +31,23 @@ class RepeatedSums {
 }  // namespace
 
 Gathering::Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options)
-    : problem_(problem), tree_(tree), options_(options), totals_(tree.discs.size()), hits_(tree.discs.size()) {
-  if (options.totals == nullptr || options.totals->empty()) return;
-  for (std::size_t place = 0; place < totals_.size(); ++place) totals_[place] = (*options.totals)[tree.order[place]];
+    : problem_(problem), tree_(tree), options_(options), hits_(tree.discs.size()) {
+  if (options.totals != nullptr) need_totals();
+}
+
+void Gathering::need_totals() {
+  if (!totals_.empty()) return;
+  totals_.resize(tree_.discs.size());
+  if (options_.totals == nullptr || options_.totals->empty()) return;
+  for (std::size_t place = 0; place < totals_.size(); ++place) totals_[place] = (*options_.totals)[tree_.order[place]];
 }
 
 BlockSearch Gathering::begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits) {
   const bool only_count = traits.power && !options_.pairs && !problem_.front_facing;
   const std::optional<double> power = only_count ? traits.power : std::nullopt;
-  if (power != counted_power_) add_up();
+  if (first_ray > 0 && power != counted_power_) add_up();
   counted_power_ = power;
+  if (!only_count) need_totals();
   return {.problem = problem_,
           .frame = frame,
           .tree = tree_,
@@ -53,6 +60,7 @@ BlockSearch Gathering::begin(const Frame& frame, std::size_t first_ray, const Ra
 }
 
 void Gathering::add_up() {
+  need_totals();
   std::optional<RepeatedSums> sums;
   if (counted_power_) sums.emplace(*counted_power_);
   for (std::size_t place = 0; place < totals_.size(); ++place)
@@ -64,15 +72,35 @@ void Gathering::add_up() {
     }
 }
 
-void Gathering::give_hits(Outcome& outcome) {
+void Gathering::finish_outcome(Outcome& outcome) {
+  std::sort(outcome.pairs.begin(), outcome.pairs.end());
+  totals_.empty() && counted_power_ ? give_counted(outcome) : give_totals(outcome);
+  if (!options_.count) outcome.counts = {};
+  outcome.counts.hits = outcome.total_hits;
+  outcome.stopped = options_.stop.stop_requested();
+}
+
+/// Of rays that all carry the same power, and no others before them: no totals are needed.
+void Gathering::give_counted(Outcome& outcome) const {
+  RepeatedSums sums(*counted_power_);
+  outcome.hits.resize(hits_.size());
+  outcome.irradiance.resize(hits_.size());
+  for (std::size_t place = 0; place < hits_.size(); ++place) {
+    const auto& [x, y, z] = hits_[place];
+    if ((x | y | z) == 0) continue;  // with few rays most: their memory need not be fetched
+    const std::uint32_t disc = tree_.order[place];
+    const DiscTotals totals{.hits = std::uint64_t{x} + y + z, .power = {sums.add(0, x), sums.add(0, y), sums.add(0, z)}};
+    outcome.hits[disc] = totals.hits;
+    outcome.irradiance[disc] = irradiance(totals, problem_.discs[disc]);
+    outcome.total_hits += totals.hits;
+  }
+}
+
+void Gathering::give_totals(Outcome& outcome) {
   add_up();
   Totals in_order(totals_.size());
   for (std::size_t place = 0; place < totals_.size(); ++place) in_order[tree_.order[place]] = totals_[place];
-  std::sort(outcome.pairs.begin(), outcome.pairs.end());
   outcome.total_hits = found_;
-  if (!options_.count) outcome.counts = {};
-  outcome.counts.hits = found_;
-  outcome.stopped = options_.stop.stop_requested();
   if (options_.totals != nullptr)
     *options_.totals = std::move(in_order);
   else

@@ -28,20 +28,23 @@ class Gathering {
                               &Counts<std::uint64_t>::copies, &Counts<std::uint64_t>::rebuilds})
         outcome.counts.*term += worker.counts.*term;
     }
-    give_hits(outcome);
+    finish_outcome(outcome);
   }
 
  private:
+  void finish_outcome(Outcome& outcome);
+  void need_totals();
   void add_up();
-  void give_hits(Outcome& outcome);
+  void give_counted(Outcome& outcome) const;
+  void give_totals(Outcome& outcome);
 
   const Problem& problem_;
   const DiscTree& tree_;
   const RunOptions& options_;
-  Totals totals_;
+  Totals totals_;                        ///< empty as long as hits have only been counted
   std::vector<ClassCounts> hits_;        ///< not yet in the totals
   std::optional<double> counted_power_;  ///< what each of those carries; nothing if their powers are in the totals
-  std::uint64_t found_ = 0;
+  std::uint64_t found_ = 0;  ///< hits in the totals that were not there at first
 };
 
 }  // namespace detp::sim::stream

@@ -37,7 +37,7 @@ SphereCacheParameters complete_cache(const CandidateOptions& options, const Work
 SphereTreeParameters complete_tree(const CandidateOptions& options, const Workload& workload) {
   if (options.bounds && bounds_named(*options.bounds) == Bounds::spheres)
     return model::best_sphere_tree(workload, validate::built_in_unit_costs(), options.fan_out, options.leaf);
-  return {options.fan_out.value_or(8), options.leaf.value_or(8), Bounds::boxes};
+  return {options.fan_out.value_or(4), options.leaf.value_or(16), Bounds::boxes};
 }
 
 /// The depth that is best top-down serves for all traversals.
