@@ -125,7 +125,7 @@ TEST_SUITE("known answer") {
     CHECK(cells.at("spheres").size() == 4);
     CHECK(cells.at("spheres")[0].at("rebuilds").get<double>() == near(8));
     const Json tree = result_of(side + "--technique sphere-tree --fan-out 4 --leaf 6");
-    CHECK(tree.at("parameters") == Json{{"fan_out", 4}, {"leaf", 6}});
+    CHECK(tree.at("parameters") == Json{{"fan_out", 4}, {"leaf", 6}, {"bounds", "spheres"}});
     CHECK(tree.at("spheres").back().at("rebuilds") == 3334);
     CHECK(tree.at("spheres").back().at("samples") == 6);
     CHECK(result_of(side + "--technique sphere-tree --levels 2").at("spheres").size() == 2);
