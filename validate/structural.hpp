@@ -11,7 +11,8 @@ namespace detp::validate {
 ///
 ///     octree, grid, bsp    built, and its nodes' surface areas summed (structural_index.hpp)
 ///     sphere cache         walked along the sorted samples (structural_walk.hpp)
-///     hierarchies          built, and their spheres' surface areas summed (structural_hierarchy.hpp)
+///     hierarchies          built, and their spheres' surface areas summed, or what their boxes list
+///                          (structural_hierarchy.hpp)
 ///     brute force          n_R n_P tests
 ///     hits                 n_R Σ d²/(2 r₀²)
 ///

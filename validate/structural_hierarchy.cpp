@@ -9,6 +9,7 @@
 #include "detp/sim/technique/cell_walk.hpp"
 #include "detp/sim/technique/ray_list.hpp"
 #include "detp/sim/technique/sphere_tree.hpp"
+#include "structural_boxes.hpp"
 
 namespace detp::validate {
 namespace {
@@ -73,11 +74,19 @@ Counts<double> sphere_tree(const sim::Problem& problem, const SphereTreeParamete
   return counts;
 }
 
-Counts<double> per_ray(const sim::Problem& problem, const Candidate& candidate) {
+/// Per ray, but for the nodes tested, which are all rays'.
+Counts<double> box_tree(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters) {
+  const BoxTreeCounts counts = box_tree_counts(problem, rays, parameters);
+  return {.sphere_tests = counts.tests, .disc_tests = counts.discs, .copies = counts.listed, .rebuilds = counts.culls};
+}
+
+Counts<double> per_ray(const sim::Problem& problem, double rays, const Candidate& candidate) {
   if (candidate.technique == Technique::cell_spheres)
     return cell_spheres(problem, std::get<CellSpheresParameters>(candidate.parameters));
-  if (candidate.technique == Technique::sphere_tree)
-    return sphere_tree(problem, std::get<SphereTreeParameters>(candidate.parameters));
+  if (candidate.technique == Technique::sphere_tree) {
+    const auto& parameters = std::get<SphereTreeParameters>(candidate.parameters);
+    return parameters.bounds == Bounds::boxes ? box_tree(problem, rays, parameters) : sphere_tree(problem, parameters);
+  }
   throw std::invalid_argument("only cell-spheres and sphere-tree are hierarchies of spheres");
 }
 
@@ -86,7 +95,7 @@ Counts<double> per_ray(const sim::Problem& problem, const Candidate& candidate) 
 Counts<double> structural_hierarchy_counts(const sim::Problem& problem, double rays, const Candidate& candidate) {
   check(candidate);
   require_count("number of rays", rays, 1, 1e18);
-  Counts<double> counts = per_ray(problem, candidate);
+  Counts<double> counts = per_ray(problem, rays, candidate);
   counts.sphere_tests *= rays;
   counts.copies *= rays;
   counts.disc_tests *= rays;
