@@ -63,7 +63,9 @@ struct Job {
   double read_seconds = 0;  ///< reading or making scene and rays
 
   /// The problem; borrows from this job. Throws std::invalid_argument where the rays are a stream.
-  [[nodiscard]] sim::Problem problem() const { return sim::make_problem(rays, discs, front_facing); }
+  [[nodiscard]] sim::Problem problem(int threads = 1) const {
+    return sim::make_problem(rays, discs, front_facing, threads);
+  }
 };
 
 /// Opens, makes and measures what was asked for. Throws sim::FileError and std::invalid_argument as the parts do.

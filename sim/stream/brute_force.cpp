@@ -18,8 +18,8 @@ void search_all(const Problem& problem, const RunOptions& options, Outcome& outc
   const Frame frame(problem);
   std::vector<std::uint32_t> order(problem.discs.size());
   std::iota(order.begin(), order.end(), 0U);
-  const DiscTree discs = discs_in_order(problem, frame, std::move(order));
-  on_threads(options.threads, [&] {
+  on_threads(thread_count(options.threads), [&] {
+    const DiscTree discs = discs_in_order(problem, frame, std::move(order));
     tbb::enumerable_thread_specific<Worker> workers;
     Gathering gathering(problem, discs, options);
     for_each_block(problem, frame, options.stop, [&](const Block& rays) {
@@ -30,7 +30,7 @@ void search_all(const Problem& problem, const RunOptions& options, Outcome& outc
         for (int k = 0; k < classes; ++k)
           test_discs(block, k, static_cast<std::uint32_t>(i * chunk), static_cast<std::uint32_t>(count),
                      rays.lists()[static_cast<std::size_t>(k)], workers.local());
-        workers.local().counts.disc_tests += count * std::min(block_size, problem.rays.size() - rays.first());
+        workers.local().counts.disc_tests += count * rays.size();
       });
     });
     gathering.give(workers, outcome);

@@ -1,7 +1,9 @@
 #include "curve_sort.hpp"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
-#include <array>
 #include <utility>
 
 namespace detp::sim::stream {
@@ -16,38 +18,86 @@ std::uint32_t spread(std::uint32_t bits) {
   return bits;
 }
 
-constexpr int digit_bits = 10;
-constexpr int digits = 3;
-using Histogram = std::array<std::uint32_t, 1 << digit_bits>;
+/// How finely the curve is followed.
+struct Resolution {
+  int digits;                                                                  ///< of the code
+  int digit_bits;                                                              ///< of each
+  [[nodiscard]] double cells() const { return 1 << digits * digit_bits / 3; }  ///< along the longest side
+  [[nodiscard]] std::uint32_t digit(CurvePlace place, int number) const {
+    return place_code(place) >> (digit_bits * number) & ((1U << digit_bits) - 1);
+  }
+};
 
-std::uint32_t digit(CurvePlace place, int number) {
-  return place_code(place) >> (digit_bits * number) & ((1U << digit_bits) - 1);
+Resolution resolution_for(std::size_t discs) { return discs < 8192 ? Resolution{2, 9} : Resolution{3, 10}; }
+
+Box box_of_centres(std::span<const Disc> discs) {
+  Box box;
+  for (const Disc& disc : discs) box.include(disc.centre);
+  return box;
 }
+
+std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells) {
+  const Box box = box_of_centres(discs);
+  const glm::dvec3 size = box.size();
+  const double side = std::max({size.x, size.y, size.z});
+  const double scale = side > 0 ? cells / side : 0;
+  const auto last = static_cast<std::uint32_t>(cells) - 1;
+  const auto cell = [&](double above) { return spread(std::min(static_cast<std::uint32_t>(above * scale), last)); };
+  std::vector<CurvePlace> places(discs.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, discs.size(), 1U << 14), [&](const auto& range) {
+    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+      const glm::dvec3 above = discs[i].centre - box.low;
+      const std::uint32_t code = cell(above.x) << 2 | cell(above.y) << 1 | cell(above.z);
+      places[i] = static_cast<CurvePlace>(code) << 32 | i;
+    }
+  });
+  return places;
+}
+
+/// One pass of a radix sort: stretches of the words are counted, and moved, side by side.
+class Pass {
+ public:
+  Pass(const Resolution& resolution, int digit, std::span<const CurvePlace> from)
+      : resolution_(resolution), digit_(digit), from_(from), stretches_(from.size() < (1U << 16) ? 1 : 8) {}
+
+  void move_to(std::span<CurvePlace> to) {
+    const std::size_t values = std::size_t{1} << resolution_.digit_bits;
+    starts_.assign(stretches_ * values, 0);
+    for_each_stretch([&](std::size_t i, std::span<const CurvePlace> words) {
+      for (const CurvePlace word : words) ++starts_[i * values + resolution_.digit(word, digit_)];
+    });
+    std::uint32_t next = 0;
+    for (std::size_t value = 0; value < values; ++value)
+      for (std::size_t i = 0; i < stretches_; ++i) next += std::exchange(starts_[i * values + value], next);
+    for_each_stretch([&](std::size_t i, std::span<const CurvePlace> words) {
+      for (const CurvePlace word : words) to[starts_[i * values + resolution_.digit(word, digit_)]++] = word;
+    });
+  }
+
+ private:
+  template <class Visit>
+  void for_each_stretch(const Visit& visit) const {
+    tbb::parallel_for(std::size_t{0}, stretches_, [&](std::size_t i) {
+      const std::size_t first = from_.size() * i / stretches_;
+      visit(i, from_.subspan(first, from_.size() * (i + 1) / stretches_ - first));
+    });
+  }
+
+  const Resolution& resolution_;
+  int digit_;
+  std::span<const CurvePlace> from_;
+  std::size_t stretches_;
+  std::vector<std::uint32_t> starts_;  ///< for each stretch, each value of the digit: where its next word goes
+};
 
 }  // namespace
 
-std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs, const Frame&) {
-  Box box;
-  for (const Disc& disc : discs) box.include(disc.centre);
-  const glm::dvec3 size = box.size();
-  const double side = std::max({size.x, size.y, size.z});
-  const double cells = side > 0 ? 1024 / side : 0;
-  const auto cell = [cells](double above) { return std::min(static_cast<std::uint32_t>(above * cells), 1023U); };
-  std::array<Histogram, digits> starts{};
-  std::vector<CurvePlace> places(discs.size());
-  for (std::uint32_t i = 0; i < discs.size(); ++i) {
-    const glm::dvec3 above = discs[i].centre - box.low;
-    const std::uint32_t code = spread(cell(above.x)) << 2 | spread(cell(above.y)) << 1 | spread(cell(above.z));
-    places[i] = static_cast<CurvePlace>(code) << 32 | i;
-    for (int d = 0; d < digits; ++d) ++starts[static_cast<std::size_t>(d)][digit(places[i], d)];
-  }
-  std::vector<CurvePlace> other(discs.size());
-  for (int d = 0; d < digits; ++d) {
-    Histogram& start = starts[static_cast<std::size_t>(d)];
-    if (start[digit(places.front(), d)] == places.size()) continue;
-    std::uint32_t next = 0;
-    for (std::uint32_t& count : start) next += std::exchange(count, next);
-    for (const CurvePlace place : places) other[start[digit(place, d)]++] = place;
+std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs) {
+  const Resolution resolution = resolution_for(discs.size());
+  std::vector<CurvePlace> places = places_of(discs, resolution.cells());
+  std::vector<CurvePlace> other(places.size());
+  for (int digit = 0; digit < resolution.digits; ++digit) {
+    Pass(resolution, digit, places).move_to(other);
     places.swap(other);
   }
   return places;

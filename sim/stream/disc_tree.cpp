@@ -1,5 +1,10 @@
 #include "disc_tree.hpp"
 
+#include <hwy/cache_control.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -62,46 +67,84 @@ class Builder {
       : places_(places),
         tree_(tree),
         fan_out_(static_cast<std::size_t>(fan_out)),
-        leaf_(static_cast<std::uint32_t>(leaf)) {
-    binary_.reserve(2 * tree.discs.size() / std::max<std::size_t>(1, leaf_ / 2) + 64);
-  }
+        leaf_(static_cast<std::uint32_t>(leaf)) {}
 
   void build() {
-    split(0, static_cast<std::uint32_t>(tree_.discs.size()));
+    binary_ = split_in_parallel(0, static_cast<std::uint32_t>(tree_.discs.size()));
     tree_.nodes.reserve(binary_.size());
     tree_.nodes.emplace_back();
     widen(0, 0);
   }
 
  private:
-  /// The binary tree over a run of discs; its number.
-  std::uint32_t split(std::uint32_t first, std::uint32_t count) {
-    const auto number = static_cast<std::uint32_t>(binary_.size());
-    binary_.push_back({.box = {}, .first = first, .count = count});
+  using Nodes = std::vector<Binary>;
+
+  /// The binary tree over a run of discs, its root first. Its shape does not depend on threads.
+  Nodes split_in_parallel(std::uint32_t first, std::uint32_t count) const {
+    constexpr std::uint32_t least = 1U << 15;  // discs that are worth a task
+    Nodes nodes;
+    if (count < least) {
+      nodes.reserve(2 * (count / std::max(1U, leaf_ / 2)) + 1);
+      split(first, count, nodes);
+      return nodes;
+    }
+    const std::uint32_t middle = boundary(first, count);
+    Nodes left;
+    Nodes right;
+    tbb::parallel_invoke([&] { left = split_in_parallel(first, middle - first); },
+                         [&] { right = split_in_parallel(middle, first + count - middle); });
+    nodes.reserve(1 + left.size() + right.size());
+    nodes.push_back({.box = {}, .first = first, .count = count});
+    join(nodes, 0, append(left, nodes), append(right, nodes));
+    return nodes;
+  }
+
+  /// Appends a tree; the number of its root there.
+  static std::uint32_t append(const Nodes& tree, Nodes& nodes) {
+    const auto offset = static_cast<std::uint32_t>(nodes.size());
+    for (Binary node : tree) {
+      if (!node.leaf()) {
+        node.left += offset;
+        node.right += offset;
+      }
+      nodes.push_back(node);
+    }
+    return offset;
+  }
+
+  /// Appends the tree over a run of discs; the number of its root.
+  std::uint32_t split(std::uint32_t first, std::uint32_t count, Nodes& nodes) const {
+    const auto number = static_cast<std::uint32_t>(nodes.size());
+    nodes.push_back({.box = {}, .first = first, .count = count});
     if (count <= leaf_) {
-      make_leaf(binary_[number]);
+      make_leaf(nodes[number]);
       return number;
     }
     const std::uint32_t middle = boundary(first, count);
-    const std::uint32_t left = split(first, middle - first);
-    const std::uint32_t right = split(middle, first + count - middle);
-    Binary& node = binary_[number];
-    node.box = binary_[left].box;
-    node.box.include(binary_[right].box);
+    const std::uint32_t left = split(first, middle - first, nodes);
+    const std::uint32_t right = split(middle, first + count - middle, nodes);
+    join(nodes, number, left, right);
+    return number;
+  }
+
+  /// Makes a node of its children, or a leaf that drops them, where that costs less.
+  static void join(Nodes& nodes, std::uint32_t number, std::uint32_t left, std::uint32_t right) {
+    Binary& node = nodes[number];
+    node.box = nodes[left].box;
+    node.box.include(nodes[right].box);
     const float area = node.box.area();
-    const float children = binary_[left].box.area() + binary_[right].box.area();
+    const float children = nodes[left].box.area() + nodes[right].box.area();
     // Joined into wide nodes, about every other split costs nothing.
-    const float inner = cull_cost * area + 0.5F * list_cost * children + binary_[left].cost + binary_[right].cost;
-    const float as_leaf = static_cast<float>(count) * area;
-    if (as_leaf <= inner && count <= most_in_a_leaf) {
+    const float inner = cull_cost * area + 0.5F * list_cost * children + nodes[left].cost + nodes[right].cost;
+    const float as_leaf = static_cast<float>(node.count) * area;
+    if (as_leaf <= inner && node.count <= most_in_a_leaf) {
       node.cost = as_leaf;
-      binary_.resize(number + 1);
+      nodes.resize(number + 1);
     } else {
       node.left = left;
       node.right = right;
       node.cost = inner;
     }
-    return number;
   }
 
   void make_leaf(Binary& node) const {
@@ -163,7 +206,7 @@ class Builder {
   DiscTree& tree_;
   std::size_t fan_out_;
   std::uint32_t leaf_;
-  std::vector<Binary> binary_;
+  Nodes binary_;
 };
 
 FloatDisc to_float(const Disc& disc, const Frame& frame) {
@@ -181,15 +224,22 @@ FloatDisc to_float(const Disc& disc, const Frame& frame) {
 }  // namespace
 
 DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order) {
+  constexpr std::size_t grain = 4096;
+  constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
   DiscTree tree;
   tree.order = std::move(order);
-  tree.discs.reserve(tree.order.size());
-  for (const std::uint32_t number : tree.order) tree.discs.push_back(to_float(problem.discs[number], frame));
+  tree.discs.resize(tree.order.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.order.size(), grain), [&](const auto& range) {
+    for (std::size_t place = range.begin(); place < range.end(); ++place) {
+      if (place + ahead < tree.order.size()) hwy::Prefetch(&problem.discs[tree.order[place + ahead]]);
+      tree.discs[place] = to_float(problem.discs[tree.order[place]], frame);
+    }
+  });
   return tree;
 }
 
 DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf) {
-  const std::vector<CurvePlace> places = sort_along_curve(problem.discs, frame);
+  const std::vector<CurvePlace> places = sort_along_curve(problem.discs);
   std::vector<std::uint32_t> order;
   order.reserve(places.size());
   for (const CurvePlace place : places) order.push_back(place_index(place));

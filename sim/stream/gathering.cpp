@@ -1,6 +1,11 @@
 #include "gathering.hpp"
 
+#include <hwy/cache_control.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace detp::sim::stream {
@@ -82,18 +87,36 @@ void Gathering::finish_outcome(Outcome& outcome) {
 
 /// Of rays that all carry the same power, and no others before them: no totals are needed.
 void Gathering::give_counted(Outcome& outcome) const {
-  RepeatedSums sums(*counted_power_);
   outcome.hits.resize(hits_.size());
   outcome.irradiance.resize(hits_.size());
-  for (std::size_t place = 0; place < hits_.size(); ++place) {
+  std::atomic<std::uint64_t> found = 0;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hits_.size(), 1U << 14),
+                    [&](const auto& range) { found += give_counted(range.begin(), range.end(), outcome); });
+  outcome.total_hits = found;
+}
+
+/// The same of the discs at some places; the number of their hits.
+std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last, Outcome& outcome) const {
+  constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
+  RepeatedSums sums(*counted_power_);
+  std::uint64_t found = 0;
+  for (std::size_t place = first; place < last; ++place) {
+    if (place + ahead < hits_.size()) {
+      const std::uint32_t later = tree_.order[place + ahead];
+      hwy::Prefetch(&problem_.discs[later].radius);
+      hwy::Prefetch(&outcome.hits[later]);
+      hwy::Prefetch(&outcome.irradiance[later]);
+    }
     const auto& [x, y, z] = hits_[place];
-    if ((x | y | z) == 0) continue;  // with few rays most: their memory need not be fetched
+    if ((x | y | z) == 0) continue;  // with few rays most
     const std::uint32_t disc = tree_.order[place];
-    const DiscTotals totals{.hits = std::uint64_t{x} + y + z, .power = {sums.add(0, x), sums.add(0, y), sums.add(0, z)}};
+    const DiscTotals totals{.hits = std::uint64_t{x} + y + z,
+                            .power = {sums.add(0, x), sums.add(0, y), sums.add(0, z)}};
     outcome.hits[disc] = totals.hits;
     outcome.irradiance[disc] = irradiance(totals, problem_.discs[disc]);
-    outcome.total_hits += totals.hits;
+    found += totals.hits;
   }
+  return found;
 }
 
 void Gathering::give_totals(Outcome& outcome) {

@@ -36,6 +36,7 @@ class Gathering {
   void need_totals();
   void add_up();
   void give_counted(Outcome& outcome) const;
+  std::uint64_t give_counted(std::size_t first, std::size_t last, Outcome& outcome) const;
   void give_totals(Outcome& outcome);
 
   const Problem& problem_;
@@ -44,7 +45,7 @@ class Gathering {
   Totals totals_;                        ///< empty as long as hits have only been counted
   std::vector<ClassCounts> hits_;        ///< not yet in the totals
   std::optional<double> counted_power_;  ///< what each of those carries; nothing if their powers are in the totals
-  std::uint64_t found_ = 0;  ///< hits in the totals that were not there at first
+  std::uint64_t found_ = 0;              ///< hits in the totals that were not there at first
 };
 
 }  // namespace detp::sim::stream

@@ -1,15 +1,24 @@
 #include "ray_blocks.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace detp::sim::stream {
 
-void Block::load(const Problem& problem, const Frame& frame, std::size_t first) {
+std::size_t block_size(const Problem& problem) {
+  constexpr std::size_t least = std::size_t{1} << 15;
+  constexpr std::size_t most = std::size_t{1} << 17;
+  return std::clamp(std::bit_ceil(4 * problem.discs.size()), least, most);
+}
+
+void Block::load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size) {
   first_ = first;
+  size_ = 0;
   if (first >= problem.rays.size()) return;
-  const auto rays = problem.rays.subspan(first, std::min(block_size, problem.rays.size() - first));
+  const auto rays = problem.rays.subspan(first, std::min(size, problem.rays.size() - first));
   arena_.release({});
   for (RayList& list : lists_) list = arena_.take(rays.size(), true);
+  size_ = rays.size();
   traits_ = load_rays(rays, frame, lists_);
 }
 

@@ -44,9 +44,9 @@ void search_boxes(const Problem& problem, const SphereTreeParameters& parameters
                   Outcome& outcome) {
   Stopwatch watch;
   const Frame frame(problem);
-  const DiscTree tree = make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf);
-  outcome.seconds.build = watch.lap();
-  on_threads(options.threads, [&] {
+  on_threads(thread_count(options.threads), [&] {
+    const DiscTree tree = make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf);
+    outcome.seconds.build = watch.lap();
     Workers workers;
     Gathering gathering(problem, tree, options);
     for_each_block(problem, frame, options.stop, [&](const Block& block) {

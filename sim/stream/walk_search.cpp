@@ -78,10 +78,10 @@ void add(const std::vector<SphereCounts>& events, std::vector<SphereCounts>& sum
 void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const MakeWalk& make_walk,
                  const RunOptions& options, Outcome& outcome) {
   const Frame frame(problem);
-  const DiscTree discs = discs_in_order(problem, frame, std::move(order));
   std::array<Worker, classes> workers;
   std::array<std::vector<SphereCounts>, classes> events;
-  on_threads(options.threads, [&] {
+  on_threads(thread_count(options.threads), [&] {
+    const DiscTree discs = discs_in_order(problem, frame, std::move(order));
     Gathering gathering(problem, discs, options);
     for_each_block(problem, frame, options.stop, [&](const Block& rays) {
       const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());

@@ -1,9 +1,12 @@
 #include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "detp/sim/threads.hpp"
 #include "technique.hpp"
 
 namespace detp::sim {
@@ -75,15 +78,30 @@ void set_farthest(Problem& problem, double farthest) {
   problem.slack = cull_slack(problem);
 }
 
-/// The distance of the farthest origin from the centre.
+/// What a look at some rays shows.
+struct Glance {
+  double farthest2 = 0;  ///< square of the distance of the farthest origin
+  bool sound = true;
+};
+
+/// The distance of the farthest origin from the centre. Of several rays that are unsound, the first is complained of.
 double check_rays(std::span<const Ray> rays, const glm::dvec3& centre) {
-  double farthest2 = 0;
-  for (const Ray& ray : rays) {
-    check_ray(ray);
-    const glm::dvec3 away = ray.origin - centre;
-    farthest2 = std::max(farthest2, glm::dot(away, away));
-  }
-  return std::sqrt(farthest2);
+  using Range = tbb::blocked_range<std::size_t>;
+  const Glance seen = tbb::parallel_reduce(
+      Range(0, rays.size(), std::size_t{1} << 14), Glance{},
+      [&](const Range& range, Glance glance) {
+        for (const Ray& ray : rays.subspan(range.begin(), range.size())) {
+          glance.sound = glance.sound && surely_sound(ray);
+          const glm::dvec3 away = ray.origin - centre;
+          glance.farthest2 = std::max(glance.farthest2, glm::dot(away, away));
+        }
+        return glance;
+      },
+      [](const Glance& a, const Glance& b) {
+        return Glance{std::max(a.farthest2, b.farthest2), a.sound && b.sound};
+      });
+  if (!seen.sound) std::for_each(rays.begin(), rays.end(), check_ray);
+  return std::sqrt(seen.farthest2);
 }
 
 }  // namespace
@@ -101,12 +119,14 @@ Sphere enclosing_sphere(std::span<const Disc> discs) {
   return {centre, (reach + largest) * (1 + 1e-15)};
 }
 
-Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing) {
+Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing, int threads) {
   require_number("ray", rays.size());
   require_number("disc", discs.size());
   for (const Disc& disc : discs) check_disc(disc);
   Problem problem{rays, discs, enclosing_sphere(discs), front_facing};
-  set_farthest(problem, check_rays(rays, problem.enclosing.centre));
+  double farthest = 0;
+  on_threads(thread_count(threads), [&] { farthest = check_rays(rays, problem.enclosing.centre); });
+  set_farthest(problem, farthest);
   return problem;
 }
 
@@ -119,9 +139,10 @@ Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, 
   return problem;
 }
 
-void set_rays(Problem& problem, std::span<const Ray> rays) {
+void set_rays(Problem& problem, std::span<const Ray> rays, int threads) {
   require_number("ray", rays.size());
-  const double farthest = check_rays(rays, problem.enclosing.centre);
+  double farthest = 0;
+  on_threads(thread_count(threads), [&] { farthest = check_rays(rays, problem.enclosing.centre); });
   if (farthest > problem.farthest)
     throw std::invalid_argument(
         fmt::format("a ray starts {} from the centre of the discs, but none was to start farther away than {}",

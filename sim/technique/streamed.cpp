@@ -73,7 +73,7 @@ class Stream {
     const std::span<Ray> rays = std::span(block_).first(count);
     on_threads(thread_count(run_.threads), [&] { source_.read(first, rays); });
     streamed_.read_seconds += watch.lap();
-    set_rays(problem_, rays);
+    set_rays(problem_, rays, options_.run.threads);
     streamed_.check_seconds += watch.lap();
     Outcome part;
     if (prepared_) {

@@ -35,7 +35,8 @@ struct Problem {
 /// largest coordinate of the centre of S₀. The first term is for directions and normals unit to 1e-12; the second for
 /// rays that graze a disc near its rim, where rounding moves the crossing farthest; the third for cells far from the
 /// origin.
-[[nodiscard]] Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing = false);
+[[nodiscard]] Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing = false,
+                                   int threads = 1);
 
 /// A problem whose rays are still to come, block by block: no origin of theirs is to be farther than `farthest` from
 /// the centre of S₀, from which the slack follows. Throws as make_problem does.
@@ -44,7 +45,7 @@ struct Problem {
 
 /// Puts other rays in the place of a problem's, borrowed. Throws as make_problem does, and std::invalid_argument where
 /// one starts too far away.
-void set_rays(Problem& problem, std::span<const Ray> rays);
+void set_rays(Problem& problem, std::span<const Ray> rays, int threads = 1);
 
 struct Pair {
   std::uint32_t ray;

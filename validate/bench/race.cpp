@@ -51,7 +51,7 @@ class Runner {
       const PeerOutcome outcome = embree_.run(job_.rays, job_.discs, *mode, options_.stop);
       return note(finish, outcome, seconds_since(start));
     }
-    const sim::Outcome outcome = sim::run(job_.problem(), std::get<Candidate>(finish.competitor),
+    const sim::Outcome outcome = sim::run(job_.problem(options_.threads), std::get<Candidate>(finish.competitor),
                                           {.count = false, .stop = options_.stop, .threads = options_.threads});
     return note(finish, outcome, seconds_since(start));
   }
