@@ -48,7 +48,8 @@ const Setting& setting() {
 TEST_SUITE("identity") {
   TEST_CASE("all variants find the same hits") {
     const Problem problem = make_problem(setting().rays, setting().discs);
-    const Outcome expected = run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true});
+    const Outcome expected =
+        run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .plain = true});
     REQUIRE(expected.total_hits > 1000);
     for (const IndexVariant& variant : all_variants()) {
       for (const Traversal traversal : all_traversals)

@@ -59,14 +59,21 @@ class AllHit final : public RaySearch {
 TEST_SUITE("identity") {
   TEST_CASE("hits, irradiance, pairs and counts are the same bytes on 1, 2 and 3 threads") {
     const Problem problem = make_problem(rays(), discs());
-    for (const Candidate& candidate : {Candidate{Technique::brute_force, BruteForceParameters{}},
+    const Candidate brute{Technique::brute_force, BruteForceParameters{}};
+    const Outcome expected = run(problem, brute, {.pairs = true, .plain = true});
+    for (const Candidate& candidate : {brute,
+                                       {Technique::sphere_cache, SphereCacheParameters{0.6, 5}},
+                                       {Technique::cell_spheres, CellSpheresParameters{3}},
                                        {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                                       {Technique::sphere_tree, SphereTreeParameters{8, 4, Bounds::boxes}},
                                        {Technique::octree, OctreeParameters{4}},
                                        {Technique::grid, GridParameters{12}},
                                        {Technique::bvh, BvhParameters{}}}) {
       CAPTURE(name(candidate.technique));
       const Outcome alone = run(problem, candidate, {.pairs = true});
       CHECK(alone.total_hits > 5000);
+      CHECK(alone.pairs == expected.pairs);
+      CHECK(alone.irradiance == expected.irradiance);
       for (const int threads : {2, 3, 0}) {
         const Outcome together = run(problem, candidate, {.pairs = true, .threads = threads});
         CHECK(together.hits == alone.hits);

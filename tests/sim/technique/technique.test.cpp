@@ -13,6 +13,7 @@
 #include "detp/sim/line_field.hpp"
 #include "detp/sim/random.hpp"
 #include "detp/sim/uniform_discs.hpp"
+#include "support/float_candidates.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -21,6 +22,7 @@ namespace {
 
 const std::vector<Candidate>& exact_candidates() {
   static const std::vector<Candidate> list{
+      {Technique::brute_force, BruteForceParameters{}},
       {Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
       {Technique::sphere_cache, SphereCacheParameters{0.3, 3}},
       {Technique::sphere_cache, SphereCacheParameters{0.9, 1'000'000'000}},
@@ -34,6 +36,7 @@ const std::vector<Candidate>& exact_candidates() {
       {Technique::sphere_tree, SphereTreeParameters{2, 1}},
       {Technique::sphere_tree, SphereTreeParameters{8, 8, Bounds::boxes}},
       {Technique::sphere_tree, SphereTreeParameters{2, 1, Bounds::boxes}},
+      {Technique::sphere_tree, SphereTreeParameters{3, 1'000'000, Bounds::boxes}},
       {Technique::sphere_tree, SphereTreeParameters{7, 1'000'000}},
       {Technique::octree, OctreeParameters{0}},
       {Technique::octree, OctreeParameters{3}},
@@ -72,9 +75,12 @@ std::vector<Ray> mixed_rays(std::size_t count, double side, std::uint64_t seed) 
   return rays;
 }
 
-/// All exact techniques against brute force, pair by pair and to the last bit of irradiance.
+/// Every pair decided by the canonical predicate, in double.
+Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .plain = true}); }
+
+/// All exact techniques against that, pair by pair and to the last bit of irradiance.
 void check_all_agree(const Problem& problem, std::uint64_t least_hits) {
-  const Outcome expected = run(problem, brute, {.pairs = true});
+  const Outcome expected = truth_of(problem);
   CHECK(expected.total_hits >= least_hits);
   for (const Candidate& candidate : exact_candidates()) {
     CAPTURE(describe(candidate.parameters));
@@ -105,7 +111,8 @@ std::vector<Ray> scaled(std::vector<Ray> rays, double scale, const glm::dvec3& o
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("all exact techniques find brute force's hits: isotropic lines, samples in a volume and on faces") {
+  TEST_CASE(
+      "all exact techniques find the canonical predicate's hits: isotropic lines, samples in a volume and on faces") {
     for (const Body body : {Body::cube, Body::cube_faces}) {
       const auto discs = uniform_discs(body, 2, 3000, 0.03, 5);
       const auto rays = LineField(enclosing_sphere(discs), 6).lines(0, 3000);
@@ -160,12 +167,28 @@ TEST_SUITE("identity") {
     check_all_agree(make_problem(rays, discs), 100);
   }
 
+  TEST_CASE("… plainly too, in doubles alone") {
+    const auto discs = uniform_discs(Body::cube, 2, 700, 0.08, 7);
+    const auto rays = mixed_rays(1000, 3, 8);
+    const Problem problem = make_problem(rays, discs);
+    const Outcome expected = truth_of(problem);
+    CHECK(expected.total_hits > 500);
+    for (const Candidate& candidate : support::float_candidates()) {
+      CAPTURE(name(candidate.technique));
+      const Outcome outcome = run(problem, candidate, {.pairs = true, .plain = true});
+      CHECK(outcome.pairs == expected.pairs);
+      CHECK(outcome.irradiance == expected.irradiance);
+    }
+  }
+
   TEST_CASE("a run that does not count finds the same and counts nothing but hits") {
     const auto discs = uniform_discs(Body::cube, 2, 500, 0.1, 1);
     const auto rays = LineField(enclosing_sphere(discs), 2).lines(0, 500);
     const Problem problem = make_problem(rays, discs);
+    const Outcome expected = truth_of(problem);
     for (const Candidate& candidate : exact_candidates()) {
       const Outcome counted = run(problem, candidate);
+      CHECK(counted.irradiance == expected.irradiance);
       const Outcome timed = run(problem, candidate, {.count = false});
       CHECK(counted.irradiance == timed.irradiance);
       CHECK(timed.counts == Counts<std::uint64_t>{.hits = counted.total_hits});

@@ -1,0 +1,120 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "detp/sim/line_field.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/sim/uniform_discs.hpp"
+#include "support/float_candidates.hpp"
+#include "support/hard_scene.hpp"
+
+using namespace detp;
+using namespace detp::sim;
+using namespace detp::support;
+
+namespace {
+
+/// All exact techniques: those that decide in floats with several parameters.
+std::vector<Candidate> all_exact() {
+  std::vector<Candidate> list = float_candidates();
+  list.insert(list.end(), {{Technique::sphere_tree, SphereTreeParameters{8, 8}},
+                           {Technique::sphere_cache, SphereCacheParameters{0.65, 8, SampleOrder::hilbert}},
+                           {Technique::octree, OctreeParameters{4}},
+                           {Technique::octree, OctreeParameters{4, Traversal::neighbour_links}},
+                           {Technique::bsp, BspParameters{}},
+                           {Technique::grid, GridParameters{16}},
+                           {Technique::bvh, BvhParameters{}}});
+  return list;
+}
+
+/// What was tried so far.
+struct Tried {
+  double pairs = 0;
+  std::uint64_t hits = 0;
+  std::uint64_t runs = 0;
+  std::size_t different = 0;  ///< pairs
+  int other_sums = 0;         ///< runs whose irradiance is not the same bytes
+
+  void add(const Outcome& outcome, const Outcome& expected) {
+    std::vector<Pair> others;
+    std::set_symmetric_difference(outcome.pairs.begin(), outcome.pairs.end(), expected.pairs.begin(),
+                                  expected.pairs.end(), std::back_inserter(others));
+    different += others.size();
+    add_without_pairs(outcome, expected);
+  }
+
+  void add_without_pairs(const Outcome& outcome, const Outcome& expected) {
+    ++runs;
+    other_sums += outcome.hits == expected.hits && outcome.irradiance == expected.irradiance ? 0 : 1;
+  }
+};
+
+/// Every pair decided by the canonical predicate, and by all techniques.
+void compare(const HardScene& scene, bool front, Tried& tried) {
+  const Problem problem = make_problem(scene.rays, scene.discs, front);
+  const Outcome expected =
+      run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .plain = true});
+  tried.pairs += static_cast<double>(scene.rays.size()) * static_cast<double>(scene.discs.size());
+  tried.hits += expected.total_hits;
+  for (const Candidate& candidate : all_exact()) tried.add(run(problem, candidate, {.pairs = true}), expected);
+  for (const Candidate& candidate : float_candidates()) tried.add_without_pairs(run(problem, candidate), expected);
+}
+
+void give_powers(std::vector<Ray>& rays) {
+  Dice dice(600, rays.size());
+  for (Ray& ray : rays) ray.power = std::pow(10, 10 * dice.uniform());
+}
+
+Tried hard_pairs(std::size_t family) {
+  Tried tried;
+  for (std::uint64_t i = 0; i < 10; ++i) {
+    const bool corners = family == families.size();
+    HardScene scene = corners ? scene_at_corners(i, 2000, 5000) : hard_scene(family, 1000 + i, 2000, 5000);
+    if (i % 2 == 1) give_powers(scene.rays);
+    compare(scene, i % 5 == 4, tried);
+  }
+  return tried;
+}
+
+/// Isotropic lines, half of them cut to segments; more of them than a block holds.
+Tried isotropic_pairs(Body body) {
+  HardScene scene{uniform_discs(body, 2, 1500, 0.04, 5), {}};
+  scene.rays = LineField(enclosing_sphere(scene.discs), 6).lines(0, 160'000);
+  Dice dice(601, 0);
+  for (std::size_t i = 0; i < scene.rays.size(); i += 2) scene.rays[i].length = dice.magnitude(-2, 0.5);
+  give_powers(scene.rays);
+  Tried tried;
+  compare(scene, false, tried);
+  return tried;
+}
+
+void report(std::string_view what, const Tried& tried, double& pairs) {
+  CAPTURE(what);
+  CHECK(tried.different == 0);
+  CHECK(tried.other_sums == 0);
+  CHECK(tried.hits > 10'000);
+  MESSAGE(fmt::format("{:12} {:.3g} pairs, {} hits, {} runs: {} pairs and {} sums differ", what, tried.pairs,
+                      tried.hits, tried.runs, tried.different, tried.other_sums));
+  pairs += tried.pairs;
+}
+
+}  // namespace
+
+TEST_SUITE("statistical") {
+  TEST_CASE("a billion pairs: every exact technique finds the canonical predicate's hits, and its sums to the bit") {
+    double pairs = 0;
+    for (std::size_t family = 0; family < families.size(); ++family)
+      report(families[family].name, hard_pairs(family), pairs);
+    report("corners", hard_pairs(families.size()), pairs);
+    report("volume", isotropic_pairs(Body::cube), pairs);
+    report("surface", isotropic_pairs(Body::cube_faces), pairs);
+    MESSAGE(fmt::format("{:.4g} pairs in all", pairs));
+    CHECK(pairs >= 1e9);
+  }
+}
