@@ -28,13 +28,13 @@ RayList ListArena::take(std::size_t capacity, bool segments) {
 }
 
 float* ListArena::take_floats(std::size_t count) {
-  constexpr std::size_t least = std::size_t{1} << 16;
+  constexpr std::size_t least = std::size_t{1} << 14;
   while (chunk_ < chunks_.size() && used_ + count > chunks_[chunk_].size) {
     ++chunk_;
     used_ = 0;
   }
   if (chunk_ == chunks_.size()) {
-    const std::size_t size = std::max(count, least << std::min<std::size_t>(chunk_, 8));
+    const std::size_t size = std::max(count, least << std::min<std::size_t>(chunk_, 10));
     Chunk chunk{std::unique_ptr<std::byte[]>(new std::byte[(size + line) * sizeof(float)]), nullptr, size};
     const auto address = reinterpret_cast<std::uintptr_t>(chunk.bytes.get());
     chunk.start = reinterpret_cast<float*>(chunk.bytes.get() + (64 - address % 64) % 64);
