@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "detp/model/box_tree_rule.hpp"
 #include "detp/validate/unit_costs.hpp"
 
 namespace detp::validate {
@@ -44,7 +45,7 @@ Contenders contenders(const Workload& workload, std::span<const Technique> named
   for (const model::Ranked& ranked : ranking)
     if (ranked.time.total() <= hopeless * ranking.front().time.total()) found.candidates.push_back(ranked.candidate);
   if (wanted(Technique::sphere_tree))
-    found.candidates.push_back({Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}});
+    found.candidates.push_back({Technique::sphere_tree, model::box_tree_rule(workload)});
   for (const Technique technique : all_techniques)
     if (wanted(technique) && !has_closed_form(technique)) found.candidates.push_back(with_defaults(technique));
   return found;

@@ -5,6 +5,7 @@
 
 #include "command.hpp"
 #include "detp/model/best_ratio.hpp"
+#include "detp/model/box_tree_rule.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/sim/scene/output_file.hpp"
 #include "detp/validate/unit_costs.hpp"
@@ -37,7 +38,8 @@ SphereCacheParameters complete_cache(const CandidateOptions& options, const Work
 SphereTreeParameters complete_tree(const CandidateOptions& options, const Workload& workload) {
   if (options.bounds && bounds_named(*options.bounds) == Bounds::spheres)
     return model::best_sphere_tree(workload, validate::built_in_unit_costs(), options.fan_out, options.leaf);
-  return {options.fan_out.value_or(4), options.leaf.value_or(16), Bounds::boxes};
+  const SphereTreeParameters rule = model::box_tree_rule(workload);
+  return {options.fan_out.value_or(rule.fan_out), options.leaf.value_or(rule.leaf), Bounds::boxes};
 }
 
 /// The depth that is best top-down serves for all traversals.
