@@ -197,7 +197,7 @@ RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& fill
   Seen seen{hn::FirstN(lanes, 0), hn::FirstN(lanes, 0)};
   std::size_t i = 0;
   for (; i + step <= rays.size(); i += step) {
-    // Gathers do not teach the processor what comes next.
+    // Blocks may come from memory. (Where they come from the third-level cache, asking early makes no difference.)
     for (std::size_t j = i + ahead; j < HWY_MIN(i + ahead + step, rays.size()); ++j) hwy::Prefetch(&rays[j]);
     load_some(&rays[i], step, static_cast<std::uint32_t>(i), frame, power, lists, seen);
   }
