@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "best_ratio.hpp"
+#include "box_tree.hpp"
 #include "disc_index.hpp"
 #include "predict.hpp"
 #include "sphere_tree.hpp"
@@ -25,7 +26,7 @@ class Fastest {
   void consider(const Candidate& candidate) { consider(candidate, predict(workload_, candidate)); }
 
   void consider(const Candidate& candidate, const Counts<double>& counts) {
-    const Ranked ranked{candidate, counts, price(counts, costs_)};
+    const Ranked ranked{candidate, counts, price(counts, costs_, candidate.technique)};
     if (ranked.counts.references > limits_.most_references) return;
     if (!best_ || ranked.time.total() < best_->time.total()) best_ = ranked;
   }
@@ -74,7 +75,7 @@ std::optional<Ranked> best_grid(const Workload& workload, const UnitCosts& costs
 Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCosts& costs) {
   check(costs);
   const Counts<double> counts = predict(workload, candidate);
-  return {candidate, counts, price(counts, costs)};
+  return {candidate, counts, price(counts, costs, candidate.technique)};
 }
 
 SphereTreeParameters best_sphere_tree(const Workload& workload, const UnitCosts& costs, std::optional<int> fan_out,
@@ -109,7 +110,7 @@ std::optional<Ranked> best_of(Technique technique, const Workload& workload, con
     case Technique::cell_spheres:
       return best_cells(workload, costs, limits);
     case Technique::sphere_tree:
-      return assess(workload, {Technique::sphere_tree, best_sphere_tree(workload, costs)}, costs);
+      return assess(workload, {Technique::sphere_tree, tabulated_box_tree}, costs);
     case Technique::octree:
       return best_octree(workload, costs, limits);
     case Technique::grid:

@@ -24,8 +24,9 @@ struct SearchLimits {
 
 /// All exact techniques with a closed form, each with its best parameters, fastest first.
 ///
-/// The sphere caches by best_ratio_and_stop; cell spheres and the octree over their depths; the sphere tree over a
-/// table of fan-outs and leaves; the grid over cell counts in steps of 10 %. Throws std::invalid_argument for a
+/// The sphere caches by best_ratio_and_stop; cell spheres and the octree over their depths; the sphere tree is
+/// that of boxes, by far the faster, with the one fan-out and leaf that there is a closed form of; the grid over cell
+/// counts in steps of 10 %. Throws std::invalid_argument for a
 /// workload out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs,
                                        const SearchLimits& limits = {});
@@ -35,8 +36,8 @@ struct SearchLimits {
 [[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
                                             const SearchLimits& limits = {});
 
-/// The fastest sphere tree with that fan-out and that leaf; those not given are searched for, fan-outs from 2 to 16 and
-/// leaves from 1 to 1024.
+/// The fastest sphere tree with spheres and with that fan-out and that leaf; those not given are searched for, fan-outs
+/// from 2 to 16 and leaves from 1 to 1024.
 [[nodiscard]] SphereTreeParameters best_sphere_tree(const Workload& workload, const UnitCosts& costs,
                                                     std::optional<int> fan_out = {}, std::optional<int> leaf = {});
 

@@ -43,7 +43,7 @@ double golden_section(const Time& time, double most_cells) {
 int best_octree_depth(const Workload& workload, const UnitCosts& costs, const IndexVariant& variant, int most_depth) {
   const std::vector<Counts<double>> depths = octree_counts_by_depth(workload, {most_depth}, variant);
   const auto best = std::min_element(depths.begin(), depths.end(), [&](const auto& a, const auto& b) {
-    return price(a, costs).total() < price(b, costs).total();
+    return price(a, costs, Technique::octree).total() < price(b, costs, Technique::octree).total();
   });
   return static_cast<int>(best - depths.begin());
 }
@@ -51,7 +51,7 @@ int best_octree_depth(const Workload& workload, const UnitCosts& costs, const In
 int best_grid_cells(const Workload& workload, const UnitCosts& costs, const IndexVariant& variant, int most_cells) {
   require_count("most cells a side", most_cells, 1, 1 << 20);
   const auto time = [&](double cells) {
-    return price(grid_counts(workload, {static_cast<int>(cells)}, variant), costs).total();
+    return price(grid_counts(workload, {static_cast<int>(cells)}, variant), costs, Technique::grid).total();
   };
   const double middle = golden_section(time, most_cells);
   const double first = std::floor(middle / ripple);

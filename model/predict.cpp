@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "box_tree.hpp"
 #include "cell_spheres.hpp"
 #include "disc_index.hpp"
 #include "line_measure.hpp"
@@ -37,8 +38,11 @@ Counts<double> predict(const Workload& workload, const Candidate& candidate) {
     }
     case Technique::cell_spheres:
       return cell_sphere_counts(workload, std::get<CellSpheresParameters>(candidate.parameters));
-    case Technique::sphere_tree:
-      return sphere_tree_counts(workload, std::get<SphereTreeParameters>(candidate.parameters));
+    case Technique::sphere_tree: {
+      const auto& parameters = std::get<SphereTreeParameters>(candidate.parameters);
+      return parameters.bounds == Bounds::boxes ? box_tree_counts(workload, parameters)
+                                                : sphere_tree_counts(workload, parameters);
+    }
     case Technique::octree:
       return octree_counts(workload, std::get<OctreeParameters>(candidate.parameters));
     case Technique::grid:

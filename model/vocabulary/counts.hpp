@@ -2,6 +2,8 @@
 
 #include <string_view>
 
+#include "technique.hpp"
+
 /// What a technique does, counted: the same record for a prediction (double, an expectation) and for an observation
 /// (std::uint64_t), so that comparing the two is a subtraction term by term.
 namespace detp {
@@ -61,8 +63,9 @@ template <class T>
 ///
 /// The paper has t, u and (implicitly) v; the others are what its formulas leave out (science erratum: sort, copies).
 struct UnitCosts {
-  double sphere_test = 1;  ///< t: one ray-sphere test
-  double disc_test = 1;    ///< u: one ray-disc test
+  double sphere_test = 1;  ///< t: one ray of a list against a sphere or a box
+  double disc_test = 1;    ///< u: one ray of a list against a disc
+  double index_test = 1;   ///< w: one ray against a disc of a cell it is in, of a technique that searches_an_index
   double step = 1;         ///< v: one step to a cell of a grid
   double node = 1;         ///< v: one visit to a node of a tree
   double copy = 0;         ///< c: copying one kept ray into a list
@@ -88,7 +91,7 @@ struct CostBreakdown {
   [[nodiscard]] constexpr double total() const { return order + build + rebuild + copy + traverse + intersect; }
 };
 
-/// Counts × unit costs, part by part.
+/// Counts × unit costs, part by part, of a technique that tests lists of rays.
 [[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs) {
   return {.order = counts.sorted * costs.sort,
           .build = counts.placements * costs.placement,
@@ -96,6 +99,12 @@ struct CostBreakdown {
           .copy = counts.copies * costs.copy,
           .traverse = counts.steps * costs.step + counts.nodes * costs.node,
           .intersect = counts.disc_tests * costs.disc_test};
+}
+
+/// The same of any technique: where it searches_an_index, disc tests cost what they do there.
+[[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, UnitCosts costs, Technique technique) {
+  if (searches_an_index(technique)) costs.disc_test = costs.index_test;
+  return price(counts, costs);
 }
 
 /// An observation as a prediction's record, for arithmetic.

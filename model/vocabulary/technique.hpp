@@ -44,6 +44,11 @@ inline constexpr std::array all_techniques{
   return technique != Technique::bsp && technique != Technique::bvh && technique != Technique::photon_map;
 }
 
+/// Whether it looks rays up in an index of the discs, one after another, rather than testing lists of rays.
+[[nodiscard]] constexpr bool searches_an_index(Technique technique) {
+  return technique == Technique::octree || technique == Technique::grid || technique == Technique::bsp;
+}
+
 /// The name on the command line and in files: "sphere-cache".
 [[nodiscard]] std::string_view name(Technique technique);
 

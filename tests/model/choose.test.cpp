@@ -20,14 +20,23 @@ using doctest::Contains;
 namespace {
 
 const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
-const UnitCosts costs{
-    .sphere_test = 2, .disc_test = 5, .step = 4, .node = 6, .copy = 1, .placement = 30, .sort = 50, .rebuild = 20};
+const UnitCosts costs{.sphere_test = 2,
+                      .disc_test = 5,
+                      .index_test = 5,
+                      .step = 4,
+                      .node = 6,
+                      .copy = 1,
+                      .placement = 30,
+                      .sort = 50,
+                      .rebuild = 20};
 
 bool same(const Ranked& a, const Ranked& b) {
   return a.candidate == b.candidate && a.counts == b.counts && a.time.total() == b.time.total();
 }
 
-double total(const Workload& w, const Candidate& candidate) { return price(predict(w, candidate), costs).total(); }
+double total(const Workload& w, const Candidate& candidate) {
+  return price(predict(w, candidate), costs, candidate.technique).total();
+}
 
 }  // namespace
 
@@ -76,12 +85,12 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("no depth is faster than that of the cell spheres chosen, no tree of those searched than the tree") {
+  TEST_CASE("no depth is faster than that of the cell spheres chosen, no tree of spheres searched than the best") {
     for (const Workload& w : {typical, cube_workload(1e4, 1e6, 0.002, 2, 2), cube_workload(1e7, 100, 0.3, 2)}) {
       const double cells = best_of(Technique::cell_spheres, w, costs)->time.total();
       for (int depth = 0; depth <= 14; ++depth)
         CHECK(cells <= total(w, {Technique::cell_spheres, CellSpheresParameters{depth}}));
-      const double tree = best_of(Technique::sphere_tree, w, costs)->time.total();
+      const double tree = total(w, {Technique::sphere_tree, best_sphere_tree(w, costs)});
       for (const int fan_out : {2, 3, 4, 6, 8, 12, 16})
         for (const int leaf : {1, 4, 12, 64, 1024}) {
           const double time = total(w, {Technique::sphere_tree, SphereTreeParameters{fan_out, leaf}});

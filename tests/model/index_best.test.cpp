@@ -19,16 +19,16 @@ namespace {
 const Workload in_cube = cube_workload(1e5, 1e5, 0.005, 2);
 
 double octree_time(const Workload& workload, int depth, const UnitCosts& costs) {
-  return price(octree_counts(workload, {depth}), costs).total();
+  return price(octree_counts(workload, {depth}), costs, Technique::octree).total();
 }
 
 double grid_time(const Workload& workload, int cells, const UnitCosts& costs) {
-  return price(grid_counts(workload, {cells}), costs).total();
+  return price(grid_counts(workload, {cells}), costs, Technique::grid).total();
 }
 
 UnitCosts random_costs(support::RandomNumbers& random) {
   UnitCosts costs;
-  costs.disc_test = random.log_uniform(0.1, 10);
+  costs.index_test = random.log_uniform(0.1, 10);
   costs.node = random.log_uniform(0.1, 10);
   costs.step = random.log_uniform(0.1, 10);
   costs.placement = random.log_uniform(0.1, 100);
@@ -70,9 +70,9 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("known answer") {
   TEST_CASE("dear discs call for small cells, dear steps for large ones, and one ray for none") {
-    CHECK(best_octree_depth(in_cube, {.disc_test = 1, .node = 1e-9}) > best_octree_depth(in_cube, {.disc_test = 1}));
-    CHECK(best_octree_depth(in_cube, {.disc_test = 1e-9, .node = 1}) == 0);
-    CHECK(best_grid_cells(in_cube, {.disc_test = 1e-9, .step = 1}) == 1);
+    CHECK(best_octree_depth(in_cube, {.index_test = 1, .node = 1e-9}) > best_octree_depth(in_cube, {.index_test = 1}));
+    CHECK(best_octree_depth(in_cube, {.index_test = 1e-9, .node = 1}) == 0);
+    CHECK(best_grid_cells(in_cube, {.index_test = 1e-9, .step = 1}) == 1);
     Workload one = in_cube;
     one.rays = 1;
     CHECK(best_octree_depth(one, {.placement = 100}) == 0);
@@ -82,7 +82,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("tiny discs, free to place: u n_P/m² + v m is least at m = (2 u n_P/v)^(1/3)") {
     const Workload w = cube_workload(1e6, 4e6, 1e-9, 2);
     CHECK(best_grid_cells(w, {}) == 200);
-    CHECK(best_grid_cells(w, {.disc_test = 8}) == 400);
+    CHECK(best_grid_cells(w, {.index_test = 8}) == 400);
   }
 }
 

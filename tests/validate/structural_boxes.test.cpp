@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "detp/model/box_tree.hpp"
+#include "detp/model/predict.hpp"
 #include "detp/sim/uniform_discs.hpp"
 #include "detp/validate/job.hpp"
 #include "detp/validate/structural.hpp"
@@ -82,6 +84,23 @@ TEST_SUITE("limit") {
     CHECK(counts.discs == 10);
     CHECK(counts.tests == 0);
     CHECK(counts.culls == 0);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the closed form says of uniform samples, within 5 %, what their tree does") {
+    for (const double dimension : {2.0, 3.0})
+      for (const double radius : {0.003, 0.03}) {
+        const auto discs =
+            sim::uniform_discs(dimension == 2 ? sim::Body::cube_faces : sim::Body::cube, 1, 20'000, radius, 77);
+        const Candidate candidate{Technique::sphere_tree, model::tabulated_box_tree};
+        const Counts<double> structural = structural_counts(discs, 1e5, candidate);
+        const Counts<double> closed = model::predict(cube_workload(1e5, 20'000, radius, 1, dimension), candidate);
+        for (const auto term : {&Counts<double>::sphere_tests, &Counts<double>::copies, &Counts<double>::disc_tests}) {
+          CAPTURE(closed.*term / structural.*term);
+          CHECK(std::abs(closed.*term / structural.*term - 1) < 0.05);
+        }
+      }
   }
 }
 

@@ -43,7 +43,7 @@ void decide_structurally(ChooseAnswer& answer, const validate::Job& job, const U
   const auto start = std::chrono::steady_clock::now();
   for (model::Ranked& ranked : answer.ranking) {
     ranked.counts = validate::structural_counts(job.discs, answer.workload.rays, ranked.candidate);
-    ranked.time = price(ranked.counts, costs);
+    ranked.time = price(ranked.counts, costs, ranked.candidate.technique);
   }
   std::stable_sort(answer.ranking.begin(), answer.ranking.end(),
                    [](const model::Ranked& a, const model::Ranked& b) { return a.time.total() < b.time.total(); });

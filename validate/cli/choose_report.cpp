@@ -92,13 +92,13 @@ std::string measured_columns(const ChooseAnswer& answer, std::size_t place) {
 
 std::string table(const ChooseAnswer& answer) {
   const bool measured = answer.analysis.has_value();
-  std::string text = fmt::format("\n{:35} {:>20}{}\n", "", "predicted",
+  std::string text = fmt::format("\n{:41} {:>20}{}\n", "", "predicted",
                                  measured ? "    counted  measured             predicted/" : "");
-  text += fmt::format("{:14} {:20} {:>10} {:>9}{}\n", "technique", "parameters", "tests", "seconds",
+  text += fmt::format("{:14} {:26} {:>10} {:>9}{}\n", "technique", "parameters", "tests", "seconds",
                       measured ? "      tests  seconds              measured" : "");
   for (std::size_t place = 0; place < answer.ranking.size(); ++place) {
     const model::Ranked& ranked = answer.ranking[place];
-    text += fmt::format("{:14} {:20} {:>10.3g} {:>9.3g}{}{}\n", name(ranked.candidate.technique),
+    text += fmt::format("{:14} {:26} {:>10.3g} {:>9.3g}{}{}\n", name(ranked.candidate.technique),
                         describe(ranked.candidate.parameters), tests(ranked.counts), ranked.time.total(),
                         measured_columns(answer, place), place == 0 ? "  <- choice" : "");
   }

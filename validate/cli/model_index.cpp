@@ -19,8 +19,8 @@ Json published_octree(const ModelQuestion& question, int depth) {
           {"cells_per_line", model::published::cells_per_line(depth)},
           {"discs_per_cell", model::published::discs_per_cell(w.samples, depth)},
           {"tests_per_line", model::published::tests_per_line(w.samples, depth)},
-          {"total_time", model::published::octree_time(w, depth, question.costs.disc_test)},
-          {"balanced_time", model::published::balanced_octree_time(w, depth, question.costs.disc_test)}};
+          {"total_time", model::published::octree_time(w, depth, question.costs.index_test)},
+          {"balanced_time", model::published::balanced_octree_time(w, depth, question.costs.index_test)}};
 }
 
 /// Per line that hits the index's box.
@@ -30,7 +30,7 @@ Json corrected_index(const ModelQuestion& question, double parts, const Counts<d
   double area = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) area += 2 * cells.along[axis] * cells.along[(axis + 1) % 3];
   const double share = 6 / area;  // P(cell) over P(box): areas in units of a cell's face
-  const CostBreakdown time = price(counts, question.costs);
+  const CostBreakdown time = price(counts, question.costs, question.technique);
   return {{"cells_per_line", cells.count() * share},
           {"discs_per_cell", references / cells.count()},
           {"tests_per_line", references * share},

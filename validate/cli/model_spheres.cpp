@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "detp/model/best_ratio.hpp"
+#include "detp/model/box_tree.hpp"
 #include "detp/model/cell_spheres.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/model/predict.hpp"
@@ -133,9 +134,15 @@ Json cell_spheres_answer(const ModelQuestion& question) {
 
 Json sphere_tree_answer(const ModelQuestion& question) {
   refuse_published(question);
-  SphereTreeParameters parameters =
-      model::best_sphere_tree(question.workload, question.costs, question.options.fan_out, question.options.leaf);
-  if (question.options.bounds) parameters.bounds = *bounds_named(*question.options.bounds);
+  const CandidateOptions& options = question.options;
+  if (options.bounds && bounds_named(*options.bounds) == Bounds::boxes) {
+    constexpr SphereTreeParameters known = model::tabulated_box_tree;
+    const SphereTreeParameters boxes{options.fan_out.value_or(known.fan_out), options.leaf.value_or(known.leaf),
+                                     Bounds::boxes};
+    return with_spheres(question, boxes, Json::array());
+  }
+  const SphereTreeParameters parameters =
+      model::best_sphere_tree(question.workload, question.costs, options.fan_out, options.leaf);
   Json levels = Json::array();
   double around = question.workload.rays;
   for (const model::TreeLevel& level : model::sphere_tree_levels(question.workload, parameters)) {

@@ -12,13 +12,14 @@ namespace {
 double& cost_named(UnitCosts& costs, std::string_view name) {
   if (name == "t") return costs.sphere_test;
   if (name == "u") return costs.disc_test;
+  if (name == "w") return costs.index_test;
   if (name == "v") return costs.step;
   if (name == "n") return costs.node;
   if (name == "c") return costs.copy;
   if (name == "b") return costs.placement;
   if (name == "s") return costs.sort;
   if (name == "r") return costs.rebuild;
-  throw std::invalid_argument(fmt::format("there is no unit cost '{}'; there are t, u, v, n, c, b, s, r", name));
+  throw std::invalid_argument(fmt::format("there is no unit cost '{}'; there are t, u, w, v, n, c, b, s, r", name));
 }
 
 double parse_cost(std::string_view name, std::string_view digits) {
@@ -41,6 +42,7 @@ UnitCosts parse_unit_costs(const std::string& text, const UnitCosts& otherwise) 
       throw std::invalid_argument(fmt::format("--costs takes name=value pairs, as t=1,u=2 (got '{}')", part));
     const std::string_view name = std::string_view(part).substr(0, equals);
     cost_named(costs, name) = parse_cost(name, std::string_view(part).substr(equals + 1));
+    if (name == "u") costs.index_test = costs.disc_test;
     if (name == "v") costs.node = costs.step;
   }
   return costs;
@@ -49,7 +51,7 @@ UnitCosts parse_unit_costs(const std::string& text, const UnitCosts& otherwise) 
 nlohmann::ordered_json to_json(const UnitCosts& costs) {
   nlohmann::ordered_json json;
   UnitCosts copy = costs;
-  for (const char* name : {"t", "u", "v", "n", "c", "b", "s", "r"}) json[name] = cost_named(copy, name);
+  for (const char* name : {"t", "u", "w", "v", "n", "c", "b", "s", "r"}) json[name] = cost_named(copy, name);
   return json;
 }
 

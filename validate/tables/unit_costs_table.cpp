@@ -1,5 +1,6 @@
 // Measures the defaults of validate/unit_costs.cpp: times every technique on uniform samples and isotropic lines, over
-// radii, counts and parameters, and prints the unit costs fitted to the runs, with how well they explain them.
+// radii, counts and parameters, on one thread and in time of the processor, and prints the unit costs fitted to the
+// runs, with how well they explain them. `list` as an argument lists the runs.
 //
 //   cmake --build build --target unit_costs_table && build/unit_costs_table
 
@@ -7,8 +8,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
+#include <utility>
 #include <vector>
 
+#include "detp/model/box_tree.hpp"
 #include "detp/model/sphere_count.hpp"
 #include "detp/sim/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -21,22 +25,45 @@ using namespace detp;
 
 std::vector<Candidate> candidates(double radius, double outer, double pairs) {
   std::vector<Candidate> list;
-  if (pairs < 3e8) list.push_back({Technique::brute_force, BruteForceParameters{}});
+  if (pairs < 2e8) list.push_back({Technique::brute_force, BruteForceParameters{}});
   for (const double ratio : {0.4, 0.65, 0.8})
     list.push_back({Technique::sphere_cache,
                     SphereCacheParameters{
                         ratio, std::max<std::int64_t>(
                                    1, model::sphere_count(model::Form::corrected, {ratio}, {radius}, {outer}) - 1)}});
+  for (const int depth : {4, 5}) list.push_back({Technique::cell_spheres, CellSpheresParameters{depth}});
+  list.push_back({Technique::sphere_tree, model::tabulated_box_tree});
   for (const int depth : {4, 5, 6, 7}) list.push_back({Technique::octree, OctreeParameters{depth}});
   for (const int cells : {16, 40, 100}) list.push_back({Technique::grid, GridParameters{cells}});
   return list;
 }
 
+constexpr double longest = 0.1;  ///< seconds: runs that take longer are left out
+
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+/// The phases of a run in time of the processor, which others have no part in: in proportion to those by the clock.
+sim::Phases run_alone(const sim::Problem& problem, const Candidate& candidate) {
+  const double before = processor_seconds();
+  sim::Phases phases = sim::run(problem, candidate, {.count = false}).seconds;
+  const double share = (processor_seconds() - before) / phases.total();
+  for (double* const phase : {&phases.order, &phases.build, &phases.search}) *phase *= share;
+  return phases;
+}
+
 validate::TimedRun time(const sim::Problem& problem, const Candidate& candidate) {
-  validate::TimedRun best;
-  best.counts = as_expected(sim::run(problem, candidate).counts);
+  validate::TimedRun best{.technique = candidate.technique};
+  const sim::Outcome counted = sim::run(problem, candidate);
+  best.counts = as_expected(counted.counts);
+  if (counted.seconds.total() > longest) return best;
   for (int repeat = 0; repeat < 3; ++repeat) {
-    const sim::Phases phases = sim::run(problem, candidate, {.count = false}).seconds;
+    sim::Phases phases = run_alone(problem, candidate);
+    // A tree is built in the course of sorting: what it takes is of its samples, not of placements.
+    if (candidate.technique == Technique::sphere_tree) phases.order += std::exchange(phases.build, 0.0);
     if (repeat > 0 && phases.total() >= best.order + best.build + best.search) continue;
     best.order = phases.order;
     best.build = phases.build;
@@ -49,7 +76,7 @@ double total(const validate::TimedRun& run) { return run.order + run.build + run
 
 }  // namespace
 
-int main() {
+int main(int arguments, char**) {
   std::vector<validate::TimedRun> runs;
   for (const auto body : {sim::Body::cube, sim::Body::cube_faces})
     for (const double radius : {0.005, 0.02, 0.08})
@@ -60,17 +87,25 @@ int main() {
           const sim::Problem problem = sim::make_problem(lines, discs);
           for (const Candidate& candidate :
                candidates(radius, problem.enclosing.radius, static_cast<double>(samples * rays)))
-            runs.push_back(time(problem, candidate));
+            if (const auto run = time(problem, candidate); run.search > 0) runs.push_back(run);
         }
   const UnitCosts costs = validate::fit_unit_costs(runs);
   fmt::print(
-      ".sphere_test = {:.2g}, .disc_test = {:.2g}, .step = {:.2g}, .node = {:.2g}, .copy = {:.2g}, .placement = "
+      ".sphere_test = {:.2g}, .disc_test = {:.2g}, .index_test = {:.2g}, .step = {:.2g}, .node = {:.2g}, .copy = "
+      "{:.2g}, .placement = "
       "{:.2g}, "
       ".sort = {:.2g}, .rebuild = {:.2g}\n",
-      costs.sphere_test, costs.disc_test, costs.step, costs.node, costs.copy, costs.placement, costs.sort,
-      costs.rebuild);
+      costs.sphere_test, costs.disc_test, costs.index_test, costs.step, costs.node, costs.copy, costs.placement,
+      costs.sort, costs.rebuild);
   std::vector<double> errors;
-  for (const auto& run : runs) errors.push_back(std::abs(std::log(price(run.counts, costs).total() / total(run))));
+  if (arguments > 1)
+    for (const auto& run : runs)
+      fmt::print("{:12} order {:.2e} build {:.2e} search {:.2e} predicted {:.2e} | {} {} {} {} {} {} {} {}\n",
+                 name(run.technique), run.order, run.build, run.search, price(run.counts, costs, run.technique).total(),
+                 run.counts.sphere_tests, run.counts.disc_tests, run.counts.copies, run.counts.rebuilds,
+                 run.counts.steps, run.counts.nodes, run.counts.sorted, run.counts.placements);
+  for (const auto& run : runs)
+    errors.push_back(std::abs(std::log(price(run.counts, costs, run.technique).total() / total(run))));
   std::sort(errors.begin(), errors.end());
   fmt::print("{} runs; predicted/measured off by {:.2f}x in the median, {:.2f}x at the 95th percentile\n", runs.size(),
              std::exp(errors[errors.size() / 2]), std::exp(errors[errors.size() * 95 / 100]));

@@ -49,22 +49,36 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("the total is the sum of the parts, and is linear in counts and in costs") {
-    const UnitCosts costs{
-        .sphere_test = 2, .disc_test = 3, .step = 5, .node = 7, .copy = 11, .placement = 13, .sort = 17, .rebuild = 19};
+    const UnitCosts costs{.sphere_test = 2,
+                          .disc_test = 3,
+                          .index_test = 4,
+                          .step = 5,
+                          .node = 7,
+                          .copy = 11,
+                          .placement = 13,
+                          .sort = 17,
+                          .rebuild = 19};
     const Counts<double> c = powers<double>();
     const CostBreakdown time = price(c, costs);
     CHECK(time.total() == time.order + time.build + time.rebuild + time.copy + time.traverse + time.intersect);
     CHECK(time.total() == 2 * c.sphere_tests + 3 * c.disc_tests + 5 * c.steps + 7 * c.nodes + 11 * c.copies +
                               13 * c.placements + 17 * c.sorted + 19 * c.rebuilds);
     CHECK(price({}, costs).total() == 0);
-    CHECK(price(c, {0, 0, 0, 0, 0, 0, 0, 0}).total() == 0);
+    CHECK(price(c, {0, 0, 0, 0, 0, 0, 0, 0, 0}).total() == 0);
   }
 }
 
 TEST_SUITE("known answer") {
   TEST_CASE("each part is priced by its own cost") {
-    const UnitCosts costs{
-        .sphere_test = 2, .disc_test = 3, .step = 5, .node = 7, .copy = 11, .placement = 13, .sort = 17, .rebuild = 19};
+    const UnitCosts costs{.sphere_test = 2,
+                          .disc_test = 3,
+                          .index_test = 4,
+                          .step = 5,
+                          .node = 7,
+                          .copy = 11,
+                          .placement = 13,
+                          .sort = 17,
+                          .rebuild = 19};
     CHECK(price({.sorted = 1}, costs).order == 17);
     CHECK(price({.placements = 1}, costs).build == 13);
     CHECK(price({.sphere_tests = 1}, costs).rebuild == 2);
@@ -74,6 +88,15 @@ TEST_SUITE("known answer") {
     CHECK(price({.nodes = 1}, costs).traverse == 7);
     CHECK(price({.disc_tests = 1}, costs).intersect == 3);
     CHECK(price({.references = 1, .hits = 1}, costs).total() == 0);
+  }
+
+  TEST_CASE("a disc test in an index has a cost of its own") {
+    const UnitCosts costs{.disc_test = 3, .index_test = 4};
+    for (const Technique technique : {Technique::octree, Technique::grid, Technique::bsp})
+      CHECK(price({.disc_tests = 10}, costs, technique).intersect == 40);
+    for (const Technique technique :
+         {Technique::brute_force, Technique::sphere_cache, Technique::cell_spheres, Technique::sphere_tree})
+      CHECK(price({.disc_tests = 10}, costs, technique).intersect == 30);
   }
 
   TEST_CASE("tests are those of spheres and discs together") {
@@ -95,13 +118,13 @@ TEST_SUITE("bad input") {
     for (const double bad : support::not_a_size)
       for (const auto& [time, name] :
            {Named{&UnitCosts::sphere_test, "ray-sphere"}, Named{&UnitCosts::disc_test, "ray-disc"},
-            Named{&UnitCosts::step, "step"}, Named{&UnitCosts::node, "node"}, Named{&UnitCosts::copy, "copy"},
-            Named{&UnitCosts::placement, "placing"}, Named{&UnitCosts::sort, "sorting"},
-            Named{&UnitCosts::rebuild, "rebuild"}}) {
+            Named{&UnitCosts::index_test, "disc in a cell"}, Named{&UnitCosts::step, "step"},
+            Named{&UnitCosts::node, "node"}, Named{&UnitCosts::copy, "copy"}, Named{&UnitCosts::placement, "placing"},
+            Named{&UnitCosts::sort, "sorting"}, Named{&UnitCosts::rebuild, "rebuild"}}) {
         UnitCosts costs;
         costs.*time = bad;
         CHECK_THROWS_WITH_AS(check(costs), doctest::Contains(name), std::invalid_argument);
       }
-    CHECK_NOTHROW(check(UnitCosts{0, 0, 0, 0, 0, 0, 0, 0}));
+    CHECK_NOTHROW(check(UnitCosts{0, 0, 0, 0, 0, 0, 0, 0, 0}));
   }
 }

@@ -90,7 +90,7 @@ TEST_SUITE("end to end") {
     CHECK(model.at("form") == "corrected");
     CHECK(model.at("levels") == 64);
     CHECK(model.at("unit_costs") ==
-          Json{{"t", 3}, {"u", 1}, {"v", 7}, {"n", 7}, {"c", 0}, {"b", 0}, {"s", 0}, {"r", 0}});
+          Json{{"t", 3}, {"u", 1}, {"w", 1}, {"v", 7}, {"n", 7}, {"c", 0}, {"b", 0}, {"s", 0}, {"r", 0}});
     const Json choose = result_of("choose --costs t=3" + numbers).at("inputs");
     CHECK(choose.at("unit_costs").at("t") == 3);
     CHECK(choose.at("unit_costs").at("u").get<double>() < 1e-6);

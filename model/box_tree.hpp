@@ -1,0 +1,43 @@
+#pragma once
+
+#include "vocabulary.hpp"
+
+/// The sphere tree with boxes: lists of rays culled down a tree of boxes.
+///
+/// With P(node) the share of the rays that its cull lists,
+///
+///     tests of boxes = n_R Σ_inner P(node) children        listed = n_R Σ P(node)
+///     disc tests     = n_R Σ_leaves P(node) discs          P of the root is 1
+///
+/// which is exact once the tree is known (validate/structural_boxes.hpp). Where it splits is decided by the samples and
+/// the surface-area heuristic; so from numbers alone the sums are tabulated, of each the areas and volumes,
+///
+///     lines      P = F/(4π r₀²)                      segments   P = (V + ℓF/4)/V_box   (crossing_probability)
+///
+///   where  F, V   surface of the convex body whose lines the cull lists (a box's, and some 9 % more), its volume
+///
+/// over a² or a³, a the side of the cube that has the samples' volume (D = 3) or their area on its faces (D = 2), by
+/// n_P and d over the distance between samples (extent / n_P)^(1/D). In between, logarithms are interpolated, as are
+/// those of D = 2 and D = 3. The table (box_tree_table.inc) is made by validate/tables/box_tree_table.cpp.
+namespace detp::model {
+
+/// The fan-out and the leaf that the table is of. (With fewer rays than discs, or with 64 times as many, another leaf
+/// serves better: box_tree_rule.hpp.)
+inline constexpr SphereTreeParameters tabulated_box_tree{4, 16, Bounds::boxes};
+
+/// Expected counts of the tree. `rebuilds` are tests of a node that any ray takes part in, by blocks of 2¹⁷ rays.
+///
+/// Source     our derivation, and the table.
+/// Valid      fan-out 4, leaf 16; samples uniform over a volume or over surfaces, discs turned isotropically; 32 <= n_P
+///            <= 2²⁰, d 2⁻⁴ … 2⁶ sample distances. Beyond more samples it goes on as the table ends, beyond the others
+///            it stays.
+/// Accuracy   against structural counts of 300 fresh sets of samples, in a cube and on its faces, n_P 2¹⁰ … 2¹⁸, d 2⁻⁴
+/// …
+///            2³ sample distances but 0.16 of the side at most: tests of boxes off by 1.0 % in the median, 4.1 % at the
+///            95th percentile and 7.1 % at worst, rays listed by 2.4, 7.6 and 9.9 %, tests of discs by 1.7, 5.1 and
+///            7.6 %, `rebuilds` by 4.5, 73 and 78 %: too many where there are fewer rays than nodes. In scenes see
+///            README.md.
+/// Throws     std::invalid_argument for a workload out of range, and for any other tree.
+[[nodiscard]] Counts<double> box_tree_counts(const Workload& workload, const SphereTreeParameters& parameters);
+
+}  // namespace detp::model
