@@ -87,7 +87,7 @@ BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const Sp
   const sim::stream::Frame frame(problem);
   const sim::stream::DiscTree tree = sim::stream::make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf);
   const BoxCrossing crossing(problem.enclosing.radius * frame.scale, frame.margin);
-  const double blocks = std::ceil(rays / static_cast<double>(sim::stream::block_size(problem)));
+  const double blocks = std::ceil(rays / static_cast<double>(sim::stream::block_size(problem.discs.size())));
   BoxTreeCounts counts;
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const TreeNode& node = tree.nodes[i];

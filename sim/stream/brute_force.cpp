@@ -15,6 +15,7 @@ namespace detp::sim::stream {
 void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome) {
   constexpr std::size_t chunk =
       512;  // discs that stay in the first-level cache while vector after vector of rays passes
+  require_search_memory(problem, options);
   const Frame frame(problem);
   std::vector<std::uint32_t> order(problem.discs.size());
   std::iota(order.begin(), order.end(), 0U);

@@ -1,9 +1,12 @@
 #include "search.hpp"
 
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "curve_sort.hpp"
+#include "detp/sim/memory.hpp"
 #include "detp/sim/technique/techniques.hpp"
 #include "detp/sim/threads.hpp"
 #include "gathering.hpp"
@@ -40,8 +43,25 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
 
 bool can_search(const Problem& problem) { return Frame(problem).slack <= 0.01; }
 
+double search_bytes(std::size_t discs, int threads) {
+  constexpr double sorting = 2 * sizeof(CurvePlace);
+  constexpr double nodes = 64;  // of both trees: a leaf of one disc has one of each, and half as many hold them
+  constexpr double a_disc =
+      sorting + sizeof(std::uint32_t) + sizeof(FloatDisc) + nodes + sizeof(ClassCounts) + 2 * sizeof(DiscTotals);
+  constexpr double a_ray = 7 * sizeof(float);
+  constexpr double within = 8;  // all lists made of a block's, one within another, in its rays
+  const auto block = static_cast<double>(block_size(discs));
+  return a_disc * static_cast<double>(discs) + a_ray * block * (2 + within * thread_count(threads));
+}
+
+void require_search_memory(const Problem& problem, const RunOptions& options) {
+  require_memory(fmt::format("lists of rays over {} discs", problem.discs.size()),
+                 search_bytes(problem.discs.size(), options.threads));
+}
+
 void search_boxes(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
                   Outcome& outcome) {
+  require_search_memory(problem, options);
   Stopwatch watch;
   const Frame frame(problem);
   on_threads(thread_count(options.threads), [&] {

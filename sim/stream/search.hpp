@@ -10,6 +10,11 @@ namespace detp::sim::stream {
 /// culled.)
 [[nodiscard]] bool can_search(const Problem& problem);
 
+/// Bytes that a search takes at most beside its input and outcome, pairs left out: the discs in order and their tree,
+/// sums, lists of rays. The searches throw std::length_error, naming them, where they would not fit the memory.
+[[nodiscard]] double search_bytes(std::size_t discs, int threads);
+void require_search_memory(const Problem& problem, const RunOptions& options);
+
 /// Tests every ray against every disc. (Of rays that pass S₀ that takes no test; they count as tested.)
 void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome);
 

@@ -9,6 +9,7 @@
 #include "gathering.hpp"
 #include "list_search.hpp"
 #include "ray_blocks.hpp"
+#include "search.hpp"
 
 namespace detp::sim::stream {
 namespace {
@@ -77,6 +78,7 @@ void add(const std::vector<SphereCounts>& events, std::vector<SphereCounts>& sum
 
 void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const MakeWalk& make_walk,
                  const RunOptions& options, Outcome& outcome) {
+  require_search_memory(problem, options);
   const Frame frame(problem);
   std::array<Worker, classes> workers;
   std::array<std::vector<SphereCounts>, classes> events;

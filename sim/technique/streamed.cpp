@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <stdexcept>
 
 #include "detp/sim/memory.hpp"
+#include "detp/sim/stream/search.hpp"
 #include "detp/sim/threads.hpp"
 #include "prepared.hpp"
 #include "techniques.hpp"
@@ -56,13 +58,21 @@ class Stream {
           fmt::format("{} rays are too many for pairs; the most is {}", source_.size(), UINT32_MAX - 1));
   }
 
+  /// Whether it runs on stream/, which takes memory of its own.
+  [[nodiscard]] bool culls_lists() const {
+    constexpr std::array lists{Technique::brute_force, Technique::sphere_cache, Technique::cell_spheres,
+                               Technique::sphere_tree};
+    return std::find(lists.begin(), lists.end(), candidate_.technique) != lists.end();
+  }
+
   /// Refuses what would not fit, before it is taken.
   void foretell(std::size_t index) {
     const auto threads = static_cast<std::size_t>(thread_count(run_.threads));
     const std::size_t for_a_disc =
         sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) + threads * sizeof(std::uint32_t);
     streamed_.bytes = static_cast<double>(problem_.discs.size()) * static_cast<double>(for_a_disc) +
-                      static_cast<double>(streamed_.block) * sizeof(Ray) + static_cast<double>(index);
+                      static_cast<double>(streamed_.block) * sizeof(Ray) + static_cast<double>(index) +
+                      (culls_lists() ? stream::search_bytes(problem_.discs.size(), run_.threads) : 0);
     require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs.size(), streamed_.block),
                    streamed_.bytes);
   }

@@ -20,7 +20,7 @@ struct Streamed {
   double read_seconds = 0;   ///< making or reading the rays, not in outcome.seconds
   double check_seconds = 0;  ///< checking rays and discs, S₀; not in outcome.seconds either
   std::size_t block = 0;     ///< rays in memory at a time
-  double bytes = 0;          ///< of memory, as foretold: discs, index, totals, results, mailboxes, block
+  double bytes = 0;          ///< of memory, as foretold: discs, index or lists, totals, results, mailboxes, block
 };
 
 /// As many rays as discs, rounded up to a power of two, but at least 2²⁰ and at most 2²²: 64 to 256 MiB.
@@ -35,8 +35,8 @@ struct Streamed {
 ///
 /// The stop is asked between blocks too; what was found until then is given, and told to be partial. Throws as
 /// make_problem and run do (but there may be more than 2³² rays, unless pairs are asked for), and std::length_error,
-/// naming the bytes, before it would take more than the memory budget. Of what is not foretold, lists of rays (72 bytes
-/// for each ray of each list) and pairs (8 bytes each) may be large.
+/// naming the bytes, before it would take more than the memory budget. Of what is not foretold, pairs (8 bytes each) may
+/// be large, and lists of plain runs (72 bytes for each ray of each list).
 [[nodiscard]] Streamed run_streamed(std::span<const Disc> discs, const RaySource& source, const Candidate& candidate,
                                     const StreamOptions& options = {});
 
