@@ -28,8 +28,8 @@ using MakeRaySearch = std::function<std::unique_ptr<RaySearch>()>;
 /// added to the totals chunk after chunk, while later ones are searched, so that powers are summed in the rays' order
 /// whatever the threads do. No more than four chunks a thread are under way: in memory are the hits of so many.
 ///
-/// Only one thread adds at a time. That takes 2 ns a hit among 10⁴ discs and 16 among 10⁶ (hits at random), where a grid
-/// over 10⁵ discs takes 3 µs to find one: it would take hundreds of threads to wait for it.
+/// Only one thread adds at a time. That takes 2 ns a hit among 10⁴ discs and 16 among 10⁶ (hits at random), where a
+/// grid over 10⁵ discs takes 3 µs to find one: it would take hundreds of threads to wait for it.
 void search_rays(const Problem& problem, const RunOptions& options, const MakeRaySearch& make, Outcome& outcome);
 
 }  // namespace detp::sim

@@ -35,8 +35,8 @@ struct Streamed {
 ///
 /// The stop is asked between blocks too; what was found until then is given, and told to be partial. Throws as
 /// make_problem and run do (but there may be more than 2³² rays, unless pairs are asked for), and std::length_error,
-/// naming the bytes, before it would take more than the memory budget. Of what is not foretold, pairs (8 bytes each) may
-/// be large, and lists of plain runs (72 bytes for each ray of each list).
+/// naming the bytes, before it would take more than the memory budget. Of what is not foretold, pairs (8 bytes each)
+/// may be large, and lists of plain runs (72 bytes for each ray of each list).
 [[nodiscard]] Streamed run_streamed(std::span<const Disc> discs, const RaySource& source, const Candidate& candidate,
                                     const StreamOptions& options = {});
 

@@ -44,8 +44,8 @@ void run_cell_spheres(const Problem& problem, const CellSpheresParameters& param
                       Outcome& outcome);
 
 /// A tree of nested spheres over runs of discs along the Lebesgue curve (SphereTree): the list of rays is culled down
-/// the tree, depth first, and tested against the leaves' discs. One list a level. With boxes it is stream::search_boxes,
-/// but for a plain run.
+/// the tree, depth first, and tested against the leaves' discs. One list a level. With boxes it is
+/// stream::search_boxes, but for a plain run.
 void run_sphere_tree(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
                      Outcome& outcome);
 
