@@ -61,7 +61,8 @@ double mean_log_rebuilds(const std::vector<model::SphereLevel>& levels, const Re
 void compare(SetResult& result, std::size_t q, const Workload& workload, const sim::Problem& problem,
              const Experiment& experiment) {
   const SphereCacheParameters parameters = parameters_for(workload, ratios[q]);
-  const sim::Outcome run = sim::run(problem, {Technique::sphere_cache, parameters}, {.stop = experiment.stop});
+  const sim::Outcome run =
+      sim::run(problem, {Technique::sphere_cache, parameters}, {.plain = true, .stop = experiment.stop});
   if (run.stopped) return;
   const auto rays = static_cast<double>(problem.rays.size());
   const auto levels = model::sphere_levels(workload, parameters, static_cast<std::int64_t>(run.spheres.size()));
@@ -132,8 +133,8 @@ Finding count_finding(const Experiment& experiment) {
   const auto ray = sim::LineField(sim::enclosing_sphere(discs), experiment.seed).lines(0, 1);
   const sim::Problem problem = sim::make_problem(ray, discs);
   const Workload workload = workload_of(experiment, problem);
-  const sim::Outcome run =
-      sim::run(problem, {Technique::sphere_cache, SphereCacheParameters{model::published_ratio, 10'000}});
+  const sim::Outcome run = sim::run(
+      problem, {Technique::sphere_cache, SphereCacheParameters{model::published_ratio, 10'000}}, {.plain = true});
   const auto k = [&](Form form) {
     return static_cast<double>(
         model::sphere_count(form, {model::published_ratio}, {workload.disc_radius}, {workload.sphere_radius}));

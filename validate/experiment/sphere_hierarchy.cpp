@@ -80,7 +80,7 @@ SetResult run_set(const Experiment& experiment, const Subject& subject, std::siz
   const auto count = static_cast<double>(lines);
   const std::size_t all = subject.candidates.size();
   for (const Candidate& candidate : subject.candidates) {
-    const sim::Outcome outcome = sim::run(problem, candidate, {.stop = experiment.stop});
+    const sim::Outcome outcome = sim::run(problem, candidate, {.plain = true, .stop = experiment.stop});
     if (outcome.stopped) return {};
     result.counted.add(as_expected(outcome.counts), count, all);
     result.closed.add(model::predict(workload_of(experiment, problem), candidate), experiment.workload.rays, all);

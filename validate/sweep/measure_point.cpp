@@ -150,7 +150,7 @@ bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidat
   const sim::Problem problem = sim::make_problem(lines, discs);
   all.sphere_radius += problem.enclosing.radius / point.sets;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const sim::Outcome outcome = sim::run(problem, candidates[i], {.stop = stop});
+    const sim::Outcome outcome = sim::run(problem, candidates[i], {.plain = true, .stop = stop});
     if (outcome.stopped) return false;
     all.of_candidates[i].counts.push_back(as_expected(outcome.counts));
     all.of_candidates[i].spheres.push_back(outcome.spheres);
