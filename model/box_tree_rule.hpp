@@ -7,7 +7,7 @@ namespace detp::model {
 /// A sphere tree with boxes that suits the workload: 4 children a node; leaves of 64 where there are fewer rays than
 /// discs (the tree takes longer to build than to search), of 8 from 64 rays a disc, of 16 between.
 ///
-/// A rule of thumb, measured on six workloads of 10³ … 10⁶ rays and discs: leaves twice or half as large took 1.0
+/// A rule of thumb, measured on seven workloads of 10³ … 10⁶ rays and discs: leaves twice or half as large took 1.0
 /// to 1.2 times as long, four times as large or small up to 1.8.
 [[nodiscard]] inline SphereTreeParameters box_tree_rule(const Workload& workload) {
   constexpr int fan_out = 4;

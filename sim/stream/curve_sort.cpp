@@ -40,7 +40,8 @@ std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells) {
   const Box box = box_of_centres(discs);
   const glm::dvec3 size = box.size();
   const double side = std::max({size.x, size.y, size.z});
-  const double scale = side > 0 ? cells / side : 0;
+  constexpr double least_side = 1e-290;  // smaller, the scale might not be finite: all are in one cell then
+  const double scale = side > least_side ? cells / side : 0;
   const auto last = static_cast<std::uint32_t>(cells) - 1;
   const auto cell = [&](double above) { return spread(std::min(static_cast<std::uint32_t>(above * scale), last)); };
   std::vector<CurvePlace> places(discs.size());
