@@ -59,6 +59,9 @@ std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double 
   return discs;
 }
 
+/// Whether samples given by numbers lie on the faces of the cube, rather than fill it.
+bool on_faces(const Workload& workload) { return workload.dimension < 2.5; }
+
 class JobMaker {
  public:
   explicit JobMaker(const JobRequest& request) : request_(request) {}
@@ -79,10 +82,9 @@ class JobMaker {
  private:
   void from_numbers() {
     const Workload workload = workload_of_numbers(request_);
-    const bool faces = workload.dimension < 2.5;
-    job_.name = faces ? "uniform samples on the faces of a cube" : "uniform samples in a cube";
+    job_.name = name_of_numbers(workload);
     job_.discs =
-        sim::uniform_discs(faces ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
+        sim::uniform_discs(on_faces(workload) ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
                            count_in_memory("samples", workload.samples, sizeof(sim::Sample) + sizeof(sim::Disc)),
                            workload.disc_radius, request_.seed);
   }
@@ -215,6 +217,10 @@ Workload workload_of_numbers(const JobRequest& request) {
   if (request.sample_extent) require_positive("sample extent", *request.sample_extent);
   check(workload);
   return workload;
+}
+
+std::string_view name_of_numbers(const Workload& workload) {
+  return on_faces(workload) ? "uniform samples on the faces of a cube" : "uniform samples in a cube";
 }
 
 Job make_job(const JobRequest& request) { return JobMaker(request).make(); }

@@ -49,6 +49,9 @@ struct JobRequest {
 /// Throws std::invalid_argument where a number is missing or out of range.
 [[nodiscard]] Workload workload_of_numbers(const JobRequest& request);
 
+/// What the samples of a workload of numbers are called: "uniform samples in a cube", or "… on the faces of a cube".
+[[nodiscard]] std::string_view name_of_numbers(const Workload& workload);
+
 /// Rays and discs, with what is known of them.
 struct Job {
   std::string name;  ///< "@tree", a file, or "uniform samples in a cube"

@@ -48,7 +48,10 @@ double mean_path_length(const sim::Problem& problem, double disc_radius) {
   return segments ? sum / static_cast<double>(problem.rays.size()) : 0;
 }
 
+/// The root of the mean square; exactly the discs' radius where all have the same.
 double rms_radius(std::span<const sim::Disc> discs) {
+  const auto same = [&](const sim::Disc& disc) { return disc.radius == discs.front().radius; };
+  if (std::all_of(discs.begin(), discs.end(), same)) return discs.front().radius;
   double sum = 0;
   for (const sim::Disc& disc : discs) sum += disc.radius * disc.radius;
   return std::sqrt(sum / static_cast<double>(discs.size()));

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -24,8 +25,9 @@ std::string describe(const BenchWorkload& workload) {
 }
 
 Json workload_json(const BenchEntry& entry) {
-  return {{"scene", entry.workload.scene}, {"field", name(entry.workload.field)}, {"rays", entry.workload.rays},
-          {"samples", entry.samples},      {"disc_radius", entry.disc_radius},    {"threads", entry.threads}};
+  return {{"scene", entry.workload.scene},      {"field", name(entry.workload.field)},
+          {"rays", whole(entry.workload.rays)}, {"samples", whole(entry.samples)},
+          {"disc_radius", entry.disc_radius},   {"threads", entry.threads}};
 }
 
 Json parameters_json(const validate::Competitor& competitor) {
@@ -135,17 +137,21 @@ std::string to_text(const BenchResult& bench, const validate::BenchOptions& opti
   return text + summary_text(bench, options) + left_out_text(bench, missing);
 }
 
+/// The best technique of each race is marked: `best` is "ours" or "embree".
 std::string to_csv(const BenchResult& bench) {
-  std::string csv =
-      "scene,field,rays,samples,disc_radius,threads,technique,parameters,seconds,runs,hits,wrong_hits,right_hits_by\n";
+  Table table(Columns{"scene", "field", "rays", "samples", "disc_radius", "threads"} + candidate_columns() +
+              Columns{"call", "coherent", "seconds", "runs", "hits", "wrong_hits", "right_hits_by", "best"});
   for (const BenchEntry& entry : bench.entries)
-    for (const Finish& finish : entry.race.finishes)
-      csv +=
-          fmt::format("{},{},{:g},{:.0f},{:.6g},{},{},\"{}\",{:.6g},{},{},{},{}\n", entry.workload.scene,
-                      name(entry.workload.field), entry.workload.rays, entry.samples, entry.disc_radius, entry.threads,
-                      technique_of(finish.competitor), parameters_of(finish.competitor), finish.median_seconds(),
-                      finish.seconds.size(), finish.hits, finish.wrong_hits, name(entry.judge));
-  return csv;
+    for (const Finish& finish : entry.race.finishes) {
+      Json row = row_json(entry, finish);
+      const Json parameters = row["parameters"];
+      row["parameters"] = parameters_of(finish.competitor);
+      row.update(parameters);
+      if (&finish == entry.best(true)) row["best"] = "ours";
+      if (&finish == entry.best(false)) row["best"] = "embree";
+      table.add(row);
+    }
+  return table.csv();
 }
 
 }  // namespace

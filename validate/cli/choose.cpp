@@ -69,7 +69,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   if (request.numbers_alone() && !options.analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
     decide(answer, costs);
-    result.inputs = to_json(answer.workload);
+    result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
   } else {
     const ProgressLine progress(common);
@@ -93,7 +93,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   answer.costs_given = !options.costs.empty();
   result.json = to_json(answer);
   result.text = to_text(answer);
-  result.csv = to_csv(answer);
+  result.csv = to_csv(answer, result.inputs);
   return result;
 }
 

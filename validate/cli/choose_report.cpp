@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -141,17 +142,46 @@ std::string to_text(const ChooseAnswer& answer) {
   return text;
 }
 
-std::string to_csv(const ChooseAnswer& answer) {
-  std::string csv = "technique,parameters,predicted_tests,predicted_seconds,counted_tests,measured_seconds\n";
-  for (std::size_t place = 0; place < answer.ranking.size(); ++place) {
-    const model::Ranked& ranked = answer.ranking[place];
-    csv += fmt::format("{},\"{}\",{},{}", name(ranked.candidate.technique), describe(ranked.candidate.parameters),
-                       tests(ranked.counts), ranked.time.total());
-    const auto* run = analysed(answer, place);
-    csv += run != nullptr && run->counted ? fmt::format(",{}", tests(*run->counted)) : ",";
-    csv += run != nullptr && run->seconds ? fmt::format(",{}\n", *run->seconds) : ",\n";
-  }
-  return csv;
+namespace {
+
+Json cells_of(const model::Ranked& ranked) {
+  Json cells = candidate_cells(ranked.candidate);
+  cells.update(count_cells(ranked.counts, "predicted_"));
+  cells["predicted_seconds"] = ranked.time.total();
+  return cells;
+}
+
+Json cells_of(const ChooseAnswer& answer, std::size_t place) {
+  Json cells = cells_of(answer.ranking[place]);
+  const Json json = candidate_json(answer, place);
+  for (const char* name : {"measured_seconds", "measured_spread", "not_run", "why_not"})
+    if (json.contains(name)) cells[name] = json[name];
+  if (const auto* run = analysed(answer, place); run != nullptr && run->counted)
+    cells.update(count_cells(*run->counted, "counted_"));
+  return cells;
+}
+
+}  // namespace
+
+std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
+  Table table(workload_columns() + Columns{"role"} + candidate_columns() + count_columns("predicted_") +
+              Columns{"predicted_seconds"} + count_columns("counted_") +
+              Columns{"measured_seconds", "measured_spread", "not_run", "why_not", "regret", "rigor", "unit_costs",
+                      "choosing_seconds"});
+  Json shared = workload_cells(inputs);
+  const Json json = to_json(answer);
+  for (const char* name : {"regret", "rigor", "unit_costs", "choosing_seconds"})
+    if (json.contains(name)) shared[name] = json[name];
+  const auto add = [&](const char* role, const Json& cells) {
+    Json row = shared;
+    row["role"] = role;
+    row.update(cells);
+    table.add(row);
+  };
+  for (std::size_t place = 0; place < answer.ranking.size(); ++place)
+    add(place == 0 ? "choice" : "candidate", cells_of(answer, place));
+  add("paper rule", cells_of(answer.paper));
+  return table.csv();
 }
 
 }  // namespace detp::cli

@@ -24,6 +24,8 @@ struct ChooseAnswer {
 
 [[nodiscard]] Json to_json(const ChooseAnswer& answer);
 [[nodiscard]] std::string to_text(const ChooseAnswer& answer);
-[[nodiscard]] std::string to_csv(const ChooseAnswer& answer);
+
+/// A row for each candidate, as ranked, and one for the paper's rule. The workload is taken from the resolved inputs.
+[[nodiscard]] std::string to_csv(const ChooseAnswer& answer, const Json& inputs);
 
 }  // namespace detp::cli

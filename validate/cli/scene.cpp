@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "command.hpp"
 #include "detp/sim/scene/disc_file.hpp"
 #include "detp/sim/scene/mesh_writer.hpp"
 #include "detp/sim/scene/ray_file.hpp"
+#include "table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -26,11 +28,26 @@ void write_mesh(const std::string& path, const validate::JobRequest& request) {
   sim::write_ply(path, scene.mesh);
 }
 
-std::string csv_of(const Json& json) {
-  std::string csv = "name,value\n";
-  for (const auto& [key, value] : json.items())
-    if (value.is_number()) csv += fmt::format("{},{}\n", key, value.dump());
-  return csv;
+/// One row: the workload, what is measured of it, and "finite_paths", "finite_paths_evidence" of each effect.
+std::string csv_of(const Json& inputs, const Json& json) {
+  Columns columns{"triangles", "box_x", "box_y", "box_z", "distance_over_radius", "read_seconds"};
+  Json row = workload_cells(inputs);
+  row.update({{"triangles", json["triangles"]},
+              {"box_x", json["box"][0]},
+              {"box_y", json["box"][1]},
+              {"box_z", json["box"][2]},
+              {"distance_over_radius", json["distance_over_radius"]},
+              {"read_seconds", json["read_seconds"]}});
+  for (const Json& effect : json["effects"]) {
+    std::string name = effect["name"];
+    std::replace(name.begin(), name.end(), ' ', '_');
+    columns = columns + Columns{name, name + "_evidence"};
+    row[name] = effect["on"];
+    row[name + "_evidence"] = effect["evidence"];
+  }
+  Table table(workload_columns() + columns);
+  table.add(row);
+  return table.csv();
 }
 
 Result run_scene(const SceneOptions& options, const CommonOptions& common) {
@@ -62,7 +79,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common) {
       describe(job) +
       fmt::format("box       {:.5g} x {:.5g} x {:.5g}, r0 = {:.5g}\nsamples   {:.4g} apart, dimension {:.2f}\n",
                   w.box[0], w.box[1], w.box[2], w.sphere_radius, sample_distance(w), w.dimension);
-  result.csv = csv_of(result.json);
+  result.csv = csv_of(result.inputs, result.json);
   return result;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "workload_options.hpp"
+
 namespace detp::cli {
 namespace {
 
@@ -50,27 +52,38 @@ std::string to_text(const std::vector<DeviationSummary>& summaries) {
   return text;
 }
 
-std::string to_csv(const std::vector<Deviation>& deviations) {
-  std::string csv =
-      "dimension,samples,disc_share,technique,parameters,quantity,sphere,tier,predicted,observed,standard_error,"
-      "deviation\n";
-  for (const Deviation& row : deviations)
-    csv += fmt::format("{},{:g},{:g},{},\"{}\",{},{},{},{:.6g},{:.6g},{:.2g},{:.4f}\n", row.dimension, row.samples,
-                       row.disc_share, row.technique, row.parameters, row.quantity, row.sphere, row.tier, row.predicted,
-                       row.observed.mean, row.observed.standard_error, row.relative());
-  return csv;
+/// A row beside those of the claims, under their names where they mean the same.
+Json cells_of(const Deviation& row) {
+  Json cells{{"scene", row.dimension == 3 ? "uniform samples in a cube" : "uniform samples on the faces of a cube"},
+             {"field", name(sim::Field::isotropic)},
+             {"samples", whole(row.samples)},
+             {"dimension", row.dimension},
+             {"id", fmt::format("sweep-{}.{}", row.technique, row.tier)},
+             {"quantity", row.quantity},
+             {"form", row.tier},
+             {"predicted", row.predicted},
+             {"observed", row.observed.mean},
+             {"standard_error", row.observed.standard_error},
+             {"relative_difference", row.observed.mean / row.predicted - 1},
+             {"technique", row.technique},
+             {"parameters", row.parameters},
+             {"disc_share", row.disc_share}};
+  if (row.sphere > 0) cells["i"] = row.sphere;
+  return cells;
 }
 
 }  // namespace
 
-void report_sweep(const validate::SweepResult& sweep, Result& result) {
+Columns sweep_columns() { return {"technique", "parameters", "disc_share", "i"}; }
+
+void report_sweep(const validate::SweepResult& sweep, Table& table, Result& result) {
   const auto summaries = validate::summarise(sweep.deviations);
   Json& json = result.json["sweep"];
   json = {{"points", sweep.points}, {"measured", sweep.measured}, {"resumed", sweep.resumed}};
   json["summary"] = Json::array();
   for (const DeviationSummary& summary : summaries) json["summary"].push_back(to_json(summary));
   result.text += fmt::format("\n{} of {} workloads measured\n", sweep.measured, sweep.points) + to_text(summaries);
-  result.csv = to_csv(sweep.deviations);
+  for (const Deviation& row : sweep.deviations) table.add(cells_of(row));
 }
 
 }  // namespace detp::cli

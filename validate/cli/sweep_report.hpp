@@ -2,11 +2,15 @@
 
 #include "command.hpp"
 #include "detp/validate/sweep/sweep.hpp"
+#include "table.hpp"
 
 namespace detp::cli {
 
+/// Columns of a comparison beside those of a claim.
+[[nodiscard]] Columns sweep_columns();
+
 /// Adds a sweep to what a command found: a summary for each quantity ("sweep" in JSON, a table in the text), and every
-/// comparison as CSV.
-void report_sweep(const validate::SweepResult& sweep, Result& result);
+/// comparison as a row of the table.
+void report_sweep(const validate::SweepResult& sweep, Table& table, Result& result);
 
 }  // namespace detp::cli

@@ -47,7 +47,7 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
     experiment.workload = validate::workload_of_numbers(request);
     if (experiment.workload.samples > 1e7)
       throw std::length_error("validate draws 32 sets of samples; at most 1e7 samples are allowed");
-    inputs = to_json(experiment.workload);
+    inputs = numbers_json(experiment.workload);
     inputs["samples_are"] = "uniform";
   } else {
     validate::JobRequest few = request;
@@ -64,9 +64,6 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
 
 /// Null where the number is not known: an error of observations that were all zero.
 Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
-
-/// A field of CSV; empty likewise.
-std::string known_field(double number) { return std::isfinite(number) ? fmt::format("{}", number) : ""; }
 
 Json to_json(const Claim& claim) {
   return {{"id", claim.id},
@@ -128,17 +125,21 @@ std::string summary(const std::vector<Claim>& claims) {
   return text;
 }
 
-std::string to_csv(const std::vector<Claim>& claims) {
-  std::string csv =
-      "id,form,source,predicted,observed,standard_error,relative_difference,tolerance,detectable,verdict,"
-      "control_verdict,lines,seconds\n";
-  for (const Claim& claim : claims)
-    csv += fmt::format("{},{},\"{}\",{},{},{},{},{},{},{},{},{},{}\n", claim.id, name(claim.form), claim.source,
-                       known_field(claim.predicted), known_field(claim.observed.mean),
-                       known_field(claim.observed.standard_error), known_field(claim.relative_difference),
-                       claim.tolerance, known_field(claim.detectable), name(claim.verdict), name(claim.control_verdict),
-                       claim.lines, claim.seconds);
-  return csv;
+Table table_of(const std::vector<Claim>& claims, const Json& inputs) {
+  Table table(workload_columns() +
+              Columns{"id", "quantity", "form", "source", "predicted", "observed", "standard_error",
+                      "relative_difference", "tolerance", "detectable", "verdict", "control_predicted",
+                      "control_verdict", "lines", "seconds"} +
+              sweep_columns());
+  for (const Claim& claim : claims) {
+    Json row = workload_cells(inputs);
+    row.update(to_json(claim));
+    row["control_predicted"] = known(claim.control);
+    row["control_verdict"] = name(claim.control_verdict);
+    row.erase("control");
+    table.add(row);
+  }
+  return table;
 }
 
 ExitCode code_of(const std::vector<Claim>& claims, bool stopped) {
@@ -160,14 +161,14 @@ void check_effort(const ValidateOptions& options, const validate::JobRequest& re
 }
 
 void sweep(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop,
-           const ProgressLine& progress, Result& result) {
+           const ProgressLine& progress, Table& table, Result& result) {
   validate::SweepOptions sweep = options.sweep;
   sweep.seed = common.seed;
   sweep.stop = stop;
   sweep.progress = [&](std::string_view point, double share) { progress.show(point, share); };
   std::vector<validate::SweepPoint> points = validate::sweep_points();
   std::erase_if(points, [&](const validate::SweepPoint& point) { return point.samples > options.most_samples; });
-  report_sweep(validate::run_sweep(points, sweep), result);
+  report_sweep(validate::run_sweep(points, sweep), table, result);
 }
 
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
@@ -182,8 +183,9 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   result.json["claims"] = Json::array();
   for (const Claim& claim : claims) result.json["claims"].push_back(to_json(claim));
   result.text = to_text(claims) + legend(claims) + summary(claims);
-  result.csv = to_csv(claims);
-  if (options.thorough && !stop.stop_requested()) sweep(options, common, stop, progress, result);
+  Table table = table_of(claims, result.inputs);
+  if (options.thorough && !stop.stop_requested()) sweep(options, common, stop, progress, table, result);
+  result.csv = table.csv();
   result.json["stopped"] = stop.stop_requested();
   result.code = code_of(claims, stop.stop_requested());
   return result;

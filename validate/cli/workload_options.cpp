@@ -144,8 +144,8 @@ Json to_json(const Parameters& parameters) {
 }
 
 Json to_json(const Workload& workload) {
-  return {{"rays", workload.rays},
-          {"samples", workload.samples},
+  return {{"rays", whole(workload.rays)},
+          {"samples", whole(workload.samples)},
           {"disc_radius", workload.disc_radius},
           {"sphere_radius", workload.sphere_radius},
           {"scene_side", scene_side(workload)},
@@ -154,6 +154,12 @@ Json to_json(const Workload& workload) {
           {"sample_extent", sample_extent(workload)},
           {"sample_distance", sample_distance(workload)},
           {"path_length", workload.path_length}};
+}
+
+Json numbers_json(const Workload& workload) {
+  Json json{{"scene", validate::name_of_numbers(workload)}, {"field", name(sim::Field::isotropic)}};
+  json.update(to_json(workload));
+  return json;
 }
 
 Json to_json(const validate::Job& job, const validate::JobRequest& request) {

@@ -58,6 +58,12 @@ class CandidateOptions {
 
 [[nodiscard]] Json to_json(const Parameters& parameters);
 [[nodiscard]] Json to_json(const Workload& workload);
+
+/// Resolved inputs of a workload given in numbers alone.
+[[nodiscard]] Json numbers_json(const Workload& workload);
+
+/// A count as JSON writes it: a whole number without a point.
+[[nodiscard]] inline Json whole(double count) { return static_cast<std::int64_t>(count); }
 template <class T>
 [[nodiscard]] Json to_json(const Counts<T>& counts) {
   Json json;
