@@ -5,8 +5,12 @@
 namespace detp::validate {
 namespace {
 
-/// How kind a verdict is: agrees before undecided before refuted.
-int kindness(Verdict verdict) { return verdict == Verdict::agrees ? 2 : (verdict == Verdict::undecided ? 1 : 0); }
+/// The tolerance is a share of the value that is judged: one too large by o is refuted where o - tolerance (1 + o)
+/// exceeds the interval's reach, one too small where o - tolerance (1 - o) does. `away` is 1 or -1.
+double control_offset(const Claim& claim, const Finding& finding, double away) {
+  const double one_count = finding.batches == 0 ? 1 / std::abs(claim.predicted) : 0;
+  return away * (claim.detectable + one_count) / (1 - away * finding.tolerance);
+}
 
 Claim judge_one(const Finding& finding, const Prediction& prediction, double width) {
   const auto verdict_on = [&](double value) { return judge(value, finding.observed, finding.tolerance, width); };
@@ -22,9 +26,9 @@ Claim judge_one(const Finding& finding, const Prediction& prediction, double wid
               .verdict = verdict_on(prediction.value),
               .lines = finding.lines,
               .seconds = finding.seconds};
-  const double more = prediction.value * (1 + control_error);
-  const double less = prediction.value * (1 - control_error);
-  claim.control = kindness(verdict_on(more)) >= kindness(verdict_on(less)) ? more : less;
+  const double away = prediction.value < finding.observed.mean ? -1 : 1;
+  claim.control_offset = control_offset(claim, finding, away);
+  claim.control = prediction.value * (1 + claim.control_offset);
   claim.control_verdict = verdict_on(claim.control);
   return claim;
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -46,22 +47,31 @@ struct Claim {
   double tolerance = 0;
   double detectable = 0;  ///< relative deviation that would have been refuted
   Verdict verdict = Verdict::undecided;
-  double control = 0;  ///< the formula made wrong by 5 %, so as to lie farther from or nearer to the observation, …
-  Verdict control_verdict = Verdict::undecided;  ///< … whichever was judged more kindly: should be refuted
+  /// Relative error of the control, with its sign: the formula made wrong by what is just detectable (and by one count
+  /// more where the observation is exact), away from the observation. Towards it, a formula that is a little off would
+  /// come right.
+  double control_offset = 0;
+  double control = 0;
+  Verdict control_verdict = Verdict::undecided;  ///< should be refuted
   std::uint64_t lines = 0;
   double seconds = 0;
 };
 
+/// What choose was asked about: its predictions are claims too.
+struct ChoiceQuestion {
+  Workload workload;           ///< as choose measures it
+  std::vector<sim::Ray> rays;  ///< at least one
+  bool front_facing = false;   ///< count only rays that arrive at a disc's front
+};
+
 /// What an experiment works on.
 struct Experiment {
-  Workload workload;             ///< what the formulas see
-  std::vector<sim::Disc> discs;  ///< of a scene; empty: new ones are drawn, uniform as the workload says
+  Workload workload;                          ///< what the formulas see; lines
+  std::vector<sim::Disc> discs;               ///< of a scene; empty: new ones are drawn, uniform as the workload says
+  std::optional<ChoiceQuestion> choice = {};  ///< of a scene
   std::uint64_t seed = 1;
   std::stop_token stop = {};
 };
-
-/// The share by which a control is made wrong.
-inline constexpr double control_error = 0.05;
 
 /// Judges all predictions of all findings, with one budget for a false verdict in the whole run.
 [[nodiscard]] std::vector<Claim> judge_all(const std::vector<Finding>& findings, double budget = 1e-3);

@@ -53,6 +53,7 @@ Verdict judge(double predicted, const Estimate& observed, double tolerance, doub
   const double deviation = std::abs(observed.mean - predicted);
   const double reach = width * observed.standard_error;
   const double allowed = tolerance * std::abs(predicted);
+  if (!std::isfinite(reach)) return Verdict::undecided;
   if (deviation + reach <= allowed) return Verdict::agrees;
   return deviation - reach > allowed ? Verdict::refuted : Verdict::undecided;
 }

@@ -26,39 +26,43 @@ struct ValidateOptions {
   validate::SweepOptions sweep;
 };
 
-/// Without a scene: 20 000 samples uniform in a cube of side 2, discs of radius 0.02.
-validate::JobRequest with_defaults(validate::JobRequest request) {
-  if (request.disc_file || request.ray_file || request.front_facing || request.field == sim::Field::photons)
-    throw std::invalid_argument(
-        "validate counts isotropic lines, on a scene or on uniform samples: --discs, --ray-file, "
-        "--front-facing and --field photons do not apply");
+/// By default 20 000 samples uniform in a cube of side 2, discs of radius 0.02.
+validate::Experiment uniform_experiment(validate::JobRequest request, const std::stop_token& stop, Json& inputs) {
+  if (request.front_facing || request.field == sim::Field::photons)
+    throw std::invalid_argument("--front-facing and --field photons take a scene or --discs; numbers alone mean lines");
   if (!request.rays) request.rays = default_lines;
-  request.field = sim::Field::isotropic;
-  if (!request.numbers_alone()) return request;
   if (!request.samples) request.samples = 20'000;
   if (!request.disc_radius) request.disc_radius = validate::Length{0.02};
   if (!request.sphere_radius && !request.scene_side) request.scene_side = 2;
-  return request;
+  validate::Experiment experiment{.workload = validate::workload_of_numbers(request), .discs = {}, .stop = stop};
+  if (experiment.workload.samples > 1e7)
+    throw std::length_error("validate draws 32 sets of samples; at most 1e7 samples are allowed");
+  inputs = numbers_json(experiment.workload);
+  inputs["samples_are"] = "uniform";
+  return experiment;
 }
 
-validate::Experiment make_experiment(const validate::JobRequest& request, const std::stop_token& stop, Json& inputs) {
-  validate::Experiment experiment{.workload = {}, .discs = {}, .seed = request.seed, .stop = stop};
-  if (request.numbers_alone()) {
-    experiment.workload = validate::workload_of_numbers(request);
-    if (experiment.workload.samples > 1e7)
-      throw std::length_error("validate draws 32 sets of samples; at most 1e7 samples are allowed");
-    inputs = numbers_json(experiment.workload);
-    inputs["samples_are"] = "uniform";
-  } else {
-    validate::JobRequest few = request;
-    few.rays = 1;
-    validate::Job job = validate::make_job(few);
-    job.workload.rays = *request.rays;
-    require_count("number of rays", *request.rays, 1, 1e12);
-    inputs = to_json(job, request);
-    experiment.workload = job.workload;
-    experiment.discs = std::move(job.discs);
-  }
+/// The choice's question is what choose would make of the same options. The other claims are on lines: as many as there
+/// are rays, if a number was given.
+validate::Experiment scene_experiment(const validate::JobRequest& request, const CommonOptions& common,
+                                      const std::stop_token& stop, Json& inputs) {
+  validate::Job job = validate::make_job(request);
+  for (const std::string& notice : job.notices) note(common, notice);
+  inputs = to_json(job, request);
+  validate::Experiment experiment{.workload = job.workload, .discs = {}, .stop = stop};
+  experiment.workload.path_length = 0;
+  experiment.workload.rays = request.rays.value_or(default_lines);
+  experiment.choice = {job.workload, std::move(job.rays), job.front_facing};
+  experiment.discs = std::move(job.discs);
+  inputs["lines"] = experiment.workload.rays;
+  return experiment;
+}
+
+validate::Experiment make_experiment(const validate::JobRequest& request, const CommonOptions& common,
+                                     const std::stop_token& stop, Json& inputs) {
+  validate::Experiment experiment = request.numbers_alone() ? uniform_experiment(request, stop, inputs)
+                                                            : scene_experiment(request, common, stop, inputs);
+  experiment.seed = request.seed;
   return experiment;
 }
 
@@ -77,7 +81,10 @@ Json to_json(const Claim& claim) {
           {"tolerance", claim.tolerance},
           {"detectable", known(claim.detectable)},
           {"verdict", name(claim.verdict)},
-          {"control", {{"predicted", known(claim.control)}, {"verdict", name(claim.control_verdict)}}},
+          {"control",
+           {{"offset", known(claim.control_offset)},
+            {"predicted", known(claim.control)},
+            {"verdict", name(claim.control_verdict)}}},
           {"lines", claim.lines},
           {"seconds", claim.seconds}};
 }
@@ -87,24 +94,34 @@ std::string known_text(double number, const char* shape) {
   return std::isfinite(number) ? fmt::format(fmt::runtime(shape), number) : "?";
 }
 
+std::size_t longest_id(const std::vector<Claim>& claims) {
+  std::size_t longest = 0;
+  for (const Claim& claim : claims) longest = std::max(longest, claim.id.size());
+  return longest;
+}
+
 std::string to_text(const std::vector<Claim>& claims) {
-  std::string text = fmt::format("{:<36} {:>11} {:>11} {:>9} {:>8} {:>6} {:>7}  {:<9}  {}\n", "claim", "predicted",
-                                 "observed", "± error", "differs", "within", "detects", "verdict", "5 % off");
+  const std::size_t width = longest_id(claims);
+  std::string text =
+      fmt::format("{:<{}} {:>11} {:>11} {:>9} {:>8} {:>6} {:>7}  {:<9}  {}\n", "claim", width, "predicted", "observed",
+                  "± error", "differs", "within", "detects", "verdict", "control");
   for (const Claim& claim : claims)
-    text += fmt::format("{:<36} {:>11} {:>11} {:>9} {:>7}% {:>5.2g}% {:>6}%  {:<9}  {}\n", claim.id,
+    text += fmt::format("{:<{}} {:>11} {:>11} {:>9} {:>7}% {:>5.2g}% {:>6}%  {:<9}  {:<9} at {}%\n", claim.id, width,
                         known_text(claim.predicted, "{:.5g}"), known_text(claim.observed.mean, "{:.5g}"),
                         known_text(claim.observed.standard_error, "{:.1g}"),
                         known_text(100 * claim.relative_difference, "{:+.2f}"), 100 * claim.tolerance,
-                        known_text(100 * claim.detectable, "{:.2g}"), name(claim.verdict), name(claim.control_verdict));
+                        known_text(100 * claim.detectable, "{:.2g}"), name(claim.verdict), name(claim.control_verdict),
+                        known_text(100 * claim.control_offset, "{:+.2g}"));
   return text;
 }
 
 std::string legend(const std::vector<Claim>& claims) {
+  const std::size_t width = longest_id(claims);
   std::string text = "\n";
   std::string last;
   for (const Claim& claim : claims) {
     const std::string stem = claim.id.substr(0, claim.id.rfind('.'));
-    if (stem != last) text += fmt::format("{:<26} {}\n", stem, claim.quantity);
+    if (stem != last) text += fmt::format("{:<{}} {}\n", stem, width, claim.quantity);
     last = stem;
   }
   return text;
@@ -121,19 +138,22 @@ std::string summary(const std::vector<Claim>& claims) {
                         count(form, Verdict::refuted), count(form, Verdict::undecided));
   const auto controls = std::count_if(claims.begin(), claims.end(),
                                       [](const Claim& claim) { return claim.control_verdict == Verdict::refuted; });
-  text += fmt::format("negative controls: {} of {} formulas made wrong by 5 % were refuted\n", controls, claims.size());
+  text +=
+      fmt::format("negative controls: {} of {} formulas made wrong by little more than is detectable were refuted\n",
+                  controls, claims.size());
   return text;
 }
 
 Table table_of(const std::vector<Claim>& claims, const Json& inputs) {
   Table table(workload_columns() +
               Columns{"id", "quantity", "form", "source", "predicted", "observed", "standard_error",
-                      "relative_difference", "tolerance", "detectable", "verdict", "control_predicted",
-                      "control_verdict", "lines", "seconds"} +
+                      "relative_difference", "tolerance", "detectable", "verdict", "control_offset",
+                      "control_predicted", "control_verdict", "lines", "seconds"} +
               sweep_columns());
   for (const Claim& claim : claims) {
     Json row = workload_cells(inputs);
     row.update(to_json(claim));
+    row["control_offset"] = known(claim.control_offset);
     row["control_predicted"] = known(claim.control);
     row["control_verdict"] = name(claim.control_verdict);
     row.erase("control");
@@ -176,7 +196,7 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   const ProgressLine progress(common);
   Result result;
   const validate::Experiment experiment =
-      make_experiment(with_defaults(options.workload.request(common)), stop, result.inputs);
+      make_experiment(options.workload.request(common), common, stop, result.inputs);
   const auto findings =
       validate::all_findings(experiment, [&](std::string_view next, double done) { progress.show(next, done); });
   const std::vector<Claim> claims = validate::judge_all(findings);

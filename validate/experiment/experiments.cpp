@@ -13,6 +13,7 @@ std::vector<Finding> all_findings(const Experiment& experiment, const Progress& 
     double share;  ///< of the whole time, roughly
   };
   constexpr std::array steps{
+      Step{"predictions of the choice", choice_findings, 0},
       Step{"lines against spheres and discs", line_hit_findings, 0.2}, Step{"sphere cache", sphere_cache_findings, 0.5},
       Step{"hierarchies of spheres", sphere_hierarchy_findings, 0.1}, Step{"index of discs", disc_index_findings, 0.2}};
   std::vector<Finding> findings;

@@ -24,6 +24,10 @@ namespace detp::validate {
 /// Cells per line, ray-disc tests per line of an octree, and the hits of all discs.
 [[nodiscard]] std::vector<Finding> disc_index_findings(const Experiment& experiment);
 
+/// Every count that choose prices, and the hits, of each candidate that it ranks: predicted by model::rank on the
+/// question's workload, counted on its rays and discs. Nothing where there is no question.
+[[nodiscard]] std::vector<Finding> choice_findings(const Experiment& experiment);
+
 /// Called between experiments with what comes next and the share of the work that is done.
 using Progress = std::function<void(std::string_view next, double done)>;
 

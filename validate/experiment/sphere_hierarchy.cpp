@@ -129,19 +129,16 @@ Finding structural_finding(const Subject& subject, const std::vector<SetResult>&
 }  // namespace
 
 std::vector<Finding> sphere_hierarchy_findings(const Experiment& experiment) {
-  // A quarter of the lines: enough for a standard error far below the tolerance.
   const std::size_t lines =
-      std::max<std::size_t>(100, static_cast<std::size_t>(experiment.workload.rays) / (4 * batch_count));
+      std::max<std::size_t>(100, static_cast<std::size_t>(experiment.workload.rays) / batch_count);
   std::vector<Finding> findings;
   for (const Subject& subject : {cell_spheres(experiment.workload), sphere_tree()}) {
     const Clock clock;
     const auto sets = for_each_batch([&](int set) { return run_set(experiment, subject, lines, set); });
     if (experiment.stop.stop_requested()) return {};
     std::vector<Finding> found;
-    if (experiment.discs.empty()) {
-      found.push_back(closed_finding(subject, sets, &Logs::sphere_tests, "sphere"));
-      found.push_back(closed_finding(subject, sets, &Logs::disc_tests, "disc"));
-    }
+    found.push_back(closed_finding(subject, sets, &Logs::sphere_tests, "sphere"));
+    found.push_back(closed_finding(subject, sets, &Logs::disc_tests, "disc"));
     found.push_back(structural_finding(subject, sets, &Logs::sphere_tests, "sphere"));
     found.push_back(structural_finding(subject, sets, &Logs::disc_tests, "disc"));
     for (Finding& finding : found) {

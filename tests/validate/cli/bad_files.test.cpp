@@ -122,7 +122,8 @@ TEST_SUITE("bad input") {
                    {run + words("--field photons"), "scene"},
                    {run + Arguments{"--rays", "5", "--ray-file", rays}, "--rays"},
                    {Arguments{"run", "--ray-file", rays}, "--discs"},
-                   {Arguments{"validate", "--discs", tables.discs}, "--discs"}});
+                   {words("validate --front-facing"), "--front-facing"},
+                   {words("validate --field photons"), "--field photons"}});
   }
 
   TEST_CASE("results that cannot be written are told, and nothing is left behind") {

@@ -1,10 +1,42 @@
 #include <doctest/doctest.h>
 
+#include <map>
+
 #include "support/command.hpp"
 
 namespace detp::support {
 
 TEST_SUITE("end to end") {
+  TEST_CASE(
+      "on a scene, what choose predicts is claimed beside the closed forms, and exit code 1 says what is refuted") {
+    // Photon paths in a box: choose takes half of the tests and hits for those of isotropic lines.
+    const std::string scene = " @cornell --samples 300 --rays 3200 --disc-radius 4% --format json";
+    const Finished finished = detp("validate" + scene);
+    const Json claims = finished.json().at("claims");
+    std::map<std::string, Json> by_id;
+    bool refuted = false;
+    for (const Json& claim : claims) {
+      by_id[claim.at("id")] = claim;
+      refuted = refuted || (claim.at("form") == "corrected" && claim.at("verdict") == "refuted");
+      for (const char* key : {"source", "tolerance", "standard_error", "detectable", "control"})
+        CHECK(claim.contains(key));
+    }
+    CHECK(finished.code == (refuted ? 1 : 0));
+    CHECK(refuted);
+    for (const Json& candidate : result_of("choose" + scene).at("candidates")) {
+      const std::string technique = candidate.at("technique");
+      CHECK(by_id.at("choice." + technique + ".disc-tests.corrected").at("predicted") ==
+            candidate.at("predicted").at("disc_tests"));
+      CHECK(by_id.at("choice." + technique + ".hits.corrected").at("predicted") ==
+            candidate.at("predicted").at("hits"));
+    }
+    for (const char* id : {"rebuilds", "rebuild-time", "intersect-time", "octree-tests-per-line"})
+      for (const char* form : {".published", ".corrected"}) CHECK(by_id.contains(std::string(id) + form));
+    for (const char* id : {"cell-spheres-sphere-tests", "cell-spheres-disc-tests", "sphere-tree-sphere-tests",
+                           "sphere-tree-disc-tests", "octree-tests-structural", "hits-per-line"})
+      CHECK(by_id.contains(std::string(id) + ".corrected"));
+  }
+
   TEST_CASE("where nothing was hit, what is unknown is left out of JSON and CSV") {
     const std::string sparse = "validate --samples 1 --rays 1";
     const Finished json = detp(sparse + " --format json");
@@ -40,6 +72,28 @@ TEST_SUITE("end to end") {
     CHECK(finished.json().at("stopped") == true);
     CHECK(finished.json().at("claims").is_array());
     CHECK(finished.seconds < 5);
+  }
+}
+
+TEST_SUITE("statistical") {  // for its length
+  TEST_CASE("files of discs and rays are validated, with the rays that are in them") {
+    const sim::support::ScratchFolder folder;
+    const std::string discs = folder.path("discs.csv");
+    const std::string rays = folder.path("rays.csv");
+    REQUIRE(detp("scene @uniform --samples 200 --rays 3200 --disc-radius 6% --quiet --write-discs " + discs +
+                 " --write-rays " + rays)
+                .code == 0);
+    const Finished finished = detp("validate --format json --discs " + discs + " --ray-file " + rays);
+    CHECK((finished.code == 0 || finished.code == 1));
+    const Json json = finished.json();
+    int of_the_choice = 0;
+    for (const Json& claim : json.at("claims"))
+      if (claim.at("id").get<std::string>().starts_with("choice.")) {
+        ++of_the_choice;
+        CHECK(claim.at("lines") == 3200);
+        CHECK(claim.at("verdict") != "refuted");
+      }
+    CHECK(of_the_choice >= 15);
   }
 }
 
