@@ -54,7 +54,7 @@ validate::Experiment scene_experiment(const validate::JobRequest& request, const
   experiment.workload.rays = request.rays.value_or(default_lines);
   experiment.choice = {job.workload, std::move(job.rays), job.front_facing};
   experiment.discs = std::move(job.discs);
-  inputs["lines"] = experiment.workload.rays;
+  inputs["lines"] = whole(experiment.workload.rays);
   return experiment;
 }
 
@@ -127,6 +127,18 @@ std::string legend(const std::vector<Claim>& claims) {
   return text;
 }
 
+/// ", 2 to 10 %,"; empty where it is not known.
+std::string range_of_controls(const std::vector<Claim>& claims) {
+  double least = INFINITY;
+  double most = 0;
+  for (const Claim& claim : claims)
+    if (std::isfinite(claim.control_offset)) {
+      least = std::min(least, std::abs(claim.control_offset));
+      most = std::max(most, std::abs(claim.control_offset));
+    }
+  return least <= most ? fmt::format(", {:.2g} to {:.2g} %,", 100 * least, 100 * most) : "";
+}
+
 std::string summary(const std::vector<Claim>& claims) {
   const auto count = [&](model::Form form, Verdict verdict) {
     return std::count_if(claims.begin(), claims.end(),
@@ -138,9 +150,8 @@ std::string summary(const std::vector<Claim>& claims) {
                         count(form, Verdict::refuted), count(form, Verdict::undecided));
   const auto controls = std::count_if(claims.begin(), claims.end(),
                                       [](const Claim& claim) { return claim.control_verdict == Verdict::refuted; });
-  text +=
-      fmt::format("negative controls: {} of {} formulas made wrong by little more than is detectable were refuted\n",
-                  controls, claims.size());
+  text += fmt::format("negative controls: {} of {} formulas made wrong by what is just detectable{} were refuted\n",
+                      controls, claims.size(), range_of_controls(claims));
   return text;
 }
 

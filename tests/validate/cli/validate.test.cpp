@@ -10,8 +10,8 @@ TEST_SUITE("end to end") {
   TEST_CASE(
       "on a scene, what choose predicts is claimed beside the closed forms, and exit code 1 says what is refuted") {
     // Photon paths in a box: choose takes half of the tests and hits for those of isotropic lines.
-    const std::string scene = " @cornell --samples 300 --rays 3200 --disc-radius 4% --format json";
-    const Finished finished = detp("validate" + scene);
+    const std::string scene = " @cornell --samples 300 --rays 3200 --disc-radius 4%";
+    const Finished finished = detp("validate" + scene + " --format json");
     const Json claims = finished.json().at("claims");
     std::map<std::string, Json> by_id;
     bool refuted = false;
