@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "detp/sim/line_field.hpp"
 #include "detp/sim/memory.hpp"
@@ -64,7 +65,7 @@ bool on_faces(const Workload& workload) { return workload.dimension < 2.5; }
 
 class JobMaker {
  public:
-  explicit JobMaker(const JobRequest& request) : request_(request) {}
+  JobMaker(const JobRequest& request, std::stop_token stop) : request_(request), stop_(std::move(stop)) {}
 
   Job make() {
     const auto start = std::chrono::steady_clock::now();
@@ -97,7 +98,7 @@ class JobMaker {
       if (request_.disc_radius && !request_.disc_radius->relative) radius = request_.disc_radius->value;
       if (request_.disc_radius && request_.disc_radius->relative)
         throw std::invalid_argument("with --discs the disc radius must be a length, not a percentage");
-      job_.discs = sim::read_discs(*request_.disc_file, radius);
+      job_.discs = sim::read_discs(*request_.disc_file, radius, stop_);
       job_.name = request_.scene ? job_.name : *request_.disc_file;
     }
     if (job_.discs.empty()) throw std::invalid_argument("rays alone answer nothing: name a scene or --discs FILE");
@@ -107,7 +108,7 @@ class JobMaker {
     std::optional<std::size_t> samples;
     if (request_.samples)
       samples = count_in_memory("samples", *request_.samples, sizeof(sim::Sample) + sizeof(sim::Disc));
-    scene_ = sim::open_scene({*request_.scene, samples, request_.seed});
+    scene_ = sim::open_scene({*request_.scene, samples, request_.seed}, stop_);
     job_.name = scene_->name;
     job_.notices = scene_->notices;
     job_.triangles = scene_->mesh.triangles.size();
@@ -121,7 +122,7 @@ class JobMaker {
   void make_rays() {
     if (request_.ray_file) {
       if (request_.rays) throw std::invalid_argument("--rays is for fields of rays; a ray file is taken whole");
-      job_.rays = sim::read_rays(*request_.ray_file);
+      job_.rays = sim::read_rays(*request_.ray_file, stop_);
       job_.field = sim::Field::photons;
       return;
     }
@@ -173,6 +174,7 @@ class JobMaker {
   }
 
   const JobRequest& request_;
+  std::stop_token stop_;
   std::optional<sim::Scene> scene_;
   SurfaceFacts surface_;
   Job job_;
@@ -223,6 +225,6 @@ std::string_view name_of_numbers(const Workload& workload) {
   return on_faces(workload) ? "uniform samples on the faces of a cube" : "uniform samples in a cube";
 }
 
-Job make_job(const JobRequest& request) { return JobMaker(request).make(); }
+Job make_job(const JobRequest& request, std::stop_token stop) { return JobMaker(request, std::move(stop)).make(); }
 
 }  // namespace detp::validate

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,6 +73,7 @@ struct Job {
 };
 
 /// Opens, makes and measures what was asked for. Throws sim::FileError and std::invalid_argument as the parts do.
-[[nodiscard]] Job make_job(const JobRequest& request);
+/// Reading files throws sim::Stopped within 0.1 s of a stop request.
+[[nodiscard]] Job make_job(const JobRequest& request, std::stop_token stop = {});
 
 }  // namespace detp::validate

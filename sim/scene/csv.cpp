@@ -7,53 +7,34 @@
 #include <utility>
 
 #include "file_error.hpp"
-#include "input_file.hpp"
 #include "number_text.hpp"
+#include "text_lines.hpp"
 
 namespace detp::sim {
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
-/// A field as a message can show it: on one line and not too long.
-std::string shown(std::string_view field) {
-  constexpr std::size_t longest = 30;
-  std::string text(field.substr(0, longest));
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c > 0x7e; }, '?');
-  return '"' + text + (field.size() > longest ? "...\"" : "\"");
-}
-
-std::vector<std::string_view> fields_of(std::string_view line) {
-  std::vector<std::string_view> fields;
-  for (auto count = std::count(line.begin(), line.end(), ',') + 1; count > 0; --count)
-    fields.push_back(trimmed(cut_until(line, ",")));
-  return fields;
-}
-
 class CsvReader {
  public:
-  CsvReader(const std::string& path, const std::vector<TableColumn>& columns, std::string_view content)
-      : content_(content), table_{.path = path, .columns = columns, .values = {}, .lines = {}} {
-    if (content_.starts_with(byte_order_mark)) content_.remove_prefix(byte_order_mark.size());
-    table_.values.resize(columns.size());
-  }
+  CsvReader(const std::string& path, const std::vector<TableColumn>& columns, std::stop_token stop)
+      : file_(path, std::move(stop)), lines_(file_), row_(path, columns) {}
 
-  Table read() {
-    if (!next_line()) throw FileError(table_.path, "is empty; wanted is a header " + known_names());
+  std::size_t read(const TableSink& sink) {
+    if (!next_line()) throw FileError(file_.path(), "is empty; wanted is a header " + known_names());
     read_header();
-    while (next_line()) read_row();
-    for (std::size_t i = 0; i < table_.columns.size(); ++i)
-      if (!is_given(i)) table_.values[i].assign(table_.rows, *table_.columns[i].absent);
-    return std::move(table_);
+    for (std::size_t i = 0; i < row_.columns().size(); ++i)
+      if (!is_given(i)) row_.set(i, *row_.columns()[i].absent);
+    std::size_t rows = 0;
+    for (; next_line(); ++rows) {
+      read_row();
+      sink(row_);
+    }
+    return rows;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const { throw FileError(table_.path, line_number_, what); }
-
   [[nodiscard]] std::string known_names() const {
     std::vector<std::string_view> names;
-    for (const TableColumn& column : table_.columns) names.push_back(column.name);
+    for (const TableColumn& column : row_.columns()) names.push_back(column.name);
     return fmt::format("{}", fmt::join(names, ","));
   }
 
@@ -63,60 +44,61 @@ class CsvReader {
 
   /// To the next line that is not blank; false at the end.
   bool next_line() {
-    while (!content_.empty()) {
-      line_ = cut_until(content_, "\n");
-      if (line_.ends_with('\r')) line_.remove_suffix(1);
-      ++line_number_;
-      if (!trimmed(line_).empty()) return true;
-    }
+    while (lines_.next())
+      if (!trimmed(lines_.line()).empty()) return true;
     return false;
   }
 
+  static std::size_t fields_in(std::string_view line) {
+    return static_cast<std::size_t>(std::count(line.begin(), line.end(), ',')) + 1;
+  }
+
   void read_header() {
-    for (const std::string_view name : fields_of(line_)) {
-      const auto known = std::find_if(table_.columns.begin(), table_.columns.end(),
+    std::string_view line = lines_.line();
+    for (std::size_t fields = fields_in(line); fields > 0; --fields) {
+      const std::string_view name = trimmed(cut_until(line, ","));
+      const auto known = std::find_if(row_.columns().begin(), row_.columns().end(),
                                       [name](const TableColumn& column) { return column.name == name; });
-      if (known == table_.columns.end())
-        fail(fmt::format("unknown column {}; known are {}", shown(name), known_names()));
-      const auto column = static_cast<std::size_t>(known - table_.columns.begin());
-      if (is_given(column)) fail(fmt::format("column {} is there twice", name));
+      if (known == row_.columns().end())
+        lines_.fail(fmt::format("unknown column {}; known are {}", quoted(name), known_names()));
+      const auto column = static_cast<std::size_t>(known - row_.columns().begin());
+      if (is_given(column)) lines_.fail(fmt::format("column {} is there twice", name));
       order_.push_back(column);
     }
-    for (std::size_t i = 0; i < table_.columns.size(); ++i)
-      if (!is_given(i) && !table_.columns[i].absent)
-        fail(fmt::format("the header has no column {}{}; known are {}", table_.columns[i].name,
-                         table_.columns[i].remedy, known_names()));
+    for (std::size_t i = 0; i < row_.columns().size(); ++i)
+      if (!is_given(i) && !row_.columns()[i].absent)
+        lines_.fail(fmt::format("the header has no column {}{}; known are {}", row_.columns()[i].name,
+                                row_.columns()[i].remedy, known_names()));
   }
 
   void read_row() {
-    const std::vector<std::string_view> fields = fields_of(line_);
-    if (fields.size() != order_.size())
-      fail(fmt::format("{} fields, but the header has {} columns", fields.size(), order_.size()));
-    for (std::size_t i = 0; i < fields.size(); ++i)
-      table_.values[order_[i]].push_back(number(table_.columns[order_[i]], fields[i]));
-    table_.lines.push_back(line_number_);
-    ++table_.rows;
+    std::string_view line = lines_.line();
+    const std::size_t fields = fields_in(line);
+    if (fields != order_.size())
+      lines_.fail(fmt::format("{} fields, but the header has {} columns", fields, order_.size()));
+    for (const std::size_t column : order_)
+      row_.set(column, number(row_.columns()[column], trimmed(cut_until(line, ","))));
+    row_.place(lines_.number());
   }
 
   [[nodiscard]] double number(const TableColumn& column, std::string_view field) const {
     if (field.empty() && column.empty) return *column.empty;
-    if (field.empty()) fail(fmt::format("{} is empty; a number is needed", column.name));
+    if (field.empty()) lines_.fail(fmt::format("{} is empty; a number is needed", column.name));
     if (const auto value = number_in(field)) return *value;
-    fail(fmt::format("{} is {}, which is not a number", column.name, shown(field)));
+    lines_.fail(fmt::format("{} is {}, which is not a number", column.name, quoted(field)));
   }
 
-  std::string_view content_;
-  std::string_view line_;
-  std::size_t line_number_ = 0;
+  InputFile file_;
+  TextLines lines_;
   std::vector<std::size_t> order_;  ///< of the file's columns: their places among the known ones
-  Table table_;
+  TableRow row_;
 };
 
 }  // namespace
 
-Table read_csv(const std::string& path, const std::vector<TableColumn>& columns) {
-  const std::string content = read_file(path);
-  return CsvReader(path, columns, content).read();
+std::size_t read_csv(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
+                     std::stop_token stop) {
+  return CsvReader(path, columns, std::move(stop)).read(sink);
 }
 
 }  // namespace detp::sim

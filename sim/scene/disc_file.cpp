@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "file_error.hpp"
+#include "kept_memory.hpp"
 #include "output_file.hpp"
 #include "table.hpp"
 #include "unit_vector.hpp"
@@ -12,30 +15,30 @@ namespace {
 
 enum Column : std::size_t { x, y, z, nx, ny, nz, radius };
 
-Disc disc_in(const Table& table, std::size_t row) {
-  const Disc disc{.centre = table.finite_vector(row, x),
-                  .normal = unit_or_zero(table.finite_vector(row, nx)),
-                  .radius = table.finite(row, radius)};
-  if (disc.normal == glm::dvec3{0.0}) table.fail(row, "the normal is zero; it needs a length");
-  if (disc.radius <= 0) table.fail(row, fmt::format("radius must be > 0 and finite (got {})", disc.radius));
+Disc disc_in(const TableRow& row) {
+  const Disc disc{
+      .centre = row.finite_vector(x), .normal = unit_or_zero(row.finite_vector(nx)), .radius = row.finite(radius)};
+  if (disc.normal == glm::dvec3{0.0}) row.fail("the normal is zero; it needs a length");
+  if (disc.radius <= 0) row.fail(fmt::format("radius must be > 0 and finite (got {})", disc.radius));
   return disc;
 }
 
 }  // namespace
 
-std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius) {
-  const Table table =
-      read_table(path, {{"x", {}, {}},
-                        {"y", {}, {}},
-                        {"z", {}, {}},
-                        {"nx", {}, {}},
-                        {"ny", {}, {}},
-                        {"nz", {}, {}},
-                        {"radius", default_radius, default_radius, ", and no default radius is given"}});
-  if (table.rows == 0) throw FileError(path, "holds no disc; at least one is needed");
+std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius, std::stop_token stop) {
   std::vector<Disc> discs;
-  discs.reserve(table.rows);
-  for (std::size_t row = 0; row < table.rows; ++row) discs.push_back(disc_in(table, row));
+  KeptMemory memory(path);
+  read_table(
+      path,
+      {{"x", {}, {}},
+       {"y", {}, {}},
+       {"z", {}, {}},
+       {"nx", {}, {}},
+       {"ny", {}, {}},
+       {"nz", {}, {}},
+       {"radius", default_radius, default_radius, ", and no default radius is given"}},
+      [&](const TableRow& row) { memory.push(discs, disc_in(row)); }, std::move(stop));
+  if (discs.empty()) throw FileError(path, "holds no disc; at least one is needed");
   return discs;
 }
 

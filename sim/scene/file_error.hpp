@@ -4,15 +4,18 @@
 #include <stdexcept>
 #include <string>
 
+#include "detp/model/vocabulary/quoted.hpp"
+
 namespace detp::sim {
 
 /// A file that cannot be read or written, or that does not hold what it should. One line: where, what is wrong, what
-/// would be right: "rays.csv:17: direction is zero; a direction needs a length".
+/// would be right: "rays.csv:17: direction is zero; a direction needs a length". What it quotes of a file must be
+/// quoted() or escaped().
 class FileError : public std::runtime_error {
  public:
-  FileError(const std::string& path, const std::string& what) : std::runtime_error(path + ": " + what) {}
+  FileError(const std::string& path, const std::string& what) : std::runtime_error(shown_path(path) + ": " + what) {}
   FileError(const std::string& path, std::size_t line, const std::string& what)
-      : std::runtime_error(path + ":" + std::to_string(line) + ": " + what) {}
+      : std::runtime_error(shown_path(path) + ":" + std::to_string(line) + ": " + what) {}
 };
 
 }  // namespace detp::sim

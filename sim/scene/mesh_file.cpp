@@ -1,9 +1,12 @@
 #include "mesh_file.hpp"
 
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "file_error.hpp"
 #include "input_file.hpp"
+#include "kept_memory.hpp"
 #include "obj_file.hpp"
 #include "ply.hpp"
 
@@ -14,58 +17,74 @@ bool is_finite(const glm::dvec3& vector) {
   return std::isfinite(vector.x) && std::isfinite(vector.y) && std::isfinite(vector.z);
 }
 
-/// Three columns as vectors; none where the file lacks one of them.
-std::vector<glm::dvec3> vectors(const PlyRows& rows, const std::array<const char*, 3>& names) {
-  std::array<const PlyColumn*, 3> columns{};
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    columns[axis] = rows.column(names[axis]);
-    if (columns[axis] == nullptr) return {};
-  }
-  std::vector<glm::dvec3> result;
-  result.reserve(rows.rows);
-  for (std::size_t i = 0; i < rows.rows; ++i)
-    result.emplace_back(columns[0]->values[i], columns[1]->values[i], columns[2]->values[i]);
-  return result;
-}
-
-std::uint32_t checked_index(const std::string& path, std::size_t face, double index, std::size_t vertices) {
+std::uint32_t checked_index(const std::string& path, std::uint64_t face, double index, std::uint64_t vertices) {
   if (index >= 0 && index < static_cast<double>(vertices) && index <= UINT32_MAX && std::floor(index) == index)
     return static_cast<std::uint32_t>(index);
   throw FileError(path, "face " + std::to_string(face + 1) +
                             ": index out of range; wanted are whole numbers from 0 to " + std::to_string(vertices - 1));
 }
 
-void add_faces(Mesh& mesh, const std::string& path, const PlyColumn& lists) {
-  std::size_t begin = 0;
-  for (std::size_t face = 0; face < lists.ends.size(); ++face) {
-    const std::size_t end = lists.ends[face];
-    if (end - begin < 3) throw FileError(path, "face " + std::to_string(face + 1) + ": needs at least 3 corners");
-    const auto corner = [&](std::size_t i) {
-      return checked_index(path, face, lists.values[i], mesh.positions.size());
-    };
-    for (std::size_t i = begin + 2; i < end; ++i) mesh.triangles.push_back({corner(begin), corner(i - 1), corner(i)});
-    begin = end;
-  }
+/// The places of three properties; none where the element lacks one of them.
+std::vector<std::size_t> places_of(const PlyElement& element, const std::array<const char*, 3>& names) {
+  std::vector<std::size_t> places;
+  for (const char* name : names)
+    if (const auto place = element.property(name, false)) places.push_back(*place);
+  return places.size() == names.size() ? places : std::vector<std::size_t>{};
 }
 
-Mesh read_ply_mesh(const std::string& path) {
-  const auto elements =
-      read_ply(path, {{"vertex", {"x", "y", "z", "nx", "ny", "nz"}}, {"face", {"vertex_indices", "vertex_index"}}});
-  Mesh mesh;
-  if (const auto vertex = elements.find("vertex"); vertex != elements.end()) {
-    mesh.positions = vectors(vertex->second, {"x", "y", "z"});
-    mesh.normals = vectors(vertex->second, {"nx", "ny", "nz"});
+class PlyMeshReader {
+ public:
+  PlyMeshReader(const std::string& path, std::stop_token stop)
+      : path_(path), file_(path, std::move(stop)), memory_(path) {}
+
+  Mesh read() {
+    std::vector<PlyWish> wishes{vertex_wish()};
+    if (const PlyElement* face = file_.element("face")) wishes.push_back(face_wish(*face));
+    file_.read(wishes);
+    return std::move(mesh_);
   }
-  if (mesh.positions.empty()) throw FileError(path, "has no element vertex with the properties x, y and z");
-  const auto face = elements.find("face");
-  if (face == elements.end()) return mesh;
-  for (const char* name : {"vertex_indices", "vertex_index"})
-    if (const PlyColumn* lists = face->second.column(name, true)) {
-      add_faces(mesh, path, *lists);
-      return mesh;
-    }
-  throw FileError(path, "its element face has no list vertex_indices");
-}
+
+ private:
+  PlyWish vertex_wish() {
+    const PlyElement* vertex = file_.element("vertex");
+    if (vertex != nullptr) vertices_ = vertex->rows;
+    PlyWish wish{.element = "vertex", .properties = {}, .take = {}};
+    if (vertices_ > 0) wish.properties = places_of(*vertex, {"x", "y", "z"});
+    if (wish.properties.empty())
+      throw FileError(path_, "has no element vertex with the properties x, y and z, or no vertex");
+    const std::vector<std::size_t> normal = places_of(*vertex, {"nx", "ny", "nz"});
+    wish.properties.insert(wish.properties.end(), normal.begin(), normal.end());
+    wish.take = [this, has_normals = !normal.empty()](std::uint64_t row, const PlyValues& values) {
+      if (row == 0) memory_.reserve(mesh_.positions, vertices_);
+      if (row == 0 && has_normals) memory_.reserve(mesh_.normals, vertices_);
+      memory_.push(mesh_.positions, {values[0][0], values[1][0], values[2][0]});
+      if (has_normals) memory_.push(mesh_.normals, {values[3][0], values[4][0], values[5][0]});
+    };
+    return wish;
+  }
+
+  PlyWish face_wish(const PlyElement& face) {
+    for (const char* name : {"vertex_indices", "vertex_index"})
+      if (const auto place = face.property(name, true))
+        return {.element = "face", .properties = {*place}, .take = [this](std::uint64_t row, const PlyValues& values) {
+                  add_face(row, values[0]);
+                }};
+    throw FileError(path_, "its element face has no list vertex_indices");
+  }
+
+  void add_face(std::uint64_t face, const std::vector<double>& corners) {
+    if (corners.size() < 3) throw FileError(path_, "face " + std::to_string(face + 1) + ": needs at least 3 corners");
+    const auto corner = [&](std::size_t i) { return checked_index(path_, face, corners[i], vertices_); };
+    for (std::size_t i = 2; i < corners.size(); ++i)
+      memory_.push(mesh_.triangles, {corner(0), corner(i - 1), corner(i)});
+  }
+
+  const std::string& path_;
+  PlyFile file_;
+  KeptMemory memory_;
+  Mesh mesh_;
+  std::uint64_t vertices_ = 0;  ///< that the header promises
+};
 
 /// Refuses vectors that are not finite and that a face uses.
 void check_used(const Mesh& mesh, const std::vector<glm::dvec3>& vectors, const std::string& path,
@@ -89,10 +108,10 @@ std::size_t reset_not_finite(std::vector<glm::dvec3>& vectors) {
 
 }  // namespace
 
-Mesh read_mesh(const std::string& path, Notices& notices) {
+Mesh read_mesh(const std::string& path, Notices& notices, std::stop_token stop) {
   const bool is_ply = has_ending(path, ".ply");
   if (!is_ply && !has_ending(path, ".obj")) throw FileError(path, "is no mesh file: its name must end in .obj or .ply");
-  Mesh mesh = is_ply ? read_ply_mesh(path) : read_obj(path);
+  Mesh mesh = is_ply ? PlyMeshReader(path, std::move(stop)).read() : read_obj(path, notices, std::move(stop));
   if (mesh.triangles.empty()) throw FileError(path, "has no faces; a mesh needs at least one");
   check_used(mesh, mesh.positions, path, "position");
   if (!mesh.normals.empty()) check_used(mesh, mesh.normals, path, "normal");

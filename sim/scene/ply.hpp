@@ -2,38 +2,46 @@
 
 #include <cstdint>
 #include <functional>
-#include <map>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "input_file.hpp"
+#include "ply_header.hpp"
+
 /// PLY files: ascii, binary of both byte orders, all number types, lists.
 namespace detp::sim {
 
-/// The values of one property. All types of PLY fit a double exactly.
-struct PlyColumn {
-  std::vector<double> values;
-  std::vector<std::size_t> ends;  ///< of a list: where in `values` each row's entries end; empty for single numbers
-  bool is_list = false;
+/// Of one row, the entries of each wanted property: one number, or those of a list. All types of PLY fit a double
+/// exactly.
+using PlyValues = std::vector<std::vector<double>>;
+
+/// What is wanted of an element.
+struct PlyWish {
+  std::string element;
+  std::vector<std::size_t> properties;                                   ///< their places in the element
+  std::function<void(std::uint64_t row, const PlyValues& values)> take;  ///< takes each row, from 0; may throw
 };
 
-/// The wanted columns of one element, by property name.
-struct PlyRows {
-  std::uint64_t rows = 0;
-  std::map<std::string, PlyColumn, std::less<>> columns;
+/// A PLY file, whose rows are handed on one by one.
+class PlyFile {
+ public:
+  /// Opens and reads the header. Throws FileError with the line: unreadable, malformed; and Stopped.
+  explicit PlyFile(const std::string& path, std::stop_token stop = {});
 
-  /// The column of that name if the file has it and it is a list, or not, as asked; else nullptr.
-  [[nodiscard]] const PlyColumn* column(std::string_view name, bool is_list = false) const;
+  /// The element of that name; null if the file has none.
+  [[nodiscard]] const PlyElement* element(std::string_view name) const;
+
+  /// Reads the body, in its order; what is not wanted is read over. Can be called once.
+  ///
+  /// Throws FileError with the element and its row counting from 1 ("vertex 17 of 100"): unreadable, malformed,
+  /// truncated, or an ascii file with more numbers than its header says. Throws Stopped.
+  void read(const std::vector<PlyWish>& wishes);
+
+ private:
+  InputFile file_;
+  PlyHeader header_;
 };
-
-/// Which properties to keep: by element, the names. The rest is read over.
-using PlyWish = std::map<std::string, std::vector<std::string>, std::less<>>;
-
-/// Reads what is wanted of a PLY file: by element name, what the file has of it.
-///
-/// Throws FileError with the line, or with the element and its row counting from 1 ("vertex 17 of 100"): unreadable,
-/// malformed, truncated, or an ascii file with more numbers than its header says. Never takes memory for more than the
-/// file can hold, whatever the header says.
-[[nodiscard]] std::map<std::string, PlyRows, std::less<>> read_ply(const std::string& path, const PlyWish& wish);
 
 }  // namespace detp::sim

@@ -7,6 +7,7 @@
 
 #include "file_error.hpp"
 #include "number_text.hpp"
+#include "text_lines.hpp"
 
 namespace detp::sim {
 namespace {
@@ -27,30 +28,32 @@ constexpr std::array<TypeNames, 8> types{{{"char", "int8", 1},
                                           {"float", "float32", 4},
                                           {"double", "float64", 8}}};
 
+constexpr std::size_t most_bytes = 1 << 18;
+
 class HeaderReader {
  public:
-  HeaderReader(const std::string& path, std::string_view content) : path_(path), content_(content), rest_(content) {}
+  explicit HeaderReader(InputFile& file) : file_(file), lines_(file) {}
 
   PlyHeader read() {
+    if (!file_.fetch(1)) throw FileError(file_.path(), "is empty");
     next_line();
     if (line_ != "ply") fail("is no PLY file, which starts with a line \"ply\"");
+    if (lines_.ended_by_cr_alone()) fail("the lines end in CR alone; a PLY file needs LF or CR LF");
     for (next_line(); line_ != "end_header"; next_line()) read_line();
     if (!has_format_) fail("the header has no format line");
-    header_.size = content_.size() - rest_.size();
+    header_.lines = lines_.number();
+    lines_.finish_line();
     return std::move(header_);
   }
 
  private:
-  [[noreturn]] void fail(const std::string& what) const {
-    throw FileError(path_, std::max<std::size_t>(header_.lines, 1), what);
-  }
+  [[noreturn]] void fail(const std::string& what) const { lines_.fail(what); }
 
   void next_line() {
-    if (rest_.empty()) fail("the header ends early, without a line \"end_header\"");
-    line_ = cut_until(rest_, "\n");
-    if (line_.ends_with('\r')) line_.remove_suffix(1);
-    line_ = trimmed(line_);
-    ++header_.lines;
+    if (!lines_.next()) fail("the header ends early, without a line \"end_header\"");
+    line_ = trimmed(lines_.line());
+    bytes_ += lines_.line().size() + 1;
+    if (bytes_ > most_bytes) fail("the header is longer than " + std::to_string(most_bytes) + " bytes");
   }
 
   void read_line() {
@@ -91,7 +94,7 @@ class HeaderReader {
     if (count.empty() || stop != count.data() + count.size() || error != std::errc{})
       fail("wanted is \"element NAME COUNT\", the count a whole number >= 0");
     for (const PlyElement& element : header_.elements)
-      if (element.name == name) fail("a second element \"" + name + "\"");
+      if (element.name == name) fail("a second element " + quoted(name));
     header_.elements.push_back({.name = name, .rows = rows, .properties = {}});
   }
 
@@ -108,20 +111,20 @@ class HeaderReader {
     property.name = cut_word(words);
     if (property.name.empty()) fail("a property without a name");
     for (const PlyProperty& other : header_.elements.back().properties)
-      if (other.name == property.name) fail("a second property \"" + property.name + "\" of the same element");
+      if (other.name == property.name) fail("a second property " + quoted(property.name) + " of the same element");
     header_.elements.back().properties.push_back(std::move(property));
   }
 
   [[nodiscard]] PlyType type_named(std::string_view name) const {
     for (std::size_t i = 0; i < types.size(); ++i)
       if (name == types[i].old_name || name == types[i].sized_name) return static_cast<PlyType>(i);
-    fail("\"" + std::string(name) + "\" is no type; known are char, uchar, short, ushort, int, uint, float, double");
+    fail(quoted(name) + " is no type; known are char, uchar, short, ushort, int, uint, float, double");
   }
 
-  const std::string& path_;
-  std::string_view content_;
-  std::string_view rest_;
+  InputFile& file_;
+  TextLines lines_;
   std::string_view line_;
+  std::size_t bytes_ = 0;
   PlyHeader header_;
   bool has_format_ = false;
 };
@@ -130,8 +133,12 @@ class HeaderReader {
 
 std::size_t size_of(PlyType type) { return types[static_cast<std::size_t>(type)].size; }
 
-PlyHeader read_ply_header(const std::string& path, std::string_view content) {
-  return HeaderReader(path, content).read();
+std::optional<std::size_t> PlyElement::property(std::string_view wanted, bool list) const {
+  for (std::size_t i = 0; i < properties.size(); ++i)
+    if (properties[i].name == wanted && properties[i].count_type.has_value() == list) return i;
+  return std::nullopt;
 }
+
+PlyHeader read_ply_header(InputFile& file) { return HeaderReader(file).read(); }
 
 }  // namespace detp::sim

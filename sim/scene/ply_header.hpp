@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "input_file.hpp"
+
 /// The header of a PLY file: what its body holds, and how.
 namespace detp::sim {
 
@@ -28,16 +30,19 @@ struct PlyElement {
   std::string name;
   std::uint64_t rows = 0;
   std::vector<PlyProperty> properties;
+
+  /// The place of the property of that name, if the element has it and it is a list, or not, as wanted.
+  [[nodiscard]] std::optional<std::size_t> property(std::string_view wanted, bool list) const;
 };
 
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
-  std::size_t size = 0;   ///< bytes up to the body
   std::size_t lines = 0;  ///< lines up to the body
 };
 
-/// Reads the header at the front of a file's content. Throws FileError with the line.
-[[nodiscard]] PlyHeader read_ply_header(const std::string& path, std::string_view content);
+/// Reads the header at the front of a file, and leaves the file at its body. Throws FileError with the line: malformed,
+/// or longer than 256 KiB; and as TextLines does.
+[[nodiscard]] PlyHeader read_ply_header(InputFile& file);
 
 }  // namespace detp::sim

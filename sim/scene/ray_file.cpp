@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "file_error.hpp"
+#include "kept_memory.hpp"
 #include "output_file.hpp"
 #include "table.hpp"
 #include "unit_vector.hpp"
@@ -12,32 +15,34 @@ namespace {
 
 enum Column : std::size_t { ox, oy, oz, dx, dy, dz, length, power };
 
-Ray ray_in(const Table& table, std::size_t row) {
-  const Ray ray{.origin = table.finite_vector(row, ox),
-                .direction = unit_or_zero(table.finite_vector(row, dx)),
-                .length = table.values[length][row],
-                .power = table.finite(row, power)};
-  if (ray.direction == glm::dvec3{0.0}) table.fail(row, "the direction is zero; it needs a length");
-  if (!(ray.length > 0)) table.fail(row, fmt::format("length must be > 0, or inf for a line (got {})", ray.length));
-  if (ray.power < 0) table.fail(row, fmt::format("power must be >= 0 and finite (got {})", ray.power));
+Ray ray_in(const TableRow& row) {
+  const Ray ray{.origin = row.finite_vector(ox),
+                .direction = unit_or_zero(row.finite_vector(dx)),
+                .length = row[length],
+                .power = row.finite(power)};
+  if (ray.direction == glm::dvec3{0.0}) row.fail("the direction is zero; it needs a length");
+  if (!(ray.length > 0)) row.fail(fmt::format("length must be > 0, or inf for a line (got {})", ray.length));
+  if (ray.power < 0) row.fail(fmt::format("power must be >= 0 and finite (got {})", ray.power));
   return ray;
 }
 
 }  // namespace
 
-std::vector<Ray> read_rays(const std::string& path) {
-  const Table table = read_table(path, {{"ox", {}, {}},
-                                        {"oy", {}, {}},
-                                        {"oz", {}, {}},
-                                        {"dx", {}, {}},
-                                        {"dy", {}, {}},
-                                        {"dz", {}, {}},
-                                        {"length", unbounded, unbounded},
-                                        {"power", 1.0, {}}});
-  if (table.rows == 0) throw FileError(path, "holds no ray; at least one is needed");
+std::vector<Ray> read_rays(const std::string& path, std::stop_token stop) {
   std::vector<Ray> rays;
-  rays.reserve(table.rows);
-  for (std::size_t row = 0; row < table.rows; ++row) rays.push_back(ray_in(table, row));
+  KeptMemory memory(path);
+  read_table(
+      path,
+      {{"ox", {}, {}},
+       {"oy", {}, {}},
+       {"oz", {}, {}},
+       {"dx", {}, {}},
+       {"dy", {}, {}},
+       {"dz", {}, {}},
+       {"length", unbounded, unbounded},
+       {"power", 1.0, {}}},
+      [&](const TableRow& row) { memory.push(rays, ray_in(row)); }, std::move(stop));
+  if (rays.empty()) throw FileError(path, "holds no ray; at least one is needed");
   return rays;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,7 @@ namespace detp::sim {
 ///
 /// length: absent, empty or "inf" means the line unbounded both ways; else > 0 and finite: the segment from the origin.
 /// power: absent means 1; else finite and >= 0. Throws FileError as read_discs does; a zero direction is an error.
-[[nodiscard]] std::vector<Ray> read_rays(const std::string& path);
+[[nodiscard]] std::vector<Ray> read_rays(const std::string& path, std::stop_token stop = {});
 
 /// Writes rays as CSV with the header ox,oy,oz,dx,dy,dz,length,power, in digits that read back to the same doubles.
 void write_rays(const std::string& path, const std::vector<Ray>& rays);

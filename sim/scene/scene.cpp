@@ -1,6 +1,7 @@
 #include "scene.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "built_in/built_in.hpp"
 #include "file_error.hpp"
@@ -33,7 +34,7 @@ const BuiltIn& built_in_named(const std::string& name) {
     if (scene.name == name) return scene;
     known += (known.empty() ? "" : ", ") + scene.name;
   }
-  throw std::invalid_argument("no built-in scene is called " + name + "; there are " + known);
+  throw std::invalid_argument("no built-in scene is called " + shortened(name) + "; there are " + known);
 }
 
 Box box_of(const Scene& scene) {
@@ -81,10 +82,10 @@ Scene built_in_scene(const SceneRequest& request) {
   return scene;
 }
 
-Scene mesh_scene(const SceneRequest& request) {
+Scene mesh_scene(const SceneRequest& request, std::stop_token stop) {
   Scene scene;
   scene.name = request.name;
-  scene.mesh = read_mesh(request.name, scene.notices);
+  scene.mesh = read_mesh(request.name, scene.notices, std::move(stop));
   put_samples(scene, request);
   scene.box = box_of(scene);
   if (scene.box.low != scene.box.high) scene.light = light_for(scene.mesh, scene.box);
@@ -102,9 +103,9 @@ const std::vector<std::string>& built_in_scenes() {
   return names;
 }
 
-Scene open_scene(const SceneRequest& request) {
+Scene open_scene(const SceneRequest& request, std::stop_token stop) {
   if (request.samples == std::size_t{0}) throw std::invalid_argument("a scene needs at least 1 sample (got 0)");
-  return request.name.starts_with('@') ? built_in_scene(request) : mesh_scene(request);
+  return request.name.starts_with('@') ? built_in_scene(request) : mesh_scene(request, std::move(stop));
 }
 
 }  // namespace detp::sim

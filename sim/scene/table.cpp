@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <utility>
 
 #include "csv.hpp"
 #include "file_error.hpp"
@@ -12,43 +13,54 @@
 namespace detp::sim {
 namespace {
 
-Table read_ply_table(const std::string& path, const std::vector<TableColumn>& columns) {
-  PlyWish wish;
-  for (const TableColumn& column : columns) wish["vertex"].emplace_back(column.name);
-  const auto elements = read_ply(path, wish);
-  const auto vertex = elements.find("vertex");
-  if (vertex == elements.end()) throw FileError(path, "has no element vertex");
-  Table table{.path = path, .columns = columns, .values = {}, .lines = {}, .rows = vertex->second.rows};
-  for (const TableColumn& column : columns) {
-    if (const PlyColumn* given = vertex->second.column(column.name))
-      table.values.push_back(given->values);
-    else if (column.absent)
-      table.values.emplace_back(table.rows, *column.absent);
-    else
-      throw FileError(path, fmt::format("its element vertex has no property {}{}", column.name, column.remedy));
+std::size_t read_ply_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
+                           std::stop_token stop) {
+  PlyFile file(path, std::move(stop));
+  const PlyElement* vertex = file.element("vertex");
+  if (vertex == nullptr) throw FileError(path, "has no element vertex");
+  TableRow row(path, columns);
+  PlyWish wish{.element = "vertex", .properties = {}, .take = {}};
+  std::vector<std::size_t> given;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (const auto property = vertex->property(columns[i].name, false)) {
+      wish.properties.push_back(*property);
+      given.push_back(i);
+    } else if (columns[i].absent) {
+      row.set(i, *columns[i].absent);
+    } else {
+      throw FileError(path, fmt::format("its element vertex has no property {}{}", columns[i].name, columns[i].remedy));
+    }
   }
-  return table;
+  wish.take = [&](std::uint64_t number, const PlyValues& values) {
+    for (std::size_t i = 0; i < given.size(); ++i) row.set(given[i], values[i].front());
+    row.place(number + 1, vertex->rows);
+    sink(row);
+  };
+  file.read({wish});
+  return vertex->rows;
 }
 
 }  // namespace
 
-void Table::fail(std::size_t row, const std::string& what) const {
-  if (lines.empty()) throw FileError(path, fmt::format("vertex {} of {}: {}", row + 1, rows, what));
-  throw FileError(path, lines[row], what);
+void TableRow::fail(const std::string& what) const {
+  if (rows_ > 0) throw FileError(path_, fmt::format("vertex {} of {}: {}", number_, rows_, what));
+  throw FileError(path_, number_, what);
 }
 
-double Table::finite(std::size_t row, std::size_t column) const {
-  const double value = values[column][row];
-  if (!std::isfinite(value)) fail(row, fmt::format("{} must be finite (got {})", columns[column].name, value));
+double TableRow::finite(std::size_t column) const {
+  const double value = values_[column];
+  if (!std::isfinite(value)) fail(fmt::format("{} must be finite (got {})", columns_[column].name, value));
   return value;
 }
 
-glm::dvec3 Table::finite_vector(std::size_t row, std::size_t first_column) const {
-  return {finite(row, first_column), finite(row, first_column + 1), finite(row, first_column + 2)};
+glm::dvec3 TableRow::finite_vector(std::size_t first_column) const {
+  return {finite(first_column), finite(first_column + 1), finite(first_column + 2)};
 }
 
-Table read_table(const std::string& path, const std::vector<TableColumn>& columns) {
-  return has_ending(path, ".ply") ? read_ply_table(path, columns) : read_csv(path, columns);
+std::size_t read_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
+                       std::stop_token stop) {
+  return has_ending(path, ".ply") ? read_ply_table(path, columns, sink, std::move(stop))
+                                  : read_csv(path, columns, sink, std::move(stop));
 }
 
 }  // namespace detp::sim

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <glm/vec3.hpp>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,26 +20,47 @@ struct TableColumn {
   std::string_view remedy = {};  ///< what a message about its lack says further: ", and none is given"
 };
 
-/// What such a file holds.
-struct Table {
-  std::string path;
-  std::vector<TableColumn> columns;
-  std::vector<std::vector<double>> values;  ///< by column, then by row
-  std::vector<std::size_t> lines;           ///< by row; empty for PLY
-  std::size_t rows = 0;
+/// One row of such a file.
+class TableRow {
+ public:
+  TableRow(const std::string& path, const std::vector<TableColumn>& columns)
+      : path_(path), columns_(columns), values_(columns.size()) {}
 
-  /// Throws FileError that names the row: by its line, or for PLY by its number among the vertices, from 1.
-  [[noreturn]] void fail(std::size_t row, const std::string& what) const;
+  [[nodiscard]] const std::vector<TableColumn>& columns() const { return columns_; }
+  [[nodiscard]] double operator[](std::size_t column) const { return values_[column]; }
+
+  void set(std::size_t column, double value) { values_[column] = value; }
+
+  /// Where the row is: its line; or in a PLY file its number among `rows` vertices, from 1.
+  void place(std::size_t number, std::size_t rows = 0) {
+    number_ = number;
+    rows_ = rows;
+  }
+
+  /// Throws FileError that names the place.
+  [[noreturn]] void fail(const std::string& what) const;
 
   /// Throws FileError where the number is infinite or NaN.
-  [[nodiscard]] double finite(std::size_t row, std::size_t column) const;
+  [[nodiscard]] double finite(std::size_t column) const;
 
   /// The three columns from the given one on, likewise.
-  [[nodiscard]] glm::dvec3 finite_vector(std::size_t row, std::size_t first_column) const;
+  [[nodiscard]] glm::dvec3 finite_vector(std::size_t first_column) const;
+
+ private:
+  const std::string& path_;
+  const std::vector<TableColumn>& columns_;
+  std::vector<double> values_;
+  std::size_t number_ = 0;
+  std::size_t rows_ = 0;  ///< 0: the number is that of a line
 };
 
-/// Reads a table: PLY where the path ends in .ply, in any case, else CSV. Throws FileError with the line (CSV) or the
-/// vertex (PLY): unreadable, malformed, a column missing; see read_csv and read_ply. A table without rows is none.
-[[nodiscard]] Table read_table(const std::string& path, const std::vector<TableColumn>& columns);
+/// Takes each row as it is read; may throw.
+using TableSink = std::function<void(const TableRow&)>;
+
+/// Reads a table row by row, in bounded memory: PLY where the path ends in .ply, in any case, else CSV. Returns the
+/// number of rows. Throws FileError with the line (CSV) or the vertex (PLY): unreadable, malformed, a column missing;
+/// see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
+std::size_t read_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
+                       std::stop_token stop = {});
 
 }  // namespace detp::sim

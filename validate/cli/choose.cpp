@@ -74,7 +74,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   } else {
     const ProgressLine progress(common);
     progress.show("scene and rays", 0);
-    const validate::Job job = validate::make_job(request);
+    const validate::Job job = validate::make_job(request, stop);
     for (const std::string& notice : job.notices) note(common, notice);
     answer.workload = job.workload;
     decide(answer, costs);

@@ -17,6 +17,7 @@
 #include "detp/model/vocabulary.hpp"
 #include "detp/sim/scene/file_error.hpp"
 #include "detp/sim/scene/output_file.hpp"
+#include "detp/sim/stopped.hpp"
 #include "detp/sim/threads.hpp"
 #include "interruption.hpp"
 
@@ -127,6 +128,8 @@ int main(int argc, char** argv) {
   using namespace detp::cli;
   try {
     return guarded_main(argc, argv);
+  } catch (const detp::sim::Stopped& stopped) {
+    return fail(ExitCode::stopped, stopped.what());
   } catch (const detp::sim::FileError& error) {
     return fail(ExitCode::bad_input, error.what());
   } catch (const std::invalid_argument& error) {

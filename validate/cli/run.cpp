@@ -153,7 +153,7 @@ Result run_run(const RunOptions& options, const CommonOptions& common, const std
   validate::JobRequest request = options.workload.request(common);
   request.stream =
       options.candidate.technique_or(Technique::brute_force) != Technique::photon_map;  // wants all at once
-  const validate::Job job = validate::make_job(request);
+  const validate::Job job = validate::make_job(request, stop);
   for (const std::string& notice : job.notices) note(common, notice);
   const Candidate candidate = complete(options.candidate, job.workload);
   const TimedRun run =

@@ -20,9 +20,9 @@ struct SceneOptions {
   std::optional<std::string> ray_file;
 };
 
-void write_mesh(const std::string& path, const validate::JobRequest& request) {
+void write_mesh(const std::string& path, const validate::JobRequest& request, const std::stop_token& stop) {
   if (!request.scene) throw std::invalid_argument("--write-mesh takes a scene with triangles");
-  const sim::Scene scene = sim::open_scene({*request.scene, std::nullopt, request.seed});
+  const sim::Scene scene = sim::open_scene({*request.scene, std::nullopt, request.seed}, stop);
   if (scene.mesh.triangles.empty())
     throw std::invalid_argument(fmt::format("{} has no triangles to write", scene.name));
   sim::write_ply(path, scene.mesh);
@@ -50,10 +50,10 @@ std::string csv_of(const Json& inputs, const Json& json) {
   return table.csv();
 }
 
-Result run_scene(const SceneOptions& options, const CommonOptions& common) {
+Result run_scene(const SceneOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const validate::JobRequest request = options.workload.request(common);
-  if (options.mesh_file) write_mesh(*options.mesh_file, request);
-  const validate::Job job = validate::make_job(request);
+  if (options.mesh_file) write_mesh(*options.mesh_file, request, stop);
+  const validate::Job job = validate::make_job(request, stop);
   for (const std::string& notice : job.notices) note(common, notice);
   if (options.disc_file) sim::write_discs(*options.disc_file, job.discs);
   if (options.ray_file) sim::write_rays(*options.ray_file, job.rays);
@@ -93,7 +93,9 @@ Command scene_command(CLI::App& program) {
   app->add_option("--write-mesh", options->mesh_file, "write the triangles as PLY");
   app->add_option("--write-discs", options->disc_file, "write the discs as CSV");
   app->add_option("--write-rays", options->ray_file, "write the rays as CSV");
-  return {app, [options](const CommonOptions& common, const std::stop_token&) { return run_scene(*options, common); }};
+  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+            return run_scene(*options, common, stop);
+          }};
 }
 
 }  // namespace detp::cli

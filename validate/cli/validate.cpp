@@ -46,7 +46,7 @@ validate::Experiment uniform_experiment(validate::JobRequest request, const std:
 /// are rays, if a number was given.
 validate::Experiment scene_experiment(const validate::JobRequest& request, const CommonOptions& common,
                                       const std::stop_token& stop, Json& inputs) {
-  validate::Job job = validate::make_job(request);
+  validate::Job job = validate::make_job(request, stop);
   for (const std::string& notice : job.notices) note(common, notice);
   inputs = to_json(job, request);
   validate::Experiment experiment{.workload = job.workload, .discs = {}, .stop = stop};

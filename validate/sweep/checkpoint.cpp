@@ -14,6 +14,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "detp.sweep-checkpoint";
+constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a whole sweep takes less than a hundredth of it
 
 Json to_json(const Deviation& row) {
   return Json::array({row.dimension, row.samples, row.disc_share, row.technique, row.parameters, row.quantity,
@@ -42,7 +43,7 @@ Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t seed, std::uint
 void Checkpoint::read() {
   if (!std::filesystem::exists(path_)) return;
   try {
-    const Json json = Json::parse(sim::read_file(path_.string()));
+    const Json json = Json::parse(sim::read_file(path_.string(), most_bytes));
     if (json.at("schema").at("name") != schema || json.at("schema").at("version") != 1)
       throw sim::FileError(path_.string(), "is no checkpoint of this version; one written by --checkpoint is needed");
     if (json.at("seed") != seed_)

@@ -82,6 +82,39 @@ TEST_SUITE("known answer") {
     CHECK(mesh.positions[0] == glm::dvec3{5400000.8416139996, 0.1, -1e-300});
   }
 
+  TEST_CASE("an OBJ loses nothing to a byte order mark, whatever ends its lines") {
+    const ScratchFolder folder;
+    for (const std::string end : {"\n", "\r\n", "\r"}) {
+      CAPTURE(end);
+      const std::string text = "v 1 0 0" + end + "v 2 0 0" + end + "v 3 1 0" + end + "f 1 2 3" + end;
+      const Mesh mesh = read(folder.file("m.obj", "\xEF\xBB\xBF" + text));
+      REQUIRE(mesh.positions.size() == 3);
+      CHECK(mesh.positions[0] == glm::dvec3{1, 0, 0});
+      CHECK(mesh.triangles.size() == 1);
+    }
+  }
+
+  TEST_CASE("a backslash at the end of an OBJ line joins the next one, but not in a comment") {
+    const ScratchFolder folder;
+    const Mesh mesh = read(folder.file("m.obj",
+                                       "# exported from C:\\models\\\nv 0 \\\n0 \\\r\n 0\nv 1 0 0\\\n 0.5 0.5\n"
+                                       "v 0 1 0\nv 1 1 0\nf 1 2\\\n4 \\\n3\\"));
+    REQUIRE(mesh.positions.size() == 4);
+    CHECK(mesh.positions[1] == glm::dvec3{1, 0, 0});
+    REQUIRE(mesh.triangles.size() == 2);
+    CHECK(mesh.triangles[1] == std::array<std::uint32_t, 3>{0, 3, 2});
+  }
+
+  TEST_CASE("OBJ lines of no known kind are left out with a notice") {
+    const ScratchFolder folder;
+    Notices notices;
+    const Mesh mesh = read_mesh(
+        folder.file("m.obj", "v 0 0 0\nv 1 0 0\n\x1b[2Jv 5 5 5\nv 0 1 0\nmaterial \n#\ng a b\nf 1 2 3\n"), notices);
+    CHECK(mesh.positions.size() == 3);
+    REQUIRE(notices.size() == 1);
+    CHECK(notices[0] == "lines of no kind that OBJ has, left out: 2, the first \"\\x1b[2Jv\" in line 3");
+  }
+
   TEST_CASE("an OBJ polygon may have more than 255 corners") {
     std::string text;
     std::string face = "f";
@@ -172,21 +205,41 @@ TEST_SUITE("bad input") {
   TEST_CASE("a refused OBJ file is told with its line and the reason") {
     const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (const auto& [content, reason] :
-         {std::pair<std::string, const char*>{triangle + "f 1 2 4\n", ":4: vertex 4 is"},
+         {std::pair<std::string, std::string>{triangle + "f 1 2 4\n", ":4: vertex 4 is"},
           {triangle + "f 1 2 0\n", ":4: vertex 0 is"},
           {triangle + "f -4 2 1\n", ":4: vertex -4 is"},
           {triangle + "\r\nf 1//1 2//1 3//1\n", ":5: normal 1 is"},
           {triangle + "vn 0 0 1\rf 1//-2 2 3\n", ":5: normal -2 is"},
           {triangle + "f 1 2\n", ":4: a face needs"},
-          {triangle + "f 1 2 3x\n", ":4: is no face"},
-          {triangle + "f 1 2 4294967299\n", ":4: has an index of 10"},
+          {triangle + "f 1 2 3x\n", ":4: \"3x\" is no corner"},
+          {triangle + "f 1 2 3.5\n", ":4: \"3.5\" is no corner"},
+          {triangle + "f 1 2 3/1/1/1\n", ":4: \"3/1/1/1\" is no corner"},
+          {triangle + "f 1 2 /3\n", ":4: vertex 0 is"},
+          {triangle + "f 1 2 \\ 3\n", ":4: \"\\\" is no corner"},
+          {triangle + "\\\nf 1 2 \\\n9\n", ":4: vertex 9 is"},
+          {triangle + "f 1 2 4294967299\n", ":4: vertex 4294967299 is"},
+          {triangle + "f 1 2 -9223372036854775808\n", ":4: vertex -9223372036854775808 is"},
+          {triangle + "f 1 2 99999999999999999999\n", ":4: an index of \"99999999999999999999\" is out of range"},
+          {"v 0 \x1b[31m 0\n" + triangle, ":1: \"\\x1b[31m\" is not a number"},
+          {"v 0 \xc2\x9b 0\n" + triangle, ":1: \"\\xc2\\x9b\" is not a number"},
+          {"v 0 " + std::string(3'000'000, '1') + "x 0\n", ":1: \"" + std::string(60, '1') + "...\" is not a number"},
+          {std::string("v 0 0 0\nv 1 0 0\0\nv 0 1 0\nf 1 2 3\n", 34), ":2: holds a NUL byte"},
+          {std::string("\xFF\xFEv\0 \0", 6), ": is text in UTF-16"},
+          {"\xEF\xBB\xBF\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ":4: vertex 3 is"},
+          {std::string(300, '\n') + "x\n", ": has no faces"},
           {"v 0 zero 0\n" + triangle + "f 1 2 3\n", ":1: \"zero\" is not"},
           {"v 0 0\n" + triangle + "f 1 2 3\n", ":1: has too few"},
           {"v 0 nan 0\n" + triangle + "f 1 2 3\n", ": vertex 1 (counting from 1)"},
+          {[] {
+             std::string text;
+             for (int i = 0; i < 101; ++i) text += "y\n";
+             return text;
+           }(),
+           ":101: most lines so far are of no kind"},
           {triangle, ": has no faces"},
           {"", ": has no faces"}}) {
-      CAPTURE(content);
-      CHECK_MESSAGE(refusal("m.obj", content).find(std::string("m.obj") + reason) != std::string::npos,
+      CAPTURE(content.substr(0, 200));
+      CHECK_MESSAGE(refusal("m.obj", content).find("m.obj" + reason) != std::string::npos,
                     refusal("m.obj", content));
     }
   }

@@ -6,6 +6,8 @@
 #include <array>
 #include <bit>
 #include <cstdint>
+#include <stop_token>
+#include <utility>
 
 #include "support/scratch_file.hpp"
 
@@ -14,7 +16,26 @@ using support::ScratchFolder;
 
 namespace {
 
-const PlyWish wish{{"thing", {"a", "b", "c", "d", "e", "f", "g", "h", "few"}}};
+struct Thing {
+  std::array<std::vector<double>, 9> columns;  ///< by property, then by row; of the list the entries of all rows
+  std::vector<std::size_t> ends;               ///< of the list, by row
+};
+
+/// The element "thing", all of its properties.
+Thing read_thing(const std::string& path, std::stop_token stop = {}) {
+  PlyFile file(path, std::move(stop));
+  Thing thing;
+  PlyWish wish{.element = "thing", .properties = {}, .take = {}};
+  if (const PlyElement* element = file.element("thing"))
+    for (std::size_t i = 0; i < element->properties.size() && i < 9; ++i) wish.properties.push_back(i);
+  wish.take = [&](std::uint64_t, const PlyValues& values) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      thing.columns[i].insert(thing.columns[i].end(), values[i].begin(), values[i].end());
+    thing.ends.push_back(thing.columns[8].size());
+  };
+  file.read({wish});
+  return thing;
+}
 
 constexpr const char* all_types = R"(comment every type under one of its two names
 obj_info as some scanners write it
@@ -79,32 +100,24 @@ constexpr const char* ascii_body =
 
 void check_values(const std::string& content) {
   const ScratchFolder folder;
-  const auto elements = read_ply(folder.file("t.ply", content), wish);
-  REQUIRE(elements.size() == 1);
-  const PlyRows& rows = elements.at("thing");
-  CHECK(rows.rows == 2);
-  const std::array<std::pair<const char*, std::vector<double>>, 8> expected{{{"a", {-128, 1}},
-                                                                             {"b", {255, 2}},
-                                                                             {"c", {-32768, 3}},
-                                                                             {"d", {65535, 4}},
-                                                                             {"e", {-2147483647, 5}},
-                                                                             {"f", {4294967295, 6}},
-                                                                             {"g", {0.5, 7}},
-                                                                             {"h", {0.1, 8}}}};
-  for (const auto& [name, values] : expected) {
-    CAPTURE(name);
-    REQUIRE(rows.column(name) != nullptr);
-    CHECK(rows.column(name)->values == values);
-  }
-  CHECK(rows.column("few") == nullptr);
-  REQUIRE(rows.column("few", true) != nullptr);
-  CHECK(rows.column("few", true)->values == std::vector<double>{-7, 8});
-  CHECK(rows.column("few", true)->ends == std::vector<std::size_t>{2, 2});
+  const std::string path = folder.file("t.ply", content);
+  const PlyFile file(path);
+  REQUIRE(file.element("thing") != nullptr);
+  CHECK(file.element("thing")->rows == 2);
+  CHECK(file.element("thing")->property("c", false) == 2);
+  CHECK(file.element("thing")->property("few", true) == 8);
+  CHECK(!file.element("thing")->property("few", false));
+  CHECK(file.element("nothing") == nullptr);
+  const Thing thing = read_thing(path);
+  const std::array<std::vector<double>, 9> expected{
+      {{-128, 1}, {255, 2}, {-32768, 3}, {65535, 4}, {-2147483647, 5}, {4294967295, 6}, {0.5, 7}, {0.1, 8}, {-7, 8}}};
+  CHECK(thing.columns == expected);
+  CHECK(thing.ends == std::vector<std::size_t>{2, 2});
 }
 
 std::string refusal(const std::string& content) {
   const ScratchFolder folder;
-  return support::file_error_of([&] { (void)read_ply(folder.file("t.ply", content), wish); });
+  return support::file_error_of([&] { (void)read_thing(folder.file("t.ply", content)); });
 }
 
 }  // namespace
@@ -115,6 +128,8 @@ TEST_SUITE("known answer") {
     check_values(header("binary_little_endian") + binary_body(std::endian::little));
     check_values(header("binary_big_endian") + binary_body(std::endian::big));
   }
+
+  TEST_CASE("a byte order mark in front is accepted") { check_values("\xEF\xBB\xBF" + header("ascii") + ascii_body); }
 
   TEST_CASE("CR LF line ends are accepted") {
     std::string text;
@@ -145,9 +160,17 @@ TEST_SUITE("bad input") {
           {start + "element thing 1\nproperty list float int a\n", ":4: the length of a list"},
           {start + "element thing 1\nproperty float a\nproperty int a\n", ":5: a second property \"a\""},
           {start + "element thing 1\nelement thing 1\n", ":4: a second element"},
-          {start + "elements\n", ":3: is no line of a PLY header"}}) {
-      CAPTURE(content);
-      CHECK_MESSAGE(refusal(content).find(std::string("t.ply") + reason) != std::string::npos, refusal(content));
+          {start + "elements\n", ":3: is no line of a PLY header"},
+          {start + "element thing 1\nproperty \x1b]0;title\x07 a\n", ":4: \"\\x1b]0;title\\x07\" is no type"},
+          {start + "element thing 1\nproperty " + std::string(100'000, 'y') + " a\n", "yyy...\" is no type"},
+          {"ply\rformat ascii 1.0\rend_header\r", ":1: the lines end in CR alone"},
+          {std::string(5000, '\0'), ":1: holds a NUL byte"},
+          {std::string("\xFE\xFF\0p\0l\0y", 8), ": is text in UTF-16"},
+          {start + std::string(400'000, 'c'), ":3: the header is longer than 262144 bytes"}}) {
+      CAPTURE(content.substr(0, 200));
+      const std::string message = refusal(content);
+      CHECK_MESSAGE(message.find(reason) != std::string::npos, message);
+      CHECK(message.find('\x1b') == std::string::npos);
     }
   }
 
@@ -162,7 +185,7 @@ TEST_SUITE("bad input") {
           {list + "1 7\n1.5 8 9\n", "thing 2 of 2 (line 7): its \"few\" has no valid length"},
           {list + "1 7\nnan 8\n", "thing 2 of 2 (line 7): its \"few\" has no valid length"},
           {list + "1 7\n1e9 8\n", "thing 2 of 2 (line 7): the file ends early"}}) {
-      CAPTURE(content);
+      CAPTURE(content.substr(0, 200));
       CHECK_MESSAGE(refusal(content).find(reason) != std::string::npos, refusal(content));
     }
     const std::string whole = binary_body(std::endian::little);
@@ -188,7 +211,7 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("a damaged file is read or refused, never more") {
-    const auto read = [](const std::string& path) { (void)read_ply(path, wish); };
+    const auto read = [](const std::string& path) { (void)read_thing(path); };
     CHECK(support::refused_when_damaged("t.ply", header("ascii") + ascii_body, 3000, read) > 400);
     CHECK(support::refused_when_damaged("t.ply", header("binary_little_endian") + binary_body(std::endian::little),
                                         3000, read) > 400);

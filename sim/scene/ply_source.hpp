@@ -1,0 +1,123 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "input_file.hpp"
+#include "number_text.hpp"
+#include "ply_header.hpp"
+
+/// The numbers of a PLY file's body, one after another.
+namespace detp::sim {
+
+/// Numbers written as text, between any blanks and line ends.
+class PlyText {
+ public:
+  PlyText(InputFile& file, std::size_t lines_before) : file_(file), line_(lines_before + 1) {}
+
+  /// The fewest bytes that a number takes: a digit and a separator.
+  static std::uint64_t least_size(PlyType) { return 2; }
+
+  /// Most bytes that can follow, if known. The last number needs no separator.
+  [[nodiscard]] std::optional<std::uint64_t> rest() const {
+    const auto bytes = file_.rest();
+    return bytes ? std::optional(*bytes + 1) : std::nullopt;
+  }
+
+  /// The next number; nothing at the end of the file or before what is no number.
+  std::optional<double> next(PlyType) {
+    if (at_end()) return std::nullopt;
+    std::size_t size = 0;
+    do {
+      const std::string_view text = file_.ahead();
+      size = std::min(text.find_first_of(blanks, size), text.size());
+    } while (size == file_.ahead().size() && size <= longest_word && file_.fetch(size + 1));
+    if (size > longest_word) return std::nullopt;
+    const auto number = number_in(file_.ahead().substr(0, size));
+    if (number) file_.skip(size);
+    return number;
+  }
+
+  /// Why there was no next number.
+  [[nodiscard]] std::string why_none(const std::string& name) const {
+    return file_.ahead().empty() ? "the file ends early" : "its " + name + " is not a number";
+  }
+
+  /// Skips blanks first.
+  [[nodiscard]] bool at_end() {
+    while (file_.fetch(1)) {
+      const std::string_view text = file_.ahead();
+      const std::size_t skipped = std::min(text.find_first_not_of(blanks), text.size());
+      line_ += static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<long>(skipped), '\n'));
+      file_.skip(skipped);
+      if (!file_.ahead().empty()) return false;
+    }
+    return true;
+  }
+
+  [[nodiscard]] std::string where() const { return " (line " + std::to_string(line_) + ")"; }
+
+ private:
+  static constexpr const char* blanks = " \t\r\n";
+  static constexpr std::size_t longest_word = 4096;
+
+  InputFile& file_;
+  std::size_t line_;
+};
+
+/// Numbers as bytes.
+class PlyBytes {
+ public:
+  PlyBytes(InputFile& file, std::endian order) : file_(file), swapped_(order != std::endian::native) {}
+
+  static std::uint64_t least_size(PlyType type) { return size_of(type); }
+  [[nodiscard]] std::optional<std::uint64_t> rest() const { return file_.rest(); }
+
+  std::optional<double> next(PlyType type) {
+    if (!file_.fetch(size_of(type))) return std::nullopt;
+    switch (type) {
+      case PlyType::int8:
+        return take<std::int8_t>();
+      case PlyType::uint8:
+        return take<std::uint8_t>();
+      case PlyType::int16:
+        return take<std::int16_t>();
+      case PlyType::uint16:
+        return take<std::uint16_t>();
+      case PlyType::int32:
+        return take<std::int32_t>();
+      case PlyType::uint32:
+        return take<std::uint32_t>();
+      case PlyType::float32:
+        return take<float>();
+      case PlyType::float64:
+        return take<double>();
+    }
+    return std::nullopt;
+  }
+
+  [[nodiscard]] static std::string why_none(const std::string&) { return "the file ends early"; }
+
+  /// What follows the last element is no concern of a binary file: many writers end it with a line feed.
+  [[nodiscard]] static bool at_end() { return true; }
+  [[nodiscard]] static std::string where() { return {}; }
+
+ private:
+  template <class Number>
+  double take() {
+    std::array<char, sizeof(Number)> bytes;
+    std::copy_n(file_.ahead().begin(), sizeof(Number), bytes.begin());
+    if (swapped_) std::reverse(bytes.begin(), bytes.end());
+    file_.skip(sizeof(Number));
+    return static_cast<double>(std::bit_cast<Number>(bytes));
+  }
+
+  InputFile& file_;
+  bool swapped_;
+};
+
+}  // namespace detp::sim
