@@ -4,7 +4,7 @@
 #include <type_traits>
 
 #include "detp/sim/embree.hpp"
-#include "facet.hpp"
+#include "distinct_facets.hpp"
 
 namespace detp::sim {
 namespace {
@@ -20,9 +20,9 @@ struct Query {
   RTCIntersectContext context;
   glm::dvec3 origin;
   glm::dvec3 direction;
-  double skipped;  ///< from the origin to where Embree's ray starts
-  std::uint32_t from;
-  std::uint32_t nearest = RTC_INVALID_GEOMETRY_ID;
+  double skipped;                                   ///< from the origin to where Embree's ray starts
+  std::uint32_t from;                               ///< facet, or no_facet
+  std::uint32_t nearest = RTC_INVALID_GEOMETRY_ID;  ///< facet
   double distance = unbounded;
 };
 static_assert(std::is_standard_layout_v<Query>);
@@ -44,14 +44,14 @@ void bound(const RTCBoundsFunctionArguments* arguments) {
 void meet(const RTCIntersectFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   Query& query = *reinterpret_cast<Query*>(arguments->context);
-  const std::uint32_t triangle = arguments->primID;
-  if (triangle == query.from) return;
+  const std::uint32_t facet = arguments->primID;
+  if (facet == query.from) return;
   const double distance =
-      crossing(query.origin, query.direction, static_cast<const Facet*>(arguments->geometryUserPtr)[triangle]);
-  const bool nearer = distance < query.distance || (distance == query.distance && triangle < query.nearest);
+      crossing(query.origin, query.direction, static_cast<const Facet*>(arguments->geometryUserPtr)[facet]);
+  const bool nearer = distance < query.distance || (distance == query.distance && facet < query.nearest);
   if (!nearer || distance == unbounded) return;
   query.distance = distance;
-  query.nearest = triangle;
+  query.nearest = facet;
   // Embree shall still show what lies as far as this to within its own rounding.
   const float limit = static_cast<float>(distance - query.skipped) + distance_slack;
   RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = limit;
@@ -76,17 +76,17 @@ double own_unit(const Box& box) {
 }  // namespace
 
 struct RayCaster::Embree {
-  std::vector<Facet> facets;
+  DistinctFacets distinct;
   embree::Owned<RTCDevice> device{rtcNewDevice(nullptr)};
   embree::Owned<RTCScene> scene;
 
-  explicit Embree(std::vector<Facet> all) : facets(std::move(all)) {
+  explicit Embree(const std::vector<Facet>& all) : distinct(distinct_facets(all)) {
     embree::require_no_error(device);
     scene.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
     const embree::Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
-    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(facets.size()));
-    rtcSetGeometryUserData(geometry.get(), facets.data());
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(distinct.facets.size()));
+    rtcSetGeometryUserData(geometry.get(), distinct.facets.data());
     rtcSetGeometryBoundsFunction(
         geometry.get(), [](const auto* arguments) { bound(arguments); }, nullptr);
     rtcSetGeometryIntersectFunction(geometry.get(), meet);
@@ -102,7 +102,7 @@ RayCaster::RayCaster(const Mesh& mesh, const Box& box) : centre_(box.centre()), 
   facets.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles)
     facets.push_back(make_facet(to_own(mesh.positions[a]), to_own(mesh.positions[b]), to_own(mesh.positions[c])));
-  embree_ = std::make_unique<Embree>(std::move(facets));
+  embree_ = std::make_unique<Embree>(facets);
 }
 
 RayCaster::~RayCaster() = default;
@@ -115,7 +115,7 @@ std::optional<RayCaster::Meeting> RayCaster::first_meeting(const glm::dvec3& ori
               .origin = origin,
               .direction = direction,
               .skipped = skipped,
-              .from = from.value_or(RTC_INVALID_GEOMETRY_ID)};
+              .from = from ? embree_->distinct.places[*from] : no_facet};
   rtcInitIntersectContext(&query.context);
   const glm::vec3 start(origin + skipped * direction);
   const glm::vec3 heading(direction);
@@ -124,7 +124,8 @@ std::optional<RayCaster::Meeting> RayCaster::first_meeting(const glm::dvec3& ori
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree_->scene.get(), &query.context, &ray);
   if (query.nearest == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return Meeting{query.distance, embree_->facets[query.nearest].normal, query.nearest};
+  return Meeting{query.distance, embree_->distinct.facets[query.nearest].normal,
+                 embree_->distinct.triangles[query.nearest]};
 }
 
 }  // namespace detp::sim

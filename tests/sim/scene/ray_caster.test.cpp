@@ -64,6 +64,34 @@ Found first_by_volumes(const Mesh& mesh, const glm::dvec3& origin, const glm::dv
 }  // namespace
 
 TEST_SUITE("known answer") {
+  TEST_CASE("triangles that are there many times are met as if they were there once, as the first of them") {
+    const Mesh once = soup(50, 1.0);
+    Mesh often;
+    often.positions = once.positions;
+    for (int copy = 0; copy < 2000; ++copy)
+      for (const auto& [a, b, c] : once.triangles) {
+        if (copy > 0)
+          often.triangles.push_back(copy % 2 == 0 ? std::array{b, c, a} : std::array{c, b, a});
+        else
+          often.triangles.push_back({a, b, c});
+      }
+    often.triangles.insert(often.triangles.begin() + 50, 100'000, {0, 0, 1});  // without area
+    const RayCaster caster(often, box_of(often));
+    const RayCaster truth(once, box_of(once));
+    for (std::uint64_t i = 0; i < 500; ++i) {
+      const auto random = uniform4(1, Stream::tests, i, 7);
+      const glm::dvec3 origin = caster.to_own(random_point(i, 5));
+      const glm::dvec3 direction = uniform_direction(random[0], random[1]);
+      const auto expected = truth.first_meeting(origin, direction);
+      const auto met = caster.first_meeting(origin, direction);
+      REQUIRE(met.has_value() == expected.has_value());
+      if (!met) continue;
+      CHECK(met->distance == doctest::Approx(expected->distance).epsilon(1e-12));
+      const auto number = met->triangle < 50 ? met->triangle : (met->triangle - 100'000) % 50;
+      CHECK(number == expected->triangle);
+    }
+  }
+
   TEST_CASE("meets the same triangle as a look at all of them, at the same distance, be they large or tiny") {
     for (const double size : {1.0, 0.1, 1e-3}) {
       CAPTURE(size);
