@@ -4,58 +4,28 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
-#include <climits>
-#include <cstdio>
-#include <cstdlib>
 #include <cstring>
-#include <optional>
 
 #include "file_error.hpp"
-#include "number_text.hpp"
+#include "output_place.hpp"
+#include "part_files.hpp"
 
 namespace detp::sim {
 namespace {
 
 constexpr std::size_t buffer_size = 1 << 16;
 
-/// The open descriptor that the path is another name for. Opened anew, /dev/stdout would start at the front of the file
-/// that the shell has directed it to, and overwrite what is there.
-std::optional<int> descriptor_named(std::string_view path) {
-  if (path == "/dev/stdout") return STDOUT_FILENO;
-  if (path == "/dev/stderr") return STDERR_FILENO;
-  for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"})
-    if (path.starts_with(folder))
-      if (const auto number = number_in(path.substr(folder.size())); number && *number >= 0 && *number <= INT_MAX)
-        return static_cast<int>(*number);
-  return std::nullopt;
-}
-
-/// The path with links followed as far as they lead: to the file, or to the place where it is to be.
-std::string followed(const std::string& path) {
-  std::string place = path;
-  for (int links = 0; links < 40; ++links) {
-    char target[PATH_MAX];
-    const ssize_t length = ::readlink(place.c_str(), target, sizeof target);
-    if (length < 0) break;
-    const std::string next(target, static_cast<std::size_t>(length));
-    const std::size_t folder_end = place.rfind('/') + 1;  // 0 where there is none
-    place = next.starts_with('/') ? next : place.substr(0, folder_end) + next;
-  }
-  return place;
-}
-
-/// A name in the same folder that no other writer, here or in another process, takes.
-std::string name_beside(const std::string& target) {
-  static std::atomic<unsigned> last{0};
+/// An open file without a name in the folder of the target; -1 where the system has none, or no way to name it later.
+int open_unnamed(const std::string& target) {
   const std::string folder = target.substr(0, target.rfind('/') + 1);
-  return folder + ".detp-" + std::to_string(::getpid()) + "-" + std::to_string(++last) + ".part";
+  if (::access("/proc/self/fd", X_OK) != 0) return -1;
+  return ::open(folder.empty() ? "." : folder.c_str(), O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666);
 }
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string& path) : path_(path) {
+OutputFile::OutputFile(const std::string& path, Aside aside) : path_(path) {
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (const auto descriptor = descriptor_named(path)) {
@@ -67,7 +37,7 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
   } else {
     // Renaming would replace even a file that must not be written.
     if (exists && ::access(path.c_str(), W_OK) != 0) fail("cannot be written");
-    open_aside();
+    open_aside(aside);
     if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0) fail("cannot be written");
   }
   buffer_.reserve(buffer_size);
@@ -75,14 +45,17 @@ OutputFile::OutputFile(const std::string& path) : path_(path) {
 
 OutputFile::~OutputFile() { discard(); }
 
-void OutputFile::open_aside() {
-  target_ = followed(path_);
-  do {
-    aside_ = name_beside(target_);
-    descriptor_ = ::open(aside_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-  } while (descriptor_ < 0 && errno == EEXIST);
+void OutputFile::open_aside(Aside aside) {
+  const auto target = followed(path_);
+  if (!target) errno = ELOOP;
+  if (!target) fail("cannot be written");
+  target_ = *target;
+  struct stat status {};
+  if (::lstat(target_.c_str(), &status) != 0 && (errno != ENOENT || target_.empty())) fail("cannot be written");
+  if (aside == Aside::unnamed) descriptor_ = open_unnamed(target_);
+  if (descriptor_ < 0) descriptor_ = create_part_file(target_, part_);
   if (descriptor_ >= 0) return;
-  aside_.clear();
+  part_.clear();
   fail("cannot be written");
 }
 
@@ -103,19 +76,29 @@ void OutputFile::flush() {
 
 void OutputFile::commit() {
   flush();
+  if (!target_.empty() && part_.empty()) name_unnamed();
   const int closed = ::close(descriptor_);
   descriptor_ = -1;
   if (closed != 0) fail("cannot be written");
-  if (aside_.empty()) return;
-  if (std::rename(aside_.c_str(), target_.c_str()) != 0) fail("cannot be put in its place");
-  aside_.clear();
+  if (part_.empty()) return;
+  if (!finish_part_file(part_, target_)) fail("cannot be put in its place");
+  part_.clear();
+}
+
+/// A file without a name can be given one that is free; to replace another, it becomes a part file first.
+void OutputFile::name_unnamed() {
+  const std::string link = "/proc/self/fd/" + std::to_string(descriptor_);
+  if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, target_.c_str(), AT_SYMLINK_FOLLOW) == 0) return;
+  if (errno == EEXIST && name_part_file(descriptor_, target_, part_)) return;
+  part_.clear();
+  fail("cannot be put in its place");
 }
 
 void OutputFile::discard() {
   if (descriptor_ >= 0) ::close(descriptor_);
   descriptor_ = -1;
-  if (!aside_.empty()) ::unlink(aside_.c_str());
-  aside_.clear();
+  if (!part_.empty()) remove_part_file(part_);
+  part_.clear();
 }
 
 void OutputFile::fail(const std::string& what) {

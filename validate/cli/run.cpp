@@ -9,6 +9,7 @@
 #include "detp/model/choose.hpp"
 #include "detp/sim/scene/output_file.hpp"
 #include "detp/validate/unit_costs.hpp"
+#include "outputs.hpp"
 #include "timed_run.hpp"
 #include "workload_options.hpp"
 
@@ -102,11 +103,6 @@ void write_text(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-/// Fails before the work is done, not after, where a file cannot be written.
-void require_writable(const std::optional<std::string>& path) {
-  if (path) sim::OutputFile{*path};
-}
-
 Json seconds_json(const Timing& timing, int repeat) {
   Json json{{"total", timing.total()},
             {"prepare", timing.prepare},
@@ -146,8 +142,7 @@ std::string to_text(const validate::Job& job, const Candidate& candidate, const 
 
 Result run_run(const RunOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   require_count("--repeat", options.repeat, 0, 10000);
-  require_writable(options.per_disc);
-  require_writable(options.pairs);
+  check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
   const ProgressLine progress(common);
   progress.show("scene and rays", 0);
   validate::JobRequest request = options.workload.request(common);

@@ -4,9 +4,11 @@
 #include <stdexcept>
 
 #include "command.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/scene/disc_file.hpp"
 #include "detp/sim/scene/mesh_writer.hpp"
 #include "detp/sim/scene/ray_file.hpp"
+#include "outputs.hpp"
 #include "table.hpp"
 #include "workload_options.hpp"
 
@@ -24,7 +26,7 @@ void write_mesh(const std::string& path, const validate::JobRequest& request, co
   if (!request.scene) throw std::invalid_argument("--write-mesh takes a scene with triangles");
   const sim::Scene scene = sim::open_scene({*request.scene, std::nullopt, request.seed}, stop);
   if (scene.mesh.triangles.empty())
-    throw std::invalid_argument(fmt::format("{} has no triangles to write", scene.name));
+    throw std::invalid_argument(fmt::format("{} has no triangles to write", shown_path(scene.name)));
   sim::write_ply(path, scene.mesh);
 }
 
@@ -51,6 +53,10 @@ std::string csv_of(const Json& inputs, const Json& json) {
 }
 
 Result run_scene(const SceneOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  check_outputs({{"--output", common.output},
+                 {"--write-mesh", options.mesh_file},
+                 {"--write-discs", options.disc_file},
+                 {"--write-rays", options.ray_file}});
   const validate::JobRequest request = options.workload.request(common);
   if (options.mesh_file) write_mesh(*options.mesh_file, request, stop);
   const validate::Job job = validate::make_job(request, stop);

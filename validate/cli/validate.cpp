@@ -8,6 +8,7 @@
 
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/experiment/experiments.hpp"
+#include "outputs.hpp"
 #include "sweep_report.hpp"
 #include "workload_options.hpp"
 
@@ -191,19 +192,37 @@ void check_effort(const ValidateOptions& options, const validate::JobRequest& re
   require_count("--most-samples", options.most_samples, 1e3, 1e18);
 }
 
-void sweep(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop,
-           const ProgressLine& progress, Table& table, Result& result) {
-  validate::SweepOptions sweep = options.sweep;
-  sweep.seed = common.seed;
-  sweep.stop = stop;
-  sweep.progress = [&](std::string_view point, double share) { progress.show(point, share); };
+std::vector<validate::SweepPoint> points_of(const ValidateOptions& options) {
   std::vector<validate::SweepPoint> points = validate::sweep_points();
   std::erase_if(points, [&](const validate::SweepPoint& point) { return point.samples > options.most_samples; });
-  report_sweep(validate::run_sweep(points, sweep), table, result);
+  return points;
+}
+
+validate::SweepOptions sweep_options(const ValidateOptions& options, const CommonOptions& common) {
+  validate::SweepOptions sweep = options.sweep;
+  sweep.seed = common.seed;
+  return sweep;
+}
+
+/// Before any work.
+void check_files(const ValidateOptions& options, const CommonOptions& common) {
+  Output checkpoint{"--checkpoint", std::nullopt};
+  if (options.sweep.checkpoint) checkpoint.path = options.sweep.checkpoint->string();
+  check_outputs({{"--output", common.output}, checkpoint});
+  if (options.thorough) validate::check_checkpoint(points_of(options), sweep_options(options, common));
+}
+
+void sweep(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop,
+           const ProgressLine& progress, Table& table, Result& result) {
+  validate::SweepOptions sweep = sweep_options(options, common);
+  sweep.stop = stop;
+  sweep.progress = [&](std::string_view point, double share) { progress.show(point, share); };
+  report_sweep(validate::run_sweep(points_of(options), sweep), table, result);
 }
 
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   check_effort(options, options.workload.request(common));
+  check_files(options, common);
   const ProgressLine progress(common);
   Result result;
   const validate::Experiment experiment =

@@ -41,7 +41,8 @@ Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t seed, std::uint
     : path_(std::move(path)), seed_(seed), fingerprint_(fingerprint) {}
 
 void Checkpoint::read() {
-  if (!std::filesystem::exists(path_)) return;
+  std::error_code unknown;  // what else is wrong, reading tells
+  if (!std::filesystem::exists(path_, unknown) && !unknown) return;
   try {
     const Json json = Json::parse(sim::read_file(path_.string(), most_bytes));
     if (json.at("schema").at("name") != schema || json.at("schema").at("version") != 1)
@@ -54,7 +55,7 @@ void Checkpoint::read() {
     for (const auto& [name, rows] : json.at("points").items())
       for (const Json& row : rows) points_[name].push_back(deviation_of(row));
   } catch (const nlohmann::json::exception& error) {
-    throw sim::FileError(path_.string(), fmt::format("is no checkpoint: {}", error.what()));
+    throw sim::FileError(path_.string(), fmt::format("is no checkpoint: {}", shortened(error.what(), 150)));
   }
 }
 

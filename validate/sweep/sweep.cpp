@@ -28,12 +28,19 @@ std::uint64_t fingerprint(std::span<const SweepPoint> points) {
   return hash;
 }
 
+/// What the options name, read where it is to be resumed.
+std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options) {
+  if (!options.checkpoint) return std::nullopt;
+  Checkpoint checkpoint(*options.checkpoint, options.seed, fingerprint(points));
+  if (options.resume) checkpoint.read();
+  return checkpoint;
+}
+
 /// Where the threads put what they have measured.
 class Collector {
  public:
-  Collector(std::span<const SweepPoint> points, const SweepOptions& options) : points_(points), options_(options) {
-    if (options.checkpoint) checkpoint_.emplace(*options.checkpoint, options.seed, fingerprint(points));
-    if (checkpoint_ && options.resume) checkpoint_->read();
+  Collector(std::span<const SweepPoint> points, const SweepOptions& options)
+      : points_(points), options_(options), checkpoint_(checkpoint_of(points, options)) {
     for (const SweepPoint& point : points) {
       total_ += point.effort();
       if (!checkpoint_ || !checkpoint_->points().contains(point.name())) continue;
@@ -78,6 +85,10 @@ class Collector {
 };
 
 }  // namespace
+
+void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& options) {
+  (void)checkpoint_of(points, options);
+}
 
 SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options) {
   Collector collector(points, options);

@@ -35,4 +35,7 @@ struct SweepResult {
 /// of the sweep, or is malformed: it is left as it is.
 [[nodiscard]] SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options = {});
 
+/// Throws as run_sweep does for the checkpoint that the options name, without any measuring.
+void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& options);
+
 }  // namespace detp::validate

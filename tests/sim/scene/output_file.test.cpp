@@ -3,8 +3,14 @@
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <csignal>
+#include <thread>
+
+#include "detp/sim/scene/output_place.hpp"
+#include "detp/sim/scene/part_files.hpp"
 #include "support/scratch_file.hpp"
 
 using namespace detp::sim;
@@ -33,9 +39,45 @@ TEST_SUITE("known answer") {
     file.write("first ");
     file.write(large);
     CHECK(!std::filesystem::exists(folder.path("out")));
+    CHECK(folder.entries() == 0);  // not even a part of it
     file.commit();
     CHECK(content_of(folder.path("out")) == "first " + large);
     CHECK(folder.entries() == 1);
+  }
+
+  TEST_CASE("where files without a name are not to be had, the part file goes when the writer does") {
+    const ScratchFolder folder;
+    for (const bool committed : {false, true}) {
+      OutputFile file(folder.path("out"), OutputFile::Aside::named);
+      file.write(std::string(200'000, 'x'));
+      CHECK(folder.entries() == 1);
+      CHECK(!std::filesystem::exists(folder.path("out")));
+      if (committed) file.commit();
+    }
+    CHECK(content_of(folder.path("out")) == std::string(200'000, 'x'));
+    CHECK(folder.entries() == 1);
+  }
+
+  TEST_CASE("a program that is killed, or has to end at once, leaves no part file") {
+    const ScratchFolder folder;
+    const std::string existing = folder.file("existing", "old");
+    const auto end_of = [&](OutputFile::Aside aside, const auto& end) {
+      const pid_t child = ::fork();
+      if (child == 0) {
+        OutputFile file(folder.path("out"), aside);
+        OutputFile over(existing, aside);
+        for (OutputFile* each : {&file, &over}) each->write(std::string(200'000, 'x'));
+        end();
+        ::_exit(0);
+      }
+      int status = 0;
+      REQUIRE(::waitpid(child, &status, 0) == child);
+    };
+    end_of(OutputFile::Aside::unnamed, [] { ::raise(SIGKILL); });
+    CHECK(folder.entries() == 1);
+    end_of(OutputFile::Aside::named, [] { remove_all_part_files_for_good(); });
+    CHECK(folder.entries() == 1);
+    CHECK(content_of(existing) == "old");
   }
 
   TEST_CASE("an existing file stays as it was until commit, and keeps its permissions") {
@@ -76,6 +118,39 @@ TEST_SUITE("known answer") {
     CHECK(content_of(folder.path("log")) == "before between after");
   }
 
+  TEST_CASE("a pipe is written directly, and asking whether it can be written does not open it") {
+    const ScratchFolder folder;
+    const std::string path = folder.path("pipe");
+    REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+    require_writable(path);
+    std::string read;
+    std::jthread reader([&] { read = content_of(path); });
+    write_whole(path, "through");
+    reader.join();
+    CHECK(read == "through");
+    CHECK(std::filesystem::is_fifo(path));
+  }
+
+  TEST_CASE("one place is known under all its names") {
+    const ScratchFolder folder;
+    const std::string file = folder.file("file", "");
+    std::filesystem::create_directory(folder.path("inner"));
+    std::filesystem::create_symlink("file", folder.path("link"));
+    std::filesystem::create_symlink("new", folder.path("dangling"));
+    std::filesystem::create_directory_symlink("inner", folder.path("inner-link"));
+    std::filesystem::create_hard_link(file, folder.path("hard"));
+    for (const char* other : {"file", "./file", "link", "inner/../file", "hard", "inner-link/../link"})
+      CHECK(same_place(file, folder.path(other)));
+    for (const char* other : {"new", "inner/../new", "dangling"})
+      CHECK(same_place(folder.path("new"), folder.path(other)));
+    CHECK(same_place(folder.path("inner/x"), folder.path("inner-link/x")));
+    CHECK(!same_place(file, folder.path("new")));
+    CHECK(!same_place(folder.path("new"), folder.path("newer")));
+    CHECK(!same_place(folder.path("new"), folder.path("inner/new")));
+    CHECK(!same_place("/dev/null", "/dev/null"));
+    CHECK(same_place("/dev/stdout", "/dev/fd/1"));
+  }
+
   TEST_CASE("a device is written directly") {
     write_whole("/dev/null", "anything");
     CHECK(std::filesystem::is_character_file("/dev/null"));
@@ -97,6 +172,13 @@ TEST_SUITE("bad input") {
     std::filesystem::create_directory(folder.path("inner"));
     CHECK(refusal(folder.path("inner"), "x").find("cannot be written: Is a directory") != std::string::npos);
     CHECK(refusal("", "x").find("No such file") != std::string::npos);
+    CHECK(refusal(folder.path(std::string(300, 'n')), "x").find("File name too long") != std::string::npos);
+    std::filesystem::create_symlink("b", folder.path("a"));
+    std::filesystem::create_symlink("a", folder.path("b"));
+    CHECK(refusal(folder.path("a"), "x").find("Too many levels of symbolic links") != std::string::npos);
+    CHECK(std::filesystem::is_symlink(folder.path("a")));
+    std::filesystem::remove(folder.path("a"));
+    std::filesystem::remove(folder.path("b"));
     CHECK(folder.entries() == 2);
   }
 
