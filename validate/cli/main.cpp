@@ -1,13 +1,9 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
-#include <algorithm>
 #include <array>
-#include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <fstream>
 #include <limits>
 #include <new>
@@ -20,6 +16,8 @@
 #include "detp/sim/stopped.hpp"
 #include "detp/sim/threads.hpp"
 #include "interruption.hpp"
+#include "messages.hpp"
+#include "outputs.hpp"
 
 namespace detp::cli {
 namespace {
@@ -52,8 +50,8 @@ void print(const std::string& text, const CommonOptions& common) {
     sim::OutputFile file(*common.output);
     file.write(text);
     file.commit();
-  } else if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    throw sim::FileError("standard output", std::strerror(errno));
+  } else {
+    write_result(text);
   }
 }
 
@@ -79,22 +77,18 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads));
   require_non_negative("--time-limit", common.time_limit);
+  check_outputs({{"--output", common.output}});
   interruption.limit(common.time_limit);
   Result result = command.run(common, interruption.token());
   if (common.format == "json") {
     const Json json = envelope(command.app->get_name(), common, threads, result);
     require_finite_numbers(json);
-    print(json.dump(2) + "\n", common);
+    // A file's name may be no UTF-8, which JSON must be.
+    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", common);
   } else {
     print(common.format == "csv" ? result.csv : result.text, common);
   }
   return static_cast<int>(result.code);
-}
-
-int fail(ExitCode code, std::string message) {
-  std::replace(message.begin(), message.end(), '\n', ' ');
-  fmt::print(stderr, "detp: {}\n", message);
-  return static_cast<int>(code);
 }
 
 int guarded_main(int argc, char** argv) {
@@ -112,8 +106,13 @@ int guarded_main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return program.exit(error);
-    return fail(ExitCode::bad_input, std::string(error.what()) + " (detp --help tells more)");
+    if (error.get_exit_code() == 0) {
+      program.exit(error);
+      check_written();
+      return 0;
+    }
+    return fail(ExitCode::bad_input,
+                with_short_arguments(error.what(), {argv, argv + argc}) + " (detp --help tells more)");
   }
   for (const Command& command : commands)
     if (command.app->parsed()) return run(command, common, interruption);
@@ -126,6 +125,7 @@ int guarded_main(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   using namespace detp::cli;
+  prepare_streams();
   try {
     return guarded_main(argc, argv);
   } catch (const detp::sim::Stopped& stopped) {
@@ -133,7 +133,7 @@ int main(int argc, char** argv) {
   } catch (const detp::sim::FileError& error) {
     return fail(ExitCode::bad_input, error.what());
   } catch (const std::invalid_argument& error) {
-    return fail(ExitCode::bad_input, error.what());
+    return fail(ExitCode::bad_input, with_short_arguments(error.what(), {argv, argv + argc}));
   } catch (const std::length_error& error) {
     return fail(ExitCode::bad_input, error.what());
   } catch (const std::overflow_error& error) {

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "detp/model/vocabulary/quoted.hpp"
+
 namespace detp::cli {
 namespace {
 
@@ -189,7 +191,7 @@ Json effects_json(const Workload& workload) {
 std::string describe(const validate::Job& job) {
   const Workload& w = job.workload;
   const double x = sample_distance(w) / w.disc_radius;
-  std::string text = fmt::format("scene     {}: ", job.name);
+  std::string text = fmt::format("scene     {}: ", shown_path(job.name));
   if (job.triangles > 0) text += fmt::format("{} triangles, ", spaced(static_cast<double>(job.triangles)));
   text += fmt::format("{} discs of radius {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n", spaced(w.samples),
                       w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);

@@ -239,8 +239,7 @@ TEST_SUITE("bad input") {
           {triangle, ": has no faces"},
           {"", ": has no faces"}}) {
       CAPTURE(content.substr(0, 200));
-      CHECK_MESSAGE(refusal("m.obj", content).find("m.obj" + reason) != std::string::npos,
-                    refusal("m.obj", content));
+      CHECK_MESSAGE(refusal("m.obj", content).find("m.obj" + reason) != std::string::npos, refusal("m.obj", content));
     }
   }
 

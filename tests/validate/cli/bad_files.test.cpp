@@ -141,6 +141,75 @@ TEST_SUITE("bad input") {
     check_refused(refusals);
     CHECK(folder.entries() == 0);
   }
+
+  TEST_CASE("two outputs in one place are refused before any work, however they are spelled") {
+    const ScratchFolder folder;
+    std::filesystem::create_symlink("one", folder.path("link"));
+    const std::string one = folder.path("one");
+    const std::string again = folder.path("./one");
+    const std::string thorough = "validate --effort thorough --checkpoint ";
+    std::vector<Refusal> refusals;
+    for (const std::string& other : {one, again, folder.path("link")}) {
+      refusals.push_back(
+          {"run @uniform --output " + one + " --per-disc " + other, "--output and --per-disc name the same"});
+      refusals.push_back(
+          {"run @uniform --per-disc " + one + " --pairs " + other, "--per-disc and --pairs name the same"});
+      refusals.push_back({"scene @tree --write-rays " + one + " --write-discs " + other, "name the same"});
+      refusals.push_back({thorough + one + " --output " + other, "--output and --checkpoint name the same"});
+    }
+    check_refused(refusals);
+    CHECK(folder.entries() == 1);
+  }
+
+  TEST_CASE("a checkpoint that cannot be continued from, or not be written, is refused before any work") {
+    const ScratchFolder folder;
+    const auto resumed = [&](const std::string& content, const std::string& named) {
+      const std::string path = folder.file(std::to_string(folder.entries()), content);
+      return Refusal("validate --effort thorough --resume --checkpoint " + path, named);
+    };
+    check_refused(
+        {resumed("", "is no checkpoint"),
+         resumed("{\x1b[2J", "is no checkpoint"),
+         resumed("{}", "is no checkpoint"),
+         resumed(std::string(5000, '['), "is no checkpoint"),
+         resumed(R"({"schema":{"name":"detp.sweep-checkpoint","version":1},"seed":7})", "was made with seed 7"),
+         resumed(R"({"schema":{"name":"detp.sweep-checkpoint","version":9}})", "no checkpoint of this version"),
+         {"validate --effort thorough --checkpoint " + folder.path("missing/c"), "cannot be written"},
+         {"validate --effort thorough --resume --checkpoint " + folder.path(""), "Is a directory"}});
+  }
+
+  TEST_CASE("messages quote at most 60 characters of what they were given, and no control character") {
+    const ScratchFolder folder;
+    const std::string digits(100'000, '7');
+    const std::string sixty = std::string(60, '7') + "...";
+    const std::string rays = folder.file("rays.csv", ray_header + "0,0,0,0,0,1,1," + digits + "x\n");
+    const std::string discs = folder.file("discs.csv", disc_header + "0,0,0,0,0,1,1\n");
+    const std::string ply =
+        folder.file("p.ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty " + digits + " x\n");
+    const std::vector<Refusal> refusals{{Arguments{"run", "--discs", discs, "--ray-file", rays}, sixty},
+                                        {Arguments{"scene", ply}, sixty},
+                                        {Arguments{"run", "@" + digits}, sixty.substr(1)},
+                                        {Arguments{"run", "@uniform", "--rays", digits + "x"}, sixty},
+                                        {Arguments{"run", "@uniform", "--rays=" + digits + "x"}, sixty},
+                                        {Arguments{"run", "@uniform", "--disc-radius", digits + "x"}, sixty},
+                                        {Arguments{"run", "@uniform", "--seed", digits}, sixty},
+                                        {Arguments{"run", "@uniform", "--format", digits}, sixty},
+                                        {Arguments{"run", "@uniform", "--technique", digits}, sixty},
+                                        {Arguments{"run", "@uniform", "--" + digits}, sixty.substr(3)},
+                                        {Arguments{"choose", "@uniform", "--costs", "t=" + digits + "x"}, "7777777777"},
+                                        {Arguments{digits}, sixty},
+                                        {Arguments{"run", "@\x1b[2J\xff"}, "\\x1b[2J\\xff"},
+                                        {Arguments{"run", "@uniform", "--format", "\x1b[2J"}, "\\x1b[2J"},
+                                        {Arguments{"run", "@uniform", "--technique", "\xc2\x9b\r"}, "\\xc2\\x9b\\x0d"}};
+    check_refused(refusals);
+    for (const Refusal& refusal : refusals) {
+      const std::string message = detp(refusal.arguments).err;
+      CAPTURE(message);
+      CHECK(message.find(digits.substr(0, 61)) == std::string::npos);
+      CHECK(message.size() < 520);
+      CHECK(std::none_of(message.begin(), message.end() - 1, [](unsigned char c) { return c < 0x20 || c > 0x7e; }));
+    }
+  }
 }
 
 }  // namespace detp::support

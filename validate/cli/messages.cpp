@@ -1,0 +1,75 @@
+#include "messages.hpp"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <cstring>
+#include <iostream>
+
+#include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/scene/file_error.hpp"
+
+namespace detp::cli {
+namespace {
+
+constexpr std::size_t longest_message = 500;
+
+[[noreturn]] void throw_not_written() {
+  throw sim::FileError("standard output", std::string("cannot be written: ") + std::strerror(errno));
+}
+
+void shorten(std::string& message, std::string_view piece) {
+  const std::string shown = shortened(piece);
+  if (shown == piece || piece.empty()) return;
+  for (std::size_t at = 0; (at = message.find(piece, at)) != std::string::npos; at += shown.size())
+    message.replace(at, piece.size(), shown);
+}
+
+}  // namespace
+
+void prepare_streams() {
+  std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);
+  // The lowest free number is what open() returns. The wrong direction, so that using the stream fails.
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+void write_result(const std::string& text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) throw_not_written();
+}
+
+void check_written() {
+  errno = EIO;  // for a stream that does not say why
+  if (!std::cout.flush() || std::fflush(stdout) != 0) throw_not_written();
+}
+
+void write_error(std::string_view text) {
+  (void)std::fwrite(text.data(), 1, text.size(), stderr);
+  (void)std::fflush(stderr);
+}
+
+int fail(ExitCode code, std::string message) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  write_error("detp: " + shortened(message, longest_message) + "\n");
+  return static_cast<int>(code);
+}
+
+std::string with_short_arguments(std::string message, std::span<char* const> arguments) {
+  for (const std::string_view argument : arguments) {
+    shorten(message, argument);
+    for (std::string_view rest = argument; !rest.empty();) {
+      const std::size_t end = std::min(rest.find_first_of("=,:"), rest.size());
+      shorten(message, rest.substr(0, end));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+      shorten(message, rest);
+    }
+  }
+  return message;
+}
+
+}  // namespace detp::cli
