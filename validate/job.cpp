@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/line_field.hpp"
 #include "detp/sim/memory.hpp"
 #include "detp/sim/scene/disc_file.hpp"
@@ -190,7 +191,7 @@ Length parse_length(std::string_view text) {
   const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (error != std::errc{} || end != digits.data() + digits.size())
     throw std::invalid_argument(
-        fmt::format("disc radius must be a length or a percentage, as 0.02 or 4% (got {})", text));
+        fmt::format("disc radius must be a length or a percentage, as 0.02 or 4% (got {})", shortened(text)));
   require_positive("disc radius", value);
   return {relative ? value / 100 : value, relative};
 }

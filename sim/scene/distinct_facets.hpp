@@ -21,6 +21,6 @@ struct DistinctFacets {
 inline constexpr std::uint32_t no_facet = UINT32_MAX;
 
 /// Takes the facets of all triangles, in their order; fewer than 2³² - 1. Cost O(triangles).
-[[nodiscard]] DistinctFacets distinct_facets(const std::vector<Facet>& all);
+[[nodiscard]] DistinctFacets distinct_facets(std::vector<Facet> all);
 
 }  // namespace detp::sim

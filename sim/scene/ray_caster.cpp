@@ -80,7 +80,7 @@ struct RayCaster::Embree {
   embree::Owned<RTCDevice> device{rtcNewDevice(nullptr)};
   embree::Owned<RTCScene> scene;
 
-  explicit Embree(const std::vector<Facet>& all) : distinct(distinct_facets(all)) {
+  explicit Embree(std::vector<Facet> all) : distinct(distinct_facets(std::move(all))) {
     embree::require_no_error(device);
     scene.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
@@ -102,7 +102,7 @@ RayCaster::RayCaster(const Mesh& mesh, const Box& box) : centre_(box.centre()), 
   facets.reserve(mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles)
     facets.push_back(make_facet(to_own(mesh.positions[a]), to_own(mesh.positions[b]), to_own(mesh.positions[c])));
-  embree_ = std::make_unique<Embree>(facets);
+  embree_ = std::make_unique<Embree>(std::move(facets));
 }
 
 RayCaster::~RayCaster() = default;

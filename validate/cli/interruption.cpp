@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <mutex>
 
+#include "detp/sim/scene/part_files.hpp"
+
 namespace detp::cli {
 namespace {
 
@@ -31,7 +33,10 @@ Interruption::Interruption() {
     while (!end.stop_requested()) {
       const int signal = sigwaitinfo(&set, nullptr);
       if (signal < 0 || signal == wake_up) continue;
-      if (stop.stop_requested()) std::_Exit(130);
+      if (stop.stop_requested()) {
+        sim::remove_all_part_files_for_good();
+        std::_Exit(130);
+      }
       stop.request_stop();
     }
   });
