@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sphere_cache_published.hpp"
+#include "sphere_count.hpp"
 #include "step_pieces.hpp"
 
 namespace detp::model::published {
@@ -144,6 +145,17 @@ BestRatio best_ratio(const Workload& workload, const UnitCosts& costs, std::int6
     if (low < high) search.piece(j, low, high);
   }
   return search.finish();
+}
+
+std::int64_t best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio) {
+  check(workload);
+  check(costs);
+  const std::int64_t last = sphere_count(Form::published, ratio, {workload.disc_radius}, {workload.sphere_radius});
+  const double q = ratio.value;
+  const double share = costs.disc_test / costs.sphere_test * (1 - q) * (1 + q);  // u (1 - Q²)/t
+  if (last == 0 || costs.sphere_test == 0 || share > 1) return last;
+  const double paying = std::ceil(std::log(share * workload.samples) / (-3 * std::log(q))) - 1;
+  return paying < static_cast<double>(last) ? static_cast<std::int64_t>(std::max(paying, 1.0)) : last;
 }
 
 }  // namespace detp::model::published

@@ -29,4 +29,13 @@ struct BestRatio {
 /// Throws     std::invalid_argument for a workload out of range or d >= r₀: there is no sphere then.
 [[nodiscard]] BestRatio best_ratio(const Workload& workload, const UnitCosts& costs, std::int64_t most_spheres = 40);
 
+/// The stop k at which the published T is least for a given Q, from 1 to the paper's own k = ⌈log_Q(d/r₀)⌉; 0 where
+/// that is 0.
+///
+/// Going on from k - 1 to k spheres pays where t min(n_P, Q^{-3k}) < u n_P (1 - Q²). The left side grows with k, the
+/// right side does not: so k is the last at which it pays. Source: our derivation from eqs (8, 12, 17).
+///
+/// Throws     as sphere_count does, and std::invalid_argument for a workload or costs out of range.
+[[nodiscard]] std::int64_t best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio);
+
 }  // namespace detp::model::published

@@ -58,6 +58,30 @@ double least_on_grid(const Question& question, int points) {
 }  // namespace
 
 TEST_SUITE("reference value") {
+  TEST_CASE("the best published stop is the least T of all stops") {
+    for (const Question& question : questions(300))
+      for (const double ratio : {0.1, 0.5, 0.65, 0.9, 0.99}) {
+        const std::int64_t last = count(question.workload, ratio);
+        const std::int64_t stop = published::best_stop(question.workload, question.costs, {ratio});
+        double least = support::infinity;
+        for (std::int64_t k = 1; k <= last; ++k) least = std::min(least, time(question, ratio, k));
+        CAPTURE(ratio);
+        CAPTURE(stop);
+        CAPTURE(last);
+        CHECK(stop >= 1);
+        CHECK(stop <= last);
+        CHECK(time(question, ratio, stop) == Approx(least).epsilon(1e-12));
+      }
+  }
+
+  TEST_CASE("the best published stop of a disc as large as S0 is no sphere") {
+    Workload workload = cube_workload(100, 100, 0.1, 1);
+    workload.sphere_radius = 0.1;
+    CHECK(published::best_stop(workload, {}, {0.5}) == 0);
+  }
+}
+
+TEST_SUITE("reference value") {
   TEST_CASE("no ratio of 5000 is faster, none is below the bound, and the bound is within 1e-9") {
     for (const Question& question : questions(40)) {
       const published::BestRatio best = published::best_ratio(question.workload, question.costs);

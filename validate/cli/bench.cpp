@@ -6,6 +6,7 @@
 
 #include "bench_report.hpp"
 #include "command.hpp"
+#include "value_lists.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -15,9 +16,9 @@ namespace {
 struct BenchCommand {
   std::string effort = "quick";
   std::optional<std::string> scene;
-  std::vector<double> rays;
-  std::vector<double> samples;
-  std::vector<std::string> disc_radii;
+  std::string rays;
+  std::string samples;
+  std::string disc_radii;
   std::vector<std::string> fields;
   std::vector<std::string> techniques;
   std::string embree_modes = "best";
@@ -25,12 +26,25 @@ struct BenchCommand {
   std::optional<double> most_hits;
 };
 
+std::vector<double> counts_of(std::string_view option, const std::string& list) {
+  std::vector<double> counts;
+  if (list.empty()) return counts;
+  for (const std::string& text : values_of(option, list)) {
+    counts.push_back(parse_number(option, text));
+    require_count(option, counts.back(), 1, 4e9);
+  }
+  return counts;
+}
+
 validate::BenchAxes axes_of(const BenchCommand& command) {
-  validate::BenchAxes axes{
-      .scene = command.scene, .fields = {}, .samples = command.samples, .disc_radii = {}, .rays = command.rays};
-  for (const double rays : command.rays) require_count("--rays", rays, 1, 4e9);
-  for (const double samples : command.samples) require_count("--samples", samples, 1, 4e9);
-  for (const std::string& radius : command.disc_radii) axes.disc_radii.push_back(validate::parse_length(radius));
+  validate::BenchAxes axes{.scene = command.scene,
+                           .fields = {},
+                           .samples = counts_of("--samples", command.samples),
+                           .disc_radii = {},
+                           .rays = counts_of("--rays", command.rays)};
+  if (!command.disc_radii.empty())
+    for (const std::string& radius : values_of("--disc-radius", command.disc_radii))
+      axes.disc_radii.push_back(validate::parse_length(radius));
   for (const std::string& field : command.fields)
     axes.fields.push_back(field == "photons" ? sim::Field::photons : sim::Field::isotropic);
   return axes;
@@ -108,9 +122,9 @@ Command bench_command(CLI::App& program) {
   app->footer("Example: detp bench @tree --rays 1e4,1e5 --disc-radius 1%,4%");
   const auto command = std::make_shared<BenchCommand>();
   app->add_option("SCENE", command->scene, "a mesh or a built-in scene; default: the effort's set of scenes");
-  app->add_option("--rays", command->rays, "a list, as 1e3,1e5")->delimiter(',');
-  app->add_option("--samples", command->samples, "a list; default: the scene's vertices")->delimiter(',');
-  app->add_option("--disc-radius", command->disc_radii, "a list of lengths or percentages, as 1%,4%")->delimiter(',');
+  app->add_option("--rays", command->rays, "a list or a range, as 1e3,1e5");
+  app->add_option("--samples", command->samples, "a list or a range; default: the scene's vertices");
+  app->add_option("--disc-radius", command->disc_radii, "a list of lengths or percentages, as 1%,4%");
   app->add_option("--field", command->fields, "isotropic, photons or both; default: both, where there is a light")
       ->delimiter(',')
       ->check(CLI::IsMember({"isotropic", "photons"}));
@@ -119,8 +133,8 @@ Command bench_command(CLI::App& program) {
   app->add_option("--techniques", command->techniques, "a list of ours; default: all exact ones")->delimiter(',');
   app->add_option("--embree-modes", command->embree_modes, "best (six of them) or all 60")
       ->check(CLI::IsMember({"best", "all"}));
-  app->add_option("--repeat", command->repeat, "rounds, at most; medians are shown");
-  app->add_option("--most-hits", command->most_hits, "skip workloads with more hits; default: 1e6, thorough 5e6");
+  add_number(*app, "--repeat", command->repeat, "rounds, at most; medians are shown");
+  add_number(*app, "--most-hits", command->most_hits, "skip workloads with more hits; default: 1e6, thorough 5e6");
   return {app, [command](const CommonOptions& common, const std::stop_token& stop) {
             return run_command_bench(*command, common, stop);
           }};

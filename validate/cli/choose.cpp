@@ -27,11 +27,15 @@ void decide(ChooseAnswer& answer, const UnitCosts& costs) {
   answer.ranking = model::rank(answer.workload, costs);
   answer.choosing_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double fastest = answer.ranking.front().time.total();
-  if (!(fastest > 0 && std::isfinite(answer.ranking.back().time.total())))
+  if (!(fastest > 0))
+    throw std::invalid_argument(fmt::format(
+        "with these unit costs {} takes no time, so that nothing can be compared: {} cost 0; give every operation its "
+        "cost in seconds, as --help explains",
+        name(answer.ranking.front().candidate.technique), free_of_charge(costs)));
+  if (!std::isfinite(answer.ranking.back().time.total()))
     throw std::invalid_argument(
-        fmt::format("with these unit costs the candidates take from {} to {} s, which cannot be compared; "
-                    "give every operation a cost > 0, in seconds",
-                    fastest, answer.ranking.back().time.total()));
+        fmt::format("with these unit costs the time of {} exceeds 1.8e308 s and cannot be compared; give smaller costs",
+                    name(answer.ranking.back().candidate.technique)));
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs);
 }
 
@@ -104,7 +108,7 @@ Command choose_command(CLI::App& program) {
   app->footer("Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze");
   const auto options = std::make_shared<ChooseOptions>();
   options->workload.add_to(*app);
-  app->add_option("--costs", options->costs, "unit costs in seconds, as t=4e-9,u=2e-9; default: built in");
+  app->add_option("--costs", options->costs, unit_cost_help() + "\ndefault: built in");
   app->add_option("--rigor", options->rigor, "estimate: closed forms only; structural: the built structures, no rays");
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {

@@ -11,12 +11,14 @@
 
 #include "command.hpp"
 #include "detp/model/vocabulary.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/scene/file_error.hpp"
 #include "detp/sim/scene/output_file.hpp"
 #include "detp/sim/stopped.hpp"
 #include "detp/sim/threads.hpp"
 #include "interruption.hpp"
 #include "messages.hpp"
+#include "number_option.hpp"
 #include "outputs.hpp"
 
 namespace detp::cli {
@@ -55,21 +57,33 @@ void print(const std::string& text, const CommonOptions& common) {
   }
 }
 
-/// Why the text is no seed, or "". The parser would turn -1 and what is beyond 2⁶⁴ into other seeds, silently.
-std::string seed_error(const std::string& text) {
+/// Up to 2⁶⁴ - 1, which no double holds.
+std::uint64_t parse_seed(const std::string& text) {
   std::uint64_t seed = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error == std::errc{} && end == text.data() + text.size()) return {};
-  return fmt::format("must be a whole number from 0 to {} (got {})", std::numeric_limits<std::uint64_t>::max(), text);
+  if (error != std::errc{} || end != text.data() + text.size())
+    throw std::invalid_argument(fmt::format("--seed must be a whole number from 0 to {} (got {})",
+                                            std::numeric_limits<std::uint64_t>::max(), detp::quoted(text)));
+  return seed;
 }
 
 void add_common_options(CLI::App& command, CommonOptions& common) {
   command.add_option("--format", common.format, "text, json or csv")->check(CLI::IsMember({"text", "json", "csv"}));
-  command.add_option("--output", common.output, "write the result to a file instead of stdout");
+  command.add_option("-o,--output", common.output, "write the result to a file instead of stdout");
   command.add_flag("--quiet", common.quiet, "no notices, no progress");
-  command.add_option("--seed", common.seed, "of everything random")->check(seed_error);
-  command.add_option("--threads", common.threads, "default: all cores")->check(CLI::Range(0, 4096));
-  command.add_option("--time-limit", common.time_limit, "stop after that many seconds and show what there is");
+  command
+      .add_option_function<std::string>(
+          "--seed", [&common](const std::string& text) { common.seed = parse_seed(text); }, "of everything random")
+      ->type_name("N");
+  command
+      .add_option_function<std::string>(
+          "--threads",
+          [&common](const std::string& text) {
+            common.threads = static_cast<int>(parse_whole("--threads", text, 0, 4096));
+          },
+          "default: all cores")
+      ->type_name("N");
+  add_number(command, "--time-limit", common.time_limit, "stop after that many seconds and show what there is");
 }
 
 int run(const Command& command, const CommonOptions& common, Interruption& interruption) {

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
+#include <cmath>
 #include <stdexcept>
 
+#include "answer_rows.hpp"
 #include "command.hpp"
 #include "detp/model/predict.hpp"
 #include "model_answer.hpp"
@@ -18,71 +20,59 @@ struct ModelOptions {
   CandidateOptions candidate;
   std::string form = "corrected";
   std::string costs;
-  std::int64_t levels = 64;
+  std::optional<std::int64_t> levels;
 };
 
-Json brute_force(const ModelQuestion& question) {
+ModelAnswer brute_force_answer(const ModelQuestion& question) {
   const Counts<double> counts = model::predict(question.workload, {Technique::brute_force, BruteForceParameters{}});
-  return {{"parameters", Json::object()},
-          {"form", name(question.form)},
-          {"total_time", price(counts, question.costs).total()},
-          {"counts", to_json(counts)}};
+  return {BruteForceParameters{},
+          {{"parameters", Json::object()},
+           {"form", name(question.form)},
+           {"total_time", price(counts, question.costs).total()},
+           {"counts", to_json(counts)}}};
 }
 
-Json answer(const ModelQuestion& question) {
-  Json json{{"technique", name(question.technique)}};
+ModelAnswer answer(const ModelQuestion& question) {
   switch (question.technique) {
     case Technique::brute_force:
-      json.update(brute_force(question));
-      break;
+      return brute_force_answer(question);
     case Technique::sphere_cache:
     case Technique::sphere_cache_published:
-      json.update(sphere_cache_answer(question));
-      break;
+      return sphere_cache_answer(question);
     case Technique::cell_spheres:
-      json.update(cell_spheres_answer(question));
-      break;
+      return cell_spheres_answer(question);
     case Technique::sphere_tree:
-      json.update(sphere_tree_answer(question));
-      break;
+      return sphere_tree_answer(question);
     case Technique::octree:
-      json.update(octree_answer(question));
-      break;
+      return octree_answer(question);
     case Technique::grid:
-      json.update(grid_answer(question));
-      break;
+      return grid_answer(question);
     case Technique::bsp:
     case Technique::bvh:
     case Technique::photon_map:
       throw std::invalid_argument(fmt::format("there is no closed form of {}; try: detp run --technique {}",
                                               name(question.technique), name(question.technique)));
   }
-  return json;
+  throw std::logic_error("a technique without an answer");
 }
 
-std::string level_table(const Json& levels, std::string_view separator) {
+std::string level_table(const Json& levels) {
   if (levels.empty()) return {};
-  std::string text;
-  for (const auto& [key, value] : levels[0].items()) {
-    const std::string cell = separator == "," ? key : fmt::format("{:>13}", key);
-    text += text.empty() ? cell : std::string(separator) + cell;
-  }
-  text += "\n";
+  std::string text = "\n";
+  for (const auto& [key, value] : levels[0].items()) text += fmt::format("{}{:>13}", text == "\n" ? "" : " ", key);
   for (const Json& level : levels) {
     std::string line;
-    for (const auto& [key, value] : level.items()) {
-      const std::string cell = separator == "," ? value.dump() : fmt::format("{:>13.6g}", value.get<double>());
-      line += line.empty() ? cell : std::string(separator) + cell;
-    }
-    text += line + "\n";
+    for (const auto& [key, value] : level.items())
+      line += fmt::format("{}{:>13.6g}", line.empty() ? "" : " ", value.get<double>());
+    text += "\n" + line;
   }
-  return text;
+  return text + "\n";
 }
 
 std::string scalars(const Json& json, const std::string& pattern_prefix = "") {
   std::string text;
   for (const auto& [key, value] : json.items()) {
-    if (key == "spheres" || value.is_array()) continue;
+    if (value.is_array()) continue;
     if (value.is_object())
       text += scalars(value, key + ".");
     else if (value.is_number())
@@ -93,46 +83,103 @@ std::string scalars(const Json& json, const std::string& pattern_prefix = "") {
   return text;
 }
 
-std::string csv_scalars(const Json& json) {
-  std::string header;
-  std::string row;
-  for (const auto& [key, value] : json.items())
-    if (value.is_number() || value.is_string()) {
-      header += (header.empty() ? "" : ",") + key;
-      row += (row.empty() ? "" : ",") + (value.is_string() ? value.get<std::string>() : value.dump());
-    }
-  return header + "\n" + row + "\n";
+const Columns& times() {
+  static const Columns columns{"rebuild_time", "intersect_time", "copy_time",  "order_time",
+                               "build_time",   "traverse_time",  "total_time", "rebuild_time_few_samples",
+                               "balanced_time"};
+  return columns;
 }
 
-Result run_model(const ModelOptions& options, const CommonOptions& common) {
-  Result result;
-  const validate::JobRequest request = options.workload.request(common);
-  Workload workload;
-  if (request.numbers_alone()) {
-    workload = validate::workload_of_numbers(request);
-    result.inputs = to_json(workload);
-  } else {
-    const validate::Job job = validate::make_job(request);
-    for (const std::string& notice : job.notices) note(common, notice);
-    workload = job.workload;
-    result.inputs = to_json(job, request);
+const Columns& per_line() {
+  static const Columns columns{"cells_per_line", "discs_per_cell", "tests_per_line", "cells_per_disc"};
+  return columns;
+}
+
+/// What the technique's answer says of one sphere is named after its number i.
+const Columns& of_one_sphere() {
+  static const Columns columns{"i", "radius_i", "rays_i", "listed_i", "rebuilds_i", "rebuild_cost_i", "samples_i"};
+  return columns;
+}
+
+Columns unit_cost_columns() {
+  Columns columns;
+  const Json costs = to_json(UnitCosts{});
+  for (const auto& [name, cost] : costs.items()) columns.push_back("cost_" + name);
+  return columns;
+}
+
+Columns columns() {
+  return workload_columns() + candidate_columns() + Columns{"form", "k", "k_max", "k_best", "extrapolated"} + times() +
+         per_line() + count_columns() + unit_cost_columns() + of_one_sphere();
+}
+
+/// A row for each sphere listed, or one where there is none; what holds of all is in each.
+std::vector<Json> cells_of(const Json& inputs, const Candidate& candidate, const Json& json) {
+  Json shared = workload_cells(inputs);
+  shared.update(candidate_cells(candidate));
+  for (const auto& [name, value] : json.items())
+    if (!value.is_structured()) shared[name] = value;
+  if (json.contains("counts")) shared.update(count_cells(json["counts"]));
+  for (const auto& [name, cost] : inputs["unit_costs"].items()) shared["cost_" + name] = cost;
+  std::vector<Json> rows;
+  for (const Json& sphere : json.value("spheres", Json::array())) {
+    Json& row = rows.emplace_back(shared);
+    for (const auto& [name, value] : sphere.items()) row[name == "i" ? name : name + "_i"] = value;
   }
+  if (rows.empty()) rows.push_back(std::move(shared));
+  return rows;
+}
+
+void require_finite_time(const Json& json) {
+  if (!std::isfinite(json["total_time"].get<double>()))
+    throw std::invalid_argument("with these unit costs the time exceeds 1.8e308; give smaller costs");
+}
+
+/// What the rows of one workload share.
+struct Measured {
+  Workload workload;
+  Json inputs;
+};
+
+Measured measure(const ModelOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  const validate::JobRequest request = options.workload.request(common);
+  if (request.numbers_alone()) {
+    const Workload workload = validate::workload_of_numbers(request);
+    return {workload, numbers_json(workload)};
+  }
+  const validate::Job job = validate::make_job(request, stop);
+  for (const std::string& notice : job.notices) note(common, notice);
+  return {job.workload, to_json(job, request)};
+}
+
+AnswerRow answer_row(const ModelOptions& options, const Measured& measured, const UnitCosts& costs,
+                     std::int64_t levels) {
   const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
   options.candidate.refuse_foreign(technique);
-  require_count("--levels", static_cast<double>(options.levels), 0, 1e6);
   const Form form = options.form == "published" ? Form::published : Form::corrected;
-  const ModelQuestion question{workload,       technique,        form, parse_unit_costs(options.costs, UnitCosts{}),
-                               options.levels, options.candidate};
-  result.inputs["form"] = options.form;
-  result.inputs["unit_costs"] = to_json(question.costs);
-  result.inputs["levels"] = options.levels;
-  result.json = answer(question);
-  result.text = scalars(result.json);
-  result.csv = csv_scalars(result.json);
-  if (result.json.contains("spheres")) {
-    result.text += "\n" + level_table(result.json["spheres"], " ");
-    if (!result.json["spheres"].empty()) result.csv = level_table(result.json["spheres"], ",");
-  }
+  AnswerRow row{measured.inputs, {{"technique", name(technique)}}, {}};
+  row.inputs["form"] = options.form;
+  row.inputs["unit_costs"] = to_json(costs);
+  row.inputs["levels"] = levels;
+  ModelAnswer found = answer({measured.workload, technique, form, costs, levels, options.candidate});
+  row.answer.update(found.json);
+  require_finite_time(row.answer);
+  row.cells = cells_of(row.inputs, {technique, found.parameters}, row.answer);
+  return row;
+}
+
+Result run_model(ModelOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  const std::size_t expected = rows_in(options.workload.lists, options.candidate.lists);
+  const std::int64_t levels = options.levels.value_or(expected == 1 ? 64 : 0);
+  require_count("--levels", static_cast<double>(levels), 0, 1e6);
+  const UnitCosts costs = parse_unit_costs(options.costs, UnitCosts{});
+  const auto rows = answer_all(
+      options.workload.lists, options.candidate.lists, stop, [&] { return measure(options, common, stop); },
+      [&](const Measured& measured) { return answer_row(options, measured, costs, levels); });
+  Result result = result_of(rows, expected, columns(),
+                            {workload_columns() + candidate_columns() + Columns{"form"},
+                             Columns{"k", "k_max", "k_best"} + times() + per_line()});
+  if (expected == 1) result.text = scalars(result.json) + level_table(result.json.value("spheres", Json::array()));
   return result;
 }
 
@@ -140,14 +187,19 @@ Result run_model(const ModelOptions& options, const CommonOptions& common) {
 
 Command model_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("model", "The closed forms for one technique");
-  app->footer("Example: detp model --rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2 --ratio 0.65");
+  app->footer(
+      "Numbers may be lists and ranges, as 1%,2%,4% and 0.3:0.9:0.05: every combination makes a row.\n"
+      "Example: detp model --rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2 --ratio 0.65");
   const auto options = std::make_shared<ModelOptions>();
-  options->workload.add_to(*app);
-  options->candidate.add_to(*app);
-  app->add_option("--form", options->form, "published or corrected")->check(CLI::IsMember({"published", "corrected"}));
-  app->add_option("--costs", options->costs, "unit costs, as t=4e-9,u=2e-9; default 1: times are operation counts");
-  app->add_option("--levels", options->levels, "how many spheres to list");
-  return {app, [options](const CommonOptions& common, std::stop_token) { return run_model(*options, common); }};
+  options->workload.add_to(*app, Values::many);
+  options->candidate.add_to(*app, Values::many, SphereStop::max);
+  options->candidate.lists.add_word(*app, "--form", Values::many, options->form, {"published", "corrected"},
+                                    "published or corrected");
+  app->add_option("--costs", options->costs, unit_cost_help() + "\ndefault: t, u, w, v, n 1, so that times are counts");
+  add_number(*app, "--levels", options->levels, "how many spheres to list; default: 64, of several rows none");
+  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+            return run_model(*options, common, stop);
+          }};
 }
 
 }  // namespace detp::cli

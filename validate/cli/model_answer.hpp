@@ -17,14 +17,20 @@ struct ModelQuestion {
   const CandidateOptions& options;
 };
 
-[[nodiscard]] Json sphere_cache_answer(const ModelQuestion& question);
+/// The technique's parameters, complete, and what JSON shows.
+struct ModelAnswer {
+  Parameters parameters;
+  Json json;
+};
+
+[[nodiscard]] ModelAnswer sphere_cache_answer(const ModelQuestion& question);
 
 /// Levels left out are the best at the unit costs; so are fan-out and leaf.
-[[nodiscard]] Json cell_spheres_answer(const ModelQuestion& question);
-[[nodiscard]] Json sphere_tree_answer(const ModelQuestion& question);
+[[nodiscard]] ModelAnswer cell_spheres_answer(const ModelQuestion& question);
+[[nodiscard]] ModelAnswer sphere_tree_answer(const ModelQuestion& question);
 
-[[nodiscard]] Json octree_answer(const ModelQuestion& question);
-[[nodiscard]] Json grid_answer(const ModelQuestion& question);
+[[nodiscard]] ModelAnswer octree_answer(const ModelQuestion& question);
+[[nodiscard]] ModelAnswer grid_answer(const ModelQuestion& question);
 
 /// Throws std::invalid_argument where the published form is asked for and the paper has none.
 void refuse_published(const ModelQuestion& question);

@@ -44,7 +44,7 @@ Json corrected_index(const ModelQuestion& question, double parts, const Counts<d
 
 }  // namespace
 
-Json octree_answer(const ModelQuestion& question) {
+ModelAnswer octree_answer(const ModelQuestion& question) {
   const int depth = question.options.depth.value_or(
       model::published::octree_depth({question.workload.disc_radius}, scene_side(question.workload)));
   const OctreeParameters parameters{depth, question.options.chosen_traversal()};
@@ -52,7 +52,7 @@ Json octree_answer(const ModelQuestion& question) {
   Json json{{"parameters", to_json(Parameters{parameters})}, {"form", name(question.form)}, {"depth", depth}};
   json.update(question.form == Form::published ? published_octree(question, depth)
                                                : corrected_index(question, std::ldexp(1.0, depth), counts));
-  return json;
+  return {parameters, std::move(json)};
 }
 
 void refuse_published(const ModelQuestion& question) {
@@ -61,14 +61,14 @@ void refuse_published(const ModelQuestion& question) {
         fmt::format("the paper has no formula for {}; use --form corrected", detp::name(question.technique)));
 }
 
-Json grid_answer(const ModelQuestion& question) {
+ModelAnswer grid_answer(const ModelQuestion& question) {
   refuse_published(question);
   const int depth = model::published::octree_depth({question.workload.disc_radius}, scene_side(question.workload));
   const GridParameters parameters{question.options.cells.value_or(1 << std::min(depth, 20))};
   const Counts<double> counts = model::grid_counts(question.workload, parameters);
   Json json{{"parameters", to_json(Parameters{parameters})}, {"form", name(question.form)}};
   json.update(corrected_index(question, parameters.cells, counts));
-  return json;
+  return {parameters, std::move(json)};
 }
 
 }  // namespace detp::cli

@@ -8,25 +8,22 @@
 #include "detp/model/rebuild_law.hpp"
 #include "detp/model/sphere_cache.hpp"
 #include "detp/model/sphere_cache_published.hpp"
-#include "detp/model/sphere_count.hpp"
 #include "detp/model/sphere_tree.hpp"
 #include "model_answer.hpp"
+#include "sphere_stops.hpp"
 
 namespace detp::cli {
 namespace {
 
 using model::Form;
 
-SphereCacheParameters cache_parameters(const ModelQuestion& question) {
-  SphereCacheParameters parameters{question.options.ratio.value_or(model::published_ratio), 0,
-                                   question.options.sample_order()};
-  parameters.spheres = model::sphere_count(question.form, {parameters.ratio}, {question.workload.disc_radius},
-                                           {question.workload.sphere_radius});
-  if (question.options.spheres) {
-    require_count("number of spheres", static_cast<double>(*question.options.spheres), 0, 1e18);
-    parameters.spheres = *question.options.spheres;
+SphereCacheParameters cache_parameters(const ModelQuestion& question, double ratio, const SphereStops& stops) {
+  const CandidateOptions& options = question.options;
+  if (options.spheres) {
+    require_count("number of spheres", static_cast<double>(*options.spheres), 0, 1e18);
+    return {ratio, *options.spheres, options.sample_order()};
   }
-  return parameters;
+  return {ratio, options.stop == SphereStop::best ? stops.best : stops.max, options.sample_order()};
 }
 
 Json published_levels(const ModelQuestion& question, const SphereCacheParameters& parameters) {
@@ -58,6 +55,7 @@ Json published_cache(const ModelQuestion& question, const SphereCacheParameters&
   json["total_time"] = rebuild + intersect;
   json["rebuild_time_few_samples"] =
       model::published::rebuild_time_few_samples(question.workload, {parameters.ratio}, question.costs.sphere_test);
+  json["counts"] = to_json(model::published::counts(question.workload, {parameters.ratio}, parameters.spheres));
   return json;
 }
 
@@ -89,26 +87,39 @@ Json corrected_cache(const ModelQuestion& question, const SphereCacheParameters&
 }
 
 /// Parameters, time by part and counts, after the levels.
-Json with_spheres(const ModelQuestion& question, const Parameters& parameters, Json levels) {
+ModelAnswer with_spheres(const ModelQuestion& question, const Parameters& parameters, Json levels) {
   const Counts<double> counts = model::predict(question.workload, {question.technique, parameters});
   const CostBreakdown time = price(counts, question.costs);
-  return {{"parameters", to_json(parameters)}, {"form", name(question.form)},      {"spheres", std::move(levels)},
-          {"rebuild_time", time.rebuild},      {"intersect_time", time.intersect}, {"copy_time", time.copy},
-          {"order_time", time.order},          {"total_time", time.total()},       {"counts", to_json(counts)}};
+  return {parameters,
+          {{"parameters", to_json(parameters)},
+           {"form", name(question.form)},
+           {"spheres", std::move(levels)},
+           {"rebuild_time", time.rebuild},
+           {"intersect_time", time.intersect},
+           {"copy_time", time.copy},
+           {"order_time", time.order},
+           {"total_time", time.total()},
+           {"counts", to_json(counts)}}};
 }
 
 }  // namespace
 
-Json sphere_cache_answer(const ModelQuestion& question) {
-  const SphereCacheParameters parameters = cache_parameters(question);
-  model::require_rebuild_law(parameters.order);
-  Json json{{"parameters", to_json(Parameters{parameters})}, {"form", name(question.form)}, {"k", parameters.spheres}};
+ModelAnswer sphere_cache_answer(const ModelQuestion& question) {
+  model::require_rebuild_law(question.options.sample_order());
+  const double ratio = question.options.ratio.value_or(model::published_ratio);
+  const SphereStops stops = sphere_stops(question.workload, question.costs, question.form, {ratio});
+  const SphereCacheParameters parameters = cache_parameters(question, ratio, stops);
+  Json json{{"parameters", to_json(Parameters{parameters})},
+            {"form", name(question.form)},
+            {"k", parameters.spheres},
+            {"k_max", stops.max},
+            {"k_best", stops.best}};
   json.update(question.form == Form::published ? published_cache(question, parameters)
                                                : corrected_cache(question, parameters));
-  return json;
+  return {parameters, std::move(json)};
 }
 
-Json cell_spheres_answer(const ModelQuestion& question) {
+ModelAnswer cell_spheres_answer(const ModelQuestion& question) {
   refuse_published(question);
   const Workload& w = question.workload;
   const auto best = [&] {
@@ -132,7 +143,7 @@ Json cell_spheres_answer(const ModelQuestion& question) {
   return with_spheres(question, parameters, std::move(levels));
 }
 
-Json sphere_tree_answer(const ModelQuestion& question) {
+ModelAnswer sphere_tree_answer(const ModelQuestion& question) {
   refuse_published(question);
   const CandidateOptions& options = question.options;
   if (options.bounds && bounds_named(*options.bounds) == Bounds::boxes) {

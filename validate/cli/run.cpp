@@ -10,6 +10,8 @@
 #include "detp/sim/scene/output_file.hpp"
 #include "detp/validate/unit_costs.hpp"
 #include "outputs.hpp"
+#include "run_report.hpp"
+#include "sphere_stops.hpp"
 #include "timed_run.hpp"
 #include "workload_options.hpp"
 
@@ -19,6 +21,7 @@ namespace {
 struct RunOptions {
   WorkloadOptions workload;
   CandidateOptions candidate;
+  std::string engine = "simd";
   int repeat = 0;
   std::optional<std::string> per_disc;
   std::optional<std::string> pairs;
@@ -32,7 +35,10 @@ SphereCacheParameters complete_cache(const CandidateOptions& options, const Work
   const model::BestRatio best = options.ratio     ? model::best_stop(workload, costs, {*options.ratio})
                                 : options.spheres ? model::best_ratio_for(workload, costs, *options.spheres)
                                                   : model::best_ratio_and_stop(workload, costs);
-  return {best.ratio, std::max<std::int64_t>(1, best.spheres), options.sample_order()};
+  const std::int64_t spheres = options.stop == SphereStop::max
+                                   ? sphere_stops(workload, costs, model::Form::corrected, {best.ratio}).max
+                                   : best.spheres;
+  return {best.ratio, std::max<std::int64_t>(1, spheres), options.sample_order()};
 }
 
 /// Boxes, unless spheres are asked for: they are the faster (sim/README.md).
@@ -83,13 +89,6 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
   return best->candidate;
 }
 
-std::string per_disc_csv(const sim::Outcome& outcome) {
-  std::string csv = "disc,hits,irradiance\n";
-  for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc)
-    csv += fmt::format("{},{},{}\n", disc, outcome.hits[disc], outcome.irradiance[disc]);
-  return csv;
-}
-
 void write_pairs(const std::string& path, const std::vector<sim::Pair>& pairs) {
   sim::OutputFile file(path);
   file.write("ray,disc\n");
@@ -103,79 +102,72 @@ void write_text(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-Json seconds_json(const Timing& timing, int repeat) {
-  Json json{{"total", timing.total()},
-            {"prepare", timing.prepare},
-            {"order", timing.phases.order},
-            {"build", timing.phases.build},
-            {"search", timing.phases.search}};
-  if (repeat > 0) json["all"] = timing.all;
-  return json;
-}
-
-double mean_irradiance(const sim::Outcome& outcome) {
-  double sum = 0;
-  for (const double irradiance : outcome.irradiance) sum += irradiance;
-  return sum / static_cast<double>(outcome.irradiance.size());
-}
-
-std::string to_text(const validate::Job& job, const Candidate& candidate, const TimedRun& run, const Timing& timing) {
-  const sim::Outcome& outcome = run.outcome;
-  std::string text = describe(job);
-  text += fmt::format("technique {} {}\n", name(candidate.technique), describe(candidate.parameters));
-  text += fmt::format("hits      {}, {:.4g} a disc; mean irradiance {:.6g}\n", outcome.total_hits,
-                      static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size()),
-                      mean_irradiance(outcome));
-  text += fmt::format(
-      "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before\n",
-      timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
-      job.read_seconds + run.read_seconds);
-  text += "counts    ";
-  std::string counts;
-  for_each_term(outcome.counts, [&](std::string_view term, std::uint64_t value) {
-    if (value > 0) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", term, value);
-  });
-  text += counts + "\n";
-  if (outcome.stopped) text += "stopped   before the end: what is above is partial\n";
-  return text;
-}
-
-Result run_run(const RunOptions& options, const CommonOptions& common, const std::stop_token& stop) {
-  require_count("--repeat", options.repeat, 0, 10000);
+/// Refused before the work is done where a row's hits would overwrite another's.
+void check_files(const RunOptions& options, const CommonOptions& common, std::size_t rows) {
+  if (rows > 1 && (options.per_disc || options.pairs))
+    throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
   check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
-  const ProgressLine progress(common);
-  progress.show("scene and rays", 0);
-  validate::JobRequest request = options.workload.request(common);
-  request.stream =
-      options.candidate.technique_or(Technique::brute_force) != Technique::photon_map;  // wants all at once
-  const validate::Job job = validate::make_job(request, stop);
-  for (const std::string& notice : job.notices) note(common, notice);
-  const Candidate candidate = complete(options.candidate, job.workload);
-  const TimedRun run =
-      run_job(job, candidate, {.pairs = options.pairs.has_value(), .stop = stop, .threads = common.threads}, progress);
-  const sim::Outcome& outcome = run.outcome;
-  const Timing timing = time_runs(job, candidate, run, outcome.stopped ? 0 : options.repeat,
-                                  {.count = false, .stop = stop, .threads = common.threads}, progress);
-  if (outcome.stopped && (options.per_disc || options.pairs))
-    note(common, "stopped before the end: --per-disc and --pairs are not written, for they would be partial");
-  if (options.per_disc && !outcome.stopped) write_text(*options.per_disc, per_disc_csv(outcome));
-  if (options.pairs && !outcome.stopped) write_pairs(*options.pairs, outcome.pairs);
+}
 
-  Result result;
-  result.code = outcome.stopped ? ExitCode::stopped : ExitCode::done;
-  result.inputs = to_json(job, request);
-  result.inputs["repeat"] = options.repeat;
-  result.json = {{"technique", name(candidate.technique)},
-                 {"parameters", to_json(candidate.parameters)},
-                 {"hits", outcome.total_hits},
-                 {"mean_irradiance", mean_irradiance(outcome)},
-                 {"counts", to_json(outcome.counts)},
-                 {"seconds", seconds_json(timing, options.repeat)},
-                 {"read_seconds", job.read_seconds + run.read_seconds},
-                 {"rays_in_memory", run.rays_in_memory},
-                 {"stopped", outcome.stopped}};
-  result.text = to_text(job, candidate, run, timing);
-  result.csv = per_disc_csv(outcome);
+void write_hits(const RunOptions& options, const sim::Outcome& outcome, const CommonOptions& common) {
+  if (!options.per_disc && !options.pairs) return;
+  if (outcome.stopped)
+    return note(common, "stopped before the end: --per-disc and --pairs are not written, for they would be partial");
+  if (options.per_disc) write_text(*options.per_disc, per_disc_csv(outcome));
+  if (options.pairs) write_pairs(*options.pairs, outcome.pairs);
+}
+
+/// A photon map looks for rays in any order and wants all of them in memory.
+bool can_stream(CandidateOptions& options, std::size_t rows) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    options.lists.choose_row(row);
+    if (options.technique_or(Technique::brute_force) == Technique::photon_map) return false;
+  }
+  return true;
+}
+
+RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CommonOptions& common,
+                  const std::stop_token& stop, const ProgressLine& progress) {
+  RunAnswer answer{.candidate = complete(options.candidate, job.workload), .repeat = options.repeat};
+  const bool plain = options.engine == "plain";
+  sim::RunOptions run{.pairs = options.pairs.has_value(), .plain = plain, .stop = stop, .threads = common.threads};
+  answer.run = run_job(job, answer.candidate, run, progress);
+  run.count = run.pairs = false;
+  answer.timing =
+      time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run, progress);
+  return answer;
+}
+
+Result run_run(RunOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  require_count("--repeat", options.repeat, 0, 10000);
+  ValueLists& problems = options.workload.lists;
+  ValueLists& candidates = options.candidate.lists;
+  const std::size_t expected = rows_in(problems, candidates);
+  check_files(options, common, expected);
+  const bool stream = can_stream(options.candidate, candidates.rows());
+  const ProgressLine progress(common);
+  Json inputs;
+  std::string text;
+  const auto prepare = [&] {
+    progress.show("scene and rays", 0);
+    validate::JobRequest request = options.workload.request(common);
+    request.stream = stream;
+    validate::Job job = validate::make_job(request, stop);
+    for (const std::string& notice : job.notices) note(common, notice);
+    inputs = to_json(job, request);
+    return job;
+  };
+  const auto answer = [&](const validate::Job& job) {
+    const RunAnswer found = run_one(options, job, common, stop, progress);
+    write_hits(options, found.run.outcome, common);
+    inputs["engine"] = options.engine;
+    inputs["repeat"] = options.repeat;
+    if (expected == 1) text = to_text(job, found);
+    return run_row(inputs, job, found);
+  };
+  Result result =
+      result_of(answer_all(problems, candidates, stop, prepare, answer), expected, run_columns(), run_text_columns());
+  if (expected == 1) result.text = text;
   return result;
 }
 
@@ -183,11 +175,16 @@ Result run_run(const RunOptions& options, const CommonOptions& common, const std
 
 Command run_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("run", "The hits and the irradiance, by one technique");
-  app->footer("Example: detp run @tree --rays 100000 --technique octree --per-disc irradiance.csv");
+  app->footer(
+      "Numbers and names may be lists, numbers ranges, as 1%,2%,4% and 0.3:0.9:0.05: every combination makes a row.\n"
+      "Example: detp run @tree --rays 100000 --technique octree --per-disc irradiance.csv");
   const auto options = std::make_shared<RunOptions>();
-  options->workload.add_to(*app);
-  options->candidate.add_to(*app);
-  app->add_option("--repeat", options->repeat, "time that many further runs, which do not count; the median is shown");
+  options->workload.add_to(*app, Values::many);
+  options->candidate.add_to(*app, Values::many, SphereStop::best);
+  options->candidate.lists.add_word(*app, "--engine", Values::many, options->engine, {"plain", "simd"},
+                                    "simd: float kernels with exact decisions; plain: in doubles, one ray and one disc "
+                                    "at a time; the hits are the same");
+  add_number(*app, "--repeat", options->repeat, "time that many further runs, which do not count; the median is shown");
   app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");
   app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "detp/model/vocabulary/quoted.hpp"
+
 #include "workload_options.hpp"
 
 namespace detp::cli {
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string text_csv_field(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string field = "\"";
   for (const char c : text) field += c == '"' ? std::string("\"\"") : std::string(1, c);
@@ -20,10 +22,19 @@ std::string quoted(const std::string& text) {
 
 std::string csv_field(const Json& value) {
   if (value.is_null()) return "";
-  if (value.is_string()) return quoted(value.get_ref<const std::string&>());
+  if (value.is_string()) return text_csv_field(value.get_ref<const std::string&>());
   if (!value.is_number_float()) return value.dump();
   const auto number = value.get<double>();
   return std::isfinite(number) ? fmt::format("{}", number) : "";
+}
+
+/// A cell for a reader: floating-point numbers in six digits.
+std::string text_field(const Json& row, const std::string& column) {
+  if (!row.contains(column)) return "";
+  const Json& value = row[column];
+  if (value.is_null()) return "";
+  if (value.is_string()) return escaped(value.get<std::string>());
+  return value.is_number_float() ? fmt::format("{:.6g}", value.get<double>()) : value.dump();
 }
 
 template <class Fields, class Text>
@@ -52,9 +63,35 @@ void Table::add(const Json& row) {
 }
 
 std::string Table::csv() const {
-  std::string csv = csv_line(columns_, quoted);
+  std::string csv = csv_line(columns_, text_csv_field);
   for (const std::vector<Json>& row : rows_) csv += csv_line(row, csv_field);
   return csv;
+}
+
+std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers) {
+  std::vector<Columns> shown;  // a column each, its name first
+  std::string above;
+  const auto show = [&](const std::string& name, bool answer) {
+    Columns column{name};
+    for (const Json& row : rows) column.push_back(text_field(row, name));
+    const bool same =
+        std::all_of(column.begin() + 1, column.end(), [&](const std::string& field) { return field == column[1]; });
+    if (same && (column.size() == 1 || column[1].empty())) return;
+    if (same && !answer)
+      above += fmt::format("{:<16} {}\n", name, column[1]);
+    else
+      shown.push_back(std::move(column));
+  };
+  for (const std::string& name : inputs) show(name, false);
+  for (const std::string& name : answers) show(name, true);
+  std::vector<std::string> lines(rows.size() + 1);
+  for (const Columns& column : shown) {
+    const auto longer = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
+    const std::size_t width = std::max_element(column.begin(), column.end(), longer)->size();
+    for (std::size_t line = 0; line < lines.size(); ++line)
+      lines[line] += fmt::format("{}{:>{}}", &column == &shown.front() ? "" : "  ", column[line], width);
+  }
+  return fmt::format("{}\n{}\n", above, fmt::join(lines, "\n"));
 }
 
 const Columns& workload_columns() {
@@ -88,6 +125,12 @@ Json workload_cells(const Json& inputs) {
 Json candidate_cells(const Candidate& candidate) {
   Json cells{{"technique", name(candidate.technique)}, {"parameters", describe(candidate.parameters)}};
   cells.update(to_json(candidate.parameters));
+  return cells;
+}
+
+Json count_cells(const Json& counts) {
+  Json cells = counts;
+  cells["tests"] = counts["sphere_tests"].get<double>() + counts["disc_tests"].get<double>();
   return cells;
 }
 

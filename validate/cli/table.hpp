@@ -31,6 +31,9 @@ class Table {
   std::vector<std::vector<Json>> rows_;
 };
 
+/// Rows for a reader: above, each input that all rows share; below, aligned, the inputs that differ and the answers.
+[[nodiscard]] std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers);
+
 /// Columns that every table begins with: which rays and discs.
 [[nodiscard]] const Columns& workload_columns();
 
@@ -52,5 +55,8 @@ template <class T>
   cells[prefix + "tests"] = tests(counts);
   return cells;
 }
+
+/// The same of counts in JSON.
+[[nodiscard]] Json count_cells(const Json& counts);
 
 }  // namespace detp::cli

@@ -7,13 +7,18 @@
 
 namespace detp::cli {
 
-/// Reads "t=1e-9,u=2e-9": t sphere test, u disc test, w disc test in an index's cell alone, v step of a grid and node
-/// of a tree, n node of a tree alone, c copy, b placement in an index, s sample sorted, r rebuild. What is not named
-/// stays as in `otherwise`. Throws std::invalid_argument for anything else, and for a cost that is negative or not
+/// What each name of --costs stands for, a line each: for the help.
+[[nodiscard]] std::string unit_cost_help();
+
+/// Reads "t=1e-9,u=2e-9": names as the help explains them, in any order, each at most once; what is not named is 0. An
+/// empty text gives `otherwise`. Throws std::invalid_argument for anything else, and for a cost that is negative or not
 /// finite.
 [[nodiscard]] UnitCosts parse_unit_costs(const std::string& text, const UnitCosts& otherwise);
 
 /// By the same names.
 [[nodiscard]] nlohmann::ordered_json to_json(const UnitCosts& costs);
+
+/// The names of the costs that are 0: "t, u".
+[[nodiscard]] std::string free_of_charge(const UnitCosts& costs);
 
 }  // namespace detp::cli

@@ -254,7 +254,7 @@ Command validate_command(CLI::App& program) {
       ->check(CLI::IsMember({"default", "thorough"}));
   app->add_option("--checkpoint", options->sweep.checkpoint, "thorough: keep what is measured in this file");
   app->add_flag("--resume", options->sweep.resume, "thorough: go on from the checkpoint");
-  app->add_option("--most-samples", options->most_samples, "thorough: leave out larger workloads");
+  add_number(*app, "--most-samples", options->most_samples, "thorough: leave out larger workloads");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_validate(*options, common, stop);
           }};

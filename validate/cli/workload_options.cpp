@@ -1,6 +1,7 @@
 #include "workload_options.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -36,50 +37,74 @@ std::string spaced(double count) {
 
 std::string_view name(sim::Field field) { return field == sim::Field::isotropic ? "isotropic" : "photons"; }
 
-void WorkloadOptions::add_to(CLI::App& command) {
+void WorkloadOptions::add_to(CLI::App& command, Values values) {
+  using enum ValueLists::Kind;
   command.add_option("SCENE", request_.scene,
                      "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell");
   command.add_option("--discs", request_.disc_file, "discs from a CSV or PLY file");
   command.add_option("--ray-file", request_.ray_file, "rays from a CSV or PLY file");
-  command.add_option("--rays", request_.rays, "how many rays");
-  command.add_option("--samples", request_.samples, "how many samples; default: the scene's vertices");
-  command.add_option("--disc-radius", disc_radius_, "d: a length, or a percentage of the scene's longest side");
-  command.add_option("--sphere-radius", request_.sphere_radius, "r0, of a workload in numbers");
-  command.add_option("--scene-side", request_.scene_side, "s, of a workload in numbers; r0 = s sqrt(3)/2 + d");
-  command.add_option("--dimension", request_.dimension, "D of the samples: 3 fill a volume, 2 lie on surfaces");
-  command.add_option("--sample-extent", request_.sample_extent, "volume or area that the samples fill");
-  command.add_option("--field", field_, "isotropic (lines) or photons (paths from the scene's light)")
-      ->check(CLI::IsMember({"isotropic", "photons"}));
+  lists.add(command, "--rays", values, request_.rays, "how many rays");
+  lists.add(command, "--samples", values, request_.samples, "how many samples; default: the scene's vertices");
+  lists.add(
+      command, "--disc-radius", values, numbers,
+      [this](const std::string& text) { request_.disc_radius = validate::parse_length(text); },
+      "d: a length, or a percentage of the scene's longest side");
+  lists.add(command, "--sphere-radius", values, request_.sphere_radius, "r0, of a workload in numbers");
+  lists.add(command, "--scene-side", values, request_.scene_side, "s, of a workload in numbers; r0 = s sqrt(3)/2 + d");
+  lists.add(command, "--dimension", values, request_.dimension, "D of the samples: 3 fill a volume, 2 lie on surfaces");
+  lists.add(command, "--sample-extent", values, request_.sample_extent, "volume or area that the samples fill");
+  lists.add(
+      command, "--field", values, words,
+      [this](const std::string& text) {
+        const bool lines = one_of("--field", text, {"isotropic", "photons"}) == "isotropic";
+        request_.field = lines ? sim::Field::isotropic : sim::Field::photons;
+      },
+      "isotropic (lines) or photons (paths from the scene's light)");
   command.add_flag("--front-facing", request_.front_facing, "count only rays that arrive at a disc's front");
 }
 
 validate::JobRequest WorkloadOptions::request(const CommonOptions& common) const {
   validate::JobRequest request = request_;
   request.seed = common.seed;
-  if (!disc_radius_.empty()) request.disc_radius = validate::parse_length(disc_radius_);
-  if (field_ == "isotropic") request.field = sim::Field::isotropic;
-  if (field_ == "photons") request.field = sim::Field::photons;
   if (!request.numbers_alone() && (request.sphere_radius || request.scene_side))
     throw std::invalid_argument(
         "--sphere-radius and --scene-side describe a workload in numbers; a scene has its own size");
   return request;
 }
 
-void CandidateOptions::add_to(CLI::App& command) {
-  command.add_option("--technique", technique, known_techniques());
-  command.add_option("--ratio", ratio, "Q of a sphere cache, between 0 and 1");
-  command.add_option("--spheres", spheres, "k of a sphere cache, its innermost sphere");
-  command.add_option("--order", order, "lebesgue, hilbert or none")
-      ->check(CLI::IsMember({"lebesgue", "hilbert", "none"}));
-  command.add_option("--depth", depth, "levels of an octree, of a BSP tree at most, or of cells with spheres");
-  command.add_option("--traversal", traversal, "how rays go through an octree: " + known_traversals());
-  command.add_option("--cells", cells, "cells of a grid along its longest side");
-  command.add_option("--fan-out", fan_out, "children of a sphere tree's nodes, at least 2");
-  command.add_option("--leaf", leaf, "most samples in a leaf of a sphere tree or BSP tree");
-  command.add_option("--quality", quality, "of building a bvh: low or medium")->check(CLI::IsMember({"low", "medium"}));
-  command.add_option("--nearest", nearest, "photons that a photon-map looks for, at least 3");
-  command.add_option("--bounds", bounds, "what bounds a sphere tree's nodes: spheres or boxes")
-      ->check(CLI::IsMember({"spheres", "boxes"}));
+void CandidateOptions::add_to(CLI::App& command, Values values, SphereStop default_stop) {
+  using enum ValueLists::Kind;
+  lists.add(
+      command, "--technique", values, words, [this](const std::string& text) { technique = text; }, known_techniques());
+  lists.add(command, "--ratio", values, ratio, "Q of a sphere cache, between 0 and 1");
+  lists.add(
+      command, "--spheres", values, numbers, [this](const std::string& text) { set_spheres(text); },
+      fmt::format("k of a sphere cache: its innermost sphere, as a number; max: the form's own; best: the fastest by "
+                  "the model; default: {}",
+                  default_stop == SphereStop::max ? "max" : "best"));
+  lists.add_word(command, "--order", values, order, {"lebesgue", "hilbert", "none"}, "lebesgue, hilbert or none");
+  lists.add(command, "--depth", values, depth, "levels of an octree, of a BSP tree at most, or of cells with spheres");
+  lists.add(
+      command, "--traversal", values, words, [this](const std::string& text) { traversal = text; },
+      "how rays go through an octree: " + known_traversals());
+  lists.add(command, "--cells", values, cells, "cells of a grid along its longest side");
+  lists.add(command, "--fan-out", values, fan_out, "children of a sphere tree's nodes, at least 2");
+  lists.add(command, "--leaf", values, leaf, "most samples in a leaf of a sphere tree or BSP tree");
+  lists.add_word(command, "--quality", values, quality, {"low", "medium"}, "of building a bvh: low or medium");
+  lists.add(command, "--nearest", values, nearest, "photons that a photon-map looks for, at least 3");
+  lists.add_word(command, "--bounds", values, bounds, {"spheres", "boxes"},
+                 "what bounds a sphere tree's nodes: spheres or boxes");
+}
+
+void CandidateOptions::set_spheres(const std::string& text) {
+  spheres.reset();
+  stop.reset();
+  if (text == "max")
+    stop = SphereStop::max;
+  else if (text == "best")
+    stop = SphereStop::best;
+  else
+    spheres = parse_whole("--spheres", text);
 }
 
 Technique CandidateOptions::technique_or(Technique otherwise) const {
@@ -87,7 +112,7 @@ Technique CandidateOptions::technique_or(Technique otherwise) const {
   const auto found = technique_named(*technique);
   if (!found)
     throw std::invalid_argument(
-        fmt::format("there is no technique '{}'; there are {}", *technique, known_techniques()));
+        fmt::format("there is no technique {}; there are {}", detp::quoted(*technique), known_techniques()));
   return *found;
 }
 
@@ -106,7 +131,7 @@ Traversal CandidateOptions::chosen_traversal() const {
   const auto found = traversal_named(*traversal);
   if (!found)
     throw std::invalid_argument(
-        fmt::format("there is no traversal '{}'; there are {}", *traversal, known_traversals()));
+        fmt::format("there is no traversal {}; there are {}", detp::quoted(*traversal), known_traversals()));
   return *found;
 }
 
@@ -116,7 +141,7 @@ void CandidateOptions::refuse_foreign(Technique chosen) const {
     throw std::invalid_argument(fmt::format("{} is no parameter of {}", option, detp::name(chosen)));
   };
   if (ratio && !cache) refuse("--ratio");
-  if (spheres && !cache) refuse("--spheres");
+  if ((spheres || stop) && !cache) refuse("--spheres");
   if (order != "lebesgue" && !cache) refuse("--order");
   const bool deep = chosen == Technique::octree || chosen == Technique::cell_spheres || chosen == Technique::bsp;
   if (depth && !deep) refuse("--depth");

@@ -4,31 +4,48 @@
 
 #include "command.hpp"
 #include "detp/validate/job.hpp"
+#include "value_lists.hpp"
 
 namespace detp::cli {
 
-/// The options that name rays and discs (or a workload in numbers).
+/// The options that name rays and discs (or a workload in numbers). The parser points into it.
 class WorkloadOptions {
  public:
-  void add_to(CLI::App& command);
+  WorkloadOptions() = default;
+  WorkloadOptions(const WorkloadOptions&) = delete;
+  WorkloadOptions& operator=(const WorkloadOptions&) = delete;
 
-  /// What was asked for. Throws std::invalid_argument for what cannot be parsed.
+  void add_to(CLI::App& command, Values values = Values::one);
+
+  ValueLists lists;  ///< of the options that may have many values
+
+  /// What the chosen row asks for. Throws std::invalid_argument for options that do not go together.
   [[nodiscard]] validate::JobRequest request(const CommonOptions& common) const;
 
  private:
   validate::JobRequest request_;
-  std::string disc_radius_;
-  std::string field_;
 };
 
-/// The options that name a technique and its parameters; those left out are filled in.
+/// Where a sphere cache stops that is not given its k.
+enum class SphereStop {
+  max,  ///< at the form's own k
+  best  ///< where it is fastest, by the model
+};
+
+/// The options that name a technique and its parameters; those left out are filled in. The parser points into it.
 class CandidateOptions {
  public:
-  void add_to(CLI::App& command);
+  CandidateOptions() = default;
+  CandidateOptions(const CandidateOptions&) = delete;
+  CandidateOptions& operator=(const CandidateOptions&) = delete;
 
+  void add_to(CLI::App& command, Values values, SphereStop default_stop);
+
+  ValueLists lists;  ///< of the options that may have many values
   std::optional<std::string> technique;
   std::optional<double> ratio;
   std::optional<std::int64_t> spheres;
+  std::optional<SphereStop> stop;  ///< instead of the number of spheres
   std::string order = "lebesgue";
   std::optional<int> depth;
   std::optional<std::string> traversal;
@@ -51,6 +68,9 @@ class CandidateOptions {
 
   /// Throws std::invalid_argument for a parameter given that the technique does not have.
   void refuse_foreign(Technique technique) const;
+
+ private:
+  void set_spheres(const std::string& text);
 };
 
 /// "isotropic" or "photons".

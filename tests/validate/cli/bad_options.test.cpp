@@ -124,13 +124,17 @@ TEST_SUITE("bad input") {
     for (const std::string& command : {numbers, std::string("choose --samples 10 --disc-radius 0.1 --scene-side 1 ")})
       check_refused({{command + "--costs garbage", "name=value"},
                      {command + "--costs t", "name=value"},
-                     {command + "--costs x=1", "'x'"},
+                     {command + "--costs x=1", "\"x\""},
                      {command + "--costs t=", "unit cost t"},
                      {command + "--costs t=one", "unit cost t"},
                      {command + "--costs t=1;u=2", "unit cost t"},
                      {command + "--costs u=-1", "unit cost u"},
                      {command + "--costs u=nan", "unit cost u"},
-                     {command + "--costs u=inf", "unit cost u"}});
+                     {command + "--costs u=inf", "unit cost u"},
+                     {command + "--costs u=0x1", "unit cost u"},
+                     {command + "--costs t=1,", "name=value"},
+                     {command + "--costs t=1,t=2", "unit cost t is given twice"},
+                     {command + "--costs t=1,u=1,t=1", "unit cost t is given twice"}});
   }
 
   TEST_CASE("what would not fit in memory is refused before it is tried") {
@@ -146,6 +150,44 @@ TEST_SUITE("bad input") {
                    {"quux", "quux"},
                    {"quux --rays 5", "quux"},
                    {"--format json", "--format"}});
+  }
+
+  TEST_CASE("a number is decimal and alone, for every option") {
+    check_refused(each("run @uniform --rays",
+                       {"0x10", "inf", "-nan", " 5", "5 ", "+5", "1e400", "1e-400", "1_000", "five", "1e3x", "."},
+                       "--rays"));
+    check_refused(each("choose --disc-radius 0.1 --rays", {"5,6", "5:6:1"}, "--rays"));
+    const std::vector<std::string> no_number{"0x10", "inf"};
+    for (const std::string option : {"--samples", "--sphere-radius", "--dimension", "--sample-extent"})
+      check_refused(each("choose --disc-radius 0.1 " + option, no_number, option));
+    for (const std::string option : {"--samples", "--ratio", "--spheres", "--depth", "--cells", "--leaf", "--fan-out",
+                                     "--nearest", "--time-limit", "--threads", "--repeat"})
+      check_refused(each("run @uniform " + option, no_number, option));
+    check_refused(each("run @uniform --disc-radius", no_number, "disc radius"));
+    check_refused(each("bench @uniform --rays", no_number, "--rays"));
+    check_refused(each("bench @uniform --most-hits", no_number, "--most-hits"));
+    check_refused(each("validate --effort thorough --most-samples", no_number, "--most-samples"));
+    check_refused(each(numbers + "--levels", no_number, "--levels"));
+    CHECK(result_of(numbers + "--seed 010").at("provenance").at("seed") == 10);
+    CHECK(result_of(numbers + "--rays 1e3").at("inputs").at("rays") == 1000);
+    CHECK(result_of(numbers + "--technique grid --cells 2e1").at("parameters").at("cells") == 20);
+  }
+
+  TEST_CASE("ranges go from start to end in steps, and tables have at most 20 000 rows") {
+    check_refused({{numbers + "--ratio 0.3:0.9", "start:end:step"},
+                   {numbers + "--ratio 0.3:0.9:0.1:2", "start:end:step"},
+                   {numbers + "--ratio 0.3:0.9:0", "start:end:step"},
+                   {numbers + "--ratio 0.9:0.3:0.1", "start:end:step"},
+                   {numbers + "--ratio 0.3::0.1", "--ratio"},
+                   {numbers + "--ratio 0.3:x:0.1", "--ratio"},
+                   {numbers + "--ratio 0.3:0.9:1e-9", "at most 20000"},
+                   {numbers + "--ratio 0.1:0.9:0.001 --rays 1e3:1e6:1e3", "at most 20000"},
+                   {numbers + "--ratio 0.3,", "--ratio"},
+                   {numbers + "--ratio 0.5,1.5", "ratio"},
+                   {numbers + "--form published,wrong", "published,corrected"},
+                   {"model --samples 10 --scene-side 1 --disc-radius 1%:4:1%", "start:end:step"},
+                   {"choose --samples 10 --disc-radius 0.1 --scene-side 1 --rays 1e3,1e4", "--rays"},
+                   {uniform + "--technique grid --cells 4,8 --per-disc x.csv", "--per-disc"}});
   }
 
   TEST_CASE("a seed is a whole number below 2^64, and no other is taken instead") {

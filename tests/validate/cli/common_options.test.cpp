@@ -90,10 +90,11 @@ TEST_SUITE("end to end") {
     CHECK(model.at("form") == "corrected");
     CHECK(model.at("levels") == 64);
     CHECK(model.at("unit_costs") ==
-          Json{{"t", 3}, {"u", 1}, {"w", 1}, {"v", 7}, {"n", 7}, {"c", 0}, {"b", 0}, {"s", 0}, {"r", 0}});
-    const Json choose = result_of("choose --costs t=3" + numbers).at("inputs");
+          Json{{"t", 3}, {"u", 0}, {"w", 0}, {"v", 7}, {"n", 0}, {"c", 0}, {"b", 0}, {"s", 0}, {"r", 0}});
+    const Json choose = result_of("choose --costs t=3,u=2,w=1,v=1,n=1" + numbers).at("inputs");
     CHECK(choose.at("unit_costs").at("t") == 3);
-    CHECK(choose.at("unit_costs").at("u").get<double>() < 1e-6);
+    CHECK(choose.at("unit_costs").at("c") == 0);
+    CHECK(result_of("choose" + numbers).at("inputs").at("unit_costs").at("u").get<double>() < 1e-6);
     CHECK(choose.at("analyze") == false);
     const sim::support::ScratchFolder folder;
     const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n");

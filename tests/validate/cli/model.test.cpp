@@ -100,6 +100,38 @@ TEST_SUITE("known answer") {
       }
   }
 
+  TEST_CASE("k is the form's own by default, and its best stop is reported and taken on demand") {
+    for (const std::string form : {"published", "corrected"}) {
+      CAPTURE(form);
+      const std::string line = numbers + "--ratio 0.65 --form " + form;
+      const Json max = result_of(line);
+      const Json best = result_of(line + " --spheres best");
+      CHECK(max.at("k") == max.at("k_max"));
+      CHECK(best.at("k") == best.at("k_best"));
+      CHECK(best.at("k_max") == max.at("k_max"));
+      CHECK(best.at("k_best") == max.at("k_best"));
+      CHECK(best.at("k").get<int>() < max.at("k").get<int>());
+      CHECK(result_of(line + " --spheres max").at("total_time") == max.at("total_time"));
+      const double least = best.at("total_time");
+      for (int k = 1; k <= max.at("k").get<int>(); ++k)
+        CHECK(result_of(line + " --spheres " + std::to_string(k)).at("total_time").get<double>() >= least);
+    }
+  }
+
+  TEST_CASE("unit costs mean the same in any order, and what is not named is 0") {
+    const std::string octree = "model --samples 4096 --disc-radius 0.01 --scene-side 2 --technique octree --costs ";
+    const Json one = result_of(octree + "u=7,w=5,n=3");
+    CHECK(one.at("total_time") == result_of(octree + "n=3,w=5,u=7").at("total_time"));
+    CHECK(one.at("total_time").get<double>() == near(result_of(octree + "w=5").at("total_time").get<double>() +
+                                                     result_of(octree + "n=3").at("total_time").get<double>()));
+    CHECK(result_of(octree + "u=7").at("total_time") == 0);
+    const Json grid = result_of("model --samples 4096 --disc-radius 0.01 --scene-side 2 --technique grid --costs v=2");
+    CHECK(grid.at("total_time").get<double>() == near(2 * grid.at("counts").at("steps").get<double>()));
+    const Json tests = result_of("model --samples 4096 --disc-radius 0.01 --scene-side 2 --ratio 0.6");
+    CHECK(tests.at("total_time").get<double>() == near(tests.at("counts").at("sphere_tests").get<double>() +
+                                                       tests.at("counts").at("disc_tests").get<double>()));
+  }
+
   TEST_CASE("brute force tests every ray against every disc") {
     CHECK(result_of(numbers + "--technique brute-force").at("total_time").get<double>() == near(5 * rays * samples));
   }
@@ -133,7 +165,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("the published octree is eq 22") {
     const std::string octree =
-        "model --rays 1000 --samples 4096 --disc-radius 0.01 --scene-side 2 --costs u=5 --technique octree ";
+        "model --rays 1000 --samples 4096 --disc-radius 0.01 --scene-side 2 --costs w=5 --technique octree ";
     const Json json = result_of(octree + "--form published");
     CHECK(json.at("depth") == 6);  // 2/(2 · 0.01) = 100, between 2^6 and 2^7
     const Json four = result_of(octree + "--form published --depth 4");
@@ -144,7 +176,7 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("a cube of n cells a side has n cells on a line, which tests what lies in them") {
-    const std::string cube = "model --rays 1000 --samples 4096 --disc-radius 0.01 --scene-side 2 --costs u=5 ";
+    const std::string cube = "model --rays 1000 --samples 4096 --disc-radius 0.01 --scene-side 2 --costs w=5 ";
     const double x = 0.01 / (2.02 / 16);
     const double endless = 1 + 1.5 * 3.14159265358979 * (x + x * x);
     for (const std::string index : {"--technique octree --depth 4", "--technique grid --cells 16"}) {

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 
 #include "run_support.hpp"
+#include "support/csv_answer.hpp"
 
 namespace detp::support {
 namespace {
@@ -126,11 +127,59 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("CSV on stdout is the file of --per-disc, and text tells the same number of hits") {
-    const std::string run = "run @cornell --rays 2000 --technique grid";
-    const Written written = run_and_read(words(run), "");
-    CHECK(detp(run + " --format csv").out == written.per_disc);
-    CHECK(detp(run).out.find(fmt::format("hits      {},", written.hits)) != std::string::npos);
+  TEST_CASE("CSV is one row of what JSON says, and text tells the same number of hits") {
+    const std::string run = "run @cornell --rays 2000 --technique sphere-cache --ratio 0.5";
+    const Json json = result_of(run);
+    const auto rows = csv_of(run);
+    REQUIRE(rows.size() == 1);
+    const CsvRow& row = rows[0];
+    CHECK(row.at("scene") == "@cornell");
+    CHECK(row.at("field") == "photons");
+    CHECK(row.at("technique") == "sphere-cache");
+    CHECK(row.at("ratio") == "0.5");
+    CHECK(row.at("engine") == "simd");
+    CHECK(row.at("stopped") == "false");
+    CHECK(row.at("depth").empty());
+    for (const auto& [term, count] : json.at("counts").items()) CHECK(row.at(term) == count.dump());
+    for (const auto& [term, count] : json.at("predicted").items())
+      CHECK(number(row, "predicted_" + term) == count.get<double>());
+    CHECK(number(row, "mean_irradiance") == json.at("mean_irradiance").get<double>());
+    CHECK(number(row, "seconds") > 0);
+    CHECK(detp(run).out.find(fmt::format("hits      {},", json.at("hits").get<int>())) != std::string::npos);
+  }
+
+  TEST_CASE("the plain engine finds the hits of the float kernels, and says that it ran") {
+    for (const std::string technique :
+         {"brute-force", "sphere-cache --ratio 0.6", "cell-spheres --depth 3", "sphere-tree --fan-out 4 --leaf 16"}) {
+      CAPTURE(technique);
+      const Arguments run = words("run @cornell --rays 2000 --technique " + technique);
+      const Written simd = run_and_read(run, "--engine simd");
+      const Written plain = run_and_read(run, "--engine plain");
+      CHECK(plain == simd);
+      CHECK(plain.json.at("inputs").at("engine") == "plain");
+      CHECK(simd.json.at("inputs").at("engine") == "simd");
+      CHECK(plain.json.at("seconds").at("search").get<double>() > 0);
+    }
+    // The plain lists hold the rays that cross the spheres, the float kernels' a few more.
+    const std::string cache =
+        "run @uniform --samples 2000 --rays 20000 --technique sphere-cache --ratio 0.6 --spheres 6";
+    const Json plain = result_of(cache + " --engine plain").at("counts");
+    const Json simd = result_of(cache).at("counts");
+    CHECK(plain.at("hits") == simd.at("hits"));
+    CHECK(plain.at("disc_tests").get<double>() < simd.at("disc_tests").get<double>());
+  }
+
+  TEST_CASE("a sphere cache runs with the best stop unless told otherwise, and reports the form's own too") {
+    const std::string line = "run @uniform --samples 2000 --rays 2000 --technique sphere-cache --ratio 0.7";
+    const Json best = result_of(line);
+    const Json max = result_of(line + " --spheres max");
+    CHECK(best.at("k") == best.at("k_best"));
+    CHECK(best.at("k") == best.at("parameters").at("spheres"));
+    CHECK(best.at("k").get<int>() < best.at("k_max").get<int>());
+    CHECK(max.at("k") == best.at("k_max"));
+    CHECK(max.at("hits") == best.at("hits"));
+    CHECK(result_of(line + " --spheres best").at("k") == best.at("k"));
+    CHECK(result_of(line + " --spheres 2").at("k") == 2);
   }
 
   TEST_CASE("the phases make up the time, and --repeat tells every run's") {

@@ -65,6 +65,149 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE("a range has the values that a reader would write, its end included where a step meets it") {
+    const auto ratios = [](const std::string& range) {
+      std::vector<std::string> values;
+      for (const CsvRow& row : csv_of("model" + numbers + " --levels 0 --ratio " + range))
+        values.push_back(row.at("ratio"));
+      return values;
+    };
+    CHECK(ratios("0.3:0.9:0.05") == std::vector<std::string>{"0.3", "0.35", "0.4", "0.45", "0.5", "0.55", "0.6", "0.65",
+                                                             "0.7", "0.75", "0.8", "0.85", "0.9"});
+    CHECK(ratios("0.3:0.9:0.25") == std::vector<std::string>{"0.3", "0.55", "0.8"});
+    CHECK(ratios("0.3:0.3:0.1") == std::vector<std::string>{"0.3"});
+    CHECK(ratios("0.9:0.3:-0.3") == std::vector<std::string>{"0.9", "0.6", "0.3"});
+    CHECK(ratios("5e-1,6e-1:8e-1:1e-1,0.85") == std::vector<std::string>{"0.5", "0.6", "0.7", "0.8", "0.85"});
+    const auto rows = csv_of("model --samples 1000 --disc-radius 0.02 --scene-side 2 --rays 1e3:3e3:1e3");
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[2].at("rays") == "3000");
+    CHECK(csv_of("model --samples 1000 --disc-radius 1%:3%:1% --scene-side 2")[2].at("disc_radius") == "0.06");
+  }
+
+  TEST_CASE("all combinations make a row: the scene's options change slowest, the last parameter and form fastest") {
+    const auto rows = csv_of(
+        "model --samples 1000 --rays 2000 --scene-side 2 --disc-radius 0.02,0.04 --ratio 0.5,0.6 "
+        "--form published,corrected");
+    REQUIRE(rows.size() == 8);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      CHECK(rows[i].at("disc_radius") == (i < 4 ? "0.02" : "0.04"));
+      CHECK(rows[i].at("ratio") == (i % 4 < 2 ? "0.5" : "0.6"));
+      CHECK(rows[i].at("form") == (i % 2 == 0 ? "published" : "corrected"));
+    }
+  }
+
+  TEST_CASE("a row of a table is the answer of its own command, in JSON and CSV") {
+    const std::string model = "model --samples 1000 --rays 2000 --scene-side 2 ";
+    const Json table = result_of(model + "--disc-radius 0.02,0.04 --ratio 0.5,0.6 --levels 3");
+    CHECK_FALSE(table.contains("k"));
+    CHECK(table.at("stopped") == false);
+    CHECK(table.at("inputs").at("disc_radius") == Json{0.02, 0.04});
+    CHECK(table.at("inputs").at("rays") == 2000);
+    REQUIRE(table.at("rows").size() == 4);
+    const auto rows = csv_of(model + "--disc-radius 0.02,0.04 --ratio 0.5,0.6");
+    REQUIRE(rows.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      Json own = result_of(model + "--levels 3 --disc-radius " + (i < 2 ? "0.02" : "0.04") + " --ratio " +
+                           (i % 2 == 0 ? "0.5" : "0.6"));
+      CHECK(table.at("rows")[i].at("inputs") == own.at("inputs"));
+      CHECK(table.at("rows")[i].at("spheres").size() == 3);
+      for (const std::string key : {"k", "total_time", "rebuild_time", "counts", "spheres", "parameters"})
+        CHECK(table.at("rows")[i].at(key) == own.at(key));
+      CHECK(number(rows[i], "total_time") == own.at("total_time").get<double>());
+      CHECK(number(rows[i], "disc_tests") == own.at("counts").at("disc_tests").get<double>());
+      CHECK(rows[i].at("i").empty());
+    }
+  }
+
+  TEST_CASE("model: CSV of one answer has a row for each sphere, with what holds of all in each") {
+    const Json json = result_of("model" + numbers + " --ratio 0.5");
+    const auto rows = csv_of("model" + numbers + " --ratio 0.5");
+    REQUIRE(rows.size() == json.at("spheres").size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (const auto& [key, value] : json.at("spheres")[i].items())
+        CHECK(number(rows[i], key == "i" ? key : key + "_i") == value.get<double>());
+      for (const std::string key : {"k", "rebuild_time", "intersect_time", "copy_time", "order_time", "total_time"})
+        CHECK(number(rows[i], key) == json.at(key).get<double>());
+      CHECK(rows[i].at("cost_t") == "1");
+      CHECK(rows[i].at("parameters") == "Q 0.5, k 6");
+    }
+    CHECK(csv_of("model" + numbers + " --ratio 0.5 --levels 0").size() == 1);
+  }
+
+  TEST_CASE("model: every technique's CSV carries every number of its JSON") {
+    for (const std::string technique : {"brute-force", "sphere-cache --order none", "sphere-cache --form published",
+                                        "cell-spheres", "sphere-tree", "octree", "octree --form published", "grid"}) {
+      const std::string line = "model" + numbers + " --technique " + technique;
+      CAPTURE(line);
+      const Json json = result_of(line);
+      const CsvRow row = csv_of(line).front();
+      const auto check = [&](const Json& part) {
+        for (const auto& [key, value] : part.items()) {
+          CAPTURE(key);
+          if (value.is_number()) CHECK(number(row, key) == value.get<double>());
+          if (value.is_string()) CHECK(row.at(key) == value.get<std::string>());
+        }
+      };
+      Json answer = json;
+      for (const char* envelope : {"schema", "inputs", "provenance"}) answer.erase(envelope);
+      check(answer);
+      check(json.at("parameters"));
+      if (json.contains("counts")) check(json.at("counts"));
+    }
+  }
+
+  TEST_CASE("run: counted and predicted tests against Q for several radii are one table") {
+    const std::string line =
+        "run @uniform --samples 2000 --rays 5000 --technique sphere-cache --disc-radius 0.02,0.04 ";
+    const auto rows = csv_of(line + "--ratio 0.5:0.7:0.1 --spheres max --engine plain");
+    REQUIRE(rows.size() == 6);
+    const auto published = csv_of(
+        "model @uniform --samples 2000 --rays 5000 --disc-radius 0.02,0.04 --ratio 0.5:0.7:0.1 --form corrected");
+    REQUIRE(published.size() == 6);
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      for (const std::string same : {"scene", "rays", "samples", "disc_radius", "sphere_radius", "ratio", "k"})
+        CHECK(rows[i].at(same) == published[i].at(same));
+      CHECK(rows[i].at("hits") == rows[i < 3 ? 0 : 3].at("hits"));
+      CHECK(number(rows[i], "predicted_sphere_tests") == number(published[i], "rebuild_time"));
+      CHECK(number(rows[i], "predicted_disc_tests") == number(published[i], "intersect_time"));
+      CHECK(number(rows[i], "tests") == number(rows[i], "sphere_tests") + number(rows[i], "disc_tests"));
+      CHECK(number(rows[i], "sphere_tests") == doctest::Approx(number(published[i], "rebuild_time")).epsilon(0.2));
+      const std::string ratio = rows[i].at("ratio");
+      const Json own = result_of(
+          "run @uniform --samples 2000 --rays 5000 --technique sphere-cache --spheres max "
+          "--engine plain --disc-radius " +
+          rows[i].at("disc_radius") + " --ratio " + ratio);
+      CHECK(rows[i].at("sphere_tests") == own.at("counts").at("sphere_tests").dump());
+      CHECK(rows[i].at("hits") == own.at("hits").dump());
+    }
+  }
+
+  TEST_CASE("several techniques and engines in one run are rows of one table, and its text is aligned") {
+    const std::string line = "run @cornell --rays 1000 --technique grid,sphere-tree,photon-map --engine plain,simd";
+    const auto rows = csv_of(line + " --field photons");
+    REQUIRE(rows.size() == 6);
+    CHECK(rows[0].at("technique") == "grid");
+    CHECK(rows[3].at("technique") == "sphere-tree");
+    CHECK(rows[3].at("engine") == "simd");
+    CHECK(rows[0].at("hits") == rows[3].at("hits"));
+    CHECK(rows[4].at("predicted_tests").empty());
+    const std::string text = detp("model" + numbers + " --ratio 0.5:0.7:0.1").out;
+    std::istringstream lines(text.substr(text.find("\n\n") + 2));
+    std::vector<std::string> table;
+    for (std::string row; std::getline(lines, row);) table.push_back(row);
+    REQUIRE(table.size() == 4);
+    for (const std::string& row : table) CHECK(row.size() <= table[0].size());
+    CHECK(table[3].find("Q 0.7, k 12") != std::string::npos);
+    CHECK(text.find("disc_radius      0.02\n") != std::string::npos);
+  }
+
+  TEST_CASE("-o is short for --output") {
+    const sim::support::ScratchFolder folder;
+    const std::string path = folder.path("table.csv");
+    CHECK(detp(words("model" + numbers + " --format csv -o") + Arguments{path}).code == 0);
+    CHECK(sim::support::content_of(path) == detp("model" + numbers + " --format csv").out);
+  }
+
   TEST_CASE("scene: CSV is one row with what JSON says, effects included") {
     const Json json = result_of("scene @cornell --rays 100");
     const auto rows = csv_of("scene @cornell --rays 100");

@@ -1,0 +1,43 @@
+#include "number_option.hpp"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+
+#include "detp/model/vocabulary/quoted.hpp"
+
+namespace detp::cli {
+
+double parse_number(std::string_view option, std::string_view text) {
+  double value = 0;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), last, value);
+  if (error == std::errc::result_out_of_range && end == last)
+    throw std::invalid_argument(
+        fmt::format("{} must lie within ±1.8e308 and be 0 or beyond ±4.9e-324 (got {})", option, detp::quoted(text)));
+  if (error != std::errc{} || end != last || !std::isfinite(value))
+    throw std::invalid_argument(
+        fmt::format("{} must be one decimal number, as 1000 or 2.5e-3 (got {})", option, detp::quoted(text)));
+  return value;
+}
+
+std::int64_t parse_whole(std::string_view option, std::string_view text, std::int64_t least, std::int64_t most) {
+  const auto refuse = [&] {
+    throw std::invalid_argument(
+        fmt::format("{} must be a whole number from {} to {} (got {})", option, least, most, detp::quoted(text)));
+  };
+  std::int64_t value = 0;
+  const char* const last = text.data() + text.size();
+  if (const auto [end, error] = std::from_chars(text.data(), last, value); error != std::errc{} || end != last) {
+    const double number = parse_number(option, text);
+    constexpr double beyond = 9223372036854775808.0;  // 2⁶³
+    if (!(std::trunc(number) == number && number >= -beyond && number < beyond)) refuse();
+    value = static_cast<std::int64_t>(number);
+  }
+  if (value < least || value > most) refuse();
+  return value;
+}
+
+}  // namespace detp::cli

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+/// One rule for every number on the command line: a decimal number, and nothing around it. (CLI11 alone would take
+/// 0x10, inf and " 5".)
+namespace detp::cli {
+
+/// Throws std::invalid_argument, naming the option, for anything but one decimal number in the range of doubles.
+[[nodiscard]] double parse_number(std::string_view option, std::string_view text);
+
+/// The same for a whole number from least to most: "1000" or "1e3".
+[[nodiscard]] std::int64_t parse_whole(std::string_view option, std::string_view text,
+                                       std::int64_t least = std::numeric_limits<std::int64_t>::min(),
+                                       std::int64_t most = std::numeric_limits<std::int64_t>::max());
+
+inline void read_value(std::string_view option, std::string_view text, double& value) {
+  value = parse_number(option, text);
+}
+inline void read_value(std::string_view option, std::string_view text, std::int64_t& value) {
+  value = parse_whole(option, text);
+}
+inline void read_value(std::string_view option, std::string_view text, int& value) {
+  value = static_cast<int>(parse_whole(option, text, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
+}
+inline void read_value(std::string_view /*option*/, std::string_view text, std::string& value) { value = text; }
+template <class T>
+void read_value(std::string_view option, std::string_view text, std::optional<T>& value) {
+  read_value(option, text, value.emplace());
+}
+
+/// An option with one number: double, int or std::int64_t, or an optional one. It must outlive the parser.
+template <class Number>
+CLI::Option* add_number(CLI::App& command, const std::string& option, Number& value, const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          option, [option, &value](const std::string& text) { read_value(option, text, value); }, help)
+      ->type_name("N");
+}
+
+}  // namespace detp::cli

@@ -1,0 +1,16 @@
+#include "sphere_stops.hpp"
+
+#include "detp/model/best_published_ratio.hpp"
+#include "detp/model/best_ratio.hpp"
+#include "detp/model/sphere_count.hpp"
+
+namespace detp::cli {
+
+SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, model::Form form, RadiusRatio ratio) {
+  const std::int64_t max = model::sphere_count(form, ratio, {workload.disc_radius}, {workload.sphere_radius});
+  if (max == 0) return {};
+  return {max, form == model::Form::published ? model::published::best_stop(workload, costs, ratio)
+                                              : model::best_stop(workload, costs, ratio).spheres};
+}
+
+}  // namespace detp::cli
