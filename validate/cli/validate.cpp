@@ -198,31 +198,32 @@ std::vector<validate::SweepPoint> points_of(const ValidateOptions& options) {
   return points;
 }
 
-validate::SweepOptions sweep_options(const ValidateOptions& options, const CommonOptions& common) {
+validate::SweepOptions sweep_options(const ValidateOptions& options, const CommonOptions& common,
+                                     const std::stop_token& stop) {
   validate::SweepOptions sweep = options.sweep;
   sweep.seed = common.seed;
+  sweep.stop = stop;
   return sweep;
 }
 
 /// Before any work.
-void check_files(const ValidateOptions& options, const CommonOptions& common) {
+void check_files(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   Output checkpoint{"--checkpoint", std::nullopt};
   if (options.sweep.checkpoint) checkpoint.path = options.sweep.checkpoint->string();
   check_outputs({{"--output", common.output}, checkpoint});
-  if (options.thorough) validate::check_checkpoint(points_of(options), sweep_options(options, common));
+  if (options.thorough) validate::check_checkpoint(points_of(options), sweep_options(options, common, stop));
 }
 
 void sweep(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop,
            const ProgressLine& progress, Table& table, Result& result) {
-  validate::SweepOptions sweep = sweep_options(options, common);
-  sweep.stop = stop;
+  validate::SweepOptions sweep = sweep_options(options, common, stop);
   sweep.progress = [&](std::string_view point, double share) { progress.show(point, share); };
   report_sweep(validate::run_sweep(points_of(options), sweep), table, result);
 }
 
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   check_effort(options, options.workload.request(common));
-  check_files(options, common);
+  check_files(options, common, stop);
   const ProgressLine progress(common);
   Result result;
   const validate::Experiment experiment =

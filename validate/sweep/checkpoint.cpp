@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "detp/sim/scene/file_error.hpp"
 #include "detp/sim/scene/input_file.hpp"
@@ -40,11 +41,11 @@ Deviation deviation_of(const Json& json) {
 Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t seed, std::uint64_t fingerprint)
     : path_(std::move(path)), seed_(seed), fingerprint_(fingerprint) {}
 
-void Checkpoint::read() {
+void Checkpoint::read(std::stop_token stop) {
   std::error_code unknown;  // what else is wrong, reading tells
   if (!std::filesystem::exists(path_, unknown) && !unknown) return;
   try {
-    const Json json = Json::parse(sim::read_file(path_.string(), most_bytes));
+    const Json json = Json::parse(sim::read_file(path_.string(), most_bytes, std::move(stop)));
     if (json.at("schema").at("name") != schema || json.at("schema").at("version") != 1)
       throw sim::FileError(path_.string(), "is no checkpoint of this version; one written by --checkpoint is needed");
     if (json.at("seed") != seed_)

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -17,8 +18,8 @@ class Checkpoint {
   Checkpoint(std::filesystem::path path, std::uint64_t seed, std::uint64_t fingerprint);
 
   /// Reads the file. Throws sim::FileError where it is malformed, or was made with another seed or fingerprint. A
-  /// missing file is an empty checkpoint.
-  void read();
+  /// missing file is an empty checkpoint. Throws sim::Stopped within 0.1 s of a stop request.
+  void read(std::stop_token stop = {});
 
   /// Adds a point and writes all, aside first, so that the file is whole at any moment.
   void add(const std::string& point, const std::vector<Deviation>& deviations);

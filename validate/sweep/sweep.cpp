@@ -6,6 +6,7 @@
 #include <bit>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include "checkpoint.hpp"
 #include "detp/model/predict.hpp"
@@ -29,10 +30,11 @@ std::uint64_t fingerprint(std::span<const SweepPoint> points) {
 }
 
 /// What the options name, read where it is to be resumed.
-std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options) {
+std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options,
+                                        std::stop_token stop) {
   if (!options.checkpoint) return std::nullopt;
   Checkpoint checkpoint(*options.checkpoint, options.seed, fingerprint(points));
-  if (options.resume) checkpoint.read();
+  if (options.resume) checkpoint.read(std::move(stop));
   return checkpoint;
 }
 
@@ -40,7 +42,7 @@ std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, cons
 class Collector {
  public:
   Collector(std::span<const SweepPoint> points, const SweepOptions& options)
-      : points_(points), options_(options), checkpoint_(checkpoint_of(points, options)) {
+      : points_(points), options_(options), checkpoint_(checkpoint_of(points, options, {})) {
     for (const SweepPoint& point : points) {
       total_ += point.effort();
       if (!checkpoint_ || !checkpoint_->points().contains(point.name())) continue;
@@ -87,7 +89,7 @@ class Collector {
 }  // namespace
 
 void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& options) {
-  (void)checkpoint_of(points, options);
+  (void)checkpoint_of(points, options, options.stop);
 }
 
 SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options) {

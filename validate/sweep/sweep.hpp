@@ -35,7 +35,8 @@ struct SweepResult {
 /// of the sweep, or is malformed: it is left as it is.
 [[nodiscard]] SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options = {});
 
-/// Throws as run_sweep does for the checkpoint that the options name, without any measuring.
+/// Throws as run_sweep does for the checkpoint that the options name, without any measuring;
+/// and sim::Stopped within 0.1 s of a stop request.
 void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& options);
 
 }  // namespace detp::validate

@@ -95,6 +95,9 @@ TEST_SUITE("end to end") {
     CHECK(limited.code == 3);
     CHECK(limited.seconds < 5);
     CHECK(limited.err.find("stopped while reading") != std::string::npos);
+    const Finished resumed = detp("validate --effort thorough --resume --time-limit 0.1 --checkpoint " + pipe);
+    CHECK(resumed.code == 3);
+    CHECK(resumed.seconds < 5);
     Process process(run);
     std::this_thread::sleep_for(std::chrono::milliseconds(300));
     process.send(SIGINT);
