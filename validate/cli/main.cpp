@@ -100,7 +100,7 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
     // A file's name may be no UTF-8, which JSON must be.
     print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", common);
   } else {
-    print(common.format == "csv" ? result.csv : result.text, common);
+    print(common.format == "csv" ? result.csv : safe_text(result.text), common);
   }
   return static_cast<int>(result.code);
 }

@@ -81,6 +81,10 @@ TEST_SUITE("end to end") {
     CHECK(text.code == 0);
     CHECK(text.out.find("\\xff\\x1b[2J.obj") != std::string::npos);
     CHECK(text.out.find('\x1b') == std::string::npos);
+    const Finished bench = detp(Arguments{"bench", name} + words("--rays 10"));
+    CHECK(bench.code == 0);
+    CHECK(bench.out.find("\\xff\\x1b[2J") != std::string::npos);
+    CHECK(bench.out.find('\x1b') == std::string::npos);
     const Finished missing = detp(Arguments{"scene", name + ".obj", "--rays", "10"});
     CHECK(missing.code == 2);
     CHECK(missing.err.find("\\xff\\x1b[2J.obj.obj: cannot be opened") != std::string::npos);
