@@ -36,7 +36,7 @@ struct Scene {
   std::string name;             ///< "@tree", or the file's path
   Mesh mesh;                    ///< no triangles in @uniform
   std::vector<Sample> samples;  ///< at the mesh's vertices, or @uniform's points
-  Box box;                      ///< of the samples and the mesh's used vertices
+  Box box;                      ///< of the samples and the mesh's used vertices; of @uniform, its cube
   std::optional<Light> light;   ///< none in @uniform
   double albedo = 0.5;          ///< share of a photon's meetings with a surface after which it goes on, diffusely
   Field field = Field::photons;

@@ -8,6 +8,7 @@
 #include "detp/model/box_tree_rule.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/sim/scene/output_file.hpp"
+#include "detp/sim/threads.hpp"
 #include "detp/validate/unit_costs.hpp"
 #include "outputs.hpp"
 #include "run_report.hpp"
@@ -161,6 +162,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     const RunAnswer found = run_one(options, job, common, stop, progress);
     write_hits(options, found.run.outcome, common);
     inputs["engine"] = options.engine;
+    inputs["threads"] = sim::thread_count(common.threads);
     inputs["repeat"] = options.repeat;
     if (expected == 1) text = to_text(job, found);
     return run_row(inputs, job, found);

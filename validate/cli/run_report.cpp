@@ -74,6 +74,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
 Json cells_of(const Json& inputs, const Candidate& candidate, const Json& json) {
   Json cells = workload_cells(inputs);
   cells["engine"] = inputs["engine"];
+  cells["threads"] = inputs["threads"];
   cells.update(candidate_cells(candidate));
   for (const auto& [name, value] : json.items())
     if (!value.is_structured()) cells[name] = value;
@@ -99,7 +100,7 @@ AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer
 }
 
 Columns run_columns() {
-  return workload_columns() + Columns{"engine"} + candidate_columns() +
+  return workload_columns() + Columns{"engine", "threads"} + candidate_columns() +
          Columns{"k", "k_max", "k_best", "hits_per_disc", "mean_irradiance"} + count_columns() +
          count_columns("predicted_") +
          Columns{"predicted_seconds", "seconds",    "prepare_seconds", "order_seconds",  "build_seconds",

@@ -95,9 +95,9 @@ std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, c
 }
 
 const Columns& workload_columns() {
-  static const Columns columns{"scene",         "field",           "rays",          "samples",    "disc_radius",
-                               "ray_file",      "front_facing",    "sphere_radius", "scene_side", "dimension",
-                               "sample_extent", "sample_distance", "path_length"};
+  static const Columns columns{
+      "scene", "field",         "rays",       "samples",   "disc_radius",   "ray_file",        "front_facing",
+      "seed",  "sphere_radius", "scene_side", "dimension", "sample_extent", "sample_distance", "path_length"};
   return columns;
 }
 

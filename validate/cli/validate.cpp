@@ -64,6 +64,7 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
   validate::Experiment experiment = request.numbers_alone() ? uniform_experiment(request, stop, inputs)
                                                             : scene_experiment(request, common, stop, inputs);
   experiment.seed = request.seed;
+  inputs["seed"] = request.seed;
   return experiment;
 }
 

@@ -197,6 +197,7 @@ Json to_json(const validate::Job& job, const validate::JobRequest& request) {
   else
     json["field"] = name(job.field);
   json["front_facing"] = job.front_facing;
+  json["seed"] = request.seed;
   json.update(to_json(job.workload));
   return json;
 }

@@ -37,6 +37,17 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE("one per cent of @uniform, a cube of side 2, is 0.02 whatever the number of samples") {
+    for (const std::string samples : {"100", "1000"})
+      CHECK(csv_of("scene @uniform --rays 10 --disc-radius 1% --samples " + samples)[0].at("disc_radius") == "0.02");
+    const auto rows = csv_of("run @uniform --rays 10 --samples 20 --disc-radius 1%,2%,4% --technique grid --seed 9");
+    REQUIRE(rows.size() == 3);
+    CHECK(rows[0].at("disc_radius") == "0.02");
+    CHECK(rows[1].at("disc_radius") == "0.04");
+    CHECK(rows[2].at("disc_radius") == "0.08");
+    CHECK(rows[2].at("seed") == "9");
+  }
+
   TEST_CASE("a file's name with a comma, a quote and a line feed is one field of CSV") {
     const sim::support::ScratchFolder folder;
     const std::string discs = folder.file("a,\"b\"\nc.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n");
