@@ -39,16 +39,31 @@ void decide(ChooseAnswer& answer, const UnitCosts& costs) {
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs);
 }
 
+/// What the structures built of the discs say of a candidate.
+model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const UnitCosts& costs) {
+  const Counts<double> counts = validate::structural_counts(job.discs, job.workload.rays, candidate);
+  return {candidate, counts, price(counts, costs, candidate.technique)};
+}
+
+/// A candidate that was not ranked; nothing where neither a closed form nor its structure predicts it.
+std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
+                                       const UnitCosts& costs) {
+  try {
+    return structural ? assess_structurally(job, candidate, costs) : model::assess(job.workload, candidate, costs);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;
+  } catch (const std::length_error&) {
+    return std::nullopt;
+  }
+}
+
 /// Ranks anew by what the samples, and the structures built of them, say.
 void decide_structurally(ChooseAnswer& answer, const validate::Job& job, const UnitCosts& costs) {
   if (job.field != sim::Field::isotropic)
     throw std::invalid_argument(
         "--rigor structural counts isotropic lines; give --field isotropic, or --rigor estimate");
   const auto start = std::chrono::steady_clock::now();
-  for (model::Ranked& ranked : answer.ranking) {
-    ranked.counts = validate::structural_counts(job.discs, answer.workload.rays, ranked.candidate);
-    ranked.time = price(ranked.counts, costs, ranked.candidate.technique);
-  }
+  for (model::Ranked& ranked : answer.ranking) ranked = assess_structurally(job, ranked.candidate, costs);
   std::stable_sort(answer.ranking.begin(), answer.ranking.end(),
                    [](const model::Ranked& a, const model::Ranked& b) { return a.time.total() < b.time.total(); });
   answer.choosing_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -83,10 +98,14 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     answer.workload = job.workload;
     decide(answer, costs);
     if (structural) decide_structurally(answer, job, costs);
-    if (options.analyze)
+    if (options.analyze) {
       answer.analysis = validate::analyse(
           job.problem(), answer.ranking,
-          {.stop = stop, .progress = [&](std::string_view step, double done) { progress.show(step, done); }});
+          {.stop = stop,
+           .predict = [&](const Candidate& candidate) { return predicted(candidate, job, structural, costs); },
+           .progress = [&](std::string_view step, double done) { progress.show(step, done); }});
+      if (answer.analysis->stopped) result.code = ExitCode::stopped;
+    }
     result.inputs = to_json(job, request);
     answer.title = describe(job);
   }
@@ -94,6 +113,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   result.inputs["rigor"] = options.rigor;
   result.inputs["analyze"] = options.analyze;
   answer.rigor = options.rigor;
+  answer.costs = costs;
   answer.costs_given = !options.costs.empty();
   result.json = to_json(answer);
   result.text = to_text(answer);

@@ -5,14 +5,33 @@
 #include <algorithm>
 #include <array>
 
+#include "measured_report.hpp"
 #include "table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
 namespace {
 
-const validate::Analysed* analysed(const ChooseAnswer& answer, std::size_t place) {
-  return answer.analysis ? &answer.analysis->candidates[place] : nullptr;
+/// A row of the answer: a candidate, predicted or run or both.
+struct Row {
+  Candidate candidate;
+  const model::Ranked* predicted = nullptr;
+  const validate::Analysed* run = nullptr;
+  bool chosen = false;
+};
+
+/// As ranked; then, with an analysis, the others that were tried.
+std::vector<Row> rows_of(const ChooseAnswer& answer) {
+  std::vector<Row> rows;
+  if (!answer.analysis) {
+    for (const model::Ranked& ranked : answer.ranking) rows.push_back({ranked.candidate, &ranked});
+    rows.front().chosen = true;
+    return rows;
+  }
+  for (const validate::Analysed& run : answer.analysis->candidates)
+    rows.push_back({run.candidate, run.predicted ? &*run.predicted : nullptr, &run});
+  rows[answer.analysis->best.value_or(0)].chosen = true;
+  return rows;
 }
 
 std::string largest_part(const CostBreakdown& time) {
@@ -25,28 +44,36 @@ std::string largest_part(const CostBreakdown& time) {
   return std::max_element(parts.begin(), parts.end())->second;
 }
 
-std::string why_not(const ChooseAnswer& answer, std::size_t place) {
-  if (place == 0) return "";
-  const CostBreakdown& time = answer.ranking[place].time;
+std::string why_not(const ChooseAnswer& answer, const Row& row) {
+  if (row.run != nullptr && answer.analysis->best) {
+    const double fastest = *answer.analysis->candidates[*answer.analysis->best].seconds;
+    if (row.run->seconds) return fmt::format("measured {:.3g}x slower", *row.run->seconds / fastest);
+    if (row.run->given_up_after)
+      return fmt::format("took over {:.3g}x as long and was given up", *row.run->given_up_after / fastest);
+  }
+  if (row.predicted == nullptr) return "not measured, and it has no closed form";
+  const CostBreakdown& time = row.predicted->time;
   return fmt::format("predicted {:.3g}x slower, mostly {}", time.total() / answer.ranking.front().time.total(),
                      largest_part(time));
 }
 
-Json candidate_json(const ChooseAnswer& answer, std::size_t place) {
-  const model::Ranked& ranked = answer.ranking[place];
-  Json json{{"technique", name(ranked.candidate.technique)},
-            {"parameters", to_json(ranked.candidate.parameters)},
-            {"predicted", to_json(ranked.counts)},
-            {"predicted_seconds", ranked.time.total()}};
-  if (place > 0) json["why_not"] = why_not(answer, place);
-  if (const auto* run = analysed(answer, place)) {
-    if (run->counted) json["counted"] = to_json(*run->counted);
-    if (run->seconds) {
-      json["measured_seconds"] = *run->seconds;
-      json["measured_spread"] = run->spread;
-    } else {
-      json["not_run"] = answer.analysis->stopped ? "stopped before" : "predicted over 30x slower than the choice";
-    }
+Json candidate_json(const ChooseAnswer& answer, const Row& row) {
+  Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate.parameters)}};
+  if (row.predicted != nullptr) {
+    json["predicted"] = to_json(row.predicted->counts);
+    json["predicted_seconds"] = row.predicted->time.total();
+  }
+  if (!row.chosen) json["why_not"] = why_not(answer, row);
+  if (row.run != nullptr) add_measured(json, *answer.analysis, *row.run);
+  return json;
+}
+
+Json choice_json(const Row& row) {
+  Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate.parameters)}};
+  if (row.predicted != nullptr) json["predicted_seconds"] = row.predicted->time.total();
+  if (row.run != nullptr && row.run->seconds) {
+    json["measured_seconds"] = *row.run->seconds;
+    json["measured_spread"] = row.run->spread;
   }
   return json;
 }
@@ -54,11 +81,9 @@ Json candidate_json(const ChooseAnswer& answer, std::size_t place) {
 }  // namespace
 
 Json to_json(const ChooseAnswer& answer) {
-  const model::Ranked& best = answer.ranking.front();
-  Json json{{"choice",
-             {{"technique", name(best.candidate.technique)},
-              {"parameters", to_json(best.candidate.parameters)},
-              {"predicted_seconds", best.time.total()}}},
+  const std::vector<Row> rows = rows_of(answer);
+  const Row& chosen = *std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.chosen; });
+  Json json{{"choice", choice_json(chosen)},
             {"candidates", Json::array()},
             {"paper_rule",
              {{"technique", name(answer.paper.candidate.technique)},
@@ -68,41 +93,33 @@ Json to_json(const ChooseAnswer& answer) {
             {"rigor", answer.rigor},
             {"unit_costs", !answer.costs_given ? "built-in; not calibrated on this machine" : "given"},
             {"choosing_seconds", answer.choosing_seconds}};
-  for (std::size_t place = 0; place < answer.ranking.size(); ++place)
-    json["candidates"].push_back(candidate_json(answer, place));
-  if (answer.analysis) {
-    if (answer.analysis->regret) json["regret"] = *answer.analysis->regret;
-    json["stopped"] = answer.analysis->stopped;
-  }
+  for (const Row& row : rows) json["candidates"].push_back(candidate_json(answer, row));
+  if (answer.analysis) add_analysis(json, answer);
   return json;
 }
 
 namespace {
 
-std::string measured_columns(const ChooseAnswer& answer, std::size_t place) {
-  const auto* run = analysed(answer, place);
-  if (run == nullptr) return "";
-  if (!run->counted)
-    return answer.analysis->stopped ? "  (stopped before)" : "  (not run: predicted over 30x the choice)";
-  std::string text = fmt::format("  {:>9.3g}", static_cast<double>(tests(*run->counted)));
-  if (!run->seconds) return text + "  (stopped before)";
-  const double ratio = answer.ranking[place].time.total() / *run->seconds;
-  return text + fmt::format("  {:>8.3g} ±{:<8.1g}  {:>6.2f}{}", *run->seconds, run->spread, ratio,
-                            ratio > 2 || ratio < 0.5 ? " !" : "  ");
+std::string row_text(const ChooseAnswer& answer, const Row& row) {
+  std::string text = fmt::format("{:14} {:26} ", name(row.candidate.technique), describe(row.candidate.parameters));
+  text += row.predicted != nullptr
+              ? fmt::format("{:>10.3g} {:>9.3g}", tests(row.predicted->counts), row.predicted->time.total())
+              : fmt::format("{:>10} {:>9}", "-", "-");
+  if (row.run != nullptr) text += measured_columns(*row.run);
+  if (row.run != nullptr && !row.run->seconds) {
+    Json json;
+    add_measured(json, *answer.analysis, *row.run);
+    text += "  (" + json["not_run"].get<std::string>() + ")";
+  }
+  return text + (row.chosen ? "  <- choice\n" : "\n");
 }
 
 std::string table(const ChooseAnswer& answer) {
   const bool measured = answer.analysis.has_value();
-  std::string text = fmt::format("\n{:41} {:>20}{}\n", "", "predicted",
-                                 measured ? "    counted  measured             predicted/" : "");
+  std::string text = fmt::format("\n{:41} {:>20}{}\n", "", "predicted", measured ? measured_head(false) : "");
   text += fmt::format("{:14} {:26} {:>10} {:>9}{}\n", "technique", "parameters", "tests", "seconds",
-                      measured ? "      tests  seconds              measured" : "");
-  for (std::size_t place = 0; place < answer.ranking.size(); ++place) {
-    const model::Ranked& ranked = answer.ranking[place];
-    text += fmt::format("{:14} {:26} {:>10.3g} {:>9.3g}{}{}\n", name(ranked.candidate.technique),
-                        describe(ranked.candidate.parameters), tests(ranked.counts), ranked.time.total(),
-                        measured_columns(answer, place), place == 0 ? "  <- choice" : "");
-  }
+                      measured ? measured_head(true) : "");
+  for (const Row& row : rows_of(answer)) text += row_text(answer, row);
   return text;
 }
 
@@ -112,12 +129,10 @@ std::string margin(const ChooseAnswer& answer) {
                      name(answer.ranking[1].candidate.technique));
 }
 
-std::string regret_line(const validate::Analysis& analysis) {
-  if (!analysis.regret) return "regret    unknown: the choice was not timed\n";
-  const char* partial = analysis.stopped ? " (stopped: not all were timed)" : "";
-  if (*analysis.regret <= 0) return fmt::format("regret    none: the choice was the fastest measured{}\n", partial);
-  return fmt::format("regret    {:.1f} %: the fastest measured took {:.3g} of the choice's time{}\n",
-                     100 * *analysis.regret, 1 / (1 + *analysis.regret), partial);
+std::string choice_line(const ChooseAnswer& answer) {
+  const Candidate& candidate = answer.ranking[0].candidate;
+  return fmt::format("choice    {} {}: {}\n", name(candidate.technique), describe(candidate.parameters),
+                     margin(answer));
 }
 
 }  // namespace
@@ -129,11 +144,11 @@ std::string to_text(const ChooseAnswer& answer) {
     if (effect["on"].get<bool>()) on += (on.empty() ? "" : ", ") + effect["name"].get<std::string>();
   text += fmt::format("effects   on: {}\n", on.empty() ? "none" : on);
   text += table(answer);
-  text += fmt::format("\nchoice    {} {}: {}\n", name(answer.ranking[0].candidate.technique),
-                      describe(answer.ranking[0].candidate.parameters), margin(answer));
+  text += "\n";
+  if (!answer.analysis || !answer.analysis->best) text += choice_line(answer);
+  if (answer.analysis) text += measured_lines(answer);
   text += fmt::format("paper     its rule takes {} {}: predicted {:.3g} s\n", name(answer.paper.candidate.technique),
                       describe(answer.paper.candidate.parameters), answer.paper.time.total());
-  if (answer.analysis) text += regret_line(*answer.analysis);
   text += fmt::format(
       "rigor     {}: {}, in {:.2g} ms; unit costs {}\n", answer.rigor,
       answer.rigor == "structural" ? "parameters by closed forms, counts by the structures built with them"
@@ -151,13 +166,12 @@ Json cells_of(const model::Ranked& ranked) {
   return cells;
 }
 
-Json cells_of(const ChooseAnswer& answer, std::size_t place) {
-  Json cells = cells_of(answer.ranking[place]);
-  const Json json = candidate_json(answer, place);
+Json cells_of(const ChooseAnswer& answer, const Row& row) {
+  Json cells = row.predicted != nullptr ? cells_of(*row.predicted) : candidate_cells(row.candidate);
+  const Json json = candidate_json(answer, row);
   for (const char* name : {"measured_seconds", "measured_spread", "not_run", "why_not"})
     if (json.contains(name)) cells[name] = json[name];
-  if (const auto* run = analysed(answer, place); run != nullptr && run->counted)
-    cells.update(count_cells(*run->counted, "counted_"));
+  if (row.run != nullptr && row.run->counted) cells.update(count_cells(*row.run->counted, "counted_"));
   return cells;
 }
 
@@ -178,8 +192,7 @@ std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
     row.update(cells);
     table.add(row);
   };
-  for (std::size_t place = 0; place < answer.ranking.size(); ++place)
-    add(place == 0 ? "choice" : "candidate", cells_of(answer, place));
+  for (const Row& row : rows_of(answer)) add(row.chosen ? "choice" : "candidate", cells_of(answer, row));
   add("paper rule", cells_of(answer.paper));
   return table.csv();
 }

@@ -18,6 +18,7 @@ struct ChooseAnswer {
   model::Ranked paper;  ///< the paper's rule of thumb
   std::optional<validate::Analysis> analysis;
   std::string rigor = "estimate";
+  UnitCosts costs;
   bool costs_given = false;  ///< by the user; else the built-in unit costs
   double choosing_seconds = 0;
 };
@@ -25,7 +26,8 @@ struct ChooseAnswer {
 [[nodiscard]] Json to_json(const ChooseAnswer& answer);
 [[nodiscard]] std::string to_text(const ChooseAnswer& answer);
 
-/// A row for each candidate, as ranked, and one for the paper's rule. The workload is taken from the resolved inputs.
+/// A row for each candidate, as ranked, those tried beside, and one for the paper's rule. The workload is taken from
+/// the resolved inputs.
 [[nodiscard]] std::string to_csv(const ChooseAnswer& answer, const Json& inputs);
 
 }  // namespace detp::cli

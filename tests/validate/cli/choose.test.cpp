@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <set>
+
+#include "detp/model/vocabulary.hpp"
 #include "support/command.hpp"
 
 namespace detp::support {
@@ -7,6 +10,7 @@ namespace {
 
 void check_ranked(const Json& json) {
   const Json& candidates = json.at("candidates");
+  CHECK_FALSE(json.contains("best_measured"));
   REQUIRE(candidates.size() >= 2);
   double last = 0;
   for (const Json& candidate : candidates) {
@@ -64,16 +68,26 @@ TEST_SUITE("end to end") {
   TEST_CASE("--analyze adds what was counted and measured, and the regret") {
     const std::string line = "choose @cornell --rays 1000 --analyze";
     const Json json = result_of(line);
-    check_ranked(json);
     CHECK(json.at("regret").get<double>() >= 0);
     CHECK(json.at("stopped") == false);
     std::uint64_t hits = 0;
-    double fastest = json.at("candidates")[0].at("measured_seconds");
+    const Json& predicted = json.at("candidates")[0];
+    double fastest = predicted.at("measured_seconds");
     const double choice = fastest;
+    for (const char* key : {"technique", "parameters", "predicted_seconds"})
+      CHECK(json.at("predicted_choice").at(key) == predicted.at(key));
+    for (const char* key : {"technique", "parameters", "measured_seconds"})
+      CHECK(json.at("choice").at(key) == json.at("best_measured").at(key));
+    int run = 0;
+    std::set<std::string> techniques;
     for (const Json& candidate : json.at("candidates")) {
       CAPTURE(candidate.dump());
+      techniques.insert(candidate.at("technique"));
+      run += candidate.contains("measured_seconds") || candidate.contains("given_up_after_seconds") ? 1 : 0;
       if (candidate.contains("not_run")) continue;
       CHECK(candidate.at("measured_seconds").get<double>() > 0);
+      CHECK(candidate.at("measured_seconds").get<double>() >=
+            json.at("best_measured").at("measured_seconds").get<double>());
       fastest = std::min(fastest, candidate.at("measured_seconds").get<double>());
       const std::uint64_t found = candidate.at("counted").at("hits");
       CHECK(found > 0);
@@ -81,8 +95,48 @@ TEST_SUITE("end to end") {
       hits = found;
     }
     CHECK(json.at("regret").get<double>() == doctest::Approx(choice / fastest - 1));
+    CHECK(json.at("tried") == run);
+    for (const Technique technique : all_techniques)
+      CHECK(techniques.contains(std::string(name(technique))) == finds_all_hits(technique));
+    for (const Json& missed : json.at("missed"))
+      if (missed.contains("seconds_ratio"))
+        CHECK(missed.at("seconds_ratio").get<double>() ==
+              doctest::Approx(missed.at("counts_ratio").get<double>() * missed.at("unit_costs_ratio").get<double>()));
     for (const std::string format : {"text", "csv", "json"})
       CHECK_FALSE(has_no_number(detp(line + " --format " + format).out));
+  }
+
+  TEST_CASE("with --analyze the measured winner is the choice, and what the prediction missed is said") {
+    // Unit costs that make brute force look the best by far.
+    const std::string line =
+        "choose @uniform --samples 20000 --rays 20000 --disc-radius 1% --analyze "
+        "--costs t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";
+    const Json json = result_of(line);
+    CHECK(json.at("predicted_choice").at("technique") == "brute-force");
+    CHECK(json.at("choice").at("technique") != "brute-force");
+    CHECK(json.at("choice").at("technique") == json.at("best_measured").at("technique"));
+    CHECK(json.at("regret").get<double>() > 1);
+    CHECK(json.at("tried").get<int>() >= 10);
+    CHECK(json.at("missed").at(0).at("counts_ratio").get<double>() == doctest::Approx(1));
+    CHECK(json.at("missed").at(0).at("unit_costs_ratio").get<double>() < 1e-3);
+    const std::string text = detp(line).out;
+    for (const char* said : {"\nchoice    ", "\npredicted brute-force: measured", "\nmissed    brute-force: predicted"})
+      CHECK(text.find(said) != std::string::npos);
+  }
+
+  TEST_CASE("an analysis that is stopped says after how many candidates, and ends with code 3") {
+    const std::string line =
+        "choose @uniform --samples 100000 --rays 100000 --analyze --time-limit 1 --costs "
+        "t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";  // brute force first: more than a second
+    const Finished finished = detp(line);
+    CHECK(finished.code == 3);
+    CHECK(finished.out.find("\nstopped   after 0 of ") != std::string::npos);
+    const Finished json = detp(line + " --format json");
+    CHECK(json.code == 3);
+    CHECK(json.json().at("stopped") == true);
+    CHECK(json.json().at("tried") == 0);
+    CHECK_FALSE(json.json().contains("best_measured"));
+    CHECK_FALSE(json.json().contains("regret"));
   }
 
   TEST_CASE("given unit costs decide: where only stepping is dear, all rays are tested") {

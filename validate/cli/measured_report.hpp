@@ -1,0 +1,20 @@
+#pragma once
+
+#include "choose_report.hpp"
+
+namespace detp::cli {
+
+/// The columns that a table of candidates has beside the predictions: counted, measured, predicted over measured.
+[[nodiscard]] std::string measured_head(bool second_line);
+[[nodiscard]] std::string measured_columns(const validate::Analysed& run);
+
+/// Appends what a run of the candidate showed: `counted`, `measured_seconds`, … or why it was not measured.
+void add_measured(Json& json, const validate::Analysis& analysis, const validate::Analysed& run);
+
+/// "choice" and "missed" lines: the measured winner, and what the prediction said instead.
+[[nodiscard]] std::string measured_lines(const ChooseAnswer& answer);
+
+/// Appends `predicted_choice`, `best_measured`, `tried`, `regret`, `missed` and `stopped`.
+void add_analysis(Json& json, const ChooseAnswer& answer);
+
+}  // namespace detp::cli
