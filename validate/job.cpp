@@ -19,6 +19,7 @@
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/sim/uniform_discs.hpp"
 #include "measure.hpp"
+#include "outliers.hpp"
 
 namespace detp::validate {
 namespace {
@@ -153,11 +154,17 @@ class JobMaker {
   }
 
   /// Of a stream, on its first block.
-  Workload measure_rays_and_discs() const {
-    if (!job_.stream) return measure(job_.problem(), surface_);
+  Workload measure_rays_and_discs() {
+    if (!job_.stream) {
+      const sim::Problem problem = job_.problem();
+      job_.warnings = outlier_warnings(problem);
+      return measure(problem, surface_);
+    }
     std::vector<sim::Ray> block(sim::default_block(job_.discs.size()));
     job_.stream->read(0, block);
-    Workload workload = measure(sim::make_problem(block, job_.discs, job_.front_facing), surface_);
+    const sim::Problem problem = sim::make_problem(block, job_.discs, job_.front_facing);
+    job_.warnings = outlier_warnings(problem);
+    Workload workload = measure(problem, surface_);
     workload.rays = static_cast<double>(job_.stream->size());
     return workload;
   }

@@ -63,6 +63,7 @@ struct Job {
   std::size_t triangles = 0;
   Workload workload;  ///< measured on discs and rays (the path length of a stream on its first block)
   sim::Notices notices;
+  std::vector<std::string> warnings;  ///< few discs or rays that spoil what the workload says of all (outliers.hpp)
   bool front_facing = false;
   double read_seconds = 0;  ///< reading or making scene and rays
 

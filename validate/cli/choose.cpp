@@ -94,7 +94,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     const ProgressLine progress(common);
     progress.show("scene and rays", 0);
     const validate::Job job = validate::make_job(request, stop);
-    for (const std::string& notice : job.notices) note(common, notice);
+    note_all(common, job);
     answer.workload = job.workload;
     decide(answer, costs);
     if (structural) decide_structurally(answer, job, costs);
@@ -108,6 +108,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     }
     result.inputs = to_json(job, request);
     answer.title = describe(job);
+    answer.warnings = job.warnings;
   }
   result.inputs["unit_costs"] = to_json(costs);
   result.inputs["rigor"] = options.rigor;

@@ -92,7 +92,8 @@ Json to_json(const ChooseAnswer& answer) {
             {"effects", effects_json(answer.workload)},
             {"rigor", answer.rigor},
             {"unit_costs", !answer.costs_given ? "built-in; not calibrated on this machine" : "given"},
-            {"choosing_seconds", answer.choosing_seconds}};
+            {"choosing_seconds", answer.choosing_seconds},
+            {"warnings", answer.warnings}};
   for (const Row& row : rows) json["candidates"].push_back(candidate_json(answer, row));
   if (answer.analysis) add_analysis(json, answer);
   return json;

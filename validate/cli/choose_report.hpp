@@ -21,6 +21,7 @@ struct ChooseAnswer {
   UnitCosts costs;
   bool costs_given = false;  ///< by the user; else the built-in unit costs
   double choosing_seconds = 0;
+  std::vector<std::string> warnings;
 };
 
 [[nodiscard]] Json to_json(const ChooseAnswer& answer);

@@ -148,7 +148,7 @@ Measured measure(const ModelOptions& options, const CommonOptions& common, const
     return {workload, numbers_json(workload)};
   }
   const validate::Job job = validate::make_job(request, stop);
-  for (const std::string& notice : job.notices) note(common, notice);
+  note_all(common, job);
   return {job.workload, to_json(job, request)};
 }
 

@@ -154,7 +154,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     validate::JobRequest request = options.workload.request(common);
     request.stream = stream;
     validate::Job job = validate::make_job(request, stop);
-    for (const std::string& notice : job.notices) note(common, notice);
+    note_all(common, job);
     inputs = to_json(job, request);
     return job;
   };

@@ -67,6 +67,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
                {"read_seconds", job.read_seconds + answer.run.read_seconds},
                {"rays_in_memory", answer.run.rays_in_memory},
+               {"warnings", job.warnings},
                {"stopped", outcome.stopped}});
   return json;
 }

@@ -60,7 +60,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
   const validate::JobRequest request = options.workload.request(common);
   if (options.mesh_file) write_mesh(*options.mesh_file, request, stop);
   const validate::Job job = validate::make_job(request, stop);
-  for (const std::string& notice : job.notices) note(common, notice);
+  note_all(common, job);
   if (options.disc_file) sim::write_discs(*options.disc_file, job.discs);
   if (options.ray_file) sim::write_rays(*options.ray_file, job.rays);
 
@@ -80,6 +80,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
                  {"path_length", w.path_length},
                  {"effects", effects_json(w)},
                  {"notices", job.notices},
+                 {"warnings", job.warnings},
                  {"read_seconds", job.read_seconds}};
   result.text =
       describe(job) +

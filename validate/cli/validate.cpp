@@ -46,23 +46,24 @@ validate::Experiment uniform_experiment(validate::JobRequest request, const std:
 /// The choice's question is what choose would make of the same options. The other claims are on lines: as many as there
 /// are rays, if a number was given.
 validate::Experiment scene_experiment(const validate::JobRequest& request, const CommonOptions& common,
-                                      const std::stop_token& stop, Json& inputs) {
+                                      const std::stop_token& stop, Result& result) {
   validate::Job job = validate::make_job(request, stop);
-  for (const std::string& notice : job.notices) note(common, notice);
-  inputs = to_json(job, request);
+  note_all(common, job);
+  result.json["warnings"] = job.warnings;
+  result.inputs = to_json(job, request);
   validate::Experiment experiment{.workload = job.workload, .discs = {}, .stop = stop};
   experiment.workload.path_length = 0;
   experiment.workload.rays = request.rays.value_or(default_lines);
   experiment.choice = {job.workload, std::move(job.rays), job.front_facing};
   experiment.discs = std::move(job.discs);
-  inputs["lines"] = whole(experiment.workload.rays);
+  result.inputs["lines"] = whole(experiment.workload.rays);
   return experiment;
 }
 
 validate::Experiment make_experiment(const validate::JobRequest& request, const CommonOptions& common,
-                                     const std::stop_token& stop, Json& inputs) {
-  validate::Experiment experiment = request.numbers_alone() ? uniform_experiment(request, stop, inputs)
-                                                            : scene_experiment(request, common, stop, inputs);
+                                     const std::stop_token& stop, Result& result) {
+  validate::Experiment experiment = request.numbers_alone() ? uniform_experiment(request, stop, result.inputs)
+                                                            : scene_experiment(request, common, stop, result);
   experiment.seed = request.seed;
   inputs["seed"] = request.seed;
   return experiment;
@@ -227,8 +228,7 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   check_files(options, common, stop);
   const ProgressLine progress(common);
   Result result;
-  const validate::Experiment experiment =
-      make_experiment(options.workload.request(common), common, stop, result.inputs);
+  const validate::Experiment experiment = make_experiment(options.workload.request(common), common, stop, result);
   const auto findings =
       validate::all_findings(experiment, [&](std::string_view next, double done) { progress.show(next, done); });
   const std::vector<Claim> claims = validate::judge_all(findings);

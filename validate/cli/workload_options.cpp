@@ -214,6 +214,11 @@ Json effects_json(const Workload& workload) {
                        {"meaning", "dimension of the samples by box counting"}}});
 }
 
+void note_all(const CommonOptions& common, const validate::Job& job) {
+  for (const std::string& notice : job.notices) note(common, notice);
+  for (const std::string& warning : job.warnings) note(common, "warning: " + warning);
+}
+
 std::string describe(const validate::Job& job) {
   const Workload& w = job.workload;
   const double x = sample_distance(w) / w.disc_radius;

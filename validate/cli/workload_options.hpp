@@ -97,6 +97,9 @@ template <class T>
 /// The deviations from the plain model that this workload shows and the closed forms take into account.
 [[nodiscard]] Json effects_json(const Workload& workload);
 
+/// Notices and warnings of a job, on stderr.
+void note_all(const CommonOptions& common, const validate::Job& job);
+
 /// "scene" and "rays" lines of the text output.
 [[nodiscard]] std::string describe(const validate::Job& job);
 

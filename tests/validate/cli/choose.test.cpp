@@ -35,9 +35,10 @@ TEST_SUITE("end to end") {
     CHECK(finished.code == 0);
     const Json structural = finished.json();
     CHECK(structural.at("rigor") == "structural");
-    CHECK(structural.at("candidates").size() == estimate.at("candidates").size());
+    REQUIRE(structural.at("candidates").size() > estimate.at("candidates").size());  // others were tried, too
     double last = 0;
-    for (const Json& candidate : structural.at("candidates")) {
+    for (std::size_t place = 0; place < estimate.at("candidates").size(); ++place) {
+      const Json& candidate = structural.at("candidates")[place];
       CHECK(candidate.at("predicted_seconds").get<double>() >= last);
       last = candidate.at("predicted_seconds").get<double>();
       if (!candidate.contains("counted")) continue;

@@ -21,6 +21,7 @@ TEST_SUITE("end to end") {
       for (const char* key : {"source", "tolerance", "standard_error", "detectable", "control"})
         CHECK(claim.contains(key));
     }
+    CHECK(finished.json().at("warnings").empty());
     CHECK(finished.code == (refuted ? 1 : 0));
     CHECK(refuted);
     for (const Json& candidate : result_of("choose" + scene).at("candidates")) {

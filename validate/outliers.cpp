@@ -1,0 +1,122 @@
+#include "outliers.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vector_relational.hpp>
+
+namespace detp::validate {
+namespace {
+
+constexpr double far_boxes = 4;
+constexpr double large_radii = 10;
+constexpr double heavy_radii = 4;
+constexpr double heavy_mean = 1.1;
+constexpr double far_radii = 100;
+
+std::vector<sim::Disc> taken_evenly(std::span<const sim::Disc> discs) {
+  const std::size_t count = std::min<std::size_t>(4096, discs.size());
+  std::vector<sim::Disc> taken;
+  for (std::size_t i = 0; i < count; ++i) taken.push_back(discs[i * discs.size() / count]);
+  return taken;
+}
+
+double longest(const sim::Box& box) {
+  const glm::dvec3 size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
+
+/// Without the lowest and the highest twentieth on each axis.
+sim::Box central_box(const std::vector<sim::Disc>& discs) {
+  const std::size_t left_out = discs.size() / 20;
+  sim::Box box;
+  std::vector<double> values;
+  for (int axis = 0; axis < 3; ++axis) {
+    values.clear();
+    for (const sim::Disc& disc : discs) values.push_back(disc.centre[axis]);
+    std::sort(values.begin(), values.end());
+    box.low[axis] = values[left_out];
+    box.high[axis] = values[values.size() - 1 - left_out];
+  }
+  return box;
+}
+
+double median_radius(std::vector<sim::Disc> discs) {
+  const auto middle = discs.begin() + static_cast<std::ptrdiff_t>(discs.size() / 2);
+  std::nth_element(discs.begin(), middle, discs.end(),
+                   [](const sim::Disc& a, const sim::Disc& b) { return a.radius < b.radius; });
+  return middle->radius;
+}
+
+/// "1 of 10000 discs is" or "20 of 10000 discs are".
+std::string some_of(std::size_t some, std::size_t all, const char* what, const char* one, const char* many) {
+  return fmt::format("{} of {} {} {}", some, all, what, some == 1 ? one : many);
+}
+
+void warn_of_far_discs(std::span<const sim::Disc> discs, const std::vector<sim::Disc>& taken, double radius,
+                       std::vector<std::string>& warnings) {
+  sim::Box whole;
+  for (const sim::Disc& disc : discs) whole.include(disc.centre);
+  const sim::Box centre = central_box(taken);
+  const double reach = std::max(longest(centre), 2 * radius);  // of discs in one place, their own size
+  if (!(longest(whole) > far_boxes * reach)) return;
+  const auto far = std::count_if(discs.begin(), discs.end(), [&](const sim::Disc& disc) {
+    return glm::any(glm::lessThan(disc.centre, centre.low - reach)) ||
+           glm::any(glm::greaterThan(disc.centre, centre.high + reach));
+  });
+  warnings.push_back(fmt::format(
+      "{} far from the others: the box of all is {:.3g} long, {:.3g} times that of the central 90 % ({:.3g}); "
+      "predictions, S0 and percentages take the box of all, as if discs were spread over it",
+      some_of(static_cast<std::size_t>(far), discs.size(), "discs", "lies", "lie"), longest(whole),
+      longest(whole) / reach, reach));
+}
+
+void warn_of_large_discs(std::span<const sim::Disc> discs, double median, std::vector<std::string>& warnings) {
+  double largest = 0;
+  double squares = 0;
+  std::size_t large = 0;
+  for (const sim::Disc& disc : discs) {
+    largest = std::max(largest, disc.radius);
+    squares += disc.radius / median * (disc.radius / median);
+    large += disc.radius > heavy_radii * median ? 1 : 0;
+  }
+  const double rms = std::sqrt(squares / static_cast<double>(discs.size()));
+  if (!(largest > large_radii * median || (largest > heavy_radii * median && rms > heavy_mean))) return;
+  const std::string radius = large == 1 ? "a radius of" : "radii up to";
+  warnings.push_back(fmt::format(
+      "{} {} {:.4g}, {:.3g} times the median {:.4g}: predictions use the root mean square "
+      "{:.4g} for all, and S0 is made to hold the largest",
+      some_of(large, discs.size(), "discs", "has", "have"), radius, largest, largest / median, median, rms * median));
+}
+
+void warn_of_far_rays(const sim::Problem& problem, std::vector<std::string>& warnings) {
+  const double radius = problem.enclosing.radius;
+  double farthest = 0;
+  std::size_t far = 0;
+  for (const sim::Ray& ray : problem.rays) {
+    const double distance = glm::length(ray.origin - problem.enclosing.centre);
+    farthest = std::max(farthest, distance);
+    far += distance > far_radii * radius ? 1 : 0;
+  }
+  if (far == 0) return;
+  warnings.push_back(fmt::format(
+      "{} far outside: up to {:.3g} from the centre of the scene, {:.3g} times the radius {:.4g} of S0; every cull is "
+      "widened by {:.2g} for rounding over this distance",
+      some_of(far, problem.rays.size(), "rays", "starts", "start"), farthest, farthest / radius, radius,
+      problem.slack));
+}
+
+}  // namespace
+
+std::vector<std::string> outlier_warnings(const sim::Problem& problem) {
+  const std::vector<sim::Disc> taken = taken_evenly(problem.discs);
+  const double median = median_radius(taken);
+  std::vector<std::string> warnings;
+  warn_of_far_discs(problem.discs, taken, median, warnings);
+  warn_of_large_discs(problem.discs, median, warnings);
+  warn_of_far_rays(problem, warnings);
+  return warnings;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "detp/sim/technique/technique.hpp"
+
+/// What few discs or rays do to the numbers that the models see of all.
+namespace detp::validate {
+
+/// One sentence, with numbers, for each of these; usually none:
+///
+///     discs far away        the box of all centres is over 4 times as long as that of the central 90 % on each axis.
+///                           (1.0 to 2.4 times in 5 built-in scenes and 20 meshes; 13 000 in one made of two scales.)
+///     large discs           the largest radius is over 10 times the median, or over 4 times where the root mean square
+///                           is over 1.1 times the median
+///     rays from far away    an origin is over 100 r₀ from the centre of S₀
+///
+/// Medians and central boxes are those of 4096 discs at most, taken evenly; the rest is one pass over discs and rays.
+[[nodiscard]] std::vector<std::string> outlier_warnings(const sim::Problem& problem);
+
+}  // namespace detp::validate
