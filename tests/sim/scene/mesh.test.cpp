@@ -94,7 +94,8 @@ TEST_SUITE("known answer") {
     CHECK(mean_edge_length(degenerate) == doctest::Approx((5 + 3 * diagonal) / 8).epsilon(1e-14));
   }
 
-  TEST_CASE("the mean edges of test scenes without double vertices are those of their table") {
+  TEST_CASE("the mean edges of test scenes without double vertices are those of their table" *
+            doctest::test_suite("scenes")) {
     const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     for (const auto& [name, mean_over_diagonal] : {std::pair<const char*, double>{"stanford_bunny.obj", 0.005999},
@@ -115,7 +116,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("a mesh gives the same normals at 1e-12, 1 and 1e12 times its size") {
+  TEST_CASE("a mesh gives the same normals at 1e-12, 1 and 1e12 times its size" * doctest::test_suite("scenes")) {
     const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     Notices notices;

@@ -150,7 +150,7 @@ TEST_SUITE("known answer") {
     CHECK(notices[0] == "unused positions that are not finite, set to 0: 1");
   }
 
-  TEST_CASE("every test scene has the triangles and vertices that its table tells") {
+  TEST_CASE("every test scene has the triangles and vertices that its table tells" * doctest::test_suite("scenes")) {
     const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     struct Expected {
@@ -193,7 +193,8 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("test scenes without faces, or with faces at positions that are not finite, are refused") {
+  TEST_CASE("test scenes without faces, or with faces at positions that are not finite, are refused" *
+            doctest::test_suite("scenes")) {
     const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     CHECK_THROWS_WITH_AS((void)read(folder + "/pathological/no_faces.obj"), doctest::Contains("has no faces"),

@@ -246,7 +246,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("every test scene that can be read gives sound paths") {
+  TEST_CASE("every test scene that can be read gives sound paths" * doctest::test_suite("scenes")) {
     const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

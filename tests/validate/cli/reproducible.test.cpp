@@ -1,15 +1,15 @@
 #include <doctest/doctest.h>
 
+#include "detp/model/vocabulary.hpp"
 #include "run_support.hpp"
 
 namespace detp::support {
 
 TEST_SUITE("end to end") {
   TEST_CASE("the number of threads changes nothing but the time") {
-    for (const std::string technique : {"brute-force", "sphere-cache", "sphere-cache-published", "cell-spheres",
-                                        "sphere-tree", "octree", "grid", "bvh", "photon-map"}) {
-      CAPTURE(technique);
-      const std::string options = "--technique " + technique + " --threads ";
+    for (const Technique technique : all_techniques) {
+      CAPTURE(name(technique));
+      const std::string options = "--technique " + std::string(name(technique)) + " --threads ";
       const Written one = run_and_read(words("run @cornell --rays 5000"), options + "1");
       const Written two = run_and_read(words("run @cornell --rays 5000"), options + "2");
       CHECK(one == two);
