@@ -65,7 +65,7 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
   validate::Experiment experiment = request.numbers_alone() ? uniform_experiment(request, stop, result.inputs)
                                                             : scene_experiment(request, common, stop, result);
   experiment.seed = request.seed;
-  inputs["seed"] = request.seed;
+  result.inputs["seed"] = request.seed;
   return experiment;
 }
 
