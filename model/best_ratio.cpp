@@ -7,6 +7,7 @@
 #include <queue>
 #include <vector>
 
+#include "predict.hpp"
 #include "sphere_cache.hpp"
 #include "sphere_count.hpp"
 #include "step_pieces.hpp"
@@ -17,10 +18,26 @@ namespace {
 /// T of the sphere cache at one Q for all stops, in one pass from the outside in.
 class Times {
  public:
-  Times(const Workload& workload, const UnitCosts& costs) : workload_(workload), costs_(costs) { check(costs); }
+  Times(const Workload& workload, const UnitCosts& costs) : workload_(workload), costs_(costs) {
+    check(workload);
+    check(costs);
+  }
+
+  /// Spheres whose counts were evaluated so far.
+  [[nodiscard]] std::int64_t looked_at() const { return looked_at_; }
+
+  /// T with no sphere; any Q will do.
+  [[nodiscard]] BestRatio without_spheres() const {
+    const Candidate none{Technique::sphere_cache, SphereCacheParameters{published_ratio, 0}};
+    return {published_ratio, 0, price(predict(workload_, none), costs_).total()};
+  }
 
   /// T with k spheres.
   [[nodiscard]] double at(double ratio, std::int64_t k) const {
+    if (k > summed_one_by_one) {
+      looked_at_ += summed_one_by_one;
+      return price(predict(workload_, {Technique::sphere_cache, SphereCacheParameters{ratio, k}}), costs_).total();
+    }
     double time = 0;
     pass(ratio, k, [&](std::int64_t, double with_discs, double) {
       time = with_discs;
@@ -42,11 +59,14 @@ class Times {
   }
 
  private:
+  static constexpr std::int64_t summed_one_by_one = 4096;  // more are summed in groups
+
   /// Calls visit(i, T with i spheres, the same without testing discs) until it returns false.
   template <class Visit>
   void pass(double ratio, std::int64_t last, const Visit& visit) const {
     double spheres = costs_.sort * workload_.samples;
     for_each_level(workload_, {ratio, last, SampleOrder::lebesgue}, [&](const SphereLevel& level) {
+      ++looked_at_;
       spheres += level.rebuilds * (level.tests * costs_.sphere_test + level.listed * costs_.copy + costs_.rebuild);
       return visit(level.i, spheres + workload_.samples * level.served * costs_.disc_test, spheres);
     });
@@ -54,6 +74,7 @@ class Times {
 
   const Workload& workload_;
   const UnitCosts& costs_;
+  mutable std::int64_t looked_at_ = 0;
 };
 
 /// ln(ln 1/Q): sphere i moves by i steps of ln Q, and spheres down to d take ln(d/r₀)/ln Q, so that T has about as many
@@ -76,9 +97,12 @@ std::vector<double> first_ratios(const StepPieces& pieces, std::int64_t most_sph
 /// Halves, best first, the intervals that may hold a better ratio, and narrows down the minima that are left.
 class Search {
  public:
-  /// Stops up to most_spheres are free; 0: `run` is given one.
-  Search(const Times& times, const StepPieces& pieces, std::int64_t most_spheres)
-      : times_(times), pieces_(pieces), most_spheres_(most_spheres) {}
+  /// Stops up to most_spheres are free; 0: `run` is given one. A ratio takes `spheres` spheres at most.
+  Search(const Times& times, const StepPieces& pieces, std::int64_t most_spheres, std::int64_t spheres)
+      : times_(times),
+        pieces_(pieces),
+        most_spheres_(most_spheres),
+        most_looked_at_(most_looked_at * (std::clamp<std::int64_t>(spheres, 40, 4000) / 40)) {}
 
   /// The best of evaluate(Q, enough) from the first to the last of the ratios.
   template <class Evaluate>
@@ -86,7 +110,7 @@ class Search {
     for (const double ratio : ratios) add(evaluate(ratio, enough()));
     const std::vector<BestRatio> first = points_;
     for (std::size_t i = 1; i < first.size(); ++i) split_later(first[i - 1], first[i]);
-    while (!intervals_.empty() && intervals_.top().hope < best_.time) {
+    while (!intervals_.empty() && intervals_.top().hope < best_.time && times_.looked_at() < most_looked_at_ / 4 * 3) {
       const Interval interval = intervals_.top();
       intervals_.pop();
       const BestRatio middle = evaluate(0.5 * (interval.left.ratio + interval.right.ratio), enough());
@@ -95,6 +119,7 @@ class Search {
       split_later(middle, interval.right);
     }
     narrow_down();
+    best_.looked_at = times_.looked_at();
     return best_;
   }
 
@@ -109,8 +134,9 @@ class Search {
 
   /// By how much, relatively, T may fall in a unit of ln(ln 1/Q): seen to suffice, not proved.
   static constexpr double steepness = 5;
-  static constexpr double narrowest = 1e-3;  ///< in ln(ln 1/Q): the knots of the tables are farther apart
-  static constexpr double next_to = 1.0005;  ///< minima of T that near the best are narrowed down
+  static constexpr double narrowest = 1e-3;                ///< in ln(ln 1/Q): the knots of the tables are farther apart
+  static constexpr double next_to = 1.0005;                ///< minima of T that near the best are narrowed down
+  static constexpr std::int64_t evaluations_at_once = 60;  ///< of Brent's method
 
   [[nodiscard]] double enough() const { return best_.spheres > 0 ? 1.5 * best_.time : HUGE_VAL; }
 
@@ -129,12 +155,18 @@ class Search {
   void narrow_down() {
     std::sort(points_.begin(), points_.end(), [](const BestRatio& a, const BestRatio& b) { return a.ratio < b.ratio; });
     const std::size_t last = points_.empty() ? 0 : points_.size() - 1;
-    for (std::size_t i = 0; i < points_.size(); ++i) {
-      const BestRatio& left = points_[i > 0 ? i - 1 : 0];
-      const BestRatio& right = points_[std::min(i + 1, last)];
-      const BestRatio& point = points_[i];
-      if (point.time > next_to * best_.time || left.time < point.time || right.time < point.time) continue;
-      for (const std::int64_t k : stops_around(point)) minimise(std::max(left.ratio, pieces_.above(k)), right.ratio, k);
+    const double near_best = next_to * best_.time;
+    std::vector<std::size_t> minima;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (points_[i].time <= std::min(points_[i > 0 ? i - 1 : 0].time, points_[std::min(i + 1, last)].time))
+        minima.push_back(i);
+    std::stable_sort(minima.begin(), minima.end(),
+                     [&](std::size_t a, std::size_t b) { return points_[a].time < points_[b].time; });
+    for (const std::size_t i : minima) {
+      const std::int64_t to_compare_stops = 3 * (points_[i].spheres + 1);
+      if (points_[i].time > near_best || times_.looked_at() + to_compare_stops > most_looked_at_) break;
+      for (const std::int64_t k : stops_around(points_[i]))
+        minimise(std::max(points_[i > 0 ? i - 1 : 0].ratio, pieces_.above(k)), points_[std::min(i + 1, last)].ratio, k);
     }
   }
 
@@ -148,9 +180,10 @@ class Search {
 
   /// Brent's method, in a coordinate from -1 to 1: its tolerance is then 1e-8 of the width, at a kink too.
   void minimise(double low, double high, std::int64_t k) {
-    if (!(low < high)) return;
+    const std::int64_t evaluations_left = (most_looked_at_ - times_.looked_at()) / k - 1;
+    if (!(low < high) || evaluations_left < 2) return;
     const auto ratio = [&](double place) { return low + (high - low) * (place + 1) / 2; };
-    std::uintmax_t evaluations = 60;
+    auto evaluations = static_cast<std::uintmax_t>(std::min(evaluations_at_once, evaluations_left));
     const auto [place, time] = boost::math::tools::brent_find_minima(
         [&](double y) { return times_.at(ratio(y), k); }, -1.0, 1.0, std::numeric_limits<double>::digits, evaluations);
     if (time < best_.time) best_ = {ratio(place), k, time};
@@ -159,6 +192,7 @@ class Search {
   const Times& times_;
   const StepPieces& pieces_;
   std::int64_t most_spheres_;
+  std::int64_t most_looked_at_;
   std::priority_queue<Interval> intervals_;
   std::vector<BestRatio> points_;
   BestRatio best_;
@@ -170,21 +204,29 @@ std::int64_t last_stop(const Workload& workload, double ratio, std::int64_t most
   return static_cast<std::int64_t>(std::min(static_cast<double>(most), std::floor(exact * (1 + 1e-12))));
 }
 
+/// Whether the sphere S₁ of this ratio holds a disc.
+bool holds_a_disc(const Workload& workload, double ratio) {
+  return workload.disc_radius < ratio * workload.sphere_radius;
+}
+
 }  // namespace
 
 BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs, std::int64_t most_spheres) {
-  const StepPieces pieces(workload);
-  require_count("largest number of spheres", static_cast<double>(most_spheres), 1, 1e18);
+  require_count("largest number of spheres", static_cast<double>(most_spheres), 1, 9e18);
   const Times times(workload, costs);
-  return Search(times, pieces, most_spheres)
-      .run(first_ratios(pieces, std::min<std::int64_t>(most_spheres, 40)), [&](double ratio, double enough) {
-        return times.best_stop(ratio, last_stop(workload, ratio, most_spheres), enough);
-      });
+  if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
+  const StepPieces pieces(workload);
+  const BestRatio best =
+      Search(times, pieces, most_spheres, most_spheres)
+          .run(first_ratios(pieces, std::min<std::int64_t>(most_spheres, 40)), [&](double ratio, double enough) {
+            return times.best_stop(ratio, last_stop(workload, ratio, most_spheres), enough);
+          });
+  return best.spheres > 0 ? best : times.without_spheres();
 }
 
 BestRatio good_ratio_and_stop(const Workload& workload, const UnitCosts& costs) {
-  const StepPieces pieces(workload);
   const Times times(workload, costs);
+  if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   BestRatio best;
   // Chosen one after the other, each to lower the mean square of what is left above the best T.
   for (const double ratio : {0.575, 0.47, 0.765, 0.425, 0.49, 0.6, 0.455, 0.635}) {
@@ -195,20 +237,21 @@ BestRatio good_ratio_and_stop(const Workload& workload, const UnitCosts& costs) 
 }
 
 BestRatio best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio) {
-  const StepPieces pieces(workload);
   constexpr std::int64_t most = 4096;
+  const Times times(workload, costs);
   const std::int64_t last = sphere_count(Form::corrected, ratio, {workload.disc_radius}, {workload.sphere_radius});
-  return Times(workload, costs).best_stop(ratio.value, std::clamp<std::int64_t>(last, 1, most), HUGE_VAL);
+  return last == 0 ? times.without_spheres() : times.best_stop(ratio.value, std::min(last, most), HUGE_VAL);
 }
 
 BestRatio best_ratio_for(const Workload& workload, const UnitCosts& costs, std::int64_t spheres) {
-  const StepPieces pieces(workload);
-  require_count("number of spheres", static_cast<double>(spheres), 1, 1e18);
+  require_count("number of spheres", static_cast<double>(spheres), 0, 9e18);
   const Times times(workload, costs);
+  if (spheres == 0 || !holds_a_disc(workload, 1)) return times.without_spheres();
+  const StepPieces pieces(workload);
   std::vector<double> ratios = first_ratios(pieces, 0);
   std::erase_if(ratios, [&](double ratio) { return ratio <= pieces.above(spheres); });
   ratios.insert(ratios.begin(), std::min(most_ratio, std::max(least_ratio, pieces.above(spheres))));
-  return Search(times, pieces, 0).run(ratios, [&](double ratio, double) {
+  return Search(times, pieces, 0, spheres).run(ratios, [&](double ratio, double) {
     return BestRatio{ratio, spheres, times.at(ratio, spheres)};
   });
 }

@@ -10,14 +10,19 @@
 /// and has kinks where a table has a knot: its minima are many, and but a few percent apart. All stops of a ratio cost
 /// one pass over its spheres. From 128 ratios and the steps of k, intervals are halved as long as T might fall below
 /// the best within them; the minima left are narrowed down by Brent's method. Stopping at r_k of a few d often beats
-/// going down to d.
+/// going down to d. Where T is much the same everywhere (a cost of zero, samples or spheres beyond all scale), there is
+/// nothing to halve for: the search ends after most_looked_at spheres with the best so far.
 namespace detp::model {
 
+/// Where no sphere holds a disc (d > 0.98 r₀), k is 0 and Q the paper's, which does not matter then.
 struct BestRatio {
-  double ratio = 0;          ///< Q
-  std::int64_t spheres = 0;  ///< k
-  double time = 0;           ///< T at (Q, k), in the unit of the costs
+  double ratio = 0;            ///< Q
+  std::int64_t spheres = 0;    ///< k; 0: no sphere, each disc is tested with all rays
+  double time = 0;             ///< T at (Q, k), in the unit of the costs
+  std::int64_t looked_at = 0;  ///< spheres that a search over Q evaluated, one by one, to find it
 };
+
+inline constexpr std::int64_t most_looked_at = 12'000;
 
 /// A good ratio in little time: the best of eight fixed ones, each with its best stop.
 ///
@@ -32,16 +37,15 @@ struct BestRatio {
 ///
 /// Accuracy   T within 2e-11 of the least on 10 000 ratios, the steps of k and ever finer grids around the best, on 220
 ///            random workloads. No bound below T is proved: how steeply T may fall is taken from what was seen.
-/// Cost       1.2 … 1.5 ms.
-/// Limits     no such Q (d > 0.98 r₀): spheres = 0.
-/// Throws     std::invalid_argument for a workload or costs out of range or d >= r₀: there is no sphere then.
+/// Cost       1.2 … 1.5 ms; with most_spheres <= 40 at most most_looked_at spheres, at 0.4 µs each.
+/// Throws     std::invalid_argument for a workload or costs out of range.
 [[nodiscard]] BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs,
                                             std::int64_t most_spheres = 40);
 
-/// The fastest stop k for a given Q, at least 1 and at most 4096.
+/// The fastest stop k for a given Q, at least 1 (where a sphere holds a disc) and at most 4096.
 [[nodiscard]] BestRatio best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio);
 
-/// The fastest Q for a given k. Where no Q of the range has r_k >= d, the largest one.
+/// The fastest Q for a given k, 0 … 9e18. Where no Q of the range has r_k >= d, the largest one.
 [[nodiscard]] BestRatio best_ratio_for(const Workload& workload, const UnitCosts& costs, std::int64_t spheres);
 
 /// The paper's advice: 0.6 to 0.7; its middle.

@@ -1,9 +1,11 @@
 #include "box_tree.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -15,8 +17,24 @@ namespace {
 /// What is tabulated, as logarithms, of all nodes but the root; sums weighted by the children, by 1, by the discs.
 enum Term : std::size_t { nodes, inner_area, area, leaf_area, inner_volume, volume, leaf_volume, terms };
 
-constexpr std::size_t sample_steps = 16;    // n_P = 2⁵ … 2²⁰
+constexpr int most_halvings = 20;           // n_P = two leaves … 2²⁰
 constexpr std::size_t distance_steps = 11;  // d = 2⁻⁴ … 2⁶ sample distances
+
+constexpr std::size_t steps_of(int leaf) {
+  return static_cast<std::size_t>(most_halvings - std::countr_zero(static_cast<unsigned>(leaf)));
+}
+
+/// Steps of n_P in the tables of all leaves before this one; of no leaf, in all.
+constexpr std::size_t steps_before(int leaf) {
+  std::size_t steps = 0;
+  for (const int other : box_tree_leaves) {
+    if (other == leaf) break;
+    steps += steps_of(other);
+  }
+  return steps;
+}
+
+constexpr std::size_t sample_steps = steps_before(0);
 
 #include "box_tree_table.inc"
 
@@ -35,8 +53,10 @@ Place place_of(double at, std::size_t entries, bool goes_on) {
 /// The sums of one tree, over a² and a³.
 class Sums {
  public:
-  Sums(double samples, double radius_over_distance, double dimension)
-      : sample_(place_of(std::log2(samples) - 5, sample_steps, true)),
+  Sums(int leaf, double samples, double radius_over_distance, double dimension)
+      : first_(2 * terms * steps_before(leaf)),
+        sample_steps_(steps_of(leaf)),
+        sample_(place_of(std::log2(samples / (2 * leaf)), sample_steps_, true)),
         distance_(place_of(std::log2(radius_over_distance) + 4, distance_steps, false)),
         volume_weight_(dimension - 2) {}
 
@@ -49,12 +69,15 @@ class Sums {
 
   [[nodiscard]] double of_dimension(std::size_t dimension, Term term) const {
     const auto of_samples = [&](std::size_t row) {
-      const std::size_t first = ((dimension * terms + term) * sample_steps + row) * distance_steps + distance_.low;
+      const std::size_t first =
+          (first_ + (dimension * terms + term) * sample_steps_ + row) * distance_steps + distance_.low;
       return mixed(distance_.weight, box_tree_table[first], box_tree_table[first + 1]);
     };
     return mixed(sample_.weight, of_samples(sample_.low), of_samples(sample_.low + 1));
   }
 
+  std::size_t first_;
+  std::size_t sample_steps_;
   Place sample_;
   Place distance_;
   double volume_weight_;
@@ -64,22 +87,28 @@ constexpr double most_in_a_leaf = 64;  // of sim/stream, where splitting does no
 constexpr double most_distances = 0x1p6;
 constexpr double rays_in_a_block = 0x1p17;  // of sim/stream, for which each node is tested
 
-/// Σ P of the nodes, from the sums over them; by their mean, whose volume is no overflow yet.
-double crossed(const Workload& workload, const Sums& sums, Term area, Term volume, double side) {
-  const double bodies = sums[nodes];
-  return bodies *
-         crossing_probability(workload, sums[volume] / bodies * side * side * side, sums[area] / bodies * side * side);
+/// Σ P of the nodes, from the sums over so many bodies; by their mean, whose volume is no overflow yet.
+double crossed(const Workload& workload, const Sums& sums, Term area, Term volume, double side, double bodies) {
+  constexpr double largest = 1e300;
+  return bodies * crossing_probability(workload, std::min(largest, sums[volume] / bodies * side * side * side),
+                                       std::min(largest, sums[area] / bodies * side * side));
 }
 
 }  // namespace
 
+bool is_tabulated(const SphereTreeParameters& tree) {
+  return tree.bounds == Bounds::boxes && tree.fan_out == box_tree_fan_out &&
+         std::find(box_tree_leaves.begin(), box_tree_leaves.end(), tree.leaf) != box_tree_leaves.end();
+}
+
 Counts<double> box_tree_counts(const Workload& workload, const SphereTreeParameters& parameters) {
   check(workload);
   check(Candidate{Technique::sphere_tree, parameters});
-  if (!(parameters == tabulated_box_tree))
+  if (!is_tabulated(parameters))
     throw std::invalid_argument(
-        fmt::format("of a tree of boxes there is a closed form for fan-out {} and {} samples a leaf only (got {})",
-                    tabulated_box_tree.fan_out, tabulated_box_tree.leaf, describe(parameters)));
+        fmt::format("the closed form of a tree of boxes is for fan-out {} and {} samples a leaf, that of a tree of "
+                    "spheres for any (got {})",
+                    box_tree_fan_out, fmt::join(box_tree_leaves, ", "), describe(parameters)));
   const double rays = workload.rays;
   const double samples = workload.samples;
   Counts<double> counts{.sorted = samples, .hits = expected_hits(workload)};
@@ -94,11 +123,11 @@ Counts<double> box_tree_counts(const Workload& workload, const SphereTreeParamet
   const double distance =
       std::max(std::pow(sample_extent(workload) / samples, 1 / dimension), workload.disc_radius / most_distances);
   const double side = distance * std::pow(samples / std::pow(6, 3 - dimension), 1 / dimension);
-  const Sums sums(samples, workload.disc_radius / distance, dimension);
-  const double tests = parameters.fan_out + crossed(workload, sums, inner_area, inner_volume, side);
+  const Sums sums(parameters.leaf, samples, workload.disc_radius / distance, dimension);
+  const double tests = parameters.fan_out + crossed(workload, sums, inner_area, inner_volume, side, sums[nodes]);
   counts.sphere_tests = rays * tests;
-  counts.copies = rays * crossed(workload, sums, area, volume, side);
-  counts.disc_tests = rays * std::min(samples, crossed(workload, sums, leaf_area, leaf_volume, side));
+  counts.copies = rays * crossed(workload, sums, area, volume, side, sums[nodes]);
+  counts.disc_tests = rays * std::min(samples, crossed(workload, sums, leaf_area, leaf_volume, side, samples));
   const double blocks = std::ceil(rays / rays_in_a_block);
   counts.rebuilds = -blocks * sums[nodes] * std::expm1(-rays / blocks * tests / sums[nodes]);
   return counts;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+
 #include "vocabulary.hpp"
 
 /// The sphere tree with boxes: lists of rays culled down a tree of boxes.
@@ -21,14 +23,19 @@
 /// those of D = 2 and D = 3. The table (box_tree_table.inc) is made by validate/tables/box_tree_table.cpp.
 namespace detp::model {
 
-/// The fan-out and the leaf that the table is of. (With fewer rays than discs, or with 64 times as many, another leaf
-/// serves better: box_tree_rule.hpp.)
-inline constexpr SphereTreeParameters tabulated_box_tree{4, 16, Bounds::boxes};
+/// The trees that the table is of: of this fan-out, with a leaf of one of these. box_tree_rule.hpp says which one suits
+/// a workload.
+inline constexpr int box_tree_fan_out = 4;
+inline constexpr std::array box_tree_leaves{8, 16, 64};
+
+/// Whether the table is of this tree, so that box_tree_counts knows it.
+[[nodiscard]] bool is_tabulated(const SphereTreeParameters& tree);
 
 /// Expected counts of the tree. `rebuilds` are tests of a node that any ray takes part in, by blocks of 2¹⁷ rays.
 ///
 /// Source     our derivation, and the table.
-/// Valid      fan-out 4, leaf 16; samples uniform over a volume or over surfaces, discs turned isotropically; 32 <= n_P
+/// Valid      fan-out 4, leaf 8, 16 or 64; samples uniform over a volume or over surfaces, discs turned isotropically;
+/// 32 <= n_P
 ///            <= 2²⁰, d 2⁻⁴ … 2⁶ sample distances. Beyond more samples it goes on as the table ends, beyond the others
 ///            it stays.
 /// Accuracy   against structural counts of 300 fresh sets of samples, in a cube and on its faces, n_P 2¹⁰ … 2¹⁸, d 2⁻⁴

@@ -102,7 +102,7 @@ double occupied_cell_spheres(const Workload& workload, int level) {
 
 double rays_in_cell_sphere(const Workload& workload, int level) {
   using std::numbers::pi;
-  const double r = cell_sphere_radius(workload, level);
+  const double r = std::min(cell_sphere_radius(workload, level), 1e99);  // its volume is no overflow
   return workload.rays * crossing_probability(workload, 4 * pi / 3 * r * r * r, 4 * pi * r * r);
 }
 

@@ -7,10 +7,12 @@
 #include <optional>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "best_ratio.hpp"
-#include "box_tree.hpp"
+#include "box_tree_rule.hpp"
 #include "disc_index.hpp"
+#include "extrapolation.hpp"
 #include "predict.hpp"
 #include "sphere_tree.hpp"
 
@@ -26,12 +28,15 @@ class Fastest {
   void consider(const Candidate& candidate) { consider(candidate, predict(workload_, candidate)); }
 
   void consider(const Candidate& candidate, const Counts<double>& counts) {
-    const Ranked ranked{candidate, counts, price(counts, costs_, candidate.technique)};
-    if (ranked.counts.references > limits_.most_references) return;
-    if (!best_ || ranked.time.total() < best_->time.total()) best_ = ranked;
+    if (counts.references > limits_.most_references) return;
+    const CostBreakdown time = price(counts, costs_, candidate.technique);
+    if (!best_ || time.total() < best_->time.total()) best_ = Ranked{candidate, counts, time, {}};
   }
 
-  [[nodiscard]] const std::optional<Ranked>& best() const { return best_; }
+  [[nodiscard]] std::optional<Ranked> best() && {
+    if (best_) best_->extrapolated = extrapolations(workload_, best_->candidate);
+    return std::move(best_);
+  }
 
  private:
   const Workload& workload_;
@@ -51,7 +56,7 @@ std::optional<Ranked> best_cells(const Workload& workload, const UnitCosts& cost
   Fastest fastest(workload, costs, limits);
   for (int depth = 0; depth <= std::min(limits.most_depth, 16); ++depth)
     fastest.consider({Technique::cell_spheres, CellSpheresParameters{depth}});
-  return fastest.best();
+  return std::move(fastest).best();
 }
 
 std::optional<Ranked> best_octree(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
@@ -59,7 +64,7 @@ std::optional<Ranked> best_octree(const Workload& workload, const UnitCosts& cos
   int depth = 0;
   for (const Counts<double>& counts : octree_counts_by_depth(workload, {limits.most_depth}))
     fastest.consider({Technique::octree, OctreeParameters{depth++}}, counts);
-  return fastest.best();
+  return std::move(fastest).best();
 }
 
 std::optional<Ranked> best_grid(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
@@ -67,7 +72,7 @@ std::optional<Ranked> best_grid(const Workload& workload, const UnitCosts& costs
   for (int cells = 1; cells <= 1 << 16 && index_cells(workload, cells).count() <= limits.most_cells;
        cells = std::max(cells + 1, static_cast<int>(1.1 * cells)))
     fastest.consider({Technique::grid, GridParameters{cells}});
-  return fastest.best();
+  return std::move(fastest).best();
 }
 
 }  // namespace
@@ -75,7 +80,7 @@ std::optional<Ranked> best_grid(const Workload& workload, const UnitCosts& costs
 Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCosts& costs) {
   check(costs);
   const Counts<double> counts = predict(workload, candidate);
-  return {candidate, counts, price(counts, costs, candidate.technique)};
+  return {candidate, counts, price(counts, costs, candidate.technique), extrapolations(workload, candidate)};
 }
 
 SphereTreeParameters best_sphere_tree(const Workload& workload, const UnitCosts& costs, std::optional<int> fan_out,
@@ -98,6 +103,13 @@ SphereTreeParameters best_sphere_tree(const Workload& workload, const UnitCosts&
   return best;
 }
 
+SphereTreeParameters best_tree(const Workload& workload, const UnitCosts& costs, const TreeWish& wish) {
+  if (wish.bounds == Bounds::spheres) return best_sphere_tree(workload, costs, wish.fan_out, wish.leaf);
+  check(workload);
+  const SphereTreeParameters rule = box_tree_rule(workload);
+  return {wish.fan_out.value_or(rule.fan_out), wish.leaf.value_or(rule.leaf), Bounds::boxes};
+}
+
 std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
                               const SearchLimits& limits) {
   check(workload);
@@ -110,7 +122,7 @@ std::optional<Ranked> best_of(Technique technique, const Workload& workload, con
     case Technique::cell_spheres:
       return best_cells(workload, costs, limits);
     case Technique::sphere_tree:
-      return assess(workload, {Technique::sphere_tree, tabulated_box_tree}, costs);
+      return assess(workload, {Technique::sphere_tree, best_tree(workload, costs)}, costs);
     case Technique::octree:
       return best_octree(workload, costs, limits);
     case Technique::grid:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "vocabulary.hpp"
@@ -11,8 +12,9 @@ namespace detp::model {
 /// A technique with its best parameters for a workload.
 struct Ranked {
   Candidate candidate;
-  Counts<double> counts;  ///< expected
-  CostBreakdown time;     ///< expected, in the unit of the costs
+  Counts<double> counts;                  ///< expected
+  CostBreakdown time;                     ///< expected, in the unit of the costs
+  std::vector<std::string> extrapolated;  ///< why the counts are (extrapolations); empty: they are not
 };
 
 /// Limits of the parameters searched.
@@ -24,10 +26,8 @@ struct SearchLimits {
 
 /// All exact techniques with a closed form, each with its best parameters, fastest first.
 ///
-/// The sphere caches by best_ratio_and_stop; cell spheres and the octree over their depths; the sphere tree is
-/// that of boxes, by far the faster, with the one fan-out and leaf that there is a closed form of; the grid over cell
-/// counts in steps of 10 %. Throws std::invalid_argument for a
-/// workload out of range.
+/// The sphere caches by best_ratio_and_stop; cell spheres and the octree over their depths; the sphere tree by
+/// best_tree; the grid over cell counts in steps of 10 %. Throws std::invalid_argument for a workload out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs,
                                        const SearchLimits& limits = {});
 
@@ -35,6 +35,18 @@ struct SearchLimits {
 /// references than allowed, no closed form).
 [[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
                                             const SearchLimits& limits = {});
+
+/// What is given of a sphere tree; the rest is chosen.
+struct TreeWish {
+  std::optional<Bounds> bounds;
+  std::optional<int> fan_out;
+  std::optional<int> leaf;
+};
+
+/// The sphere tree for a workload, with what is given of it. Of boxes, which are by far the faster, unless spheres are
+/// asked for: then by box_tree_rule. Of spheres by best_sphere_tree. The one rule of all commands.
+[[nodiscard]] SphereTreeParameters best_tree(const Workload& workload, const UnitCosts& costs,
+                                             const TreeWish& wish = {});
 
 /// The fastest sphere tree with spheres and with that fan-out and that leaf; those not given are searched for, fan-outs
 /// from 2 to 16 and leaves from 1 to 1024.

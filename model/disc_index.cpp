@@ -20,7 +20,7 @@ Counts<double> leaf_counts(const Workload& workload, const Cells& cells, const I
 /// Grid cells that a ray steps through: the cells' parts inside the discs' box, by their mean surface and volume.
 double steps_of_ray(const Workload& workload, const Cells& cells) {
   std::array<double, 3> length = workload.box;
-  for (double& side : length) side += 2 * workload.disc_radius;
+  for (double& side : length) side += 2 * std::min(workload.disc_radius, 1e99);  // their volume is no overflow
   double faces = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
     faces += 2 * cells.along[axis] * length[(axis + 1) % 3] * length[(axis + 2) % 3];

@@ -100,7 +100,7 @@ class OverlapChance {
 Cells index_cells(const Workload& workload, double parts, Insertion insertion) {
   check(workload);
   require_positive("cells along the longest side", parts);
-  const double d = workload.disc_radius;
+  const double d = std::min(workload.disc_radius, 1e99);  // larger than all cells, and its volume is no overflow
   Cells cells{.side = (scene_side(workload) + 2 * d) / parts, .insertion = insertion};
   for (std::size_t axis = 0; axis < 3; ++axis)
     cells.along[axis] = std::max(1.0, std::ceil((workload.box[axis] + 2 * d) / cells.side * (1 - 1e-12)));

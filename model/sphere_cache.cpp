@@ -25,7 +25,8 @@ class Walk {
     check(Candidate{Technique::sphere_cache, parameters});
     require_rebuild_law(parameters.order);
     log_ratio_ = std::log(parameters.ratio);
-    current_ = {.radius = workload.sphere_radius, .rays = workload.rays, .listed = workload.rays};
+    current_ = {
+        .radius = workload.sphere_radius, .rays = workload.rays, .listed = workload.rays, .served = workload.rays};
   }
 
   /// The sphere i, `step` spheres inside the last one.

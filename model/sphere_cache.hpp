@@ -46,10 +46,10 @@ struct SphereLevel {
 void for_each_level(const Workload& workload, const SphereCacheParameters& parameters,
                     const std::function<bool(const SphereLevel&)>& visit);
 
-/// Expected counts, in bounded time for any k: beyond 4096 spheres they are summed in groups. Over a group s_i w_i/n of
-/// the rebuild law is held, so that n - m_i shrinks by the same factor at each sphere, and so is the ratio of the terms
-/// m_i L'_{i-1} of one sphere to the next; both are then summed in closed form. Spheres of r_i < d, rebuilt for each
-/// sample, have groups of their own.
+/// Expected counts, in bounded time for any k (0: each disc is tested with all rays): beyond 4096 spheres they are
+/// summed in groups. Over a group s_i w_i/n of the rebuild law is held, so that n - m_i shrinks by the same factor at
+/// each sphere, and so is the ratio of the terms m_i L'_{i-1} of one sphere to the next; both are then summed in closed
+/// form. Spheres of r_i < d, rebuilt for each sample, have groups of their own.
 ///
 /// Accuracy   against walks counted over samples uniform in a cube (D = 3) or on its faces (D = 2), n_P 10³ … 10⁷,
 ///            d/r₀ 10⁻⁴ … 0.2, Q 0.3 … 0.9 (250 workloads, means over 1000 (n_P = 10³) to 2 (10⁷) sets of samples; the

@@ -24,7 +24,8 @@ namespace detp::model {
 /// Accuracy   exact for the given doubles, ties included: near a whole number the powers are compared in 100 digits, to
 ///            k 1e-100. Right for all of 10⁶ inputs log-uniform over that domain, half of them with d within an ulp of
 ///            an r₀Qⁱ (tests/model/hard_cases); monotone in Q and d.
-/// Throws     std::invalid_argument unless 0 < Q < 1, d and r₀ > 0 and finite; std::overflow_error above 9e18.
+/// Throws     std::invalid_argument unless 0 < Q < 1, d and r₀ > 0 and finite; std::overflow_error above 9e18, which no
+///            workload reaches: with r₀ <= 1e90, d >= 5e-324 and Q <= 1 - 2⁻⁵³, k <= 8.6e18.
 [[nodiscard]] std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereRadius outer);
 
 /// The ratio at which the corrected k steps from j-1 to j: Q_j = (d/r₀)^{1/j}, where r_j = d exactly. T_I has its

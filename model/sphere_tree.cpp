@@ -92,7 +92,10 @@ double radius(const Workload& workload, const SphereTreeParameters& parameters, 
 /// P(node) of a sphere of radius r around a run.
 double crossed(const Workload& workload, double run, double r) {
   using std::numbers::pi;
-  if (workload.path_length > 0) return crossing_probability(workload, 4 * pi / 3 * r * r * r, 4 * pi * r * r);
+  if (workload.path_length > 0) {
+    const double bounded = std::min(r, 1e99);  // its volume is no overflow
+    return crossing_probability(workload, 4 * pi / 3 * bounded * bounded * bounded, 4 * pi * bounded * bounded);
+  }
   const SphereTreeParameters alone;
   const double around_all = radius(workload, alone, mean_square, workload.samples, 0);
   const double around_run = radius(workload, alone, mean_square, run, 0);

@@ -59,7 +59,7 @@ template <class T>
   return counts.sphere_tests + counts.disc_tests;
 }
 
-/// Time in seconds of each counted operation, on one machine. All >= 0 and finite.
+/// Time in seconds of each counted operation, on one machine. All from 0 to 1e200.
 ///
 /// The paper has t, u and (implicitly) v; the others are what its formulas leave out (science erratum: sort, copies).
 struct UnitCosts {
@@ -76,7 +76,7 @@ struct UnitCosts {
   bool operator==(const UnitCosts&) const = default;
 };
 
-/// Throws std::invalid_argument, naming the time, where one is negative, infinite or no number.
+/// Throws std::invalid_argument, naming the time, where one is negative, above 1e200 or no number.
 void check(const UnitCosts& costs);
 
 /// The time of a technique by part, in the unit of the UnitCosts it was made with.

@@ -90,6 +90,7 @@ std::optional<Bounds> bounds_named(std::string_view wanted) {
 std::string describe(const Parameters& parameters) {
   return std::visit(Overload{[](const BruteForceParameters&) { return std::string{}; },
                              [](const SphereCacheParameters& p) {
+                               if (p.spheres == 0) return fmt::format("no sphere{}", words_for(p.order));
                                return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres, words_for(p.order));
                              },
                              [](const CellSpheresParameters& p) { return fmt::format("depth {}", p.depth); },
@@ -123,7 +124,7 @@ void check(const Candidate& candidate) {
     case Technique::sphere_cache_published: {
       const auto p = want(static_cast<const SphereCacheParameters*>(nullptr));
       require_ratio("radius ratio Q", p.ratio);
-      require_count("number of spheres", static_cast<double>(p.spheres), 1, 1e18);
+      require_count("number of spheres", static_cast<double>(p.spheres), 0, 9e18);
       break;
     }
     case Technique::cell_spheres:

@@ -73,7 +73,7 @@ struct BruteForceParameters {
 /// Nested spheres of radius r₀Qⁱ with their rays (sphere-cache, and sphere-cache-published).
 struct SphereCacheParameters {
   double ratio = 0.65;                        ///< Q, in (0, 1)
-  std::int64_t spheres = 1;                   ///< k, the innermost sphere's index, >= 1
+  std::int64_t spheres = 1;                   ///< k, the innermost sphere's index, 0 … 9e18; 0: no sphere, any Q
   SampleOrder order = SampleOrder::lebesgue;  ///< in which the samples are visited
   bool operator==(const SphereCacheParameters&) const = default;
 };

@@ -22,6 +22,9 @@ void check(const Workload& workload) {
   require_non_negative("sample distance", workload.sample_distance);
   require_non_negative("path length", workload.path_length);
   require_positive("longest side of the sample box", scene_side(workload));
+  if (workload.sample_extent > 1e270)
+    throw std::invalid_argument(
+        fmt::format("sample extent must be at most 1e270, or it overflows (got {})", workload.sample_extent));
   for (const double length : {workload.sphere_radius, scene_side(workload)})
     if (length < 1e-90 || length > 1e90)
       throw std::invalid_argument(fmt::format(

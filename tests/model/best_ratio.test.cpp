@@ -167,17 +167,24 @@ TEST_SUITE("known answer") {
     const Workload w{.rays = 100, .samples = 100, .disc_radius = 0.99, .sphere_radius = 1, .box = {1, 1, 1}};
     CHECK(best_ratio_and_stop(w, {}).spheres == 0);
   }
+
+  TEST_CASE("where no sphere holds a disc, the best is no sphere: its time is brute force's, its ratio valid") {
+    for (const double disc : {0.99, 1.0, 1.5}) {
+      const Workload w{.rays = 100, .samples = 30, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
+      const UnitCosts one_each{.disc_test = 2, .sort = 5};
+      const BestRatio fixed_stop = best_ratio_for(w, one_each, 0);
+      for (const BestRatio& best : {best_ratio_and_stop(w, one_each), good_ratio_and_stop(w, one_each), fixed_stop,
+                                    best_stop(w, one_each, {disc < 1 ? 0.9 : 0.5})}) {
+        CHECK(best.spheres == 0);
+        CHECK(best.time == 2 * 100 * 30 + 5 * 30);
+        CHECK_NOTHROW(check(Candidate{Technique::sphere_cache, SphereCacheParameters{best.ratio, best.spheres}}));
+      }
+    }
+  }
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a disc as large as S0 or larger is refused, and a workload out of range by name") {
-    for (const double disc : {1.0, 1.5}) {
-      const Workload w{.rays = 100, .samples = 100, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
-      const Contains name("smaller than the sphere radius");
-      CHECK_THROWS_WITH_AS((void)best_ratio_and_stop(w, {}), name, std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)best_stop(w, {}, {0.5}), name, std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)best_ratio_for(w, {}, 3), name, std::invalid_argument);
-    }
+  TEST_CASE("a workload out of range is refused by name") {
     for (const double bad : support::not_a_count) {
       Workload w = typical;
       w.rays = bad;
@@ -191,10 +198,9 @@ TEST_SUITE("bad input") {
   TEST_CASE("a ratio or a number of spheres out of range is refused by name") {
     for (const double bad : support::not_a_ratio)
       CHECK_THROWS_WITH_AS((void)best_stop(typical, {}, {bad}), Contains("radius ratio Q"), std::invalid_argument);
-    for (const std::int64_t bad : {0, -1}) {
-      const Contains name("number of spheres");
-      CHECK_THROWS_WITH_AS((void)best_ratio_for(typical, {}, bad), name, std::invalid_argument);
+    const Contains name("number of spheres");
+    CHECK_THROWS_WITH_AS((void)best_ratio_for(typical, {}, -1), name, std::invalid_argument);
+    for (const std::int64_t bad : {0, -1})
       CHECK_THROWS_WITH_AS((void)best_ratio_and_stop(typical, {}, bad), name, std::invalid_argument);
-    }
   }
 }

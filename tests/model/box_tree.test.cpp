@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "detp/model/choose.hpp"
 #include "detp/model/line_measure.hpp"
@@ -17,16 +18,43 @@ using doctest::Contains;
 
 namespace {
 
-Counts<double> counts_of(const Workload& workload) { return box_tree_counts(workload, tabulated_box_tree); }
+constexpr SphereTreeParameters tree{4, 16, Bounds::boxes};
+
+Counts<double> counts_of(const Workload& workload) { return box_tree_counts(workload, tree); }
 
 }  // namespace
 
 TEST_SUITE("identity") {
   TEST_CASE("predict and rank know the tree of boxes") {
     const Workload w = cube_workload(1e6, 1e5, 0.01, 2);
-    const Candidate candidate{Technique::sphere_tree, tabulated_box_tree};
+    const Candidate candidate{Technique::sphere_tree, tree};
     CHECK(predict(w, candidate) == counts_of(w));
     CHECK(best_of(Technique::sphere_tree, w, {})->candidate == candidate);
+  }
+
+  TEST_CASE("each tree that the rule gives is tabulated: few rays a disc want large leaves, many small ones") {
+    for (const auto& [rays, leaf] : {std::pair{5e4, 64}, {1e5, 16}, {6.3e6, 16}, {6.4e6, 8}}) {
+      const Workload w = cube_workload(rays, 1e5, 0.01, 2);
+      const SphereTreeParameters best = best_tree(w, {});
+      CHECK(best == SphereTreeParameters{4, leaf, Bounds::boxes});
+      CHECK(is_tabulated(best));
+      CHECK(best_of(Technique::sphere_tree, w, {})->candidate == Candidate{Technique::sphere_tree, best});
+    }
+  }
+
+  TEST_CASE("larger leaves: fewer boxes are tested, and more discs") {
+    for (const double dimension : {2.0, 2.5, 3.0})
+      for (const double disc : {1e-4, 1e-3, 0.01, 0.1})
+        for (const double samples : {200.0, 1e4, 1e6}) {
+          const Workload w = cube_workload(1e6, samples, disc, 2, dimension);
+          Counts<double> smaller = box_tree_counts(w, {4, 8, Bounds::boxes});
+          for (const int leaf : {16, 64}) {
+            const Counts<double> counts = box_tree_counts(w, {4, leaf, Bounds::boxes});
+            CHECK(counts.sphere_tests < 1.02 * smaller.sphere_tests);
+            CHECK(counts.disc_tests > 0.98 * smaller.disc_tests);
+            smaller = counts;
+          }
+        }
   }
 
   TEST_CASE("twice the rays, twice the tests; the unit of length does not matter") {
@@ -47,6 +75,11 @@ TEST_SUITE("limit") {
     const Counts<double> counts = counts_of(cube_workload(1000, 16, 0.01, 2));
     CHECK(counts.disc_tests == 16'000);
     CHECK(counts.sphere_tests == 0);
+  }
+
+  TEST_CASE("few large leaves are tested with most rays, each disc by itself: not fewer than leaves are crossed") {
+    const Workload w = cube_workload(1e6, 200, 1e-4, 2);
+    CHECK(box_tree_counts(w, {4, 64, Bounds::boxes}).disc_tests > 40e6);  // four leaves of 50, crossed by a quarter
   }
 
   TEST_CASE("many rays test each node once a block; a single one few") {
@@ -79,9 +112,9 @@ TEST_SUITE("bad input") {
   TEST_CASE("other trees are refused, telling which one is known") {
     const Workload w = cube_workload(1000, 1000, 0.01, 2);
     for (const SphereTreeParameters& other : {SphereTreeParameters{8, 16, Bounds::boxes},
-                                              SphereTreeParameters{4, 8, Bounds::boxes}, SphereTreeParameters{4, 16}})
-      CHECK_THROWS_WITH_AS((void)box_tree_counts(w, other), Contains("fan-out 4 and 16 samples a leaf"),
+                                              SphereTreeParameters{4, 12, Bounds::boxes}, SphereTreeParameters{4, 16}})
+      CHECK_THROWS_WITH_AS((void)box_tree_counts(w, other), Contains("fan-out 4 and 8, 16, 64 samples a leaf"),
                            std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)box_tree_counts({}, tabulated_box_tree), Contains("rays"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)box_tree_counts({}, tree), Contains("rays"), std::invalid_argument);
   }
 }

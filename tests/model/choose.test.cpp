@@ -124,6 +124,47 @@ TEST_SUITE("identity") {
   }
 }
 
+TEST_SUITE("limit") {
+  TEST_CASE("workloads and costs from all their ranges: rank answers, all is finite, and the work is bounded") {
+    support::RandomNumbers random(71);
+    const auto now_and_then = [&](double share) { return random.uniform(0, 1) < share; };
+    for (int run = 0; run < 1000; ++run) {
+      Workload w{.rays = random.count(1, 1e18),
+                 .samples = random.count(1, 1e18),
+                 .sphere_radius = random.log_uniform(1e-90, 1e90),
+                 .dimension = random.uniform(1, 3)};
+      const double side = now_and_then(0.5) ? w.sphere_radius : random.log_uniform(1e-90, 1e90);
+      w.box = {side, side * random.uniform(0, 1), side * random.log_uniform(1e-12, 1)};
+      w.disc_radius =
+          now_and_then(0.8) ? w.sphere_radius * random.log_uniform(1e-12, 3) : random.log_uniform(1e-300, 1e300);
+      if (now_and_then(0.5)) w = cube_workload(w.rays, w.samples, w.disc_radius, side, now_and_then(0.5) ? 2 : 3);
+      if (now_and_then(0.2)) w.sample_extent = random.log_uniform(1e-270, 1e270);
+      if (now_and_then(0.2)) w.path_length = random.log_uniform(1e-300, 1e300);
+      if (w.sphere_radius > 1e90) continue;
+      const auto cost = [&] {
+        return now_and_then(0.2) ? 0 : now_and_then(0.1) ? 1e200 : random.log_uniform(1e-12, 1);
+      };
+      const UnitCosts some{cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost()};
+      CAPTURE(run);
+      for (const Ranked& ranked : rank(w, some)) {
+        CAPTURE(name(ranked.candidate.technique));
+        for_each_term(ranked.counts, [](std::string_view, double term) { REQUIRE((term >= 0 && term < 1e100)); });
+        REQUIRE(ranked.time.total() >= 0);
+        REQUIRE(std::isfinite(ranked.time.total()));
+      }
+      if (run % 8 == 0) REQUIRE(best_ratio_and_stop(w, some).looked_at <= most_looked_at);
+    }
+  }
+
+  TEST_CASE("where T is the same at every ratio, the search for the best ends") {
+    Workload w = cube_workload(1e6, 1e18, 1e-15, 1e30, 2);
+    CHECK(best_ratio_and_stop(w, {}).looked_at <= most_looked_at);
+    w.box = {1e40, 1e40, 1e40};  // each sample far from all others, and from S0
+    CHECK(best_ratio_and_stop(w, {}).looked_at <= most_looked_at);
+    CHECK(best_ratio_and_stop(typical, costs).looked_at < most_looked_at / 2);
+  }
+}
+
 TEST_SUITE("known answer") {
   TEST_CASE("one ray and one sample: brute force; a million of each: not") {
     CHECK(rank(cube_workload(1, 1, 0.01, 2), costs).front().candidate.technique == Technique::brute_force);

@@ -88,17 +88,21 @@ TEST_SUITE("limit") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("the closed form says of uniform samples, within 5 %, what their tree does") {
+  TEST_CASE(
+      "the closed form says of uniform samples what their tree does: within 5 % for leaves of 16, 15 % for 8 and 64") {
     for (const double dimension : {2.0, 3.0})
       for (const double radius : {0.003, 0.03}) {
         const auto discs =
             sim::uniform_discs(dimension == 2 ? sim::Body::cube_faces : sim::Body::cube, 1, 20'000, radius, 77);
-        const Candidate candidate{Technique::sphere_tree, model::tabulated_box_tree};
-        const Counts<double> structural = structural_counts(discs, 1e5, candidate);
-        const Counts<double> closed = model::predict(cube_workload(1e5, 20'000, radius, 1, dimension), candidate);
-        for (const auto term : {&Counts<double>::sphere_tests, &Counts<double>::copies, &Counts<double>::disc_tests}) {
-          CAPTURE(closed.*term / structural.*term);
-          CHECK(std::abs(closed.*term / structural.*term - 1) < 0.05);
+        for (const int leaf : {8, 16, 64}) {
+          const Candidate candidate{Technique::sphere_tree, SphereTreeParameters{4, leaf, Bounds::boxes}};
+          const Counts<double> structural = structural_counts(discs, 1e5, candidate);
+          const Counts<double> closed = model::predict(cube_workload(1e5, 20'000, radius, 1, dimension), candidate);
+          for (const auto term :
+               {&Counts<double>::sphere_tests, &Counts<double>::copies, &Counts<double>::disc_tests}) {
+            CAPTURE(closed.*term / structural.*term);
+            CHECK(std::abs(closed.*term / structural.*term - 1) < (leaf == 16 ? 0.05 : 0.15));
+          }
         }
       }
   }

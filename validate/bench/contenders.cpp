@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "detp/model/box_tree_rule.hpp"
 #include "detp/validate/unit_costs.hpp"
 
 namespace detp::validate {
@@ -44,10 +43,6 @@ Contenders contenders(const Workload& workload, std::span<const Technique> named
   std::erase_if(ranking, [&](const model::Ranked& ranked) { return !wanted(ranked.candidate.technique); });
   for (const model::Ranked& ranked : ranking)
     if (ranked.time.total() <= hopeless * ranking.front().time.total()) found.candidates.push_back(ranked.candidate);
-  const Candidate by_rule{Technique::sphere_tree, model::box_tree_rule(workload)};  // one leaf alone is ranked
-  if (wanted(Technique::sphere_tree) &&
-      std::find(found.candidates.begin(), found.candidates.end(), by_rule) == found.candidates.end())
-    found.candidates.push_back(by_rule);
   for (const Technique technique : all_techniques)
     if (wanted(technique) && !has_closed_form(technique)) found.candidates.push_back(with_defaults(technique));
   return found;

@@ -42,7 +42,7 @@ void decide(ChooseAnswer& answer, const UnitCosts& costs) {
 /// What the structures built of the discs say of a candidate.
 model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const UnitCosts& costs) {
   const Counts<double> counts = validate::structural_counts(job.discs, job.workload.rays, candidate);
-  return {candidate, counts, price(counts, costs, candidate.technique)};
+  return {candidate, counts, price(counts, costs, candidate.technique), {}};
 }
 
 /// A candidate that was not ranked; nothing where neither a closed form nor its structure predicts it.

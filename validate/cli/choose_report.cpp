@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "extrapolated.hpp"
 #include "measured_report.hpp"
 #include "table.hpp"
 #include "workload_options.hpp"
@@ -62,6 +63,7 @@ Json candidate_json(const ChooseAnswer& answer, const Row& row) {
   if (row.predicted != nullptr) {
     json["predicted"] = to_json(row.predicted->counts);
     json["predicted_seconds"] = row.predicted->time.total();
+    json.update(extrapolated_json(row.predicted->extrapolated));
   }
   if (!row.chosen) json["why_not"] = why_not(answer, row);
   if (row.run != nullptr) add_measured(json, *answer.analysis, *row.run);
@@ -70,7 +72,10 @@ Json candidate_json(const ChooseAnswer& answer, const Row& row) {
 
 Json choice_json(const Row& row) {
   Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate.parameters)}};
-  if (row.predicted != nullptr) json["predicted_seconds"] = row.predicted->time.total();
+  if (row.predicted != nullptr) {
+    json["predicted_seconds"] = row.predicted->time.total();
+    json.update(extrapolated_json(row.predicted->extrapolated));
+  }
   if (row.run != nullptr && row.run->seconds) {
     json["measured_seconds"] = *row.run->seconds;
     json["measured_spread"] = row.run->spread;
@@ -94,6 +99,7 @@ Json to_json(const ChooseAnswer& answer) {
             {"unit_costs", !answer.costs_given ? "built-in; not calibrated on this machine" : "given"},
             {"choosing_seconds", answer.choosing_seconds},
             {"warnings", answer.warnings}};
+  json["paper_rule"].update(extrapolated_json(answer.paper.extrapolated));
   for (const Row& row : rows) json["candidates"].push_back(candidate_json(answer, row));
   if (answer.analysis) add_analysis(json, answer);
   return json;
@@ -104,8 +110,9 @@ namespace {
 std::string row_text(const ChooseAnswer& answer, const Row& row) {
   std::string text = fmt::format("{:14} {:26} ", name(row.candidate.technique), describe(row.candidate.parameters));
   text += row.predicted != nullptr
-              ? fmt::format("{:>10.3g} {:>9.3g}", tests(row.predicted->counts), row.predicted->time.total())
-              : fmt::format("{:>10} {:>9}", "-", "-");
+              ? fmt::format("{:>10.3g} {:>9.3g}{}", tests(row.predicted->counts), row.predicted->time.total(),
+                            row.predicted->extrapolated.empty() ? ' ' : '~')
+              : fmt::format("{:>10} {:>9} ", "-", "-");
   if (row.run != nullptr) text += measured_columns(*row.run);
   if (row.run != nullptr && !row.run->seconds) {
     Json json;
@@ -122,6 +129,13 @@ std::string table(const ChooseAnswer& answer) {
                       measured ? measured_head(true) : "");
   for (const Row& row : rows_of(answer)) text += row_text(answer, row);
   return text;
+}
+
+std::string why_marked(const ChooseAnswer& answer) {
+  std::vector<std::pair<Technique, std::vector<std::string>>> predictions;
+  for (const Row& row : rows_of(answer))
+    if (row.predicted != nullptr) predictions.emplace_back(row.candidate.technique, row.predicted->extrapolated);
+  return extrapolated_lines(predictions);
 }
 
 std::string margin(const ChooseAnswer& answer) {
@@ -144,7 +158,7 @@ std::string to_text(const ChooseAnswer& answer) {
   for (const Json& effect : effects_json(answer.workload))
     if (effect["on"].get<bool>()) on += (on.empty() ? "" : ", ") + effect["name"].get<std::string>();
   text += fmt::format("effects   on: {}\n", on.empty() ? "none" : on);
-  text += table(answer);
+  text += table(answer) + why_marked(answer);
   text += "\n";
   if (!answer.analysis || !answer.analysis->best) text += choice_line(answer);
   if (answer.analysis) text += measured_lines(answer);
@@ -164,6 +178,7 @@ Json cells_of(const model::Ranked& ranked) {
   Json cells = candidate_cells(ranked.candidate);
   cells.update(count_cells(ranked.counts, "predicted_"));
   cells["predicted_seconds"] = ranked.time.total();
+  cells["extrapolated"] = !ranked.extrapolated.empty();
   return cells;
 }
 
@@ -180,7 +195,7 @@ Json cells_of(const ChooseAnswer& answer, const Row& row) {
 
 std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
   Table table(workload_columns() + Columns{"role"} + candidate_columns() + count_columns("predicted_") +
-              Columns{"predicted_seconds"} + count_columns("counted_") +
+              Columns{"predicted_seconds", "extrapolated"} + count_columns("counted_") +
               Columns{"measured_seconds", "measured_spread", "not_run", "why_not", "regret", "rigor", "unit_costs",
                       "choosing_seconds"});
   Json shared = workload_cells(inputs);

@@ -5,7 +5,9 @@
 
 #include "answer_rows.hpp"
 #include "command.hpp"
+#include "detp/model/extrapolation.hpp"
 #include "detp/model/predict.hpp"
+#include "extrapolated.hpp"
 #include "model_answer.hpp"
 #include "unit_cost_option.hpp"
 #include "workload_options.hpp"
@@ -72,7 +74,7 @@ std::string level_table(const Json& levels) {
 std::string scalars(const Json& json, const std::string& pattern_prefix = "") {
   std::string text;
   for (const auto& [key, value] : json.items()) {
-    if (value.is_array()) continue;
+    if (value.is_array() || value.is_boolean()) continue;
     if (value.is_object())
       text += scalars(value, key + ".");
     else if (value.is_number())
@@ -80,6 +82,13 @@ std::string scalars(const Json& json, const std::string& pattern_prefix = "") {
     else
       text += fmt::format("{:<26} {}\n", pattern_prefix + key, value.get<std::string>());
   }
+  return text;
+}
+
+std::string why_extrapolated(const Json& json) {
+  std::string text;
+  for (const Json& reason : json.value("extrapolated_because", Json::array()))
+    text += fmt::format("{:<26} {}\n", "extrapolated", reason.get<std::string>());
   return text;
 }
 
@@ -163,6 +172,7 @@ AnswerRow answer_row(const ModelOptions& options, const Measured& measured, cons
   row.inputs["levels"] = levels;
   ModelAnswer found = answer({measured.workload, technique, form, costs, levels, options.candidate});
   row.answer.update(found.json);
+  row.answer.update(extrapolated_json(model::extrapolations(measured.workload, {technique, found.parameters})));
   require_finite_time(row.answer);
   row.cells = cells_of(row.inputs, {technique, found.parameters}, row.answer);
   return row;
@@ -178,8 +188,10 @@ Result run_model(ModelOptions& options, const CommonOptions& common, const std::
       [&](const Measured& measured) { return answer_row(options, measured, costs, levels); });
   Result result = result_of(rows, expected, columns(),
                             {workload_columns() + candidate_columns() + Columns{"form"},
-                             Columns{"k", "k_max", "k_best"} + times() + per_line()});
-  if (expected == 1) result.text = scalars(result.json) + level_table(result.json.value("spheres", Json::array()));
+                             Columns{"k", "k_max", "k_best", "extrapolated"} + times() + per_line()});
+  if (expected == 1)
+    result.text =
+        scalars(result.json) + why_extrapolated(result.json) + level_table(result.json.value("spheres", Json::array()));
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include <algorithm>
 
 #include "detp/model/best_ratio.hpp"
-#include "detp/model/box_tree.hpp"
 #include "detp/model/cell_spheres.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/model/predict.hpp"
@@ -20,7 +19,7 @@ using model::Form;
 SphereCacheParameters cache_parameters(const ModelQuestion& question, double ratio, const SphereStops& stops) {
   const CandidateOptions& options = question.options;
   if (options.spheres) {
-    require_count("number of spheres", static_cast<double>(*options.spheres), 0, 1e18);
+    require_count("number of spheres", static_cast<double>(*options.spheres), 0, 9e18);
     return {ratio, *options.spheres, options.sample_order()};
   }
   return {ratio, options.stop == SphereStop::best ? stops.best : stops.max, options.sample_order()};
@@ -145,15 +144,9 @@ ModelAnswer cell_spheres_answer(const ModelQuestion& question) {
 
 ModelAnswer sphere_tree_answer(const ModelQuestion& question) {
   refuse_published(question);
-  const CandidateOptions& options = question.options;
-  if (options.bounds && bounds_named(*options.bounds) == Bounds::boxes) {
-    constexpr SphereTreeParameters known = model::tabulated_box_tree;
-    const SphereTreeParameters boxes{options.fan_out.value_or(known.fan_out), options.leaf.value_or(known.leaf),
-                                     Bounds::boxes};
-    return with_spheres(question, boxes, Json::array());
-  }
   const SphereTreeParameters parameters =
-      model::best_sphere_tree(question.workload, question.costs, options.fan_out, options.leaf);
+      model::best_tree(question.workload, question.costs, question.options.tree_wish());
+  if (parameters.bounds == Bounds::boxes) return with_spheres(question, parameters, Json::array());
   Json levels = Json::array();
   double around = question.workload.rays;
   for (const model::TreeLevel& level : model::sphere_tree_levels(question.workload, parameters)) {

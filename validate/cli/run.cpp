@@ -5,7 +5,6 @@
 
 #include "command.hpp"
 #include "detp/model/best_ratio.hpp"
-#include "detp/model/box_tree_rule.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/sim/scene/output_file.hpp"
 #include "detp/sim/threads.hpp"
@@ -31,7 +30,7 @@ struct RunOptions {
 SphereCacheParameters complete_cache(const CandidateOptions& options, const Workload& workload) {
   const UnitCosts costs = validate::built_in_unit_costs();
   if (options.ratio) require_ratio("radius ratio Q", *options.ratio);
-  if (options.spheres) require_count("number of spheres", static_cast<double>(*options.spheres), 1, 1e18);
+  if (options.spheres) require_count("number of spheres", static_cast<double>(*options.spheres), 0, 9e18);
   if (options.ratio && options.spheres) return {*options.ratio, *options.spheres, options.sample_order()};
   const model::BestRatio best = options.ratio     ? model::best_stop(workload, costs, {*options.ratio})
                                 : options.spheres ? model::best_ratio_for(workload, costs, *options.spheres)
@@ -39,15 +38,7 @@ SphereCacheParameters complete_cache(const CandidateOptions& options, const Work
   const std::int64_t spheres = options.stop == SphereStop::max
                                    ? sphere_stops(workload, costs, model::Form::corrected, {best.ratio}).max
                                    : best.spheres;
-  return {best.ratio, std::max<std::int64_t>(1, spheres), options.sample_order()};
-}
-
-/// Boxes, unless spheres are asked for: they are the faster (sim/README.md).
-SphereTreeParameters complete_tree(const CandidateOptions& options, const Workload& workload) {
-  if (options.bounds && bounds_named(*options.bounds) == Bounds::spheres)
-    return model::best_sphere_tree(workload, validate::built_in_unit_costs(), options.fan_out, options.leaf);
-  const SphereTreeParameters rule = model::box_tree_rule(workload);
-  return {options.fan_out.value_or(rule.fan_out), options.leaf.value_or(rule.leaf), Bounds::boxes};
+  return {best.ratio, spheres, options.sample_order()};
 }
 
 /// The depth that is best top-down serves for all traversals.
@@ -79,7 +70,7 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
   if (technique == Technique::sphere_cache || technique == Technique::sphere_cache_published)
     return {technique, complete_cache(options, workload)};
   if (technique == Technique::cell_spheres && options.depth) return {technique, CellSpheresParameters{*options.depth}};
-  if (technique == Technique::sphere_tree) return {technique, complete_tree(options, workload)};
+  if (technique == Technique::sphere_tree) return {technique, model::best_tree(workload, costs, options.tree_wish())};
   if (technique == Technique::octree) return {technique, complete_octree(options, workload)};
   if (technique == Technique::bsp) return {technique, complete_bsp(options)};
   if (technique == Technique::grid && options.cells) return {technique, GridParameters{*options.cells}};

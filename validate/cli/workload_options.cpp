@@ -126,6 +126,10 @@ PhotonMapParameters CandidateOptions::photon_map() const {
   return nearest ? PhotonMapParameters{*nearest} : PhotonMapParameters{};
 }
 
+model::TreeWish CandidateOptions::tree_wish() const {
+  return {bounds ? bounds_named(*bounds) : std::nullopt, fan_out, leaf};
+}
+
 Traversal CandidateOptions::chosen_traversal() const {
   if (!traversal) return Traversal::top_down;
   const auto found = traversal_named(*traversal);

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "command.hpp"
+#include "detp/model/choose.hpp"
 #include "detp/validate/job.hpp"
 #include "value_lists.hpp"
 
@@ -65,6 +66,9 @@ class CandidateOptions {
   /// The traversal of that name, or the octree's own. Throws std::invalid_argument for an unknown one, naming the
   /// known.
   [[nodiscard]] Traversal chosen_traversal() const;
+
+  /// What is given of a sphere tree.
+  [[nodiscard]] model::TreeWish tree_wish() const;
 
   /// Throws std::invalid_argument for a parameter given that the technique does not have.
   void refuse_foreign(Technique technique) const;

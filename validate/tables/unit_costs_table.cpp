@@ -32,7 +32,7 @@ std::vector<Candidate> candidates(double radius, double outer, double pairs) {
                         ratio, std::max<std::int64_t>(
                                    1, model::sphere_count(model::Form::corrected, {ratio}, {radius}, {outer}) - 1)}});
   for (const int depth : {4, 5}) list.push_back({Technique::cell_spheres, CellSpheresParameters{depth}});
-  list.push_back({Technique::sphere_tree, model::tabulated_box_tree});
+  list.push_back({Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}});
   for (const int depth : {4, 5, 6, 7}) list.push_back({Technique::octree, OctreeParameters{depth}});
   for (const int cells : {16, 40, 100}) list.push_back({Technique::grid, GridParameters{cells}});
   return list;

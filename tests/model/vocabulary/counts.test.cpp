@@ -115,7 +115,9 @@ TEST_SUITE("bad input") {
       double UnitCosts::*time;
       const char* name;
     };
-    for (const double bad : support::not_a_size)
+    std::vector<double> not_a_time(support::not_a_size.begin(), support::not_a_size.end());
+    not_a_time.push_back(1e201);  // times of counts up to 1e55 must not overflow
+    for (const double bad : not_a_time)
       for (const auto& [time, name] :
            {Named{&UnitCosts::sphere_test, "ray-sphere"}, Named{&UnitCosts::disc_test, "ray-disc"},
             Named{&UnitCosts::index_test, "disc in a cell"}, Named{&UnitCosts::step, "step"},
@@ -125,6 +127,7 @@ TEST_SUITE("bad input") {
         costs.*time = bad;
         CHECK_THROWS_WITH_AS(check(costs), doctest::Contains(name), std::invalid_argument);
       }
-    CHECK_NOTHROW(check(UnitCosts{0, 0, 0, 0, 0, 0, 0, 0, 0}));
+    for (const double good : {0.0, 1e200})
+      CHECK_NOTHROW(check(UnitCosts{good, good, good, good, good, good, good, good, good}));
   }
 }

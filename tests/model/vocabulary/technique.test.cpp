@@ -87,6 +87,8 @@ TEST_SUITE("known answer") {
     CHECK(describe(SphereCacheParameters{0.607, 9}) == "Q 0.607, k 9");
     CHECK(describe(SphereCacheParameters{0.607, 9, SampleOrder::none}) == "Q 0.607, k 9, unsorted");
     CHECK(describe(SphereCacheParameters{0.607, 9, SampleOrder::hilbert}) == "Q 0.607, k 9, Hilbert order");
+    CHECK(describe(SphereCacheParameters{0.607, 0}) == "no sphere");
+    CHECK(describe(SphereCacheParameters{0.607, 0, SampleOrder::none}) == "no sphere, unsorted");
     CHECK(describe(CellSpheresParameters{5}) == "depth 5");
     CHECK(describe(SphereTreeParameters{8, 12}) == "8 a node, 12 a leaf");
     CHECK(describe(OctreeParameters{7}) == "depth 7");
@@ -99,7 +101,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("parameters in range pass, ends included") {
     for (const Technique technique : {Technique::sphere_cache, Technique::sphere_cache_published})
-      for (const std::int64_t k : {1LL, 9LL, 1'000'000'000'000'000'000LL})
+      for (const std::int64_t k : {0LL, 1LL, 9LL, 9'000'000'000'000'000'000LL})
         CHECK_NOTHROW(check(Candidate{technique, SphereCacheParameters{0.5, k}}));
     for (const int depth : {0, 20}) CHECK_NOTHROW(check(Candidate{Technique::octree, OctreeParameters{depth}}));
     for (const int depth : {0, 16})
@@ -140,7 +142,7 @@ TEST_SUITE("bad input") {
       for (const double bad : support::not_a_ratio)
         CHECK_THROWS_WITH_AS(check(Candidate{technique, SphereCacheParameters{bad, 3}}), Contains("radius ratio Q"),
                              std::invalid_argument);
-      for (const std::int64_t bad : {0LL, -1LL, 1'100'000'000'000'000'000LL})
+      for (const std::int64_t bad : {-1LL, 9'100'000'000'000'000'000LL})
         CHECK_THROWS_WITH_AS(check(Candidate{technique, SphereCacheParameters{0.5, bad}}),
                              Contains("number of spheres"), std::invalid_argument);
     }

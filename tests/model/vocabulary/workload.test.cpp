@@ -67,6 +67,8 @@ TEST_SUITE("known answer") {
     CHECK_NOTHROW(check(with(&Workload::dimension, 1)));
     CHECK_NOTHROW(check(with(&Workload::dimension, 3)));
     CHECK_NOTHROW(check(with(&Workload::path_length, 0)));
+    CHECK_NOTHROW(check(with(&Workload::disc_radius, 1e300)));
+    CHECK_NOTHROW(check(with(&Workload::sample_extent, 1e270)));
   }
 }
 
@@ -95,6 +97,11 @@ TEST_SUITE("bad input") {
         CHECK_THROWS_WITH_AS(check(w), Contains("side of the sample box"), std::invalid_argument);
       }
     }
+  }
+
+  TEST_CASE("an extent beyond all boxes is refused by name") {
+    CHECK_THROWS_WITH_AS(check(with(&Workload::sample_extent, 1.1e270)), Contains("sample extent"),
+                         std::invalid_argument);
   }
 
   TEST_CASE("a box without any side is refused, and so is a workload not filled in") {

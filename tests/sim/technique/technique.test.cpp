@@ -29,6 +29,8 @@ const std::vector<Candidate>& exact_candidates() {
       {Technique::sphere_cache, SphereCacheParameters{0.5, 5, SampleOrder::none}},
       {Technique::sphere_cache, SphereCacheParameters{0.65, 8, SampleOrder::hilbert}},
       {Technique::sphere_cache, SphereCacheParameters{1e-9, 1}},
+      {Technique::sphere_cache, SphereCacheParameters{0.65, 0}},
+      {Technique::sphere_cache, SphereCacheParameters{0.65, 0, SampleOrder::none}},
       {Technique::cell_spheres, CellSpheresParameters{0}},
       {Technique::cell_spheres, CellSpheresParameters{4}},
       {Technique::cell_spheres, CellSpheresParameters{16}},
@@ -241,6 +243,22 @@ TEST_SUITE("known answer") {
     CHECK(static_cast<double>(octree.counts.disc_tests) < 1.01 * static_cast<double>(cells.counts.disc_tests));
   }
 
+  TEST_CASE("a sphere cache without spheres tests every pair, and the paper's loses nothing then") {
+    const auto discs = uniform_discs(Body::cube, 2, 300, 0.05, 1);
+    const auto rays = LineField(enclosing_sphere(discs), 2).lines(0, 400);
+    const Problem problem = make_problem(rays, discs);
+    const Outcome truth = run(problem, brute, {.pairs = true});
+    for (const Technique technique : {Technique::sphere_cache, Technique::sphere_cache_published})
+      for (const bool plain : {false, true}) {
+        const Outcome outcome =
+            run(problem, {technique, SphereCacheParameters{0.65, 0}}, {.pairs = true, .plain = plain});
+        CHECK(outcome.pairs == truth.pairs);
+        CHECK(outcome.counts.disc_tests == 300 * 400);
+        CHECK(outcome.counts.sphere_tests == 0);
+        CHECK(outcome.spheres.empty());
+      }
+  }
+
   TEST_CASE("the paper's walk loses hits and finds none that are not there") {
     const auto discs = uniform_discs(Body::cube, 2, 10'000, 0.02, 3);
     const auto rays = LineField(enclosing_sphere(discs), 4).lines(0, 10'000);
@@ -303,7 +321,7 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_AS(try_run({Technique::bsp, BspParameters{8, 0}}), std::invalid_argument);
     for (const double bad : {0.0, 1.0, -0.5, 1.5, std::numeric_limits<double>::quiet_NaN()})
       CHECK_THROWS_AS(try_run({Technique::sphere_cache, SphereCacheParameters{bad, 3}}), std::invalid_argument);
-    CHECK_THROWS_AS(try_run({Technique::sphere_cache, SphereCacheParameters{0.5, 0}}), std::invalid_argument);
+    CHECK_THROWS_AS(try_run({Technique::sphere_cache, SphereCacheParameters{0.5, -1}}), std::invalid_argument);
     CHECK_THROWS_WITH_AS(try_run({Technique::grid, GridParameters{100'000}}), doctest::Contains("GB"),
                          std::length_error);
   }

@@ -72,7 +72,7 @@ TEST_SUITE("bad input") {
     const std::vector<std::string> no_ratio{"0", "1", "1.5", "-0.5", "nan", "inf", "x"};
     check_refused(each(numbers + "--ratio", no_ratio, "ratio"));
     check_refused(each(uniform + "--technique sphere-cache --ratio", no_ratio, "ratio"));
-    check_refused(each(uniform + "--technique sphere-cache --spheres", {"0", "-1", "1.5", "nan"}, "spheres"));
+    check_refused(each(uniform + "--technique sphere-cache --spheres", {"-1", "1e19", "1.5", "nan"}, "spheres"));
     check_refused(each(uniform + "--technique octree --depth", {"-1", "21", "99", "1.5", "nan"}, "depth"));
     check_refused(each(uniform + "--technique bsp --depth", {"-1", "65", "1.5", "nan"}, "depth"));
     check_refused(each(uniform + "--technique bsp --leaf", {"0", "-1", "1.5", "nan"}, "leaf"));

@@ -132,6 +132,14 @@ TEST_SUITE("known answer") {
                                                        tests.at("counts").at("disc_tests").get<double>()));
   }
 
+  TEST_CASE("k is told however large it is: a tiny disc and Q next to 1 leave 4e18 spheres") {
+    const Json json =
+        result_of("model --rays 1e6 --samples 1e6 --sphere-radius 1 --disc-radius 1e-200 --ratio 0.9999999999999999");
+    CHECK(json.at("k") == 4'147'968'546'718'736'978);
+    CHECK(json.at("parameters").at("spheres") == json.at("k"));
+    CHECK(json.at("total_time").get<double>() > 1e18);
+  }
+
   TEST_CASE("brute force tests every ray against every disc") {
     CHECK(result_of(numbers + "--technique brute-force").at("total_time").get<double>() == near(5 * rays * samples));
   }
@@ -139,7 +147,8 @@ TEST_SUITE("known answer") {
   TEST_CASE("cell spheres and the sphere tree are the sums over their levels") {
     const std::string side = "model --rays 300000 --samples 20000 --disc-radius 0.01 --scene-side 2 --costs t=3,u=5 ";
     for (const std::string technique :
-         {"cell-spheres --depth 4", "cell-spheres", "sphere-tree --fan-out 4 --leaf 6", "sphere-tree"}) {
+         {"cell-spheres --depth 4", "cell-spheres", "sphere-tree --bounds spheres --fan-out 4 --leaf 6",
+          "sphere-tree --bounds spheres"}) {
       CAPTURE(technique);
       const Json json = result_of(side + "--technique " + technique);
       double rebuild_time = 0;
@@ -156,11 +165,11 @@ TEST_SUITE("known answer") {
     CHECK(cells.at("parameters").at("depth") == 4);
     CHECK(cells.at("spheres").size() == 4);
     CHECK(cells.at("spheres")[0].at("rebuilds").get<double>() == near(8));
-    const Json tree = result_of(side + "--technique sphere-tree --fan-out 4 --leaf 6");
+    const Json tree = result_of(side + "--technique sphere-tree --bounds spheres --fan-out 4 --leaf 6");
     CHECK(tree.at("parameters") == Json{{"fan_out", 4}, {"leaf", 6}, {"bounds", "spheres"}});
     CHECK(tree.at("spheres").back().at("rebuilds") == 3334);
     CHECK(tree.at("spheres").back().at("samples") == 6);
-    CHECK(result_of(side + "--technique sphere-tree --levels 2").at("spheres").size() == 2);
+    CHECK(result_of(side + "--technique sphere-tree --bounds spheres --levels 2").at("spheres").size() == 2);
   }
 
   TEST_CASE("the published octree is eq 22") {

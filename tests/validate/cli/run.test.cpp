@@ -100,6 +100,17 @@ TEST_SUITE("end to end") {
     CHECK(rows_of(both.pairs).size() == both.hits);
   }
 
+  TEST_CASE("discs all in one point: no sphere pays, so that the sphere cache runs without one") {
+    const ScratchFolder folder;
+    const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,0.5\n0,0,0,0,1,0,0.5\n");
+    const std::string rays = folder.file("rays.csv", "ox,oy,oz,dx,dy,dz\n0.1,0.1,0,0,0,1\n5,5,5,0,0,1\n");
+    for (const std::string technique : {"sphere-cache", "sphere-cache-published", "sphere-cache --ratio 0.5"}) {
+      const Json json = result_of("run --discs " + discs + " --ray-file " + rays + " --technique " + technique);
+      CHECK(json.at("hits") == 1);
+      CHECK(json.at("parameters").at("spheres") == 0);
+    }
+  }
+
   TEST_CASE("PLY files mean the same as CSV files") {
     const OwnData data;
     CHECK(run_and_read(data.ply, "--technique brute-force") == run_and_read(data.csv, "--technique brute-force"));
