@@ -7,6 +7,8 @@
 #include <string>
 #include <type_traits>
 
+#include "memory.hpp"
+
 /// Embree's handles, released when they go, and its errors, thrown.
 namespace detp::sim::embree {
 
@@ -20,10 +22,11 @@ struct Release {
 template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
-/// Throws std::runtime_error if anything failed on the device since this was last asked. No device (rtcNewDevice could
-/// make none): asks why.
+/// Throws if anything failed on the device since this was last called: OutOfMemory, or std::runtime_error with Embree's
+/// number of the error. Without a device (rtcNewDevice made none) it looks up why.
 inline void require_no_error(const Owned<RTCDevice>& device) {
   const RTCError error = rtcGetDeviceError(device.get());
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory("Embree builds its tree");
   if (error != RTC_ERROR_NONE || device == nullptr)
     throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
 }

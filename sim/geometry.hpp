@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -10,6 +9,9 @@ namespace detp::sim {
 
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
+/// No coordinate, and no distance in a problem, is larger: squares must not overflow.
+inline constexpr double largest_coordinate = 1e100;
+
 /// A photon path or a line.
 struct Ray {
   glm::dvec3 origin{0.0};
@@ -17,7 +19,7 @@ struct Ray {
   double length = unbounded;            ///< of the segment from the origin; unbounded: the whole line, both ways
   double power = 1;                     ///< flux it carries; irradiance is the sum of powers over the disc's area
 
-  [[nodiscard]] bool is_line() const { return std::isinf(length); }
+  [[nodiscard]] bool is_line() const { return length == unbounded; }
 };
 
 /// The disc of a sample, in the tangent plane.

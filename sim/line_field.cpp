@@ -1,7 +1,11 @@
 #include "line_field.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "detp/model/vocabulary.hpp"
 #include "directions.hpp"
@@ -12,6 +16,10 @@ namespace detp::sim {
 LineField::LineField(const Sphere& sphere, std::uint64_t seed) : sphere_(sphere), seed_(seed) {
   require_positive("sphere radius", sphere.radius);
   for (int axis = 0; axis < 3; ++axis) require_finite("sphere centre", sphere.centre[axis]);
+  const double farthest =
+      std::max({sphere.radius, std::abs(sphere.centre.x), std::abs(sphere.centre.y), std::abs(sphere.centre.z)});
+  if (farthest > largest_coordinate)
+    throw std::invalid_argument(fmt::format("sphere centre and radius must be within 1e100 (got {})", farthest));
 }
 
 Ray LineField::line(std::uint64_t index) const {

@@ -13,7 +13,7 @@ namespace detp::sim {
 /// (Santaló, Integral Geometry, II.12). Line i is a function of (seed, i) alone.
 class LineField {
  public:
-  /// Throws std::invalid_argument unless the radius is > 0 and finite and the centre finite.
+  /// Throws std::invalid_argument unless the radius is > 0 and it and the centre are within 1e100.
   LineField(const Sphere& sphere, std::uint64_t seed);
 
   /// Line number `index`: unbounded, power 1, its origin the point nearest to the sphere's centre.

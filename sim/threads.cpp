@@ -4,19 +4,56 @@
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
+#include <latch>
+#include <mutex>
 #include <optional>
+#include <exception>
+#include <thread>
+#include <vector>
 
 namespace detp::sim {
+namespace {
+
+/// How many threads can be started beside this one, `wanted` at most.
+int started_beside(int wanted) {
+  std::latch end(1);
+  std::vector<std::thread> threads;
+  threads.reserve(static_cast<std::size_t>(wanted));
+  try {
+    while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([&end] { end.wait(); });
+  } catch (const std::exception&) {  // no more, for want of processes or of memory
+  }
+  end.count_down();
+  for (std::thread& thread : threads) thread.join();
+  return static_cast<int>(threads.size());
+}
+
+}  // namespace
+
+int startable_threads(int threads) {
+  static std::mutex mutex;
+  static int tried = 1;
+  static int started = 1;
+  const std::lock_guard lock(mutex);
+  if (threads > tried) {
+    // As many as are wanted beside this one, and one that the program may need for something else.
+    started = std::max(1, started_beside(threads));
+    tried = threads;
+  }
+  return std::min(threads, started);
+}
 
 int thread_count(int asked) { return asked > 0 ? asked : oneapi::tbb::info::default_concurrency(); }
 
 void on_threads(int threads, const std::function<void()>& work) {
   using oneapi::tbb::global_control;
-  const auto wanted = static_cast<std::size_t>(threads);
+  const int started = startable_threads(threads);
+  const auto wanted = static_cast<std::size_t>(started);
   std::optional<global_control> more_than_cores;
   if (wanted > global_control::active_value(global_control::max_allowed_parallelism))
     more_than_cores.emplace(global_control::max_allowed_parallelism, wanted);
-  oneapi::tbb::task_arena(threads).execute(work);
+  oneapi::tbb::task_arena(started).execute(work);
 }
 
 }  // namespace detp::sim

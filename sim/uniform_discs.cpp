@@ -1,6 +1,9 @@
 #include "uniform_discs.hpp"
 
+#include <fmt/format.h>
+
 #include "detp/model/vocabulary.hpp"
+#include "memory.hpp"
 #include "random.hpp"
 #include "scene/built_in/built_in.hpp"
 
@@ -9,6 +12,8 @@ namespace detp::sim {
 std::vector<Disc> uniform_discs(Body body, double side, std::size_t count, double radius, std::uint64_t seed) {
   require_positive("cube side", side);
   require_positive("disc radius", radius);
+  require_memory(fmt::format("{} discs and samples", count),
+                 static_cast<double>(count) * (sizeof(Disc) + sizeof(Sample)));
   std::vector<Disc> discs;
   discs.reserve(count);
   for (const Sample& sample : built_in::uniform_samples(count, seed)) {

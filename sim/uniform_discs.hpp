@@ -14,7 +14,8 @@ enum class Body {
 };
 
 /// `count` discs at points uniform over a cube of that side around the origin, or over its faces, turned isotropically.
-/// A function of the seed and each disc's number. Throws std::invalid_argument unless side and radius are > 0.
+/// A function of the seed and each disc's number. Throws std::invalid_argument unless side and radius are > 0 and
+/// finite, and std::length_error where they would not fit the memory.
 [[nodiscard]] std::vector<Disc> uniform_discs(Body body, double side, std::size_t count, double radius,
                                               std::uint64_t seed);
 

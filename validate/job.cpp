@@ -133,7 +133,8 @@ class JobMaker {
     job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
     const auto block = static_cast<double>(sim::default_block(job_.discs.size()));
     if (request_.stream && rays > block && rays < UINT32_MAX) return make_stream(static_cast<std::uint64_t>(rays));
-    const std::size_t count = count_in_memory("rays", rays, sizeof(sim::Ray));
+    const double made = request_.workload_only ? std::min(rays, block) : rays;
+    const std::size_t count = count_in_memory("rays", made, sizeof(sim::Ray));
     if (job_.field == sim::Field::isotropic) {
       job_.rays = sim::LineField(sim::enclosing_sphere(job_.discs), request_.seed).lines(0, count);
       return;
@@ -158,7 +159,10 @@ class JobMaker {
     if (!job_.stream) {
       const sim::Problem problem = job_.problem();
       job_.warnings = outlier_warnings(problem);
-      return measure(problem, surface_);
+      Workload workload = measure(problem, surface_);
+      if (request_.workload_only && !request_.ray_file)
+        workload.rays = std::max(workload.rays, request_.rays.value_or(default_rays));
+      return workload;
     }
     std::vector<sim::Ray> block(sim::default_block(job_.discs.size()));
     job_.stream->read(0, block);
@@ -200,7 +204,9 @@ Length parse_length(std::string_view text) {
     throw std::invalid_argument(
         fmt::format("disc radius must be a length or a percentage, as 0.02 or 4% (got {})", shortened(text)));
   require_positive("disc radius", value);
-  return {relative ? value / 100 : value, relative};
+  const Length length{relative ? value / 100 : value, relative};
+  require_positive("disc radius", length.value);  // the hundredth of the least number is 0
+  return length;
 }
 
 Workload workload_of_numbers(const JobRequest& request) {

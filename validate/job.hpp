@@ -40,6 +40,9 @@ struct JobRequest {
   std::optional<sim::Field> field;
   bool front_facing = false;
   std::uint64_t seed = 1;
+  /// Only the workload is wanted: of more rays than a block (sim::default_block), only the first block is made, and the
+  /// workload is measured on it. Not for rays from a file.
+  bool workload_only = false;
   bool stream = false;  ///< rays that can be made by their number stay out of memory if they fill more than a block
 
   /// Neither a scene nor a file: a workload in numbers.
@@ -57,7 +60,7 @@ struct JobRequest {
 struct Job {
   std::string name;  ///< "@tree", a file, or "uniform samples in a cube"
   std::vector<sim::Disc> discs;
-  std::vector<sim::Ray> rays;                    ///< all of them, or none if they are a stream
+  std::vector<sim::Ray> rays;                    ///< all of them, none if they are a stream; see workload_only
   std::unique_ptr<const sim::RaySource> stream;  ///< makes rays by their number; null if they are in memory
   sim::Field field = sim::Field::isotropic;
   std::size_t triangles = 0;

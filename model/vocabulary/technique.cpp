@@ -13,6 +13,8 @@ template <class... F>
 struct Overload : F... {
   using F::operator()...;
 };
+template <class... F>
+Overload(F...) -> Overload<F...>;  // clang 14 does not deduce aggregates
 
 std::string_view words_for(SampleOrder order) {
   if (order == SampleOrder::lebesgue) return "";

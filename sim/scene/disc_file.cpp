@@ -4,11 +4,11 @@
 
 #include <utility>
 
+#include "detp/sim/unit_vector.hpp"
 #include "file_error.hpp"
 #include "kept_memory.hpp"
 #include "output_file.hpp"
 #include "table.hpp"
-#include "unit_vector.hpp"
 
 namespace detp::sim {
 namespace {

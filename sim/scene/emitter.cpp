@@ -4,7 +4,7 @@
 
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/directions.hpp"
-#include "unit_vector.hpp"
+#include "detp/sim/unit_vector.hpp"
 
 namespace detp::sim {
 namespace {

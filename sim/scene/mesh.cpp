@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "detp/sim/unit_vector.hpp"
 #include "scene.hpp"
-#include "unit_vector.hpp"
 
 namespace detp::sim {
 namespace {

@@ -7,11 +7,11 @@
 #include <string_view>
 #include <utility>
 
+#include "detp/sim/unit_vector.hpp"
 #include "file_error.hpp"
 #include "kept_memory.hpp"
 #include "number_text.hpp"
 #include "obj_lines.hpp"
-#include "unit_vector.hpp"
 
 namespace detp::sim {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "detp/sim/random.hpp"
-#include "unit_vector.hpp"
+#include "detp/sim/unit_vector.hpp"
 
 namespace detp::sim {
 namespace {

@@ -10,6 +10,9 @@ namespace detp::sim::stream {
 /// Hits of one disc by rays of each class.
 using ClassCounts = std::array<std::uint32_t, classes>;
 
+/// A node with fewer tests to make than this is not worth tasks of its own.
+inline constexpr std::size_t least_work = std::size_t{1} << 16;
+
 /// What all threads read while a block of rays is searched for.
 struct BlockSearch {
   const Problem& problem;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <numeric>
 
+#include "detp/sim/technique/techniques.hpp"
 #include "detp/sim/threads.hpp"
 #include "gathering.hpp"
 #include "list_search.hpp"
@@ -15,7 +16,7 @@ namespace detp::sim::stream {
 void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome) {
   constexpr std::size_t chunk =
       512;  // discs that stay in the first-level cache while vector after vector of rays passes
-  require_search_memory(problem, options);
+  need_memory("the discs in floats and blocks of rays", all_bytes(size_of(problem, options)), problem, outcome);
   const Frame frame(problem);
   std::vector<std::uint32_t> order(problem.discs.size());
   std::iota(order.begin(), order.end(), 0U);

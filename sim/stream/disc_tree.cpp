@@ -61,6 +61,8 @@ struct Binary {
   [[nodiscard]] bool leaf() const { return right == 0; }
 };
 
+static_assert(sizeof(Binary) == binary_node_bytes);
+
 class Builder {
  public:
   Builder(const std::vector<CurvePlace>& places, DiscTree& tree, int fan_out, int leaf)
@@ -71,6 +73,7 @@ class Builder {
 
   void build() {
     binary_ = split_in_parallel(0, static_cast<std::uint32_t>(tree_.discs.size()));
+    tree_.binary_nodes = binary_.size();
     tree_.nodes.reserve(binary_.size());
     tree_.nodes.emplace_back();
     widen(0, 0);

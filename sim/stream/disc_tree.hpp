@@ -29,7 +29,10 @@ struct DiscTree {
   std::vector<TreeNode> nodes;       ///< the root first; children of a node are neighbours
   std::vector<FloatDisc> discs;      ///< in the order of the leaves
   std::vector<std::uint32_t> order;  ///< their numbers in the problem
+  std::size_t binary_nodes = 0;      ///< of the binary tree that it was made of
 };
+
+inline constexpr double binary_node_bytes = 44;
 
 /// Splits the discs, sorted along the Lebesgue curve, wherever the curve leaves a cell; then keeps those splits that
 /// pay, and joins them into nodes of up to `fan_out` children. A leaf holds up to `leaf` discs, more only where that

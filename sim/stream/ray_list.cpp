@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "detp/sim/memory.hpp"
+
 namespace detp::sim::stream {
 namespace {
 
@@ -35,6 +37,8 @@ float* ListArena::take_floats(std::size_t count) {
   }
   if (chunk_ == chunks_.size()) {
     const std::size_t size = std::max(count, least << std::min<std::size_t>(chunk_, 10));
+    bytes_ += static_cast<double>(size) * sizeof(float);
+    require_memory("a thread's lists of rays", bytes_);
     Chunk chunk{std::unique_ptr<std::byte[]>(new std::byte[(size + line) * sizeof(float)]), nullptr, size};
     const auto address = reinterpret_cast<std::uintptr_t>(chunk.bytes.get());
     chunk.start = reinterpret_cast<float*>(chunk.bytes.get() + (64 - address % 64) % 64);

@@ -33,7 +33,8 @@ using RayLists = std::array<RayList, classes>;
 
 [[nodiscard]] inline std::size_t size(const RayLists& lists) { return lists[0].size + lists[1].size + lists[2].size; }
 
-/// Memory for lists, last in, first out. Pages are touched only as far as lists are filled.
+/// Memory for lists, last in, first out. Pages are touched only as far as lists are filled. Throws std::length_error
+/// before it takes more than the memory budget.
 class ListArena {
  public:
   /// Room for `capacity` rays.
@@ -67,6 +68,7 @@ class ListArena {
   std::vector<Chunk> chunks_;
   std::size_t chunk_ = 0;
   std::size_t used_ = 0;
+  double bytes_ = 0;  ///< of all chunks
 };
 
 /// Gives back at the end of a scope what was taken in it.

@@ -6,7 +6,6 @@
 #include <tbb/task_arena.h>
 
 #include "curve_sort.hpp"
-#include "detp/sim/memory.hpp"
 #include "detp/sim/technique/techniques.hpp"
 #include "detp/sim/threads.hpp"
 #include "gathering.hpp"
@@ -17,9 +16,6 @@ namespace detp::sim::stream {
 namespace {
 
 using Workers = tbb::enumerable_thread_specific<Worker>;
-
-/// A node with fewer tests to make than this is not worth tasks of its own.
-constexpr std::size_t least_work = std::size_t{1} << 16;
 
 /// Makes tasks of the children while there is much to do.
 void divide(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Workers& workers) {
@@ -43,30 +39,19 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
 
 bool can_search(const Problem& problem) { return Frame(problem).slack <= 0.01; }
 
-double search_bytes(std::size_t discs, int threads) {
-  constexpr double sorting = 2 * sizeof(CurvePlace);
-  constexpr double nodes = 64;  // of both trees: a leaf of one disc has one of each, and half as many hold them
-  constexpr double a_disc =
-      sorting + sizeof(std::uint32_t) + sizeof(FloatDisc) + nodes + sizeof(ClassCounts) + 2 * sizeof(DiscTotals);
-  constexpr double a_ray = 7 * sizeof(float);
-  constexpr double within = 8;  // all lists made of a block's, one within another, in its rays
-  const auto block = static_cast<double>(block_size(discs));
-  return a_disc * static_cast<double>(discs) + a_ray * block * (2 + within * thread_count(threads));
-}
-
-void require_search_memory(const Problem& problem, const RunOptions& options) {
-  require_memory(fmt::format("lists of rays over {} discs", problem.discs.size()),
-                 search_bytes(problem.discs.size(), options.threads));
-}
-
 void search_boxes(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
                   Outcome& outcome) {
-  require_search_memory(problem, options);
+  const SearchSize size = size_of(problem, options);
+  constexpr std::string_view what = "the tree of boxes and its lists of rays";
+  const double most = most_nodes(problem.discs.size(), parameters.leaf);
+  require_memory_for(what, boxes_bytes(size, parameters.fan_out, most), problem);
   Stopwatch watch;
   const Frame frame(problem);
   on_threads(thread_count(options.threads), [&] {
     const DiscTree tree = make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf);
     outcome.seconds.build = watch.lap();
+    const auto nodes = static_cast<double>(tree.binary_nodes);
+    need_memory(what, boxes_bytes(size, parameters.fan_out, nodes), problem, outcome);
     Workers workers;
     Gathering gathering(problem, tree, options);
     for_each_block(problem, frame, options.stop, [&](const Block& block) {

@@ -10,10 +10,31 @@ namespace detp::sim::stream {
 /// culled.)
 [[nodiscard]] bool can_search(const Problem& problem);
 
-/// Bytes that a search takes at most beside its input and outcome, pairs left out: the discs in order and their tree,
-/// sums, lists of rays. The searches throw std::length_error, naming them, where they would not fit the memory.
-[[nodiscard]] double search_bytes(std::size_t discs, int threads);
-void require_search_memory(const Problem& problem, const RunOptions& options);
+/// What the memory of a search depends on.
+struct SearchSize {
+  std::size_t discs = 0;
+  std::size_t rays = 0;  ///< that it is given at once
+  int threads = 1;       ///< 0: all cores
+  bool sums = true;  ///< powers are summed, where rays differ in power, or pairs, fronts or shared totals are wanted
+  bool own_totals = true;  ///< it fills in the outcome's hits and irradiance
+};
+
+[[nodiscard]] SearchSize size_of(const Problem& problem, const RunOptions& options);
+
+/// Predicted bytes of a search at its peak, beside rays, discs and pairs: sorted discs and their tree, lists of rays,
+/// sums, outcome. The lists' part holds for rays through all of the discs; a thread checks again before its lists grow.
+/// The searches throw std::length_error, naming the bytes, where it would not fit the memory. `nodes` are those of the
+/// binary tree that is built first.
+[[nodiscard]] double boxes_bytes(const SearchSize& size, int fan_out, double nodes);
+
+/// The most such nodes: for so many discs, with so many a leaf.
+[[nodiscard]] double most_nodes(std::size_t discs, int leaf);
+
+/// The same of search_all.
+[[nodiscard]] double all_bytes(const SearchSize& size);
+
+/// The same of search_walk, sorting before it included, if lists inside the outermost hold `nested` times its rays.
+[[nodiscard]] double walk_bytes(const SearchSize& size, double nested);
 
 /// Tests every ray against every disc. (Of rays that pass S₀ that takes no test; they count as tested.)
 void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome);

@@ -78,7 +78,6 @@ void add(const std::vector<SphereCounts>& events, std::vector<SphereCounts>& sum
 
 void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const MakeWalk& make_walk,
                  const RunOptions& options, Outcome& outcome) {
-  require_search_memory(problem, options);
   const Frame frame(problem);
   std::array<Worker, classes> workers;
   std::array<std::vector<SphereCounts>, classes> events;

@@ -42,10 +42,12 @@ void search(const Problem& problem, const RunOptions& options, Outcome& outcome)
 
 void run_brute_force(const Problem& problem, const RunOptions& options, Outcome& outcome) {
   Stopwatch watch;
-  if (!options.plain && stream::can_search(problem))
+  if (!options.plain && stream::can_search(problem)) {
     stream::search_all(problem, options, outcome);
-  else
+  } else {
+    need_memory("their sums", found_bytes(problem, options), problem, outcome);
     search(problem, options, outcome);
+  }
   outcome.seconds.search = watch.lap();
 }
 

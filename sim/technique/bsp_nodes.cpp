@@ -44,9 +44,10 @@ class Builder {
     for (const Disc& disc : problem_.discs) bounds_.push_back(bounds(disc, problem_.slack));
     Discs all(problem_.discs.size());
     std::iota(all.begin(), all.end(), 0U);
-    listed_ = all.size();
+    listed_ = most_listed_ = all.size();
     tree_.nodes.emplace_back();
     build(0, tree_.box, 0, std::move(all));
+    tree_.building_bytes = needed(0);
     tree_.nodes.shrink_to_fit();
     tree_.references.shrink_to_fit();
     return std::move(tree_);
@@ -55,7 +56,7 @@ class Builder {
  private:
   void build(std::uint32_t number, const Box& box, int level, Discs discs) {
     if (stop_.stop_requested()) return;
-    require_room(2 * discs.size());
+    require_room(discs.size());
     const Split split = halving(box);
     if (level == parameters_.depth || discs.size() <= static_cast<std::size_t>(parameters_.leaf) ||
         !pays(split, box, discs))
@@ -63,7 +64,9 @@ class Builder {
     const std::array<Box, 2> boxes{part_of(box, split.axis, split.plane, false),
                                    part_of(box, split.axis, split.plane, true)};
     std::array<Discs, 2> parts{discs_in(boxes[0], discs), discs_in(boxes[1], discs)};
-    listed_ += parts[0].size() + parts[1].size() - discs.size();
+    listed_ += parts[0].size() + parts[1].size();
+    most_listed_ = std::max(most_listed_, listed_);
+    listed_ -= discs.size();
     tree_.placements += parts[0].size() + parts[1].size();
     discs = {};
     const auto first = static_cast<std::uint32_t>(tree_.nodes.size());
@@ -98,12 +101,20 @@ class Builder {
     return inside;
   }
 
-  /// For so many more references in lists, and two more nodes. Arrays that grow may take twice what they hold.
-  void require_room(std::size_t more) const {
-    const double references = static_cast<double>(listed_ + tree_.references.size() + more) * sizeof(std::uint32_t);
-    const double nodes = static_cast<double>(tree_.nodes.size() + 2) * sizeof(BspNode);
-    require_memory("the BSP tree", 2 * (references + nodes) + static_cast<double>(bounds_.size()) * sizeof(Box));
-    if (tree_.references.size() + more >= UINT32_MAX || tree_.nodes.size() + 2 >= UINT32_MAX)
+  /// Predicted bytes with so many more references. What is built is copied at the end, to fit.
+  [[nodiscard]] double needed(std::size_t more) const {
+    const std::size_t references = tree_.references.size() + more;
+    return static_cast<double>(bounds_.size()) * sizeof(Box) +
+           static_cast<double>(most_listed_) * sizeof(std::uint32_t) +
+           std::max(grown_bytes(references, sizeof(std::uint32_t)),
+                    2.0 * static_cast<double>(references) * sizeof(std::uint32_t)) +
+           grown_bytes(tree_.nodes.size() + 2, sizeof(BspNode));
+  }
+
+  /// For the halves of a node with so many discs, or its references.
+  void require_room(std::size_t discs) const {
+    require_memory("the BSP tree", needed(discs) + 2 * static_cast<double>(discs) * sizeof(std::uint32_t));
+    if (tree_.references.size() + discs >= UINT32_MAX || tree_.nodes.size() + 2 >= UINT32_MAX)
       throw std::length_error("the BSP tree would hold 2^32 or more references; a smaller depth is needed");
   }
 
@@ -111,7 +122,8 @@ class Builder {
   const BspParameters& parameters_;
   const std::stop_token& stop_;
   std::vector<Box> bounds_;
-  std::size_t listed_ = 0;  ///< in the lists of nodes not yet built
+  std::size_t listed_ = 0;       ///< in the lists of nodes not yet built
+  std::size_t most_listed_ = 0;  ///< at any time
   BspNodes tree_;
 };
 

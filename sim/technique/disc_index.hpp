@@ -22,6 +22,7 @@ struct IndexSize {
   std::size_t references = 0;
   std::size_t placements = 0;  ///< discs found to overlap a cell or node, at all levels
   std::size_t bytes = 0;       ///< of memory, between building and searching
+  double building_bytes = 0;   ///< predicted memory while it is built, at its peak
 };
 
 using VisitNode = std::function<void(const IndexNode&)>;

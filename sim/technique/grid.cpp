@@ -34,7 +34,8 @@ class Grid {
     return {.nodes = starts_.size() - 1,
             .references = references_.size(),
             .placements = references_.size(),
-            .bytes = starts_.size() * sizeof(starts_[0]) + references_.size() * sizeof(references_[0])};
+            .bytes = starts_.size() * sizeof(starts_[0]) + references_.size() * sizeof(references_[0]),
+            .building_bytes = building_bytes(references_.size())};
   }
 
   void show(const VisitNode& visit) const {
@@ -118,12 +119,19 @@ class Grid {
     std::uint32_t disc;
   };
 
+  /// Two arrays of cells, and so many placements, which become references.
+  [[nodiscard]] double building_bytes(std::size_t placements) const {
+    constexpr double each = sizeof(Placement) + sizeof(std::uint32_t);
+    return 2.0 * static_cast<double>(starts_.size()) * sizeof(starts_[0]) +
+           std::max(grown_bytes(placements, sizeof(Placement)), each * static_cast<double>(placements));
+  }
+
   /// Finds each disc's cells, and lists the discs cell by cell.
   void fill(const std::stop_token& stop) {
     std::vector<Placement> placements;
     for (std::uint32_t disc = 0; disc < problem_.discs.size() && !stop.stop_requested(); ++disc) {
       for_each_overlapped_cell(problem_.discs[disc], [&](std::size_t cell) { placements.push_back({cell, disc}); });
-      require_memory("the grid's references", 2.0 * static_cast<double>(placements.size()) * sizeof(Placement));
+      require_memory("the grid", building_bytes(placements.size()));
     }
     for (const Placement& placement : placements) ++starts_[placement.cell + 1];
     for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
@@ -159,6 +167,7 @@ Outcome search_grid(const Problem& problem, const GridParameters& parameters, co
   Stopwatch watch;
   const Grid grid(problem, parameters.cells, variant.insertion, options.stop);
   outcome.seconds.build = watch.lap();
+  need_index_memory("the grid", grid.size(), problem, options, outcome);
   search_index(grid, problem, variant.mailboxing, options, outcome);
   outcome.seconds.search = watch.lap();
   return outcome;

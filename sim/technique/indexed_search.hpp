@@ -1,9 +1,11 @@
 #pragma once
 
+#include "detp/sim/threads.hpp"
 #include "disc_index.hpp"
 #include "hit_collector.hpp"
 #include "prepared.hpp"
 #include "ray_search.hpp"
+#include "techniques.hpp"
 
 namespace detp::sim {
 
@@ -59,6 +61,15 @@ void trace_all(const Index& index, const Problem& problem, const RunOptions& opt
     outcome.counts.references += index.size().references;
     outcome.counts.placements += index.size().placements;
   }
+}
+
+/// Checks that the index, the mailboxes of its search, the sums and the outcome fit the memory. What building it took
+/// the heap may keep.
+inline void need_index_memory(std::string_view what, const IndexSize& index, const Problem& problem,
+                              const RunOptions& options, Outcome& outcome) {
+  const double mailboxes = thread_count(options.threads) * static_cast<double>(sizeof(std::uint32_t)) *
+                           static_cast<double>(problem.discs.size());
+  need_memory(what, index.building_bytes + mailboxes + found_bytes(problem, options), problem, outcome);
 }
 
 /// Traces every ray through an index.

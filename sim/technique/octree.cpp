@@ -25,7 +25,8 @@ class Octree {
             .references = tree_.references.size(),
             .placements = tree_.placements,
             .bytes = tree_.nodes.size() * sizeof(OctreeNode) + tree_.references.size() * sizeof(std::uint32_t) +
-                     linked_.size() * sizeof(LinkedNode)};
+                     linked_.size() * sizeof(LinkedNode),
+            .building_bytes = linking_bytes()};
   }
 
   void show(const VisitNode& visit) const { show(0, tree_.cube, 0, visit); }
@@ -58,6 +59,12 @@ class Octree {
     visit({box, level, level == tree_.depth, node.count});
     if (level < tree_.depth)
       for_each_child(node, box, [&](std::uint32_t child, const Box& part) { show(child, part, level + 1, visit); });
+  }
+
+  /// Bytes while nodes are linked, each with the number of the one that it was made of; and what the heap keeps of
+  /// building.
+  [[nodiscard]] double linking_bytes() const {
+    return tree_.building_bytes + static_cast<double>(linked_.size()) * (sizeof(LinkedNode) + sizeof(no_node));
   }
 
   /// From the root towards that place among the leaves: tests the discs of the leaf there, or finds the octant that was
@@ -118,6 +125,7 @@ Outcome search_octree(const Problem& problem, const OctreeParameters& parameters
   Stopwatch watch;
   const Octree octree(problem, parameters, variant, options.stop);
   outcome.seconds.build = watch.lap();
+  need_index_memory("the octree", octree.size(), problem, options, outcome);
   search_index(octree, problem, variant.mailboxing, options, outcome);
   outcome.seconds.search = watch.lap();
   return outcome;

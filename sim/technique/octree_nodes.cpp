@@ -23,7 +23,9 @@ class Builder {
     std::vector<std::uint32_t> all(problem_.discs.size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
     tree_.nodes.emplace_back();
+    listed_ = most_listed_ = all.size();
     build(0, tree_.cube, 0, all);
+    tree_.building_bytes = needed();
     tree_.nodes.shrink_to_fit();
     tree_.references.shrink_to_fit();
     return std::move(tree_);
@@ -35,11 +37,14 @@ class Builder {
     if (level == tree_.depth) {
       tree_.nodes[node].first = static_cast<std::uint32_t>(tree_.references.size());
       tree_.nodes[node].count = static_cast<std::uint32_t>(discs.size());
+      require_room(discs.size());
       tree_.references.insert(tree_.references.end(), discs.begin(), discs.end());
-      require_room();
       return;
     }
     std::array<std::vector<std::uint32_t>, 8> parts = split(box, discs);
+    for (const std::vector<std::uint32_t>& part : parts) listed_ += part.size();
+    most_listed_ = std::max(most_listed_, listed_);
+    require_room(0);
     tree_.nodes[node].first = static_cast<std::uint32_t>(tree_.nodes.size());
     for (unsigned octant = 0; octant < 8; ++octant)
       if (!parts[octant].empty()) {
@@ -51,6 +56,7 @@ class Builder {
     for (unsigned octant = 0; octant < 8; ++octant)
       if (!parts[octant].empty()) {
         build(child++, octant_of(box, octant), level + 1, parts[octant]);
+        listed_ -= parts[octant].size();
         parts[octant] = {};
       }
   }
@@ -74,16 +80,26 @@ class Builder {
     return parts;
   }
 
-  void require_room() const {
-    require_memory("the octree", static_cast<double>(tree_.references.size()) * sizeof(std::uint32_t) +
-                                     static_cast<double>(tree_.nodes.size()) * sizeof(OctreeNode));
-    if (tree_.references.size() >= UINT32_MAX || tree_.nodes.size() >= UINT32_MAX)
+  /// Predicted bytes with so many more references. What is built is copied at the end, to fit.
+  [[nodiscard]] double needed(std::size_t more = 0) const {
+    const std::size_t references = tree_.references.size() + more;
+    return static_cast<double>(most_listed_) * sizeof(std::uint32_t) +
+           std::max(grown_bytes(references, sizeof(std::uint32_t)),
+                    2.0 * static_cast<double>(references) * sizeof(std::uint32_t)) +
+           grown_bytes(tree_.nodes.size(), sizeof(OctreeNode));
+  }
+
+  void require_room(std::size_t more) const {
+    require_memory("the octree", needed(more));
+    if (tree_.references.size() + more >= UINT32_MAX || tree_.nodes.size() >= UINT32_MAX)
       throw std::length_error("the octree would hold 2^32 or more references; a smaller depth is needed");
   }
 
   const Problem& problem_;
   Insertion insertion_;
   const std::stop_token& stop_;
+  std::size_t listed_ = 0;       ///< in the lists of the nodes under way
+  std::size_t most_listed_ = 0;  ///< at any time
   OctreeNodes tree_;
 };
 

@@ -22,6 +22,7 @@ struct OctreeNodes {
   std::vector<OctreeNode> nodes;  ///< the root first
   std::vector<std::uint32_t> references;
   std::size_t placements = 0;
+  double building_bytes = 0;  ///< predicted memory while it was built, at its peak
 
   [[nodiscard]] std::span<const std::uint32_t> references_in(const OctreeNode& leaf) const {
     return std::span(references).subspan(leaf.first, leaf.count);

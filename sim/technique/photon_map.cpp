@@ -8,7 +8,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "detp/sim/memory.hpp"
 #include "detp/sim/predicates.hpp"
 #include "techniques.hpp"
 
@@ -22,8 +21,8 @@ struct Photon {
 };
 
 std::vector<Photon> photons_of(std::span<const Ray> rays) {
-  require_memory("the photon map", static_cast<double>(rays.size()) * (sizeof(Photon) + 2 * sizeof(std::uint32_t)));
   std::vector<Photon> photons;
+  photons.reserve(rays.size());
   for (std::uint32_t ray = 0; ray < rays.size(); ++ray)
     if (!rays[ray].is_line()) photons.push_back({rays[ray].origin + rays[ray].length * rays[ray].direction, ray});
   return photons;
@@ -144,6 +143,11 @@ void run_photon_map(const Problem& problem, const PhotonMapParameters& parameter
   if (options.totals != nullptr)
     throw std::invalid_argument("photon-map needs all rays at once: the nearest of each block are not those of all");
   Stopwatch watch;
+  constexpr double node = 40 / 8.0;  // of nanoflann's tree, whose leaves hold 5 to 10 photons
+  need_memory("the photon map",
+              static_cast<double>(problem.rays.size()) * (1.5 * sizeof(Photon) + sizeof(std::uint32_t) + node) +
+                  static_cast<double>(problem.discs.size()) * (sizeof(std::uint64_t) + sizeof(double)),
+              problem, outcome);
   const PhotonMap map(problem, parameters.nearest);
   outcome.seconds.build = watch.lap();
   map.estimate(options, outcome);

@@ -34,6 +34,7 @@ using RayList = std::vector<ListedRay>;
 inline void cull(const RayList& around, const Sphere& sphere, double slack, RayList& inside) {
   const Sphere grown{sphere.centre, sphere.radius + slack};
   inside.clear();
+  inside.reserve(around.size());  // pages are touched only as far as it is filled
   for (const ListedRay& listed : around)
     if (hits(listed.ray, grown)) inside.push_back(listed);
 }

@@ -1,5 +1,8 @@
+#include <fmt/format.h>
+
 #include "detp/sim/stream/search.hpp"
 #include "detp/sim/stream/walk_search.hpp"
+#include "list_memory.hpp"
 #include "sphere_walk.hpp"
 #include "techniques.hpp"
 #include "walk_search.hpp"
@@ -9,6 +12,8 @@ namespace {
 
 void search(const Problem& problem, const SphereCacheParameters& parameters, SphereWalk::Serving serving, bool plain,
             const RunOptions& options, Outcome& outcome) {
+  need_memory(fmt::format("{} spheres and their lists of rays", SphereWalk::levels(problem, parameters)),
+              walk_bytes(problem, options, lists_of(problem, parameters), plain), problem, outcome);
   Stopwatch watch;
   std::vector<std::uint32_t> order = along_curve(problem.discs, parameters.order);
   outcome.seconds.order = watch.lap();

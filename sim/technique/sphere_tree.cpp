@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "detp/sim/stream/search.hpp"
+#include "list_memory.hpp"
 #include "ray_list.hpp"
 #include "techniques.hpp"
 
@@ -161,6 +162,7 @@ void run_sphere_tree(const Problem& problem, const SphereTreeParameters& paramet
     stream::search_boxes(problem, parameters, options, outcome);
     return;
   }
+  need_memory("a tree of spheres and lists of rays", sphere_tree_bytes(problem, options, parameters), problem, outcome);
   Stopwatch watch;
   const std::vector<std::uint32_t> order = along_curve(problem.discs);
   outcome.seconds.order = watch.lap();

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detp/sim/memory.hpp"
+
 namespace detp::sim {
 namespace {
 
@@ -10,12 +12,25 @@ bool holds(const Sphere& sphere, const Disc& disc) {
   return glm::distance(disc.centre, sphere.centre) + disc.radius <= sphere.radius;
 }
 
+double smallest_radius(std::span<const Disc> discs) {
+  double smallest = unbounded;
+  for (const Disc& disc : discs) smallest = std::min(smallest, disc.radius);
+  return smallest;
+}
+
 }  // namespace
 
+double SphereWalk::levels(const Problem& problem, const SphereCacheParameters& parameters) {
+  const double steps = std::log(smallest_radius(problem.discs) / problem.enclosing.radius) / std::log(parameters.ratio);
+  return std::min(static_cast<double>(parameters.spheres), std::floor(steps) + 1);  // one more, for rounding
+}
+
 SphereWalk::SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, Serving serving)
-    : serving_(serving), spheres_{problem.enclosing} {
-  double smallest = problem.enclosing.radius;
-  for (const Disc& disc : problem.discs) smallest = std::min(smallest, disc.radius);
+    : serving_(serving) {
+  const double smallest = smallest_radius(problem.discs);
+  require_memory("the spheres", levels(problem, parameters) * sizeof(Sphere));
+  spheres_.reserve(static_cast<std::size_t>(levels(problem, parameters)) + 1);
+  spheres_.push_back(problem.enclosing);
   for (std::int64_t i = 1; i <= parameters.spheres; ++i) {
     const double radius = problem.enclosing.radius * std::pow(parameters.ratio, static_cast<double>(i));
     if (!(radius >= smallest)) break;

@@ -21,6 +21,9 @@ class SphereWalk : public ListWalk {
   /// Spheres smaller than the smallest disc, which would never be built, are left out.
   SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, Serving serving);
 
+  /// How many spheres those are. At most about 10⁹·ln(r₀/r) where Q = 1 - 1e-9: their memory is worth a check first.
+  [[nodiscard]] static double levels(const Problem& problem, const SphereCacheParameters& parameters);
+
   int enter(const Disc& disc) override;
   [[nodiscard]] int innermost() const override { return built_ - 1; }
   [[nodiscard]] int deepest() const override { return static_cast<int>(spheres_.size()) - 1; }

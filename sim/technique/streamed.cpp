@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <stdexcept>
 
 #include "detp/sim/memory.hpp"
-#include "detp/sim/stream/search.hpp"
 #include "detp/sim/threads.hpp"
 #include "prepared.hpp"
 #include "techniques.hpp"
@@ -32,7 +30,7 @@ class Stream {
     foretell(0);
     prepared_ = prepare(problem_, candidate_, run_);
     streamed_.outcome.seconds.build = watch.lap();
-    foretell(prepared_ ? prepared_->bytes() : 0);
+    foretell(prepared_ ? static_cast<double>(prepared_->bytes()) : 0);
     totals_.resize(discs.size());
     block_.resize(streamed_.block);
     run_.totals = &totals_;
@@ -58,23 +56,15 @@ class Stream {
           fmt::format("{} rays are too many for pairs; the most is {}", source_.size(), UINT32_MAX - 1));
   }
 
-  /// Whether it runs on stream/, which takes memory of its own.
-  [[nodiscard]] bool culls_lists() const {
-    constexpr std::array lists{Technique::brute_force, Technique::sphere_cache, Technique::cell_spheres,
-                               Technique::sphere_tree};
-    return std::find(lists.begin(), lists.end(), candidate_.technique) != lists.end();
-  }
-
-  /// Refuses what would not fit, before it is taken.
-  void foretell(std::size_t index) {
-    const auto threads = static_cast<std::size_t>(thread_count(run_.threads));
-    const std::size_t for_a_disc =
-        sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) + threads * sizeof(std::uint32_t);
-    streamed_.bytes = static_cast<double>(problem_.discs.size()) * static_cast<double>(for_a_disc) +
-                      static_cast<double>(streamed_.block) * sizeof(Ray) + static_cast<double>(index) +
-                      (culls_lists() ? stream::search_bytes(problem_.discs.size(), run_.threads) : 0);
-    require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs.size(), streamed_.block),
-                   streamed_.bytes);
+  /// Predicted bytes beside what each block's run takes. Refuses what would not fit, before it is taken.
+  void foretell(double index) {
+    const auto threads = static_cast<double>(prepared_ ? thread_count(run_.threads) : 0);
+    const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
+                              threads * sizeof(std::uint32_t);  // mailboxes
+    own_bytes_ = static_cast<double>(problem_.discs.size()) * for_a_disc +
+                 static_cast<double>(streamed_.block) * sizeof(Ray) + index;
+    streamed_.bytes = std::max(streamed_.bytes, own_bytes_);
+    require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs.size(), streamed_.block), own_bytes_);
   }
 
   void search(std::uint64_t first) {
@@ -83,7 +73,7 @@ class Stream {
     const std::span<Ray> rays = std::span(block_).first(count);
     on_threads(thread_count(run_.threads), [&] { source_.read(first, rays); });
     streamed_.read_seconds += watch.lap();
-    set_rays(problem_, rays, options_.run.threads);
+    set_rays(problem_, rays, options_.run.threads, first);
     streamed_.check_seconds += watch.lap();
     Outcome part;
     if (prepared_) {
@@ -92,6 +82,7 @@ class Stream {
     } else {
       part = run(problem_, candidate_, run_);
     }
+    streamed_.bytes = std::max(streamed_.bytes, own_bytes_ + part.bytes);
     add(std::move(part), static_cast<std::uint32_t>(first));
   }
 
@@ -127,6 +118,7 @@ class Stream {
   std::unique_ptr<Prepared> prepared_;
   Totals totals_;
   std::vector<Ray> block_;
+  double own_bytes_ = 0;
   Streamed streamed_;
 };
 

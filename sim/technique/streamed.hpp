@@ -20,7 +20,7 @@ struct Streamed {
   double read_seconds = 0;   ///< making or reading the rays, not in outcome.seconds
   double check_seconds = 0;  ///< checking rays and discs, S₀; not in outcome.seconds either
   std::size_t block = 0;     ///< rays in memory at a time
-  double bytes = 0;          ///< of memory, as foretold: discs, index or lists, totals, results, mailboxes, block
+  double bytes = 0;          ///< predicted memory at its peak, with discs and a block of rays; pairs left out
 };
 
 /// As many rays as discs, rounded up to a power of two, but at least 2²⁰ and at most 2²²: 64 to 256 MiB.

@@ -2,17 +2,39 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <stdexcept>
 
+#include "detp/sim/memory.hpp"
+#include "detp/sim/threads.hpp"
 #include "techniques.hpp"
 
 namespace detp::sim {
 
 void check_options(const RunOptions& options, const Problem& problem) {
-  require_count("number of threads", options.threads, 0, 4096);
+  if (problem.discs.empty() || !(problem.slack > 0 && problem.slack < unbounded))
+    throw std::invalid_argument("a problem needs discs and a slack > 0; make it by make_problem");
+  require_count("number of threads", options.threads, 0, most_threads);
   if (options.totals != nullptr && !options.totals->empty() && options.totals->size() != problem.discs.size())
     throw std::invalid_argument(fmt::format("totals of {} discs cannot go on with {}; give those of the same discs",
                                             options.totals->size(), problem.discs.size()));
+}
+
+void require_memory_for(std::string_view what, double bytes, const Problem& problem) {
+  const double given =
+      static_cast<double>(problem.rays.size()) * sizeof(Ray) + static_cast<double>(problem.discs.size()) * sizeof(Disc);
+  require_memory(fmt::format("{} rays, {} discs, and {}", problem.rays.size(), problem.discs.size(), what),
+                 given + bytes);
+}
+
+void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome) {
+  require_memory_for(what, bytes, problem);
+  outcome.bytes = std::max(outcome.bytes, bytes);
+}
+
+double found_bytes(const Problem& problem, const RunOptions& options) {
+  constexpr double a_disc = sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double);
+  return options.totals != nullptr ? 0 : a_disc * static_cast<double>(problem.discs.size());
 }
 
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <string_view>
 #include <utility>
 
 #include "technique.hpp"
@@ -22,6 +23,15 @@ class Stopwatch {
 
 /// Throws std::invalid_argument for options that no technique can run with.
 void check_options(const RunOptions& options, const Problem& problem);
+
+/// Throws std::length_error where so many bytes would not fit the memory beside the problem's rays and discs.
+void require_memory_for(std::string_view what, double bytes, const Problem& problem);
+
+/// The same, and enters into the outcome that the run takes so many bytes.
+void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome);
+
+/// Bytes of a run's own totals, hits and irradiance; none where its totals are another's.
+[[nodiscard]] double found_bytes(const Problem& problem, const RunOptions& options);
 
 /// Every disc against every ray.
 void run_brute_force(const Problem& problem, const RunOptions& options, Outcome& outcome);

@@ -40,6 +40,20 @@ TEST_SUITE("identity") {
     CHECK(streamed.outcome.irradiance == sim::run(in_memory.problem(), grid).irradiance);
   }
 
+  TEST_CASE("for the workload alone a block of rays is made, however many are asked for: the same workload") {
+    JobRequest request = three_discs("@uniform", 0x1p20 + 1);
+    request.stream = true;
+    const Job stream = make_job(request);
+    request.stream = false;
+    request.workload_only = true;
+    const Job job = make_job(request);
+    CHECK(job.rays.size() == 1U << 20);
+    CHECK(job.workload.rays == 0x1p20 + 1);
+    CHECK(job.workload.path_length == stream.workload.path_length);
+    request.rays = 1e15;
+    CHECK(make_job(request).workload.rays == 1e15);
+  }
+
   TEST_CASE("rays that fill no more than a block are in memory") {
     JobRequest request = three_discs("@uniform", 1000);
     request.stream = true;

@@ -82,7 +82,8 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
                     "run the candidates",
                     options.rigor));
   const UnitCosts costs = parse_unit_costs(options.costs, validate::built_in_unit_costs());
-  const validate::JobRequest request = options.workload.request(common);
+  validate::JobRequest request = options.workload.request(common);
+  request.workload_only = !options.analyze;
   Result result;
   ChooseAnswer answer;
   if (request.numbers_alone() && !options.analyze && !structural) {

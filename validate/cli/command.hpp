@@ -23,6 +23,7 @@ struct CommonOptions {
   std::uint64_t seed = 1;
   int threads = 0;        ///< 0: all cores
   double time_limit = 0;  ///< seconds; 0: none
+  std::optional<std::string> memory_limit;
 };
 
 /// What a command found, in the three formats. The envelope of the JSON (schema, provenance) is added by `main`.

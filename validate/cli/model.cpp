@@ -151,7 +151,8 @@ struct Measured {
 };
 
 Measured measure(const ModelOptions& options, const CommonOptions& common, const std::stop_token& stop) {
-  const validate::JobRequest request = options.workload.request(common);
+  validate::JobRequest request = options.workload.request(common);
+  request.workload_only = true;
   if (request.numbers_alone()) {
     const Workload workload = validate::workload_of_numbers(request);
     return {workload, numbers_json(workload)};

@@ -1,0 +1,64 @@
+// The readers of meshes, discs and rays. The first byte chooses one. A file is read or refused by FileError; what was
+// read holds what the readers promise.
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "detp/sim/scene/disc_file.hpp"
+#include "detp/sim/scene/file_error.hpp"
+#include "detp/sim/scene/mesh_file.hpp"
+#include "detp/sim/scene/ray_file.hpp"
+#include "scratch.hpp"
+
+namespace {
+
+using namespace detp::sim;
+
+void require(bool promise) {
+  if (!promise) std::abort();
+}
+
+bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool unit(const glm::dvec3& v) { return std::abs(glm::length(v) - 1) < 1e-12; }
+
+void read_as_mesh(const std::string& path) {
+  Notices notices;
+  const Mesh mesh = read_mesh(path, notices);
+  for (const auto& corners : mesh.triangles)
+    for (const auto corner : corners) require(corner < mesh.positions.size() && finite(mesh.positions[corner]));
+}
+
+void read_as_discs(const std::string& path) {
+  for (const Disc& disc : read_discs(path, 0.5)) {
+    require(finite(disc.centre) && unit(disc.normal));
+    require(disc.radius > 0 && std::isfinite(disc.radius));
+  }
+}
+
+void read_as_rays(const std::string& path) {
+  for (const Ray& ray : read_rays(path)) {
+    require(finite(ray.origin) && unit(ray.direction));
+    require(ray.length > 0 && ray.power >= 0 && std::isfinite(ray.power));
+  }
+}
+
+struct Reader {
+  const char* ending;
+  void (*read)(const std::string&);
+};
+
+constexpr Reader readers[] = {{".obj", read_as_mesh},  {".ply", read_as_mesh}, {".csv", read_as_discs},
+                              {".ply", read_as_discs}, {".csv", read_as_rays}, {".ply", read_as_rays}};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return -1;
+  const Reader& reader = readers[data[0] % std::size(readers)];
+  const detp::fuzz::Scratch file(reader.ending);
+  try {
+    reader.read(file.with(detp::fuzz::text_of(data + 1, size - 1)));
+  } catch (const FileError&) {
+  }
+  return 0;
+}

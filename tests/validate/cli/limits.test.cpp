@@ -1,0 +1,85 @@
+#include <doctest/doctest.h>
+
+#include "support/address_limit.hpp"
+#include "support/command.hpp"
+#include "support/sanitized.hpp"
+
+// Memory and threads that the user's machine does not have, or is not to give.
+
+using detp::support::AddressLimit;
+using detp::support::check_refused;
+using detp::support::Finished;
+using detp::support::Json;
+using detp::support::result_of;
+using detp::support::sanitized;
+
+namespace {
+
+/// Refused, as the contract says, for want of memory or threads.
+void check_short_of(const Finished& finished, const std::string& named) {
+  CAPTURE(finished.err);
+  CHECK(finished.signal == 0);
+  CHECK(finished.code == 2);
+  CHECK(finished.out.empty());
+  CHECK(finished.err.find('\n') + 1 == finished.err.size());
+  CHECK(finished.err.find(named) != std::string::npos);
+}
+
+}  // namespace
+
+TEST_SUITE("end to end") {
+  TEST_CASE("what would take more than --memory-limit is refused before it is taken, naming the bytes") {
+    check_refused(
+        {{"run @uniform --rays 1000 --samples 1000 --technique sphere-cache --ratio 0.999999999 "
+          "--spheres 1000000000000 --memory-limit 2G",
+          "spheres and their lists of rays would take"},
+         {"run @uniform --rays 1000 --samples 100000 --technique grid --memory-limit 4M", "more than the memory"},
+         {"run @uniform --rays 1000 --samples 100000 --technique octree --depth 5 --memory-limit 4M", "GB"},
+         {"run @uniform --rays 1000 --samples 100000 --technique bsp --memory-limit 4M", "GB"},
+         {"run @uniform --rays 1000 --samples 100000 --technique bvh --memory-limit 4M", "GB"},
+         {"run @uniform --rays 1000 --samples 100000 --technique sphere-tree --memory-limit 4M", "GB"},
+         {"run @uniform --rays 1000 --samples 100000 --technique brute-force --memory-limit 4M", "GB"},
+         {"run @uniform --rays 1000 --samples 100 --memory-limit lots", "--memory-limit must be a size"},
+         {"run @uniform --rays 1000 --samples 100 --memory-limit 0", "--memory-limit must be a size"}});
+  }
+
+  TEST_CASE("ten rays on 4096 threads take no memory to speak of") {
+    const Json result = result_of(
+        "run @uniform --rays 10 --samples 100 --technique sphere-tree --threads 4096 --memory-limit 1G --quiet");
+    CHECK(result.at("hits").get<int>() >= 0);
+  }
+
+  TEST_CASE("to choose by closed forms, rays are not held in memory, however many there are") {
+    const Json few = result_of("choose @uniform --samples 1000 --disc-radius 1% --rays 1e6 --memory-limit 500M");
+    const Json many = result_of("choose @uniform --samples 1000 --disc-radius 1% --rays 1e12 --memory-limit 500M");
+    CHECK(many.at("inputs").at("rays") == 1e12);
+    CHECK(few.at("inputs").at("path_length") == many.at("inputs").at("path_length"));
+  }
+
+  TEST_CASE("threads that the system does not start are done without") {
+    if (sanitized) return;  // a sanitizer needs address space
+    const AddressLimit limit(6e9);
+    const Finished finished =
+        detp::support::detp("run @uniform --rays 1000 --samples 100 --technique grid --threads 4096 --memory-limit 1G");
+    CAPTURE(finished.err);
+    CHECK(finished.code == 0);
+    CHECK(finished.err.find("threads only, not 4096") != std::string::npos);
+  }
+
+  TEST_CASE("memory that runs out all the same is said to have run out, by Embree too") {
+    if (sanitized) return;
+    const AddressLimit limit(450e6);
+    for (const char* technique : {"grid --cells 100", "sphere-tree", "sphere-cache --ratio 0.6"})
+      check_short_of(
+          detp::support::detp("run @uniform --rays 10 --samples 5e6 --threads 1 --memory-limit 100G --disc-radius 0.1% "
+                              "--technique " +
+                              std::string(technique)),
+          "out of memory");
+    for (const char* samples : {"6e5", "8e5", "1e6", "1.2e6", "1.5e6", "2e6"})
+      check_short_of(detp::support::detp(
+                         "run @uniform --rays 10 --threads 1 --memory-limit 100G --disc-radius 0.1% --technique bvh "
+                         "--samples " +
+                         std::string(samples)),
+                     "out of memory");
+  }
+}

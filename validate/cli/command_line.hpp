@@ -1,0 +1,31 @@
+#pragma once
+
+#include <array>
+
+#include "command.hpp"
+
+namespace detp::cli {
+
+/// The parser of the command line. Parsing fills in options, and does nothing else.
+class CommandLine {
+ public:
+  CommandLine();
+  CommandLine(const CommandLine&) = delete;  // the parsers point into this object
+  CommandLine& operator=(const CommandLine&) = delete;
+
+  /// The command that the arguments name, ready to run. Throws CLI::ParseError for bad usage, and where help or the
+  /// version is wanted; std::invalid_argument for an empty argument and where no command is named.
+  [[nodiscard]] const Command& parse(int argc, char** argv);
+
+  [[nodiscard]] const CommonOptions& common() const { return common_; }
+
+  /// Prints the help or the version that the error stands for; 0. For other errors, their exit code, which is not 0.
+  int exit(const CLI::ParseError& error) const { return program_.exit(error); }
+
+ private:
+  CLI::App program_;
+  CommonOptions common_;
+  std::array<Command, 6> commands_;
+};
+
+}  // namespace detp::cli
