@@ -10,6 +10,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <limits>
@@ -75,7 +76,7 @@ double explicit_limit() {
 
 }  // namespace
 
-double cgroup_limit(const std::string& own_groups, const std::filesystem::path& root) {
+double cgroup_limit(const std::string& own_groups, const std::string& root) {
   double least = no_limit;
   std::istringstream lines(own_groups);
   for (std::string line; std::getline(lines, line);) {  // number:controllers:path
@@ -86,7 +87,7 @@ double cgroup_limit(const std::string& own_groups, const std::filesystem::path& 
     const std::filesystem::path group = line.substr(second + 1);
     if (controllers == ",,") least = std::min(least, least_limit(root, group, "memory.max"));
     if (controllers.find(",memory,") != std::string::npos)
-      least = std::min(least, least_limit(root / "memory", group, "memory.limit_in_bytes"));
+      least = std::min(least, least_limit(std::filesystem::path(root) / "memory", group, "memory.limit_in_bytes"));
   }
   return least;
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-#include <filesystem>
+#include <cstddef>
 #include <new>
 #include <optional>
 #include <string>
@@ -35,7 +35,7 @@ void require_memory(std::string_view what, double bytes);
 
 /// The least limit of the memory cgroups in a text as of /proc/self/cgroup, with the files under `root`
 /// (/sys/fs/cgroup): of the process's own group and of those around it. Infinite where there is none.
-[[nodiscard]] double cgroup_limit(const std::string& own_groups, const std::filesystem::path& root);
+[[nodiscard]] double cgroup_limit(const std::string& own_groups, const std::string& root);
 
 /// Memory that was not to be had, and what for.
 class OutOfMemory : public std::bad_alloc {

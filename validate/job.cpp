@@ -71,14 +71,11 @@ class JobMaker {
 
   Job make() {
     const auto start = std::chrono::steady_clock::now();
-    if (request_.numbers_alone())
-      from_numbers();
-    else
-      from_scene_and_files();
+    sim::in_memory("reading the scene", [&] { request_.numbers_alone() ? from_numbers() : from_scene_and_files(); });
     job_.front_facing = request_.front_facing;
-    make_rays();
+    sim::in_memory("making rays", [&] { make_rays(); });
     job_.read_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    measure_workload();
+    sim::in_memory("measuring rays and discs", [&] { measure_workload(); });
     return std::move(job_);
   }
 

@@ -45,26 +45,26 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 TEST_SUITE("known answer") {
   TEST_CASE("of cgroups of version 2 the least limit counts, of the group itself and of those around it") {
     const Groups groups;
-    CHECK(cgroup_limit("0::/a/b\n", groups.root()) == unlimited);
+    CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == unlimited);
     groups.put("a/b/memory.max", "max");
-    CHECK(cgroup_limit("0::/a/b\n", groups.root()) == unlimited);
+    CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == unlimited);
     groups.put("a/memory.max", "3000000");
-    CHECK(cgroup_limit("0::/a/b\n", groups.root()) == 3e6);
+    CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == 3e6);
     groups.put("a/b/memory.max", "2000000");
-    CHECK(cgroup_limit("0::/a/b\n", groups.root()) == 2e6);
-    CHECK(cgroup_limit("0::/\n", groups.root()) == unlimited);
+    CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == 2e6);
+    CHECK(cgroup_limit("0::/\n", groups.root().string()) == unlimited);
     groups.put("memory.max", "1000000");  // a container's own root
-    CHECK(cgroup_limit("0::/\n", groups.root()) == 1e6);
-    CHECK(cgroup_limit("0::/unseen/from/here\n", groups.root()) == 1e6);
+    CHECK(cgroup_limit("0::/\n", groups.root().string()) == 1e6);
+    CHECK(cgroup_limit("0::/unseen/from/here\n", groups.root().string()) == 1e6);
   }
 
   TEST_CASE("of cgroups of version 1 the memory controller's") {
     const Groups groups;
     groups.put("memory/job/memory.limit_in_bytes", "5000000");
     groups.put("cpu/job/memory.limit_in_bytes", "1");
-    CHECK(cgroup_limit("4:cpu,cpuacct:/job\n3:memory:/job\n", groups.root()) == 5e6);
-    CHECK(cgroup_limit("4:cpu,cpuacct:/job\n", groups.root()) == unlimited);
-    CHECK(cgroup_limit("no such line\n7\n:::\n", groups.root()) == unlimited);
+    CHECK(cgroup_limit("4:cpu,cpuacct:/job\n3:memory:/job\n", groups.root().string()) == 5e6);
+    CHECK(cgroup_limit("4:cpu,cpuacct:/job\n", groups.root().string()) == unlimited);
+    CHECK(cgroup_limit("no such line\n7\n:::\n", groups.root().string()) == unlimited);
   }
 
   TEST_CASE("sizes are bytes, or K, M, G, T") {

@@ -73,7 +73,7 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   check_outputs({{"--output", common.output}});
   interruption.limit(common.time_limit);
   Result result =
-      sim::in_memory("running " + command.app->get_name(), [&] { return command.run(common, interruption.token()); });
+      sim::in_memory(fmt::format("detp {} was at work", command.app->get_name()), [&] { return command.run(common, interruption.token()); });
   if (common.format == "json") {
     const Json json = envelope(command.app->get_name(), common, threads, result);
     require_finite_numbers(json);
