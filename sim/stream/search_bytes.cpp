@@ -51,7 +51,7 @@ double walk_bytes(const SearchSize& size, double nested) {
 
 double boxes_bytes(const SearchSize& size, int fan_out, double nodes) {
   constexpr double in_order = sizeof(FloatDisc) + sizeof(std::uint32_t) + sizeof(CurvePlace);
-  constexpr double nested = 0.5;  // measured: rays in a thread's lists, over the outermost
+  constexpr double nested = 0.75;  // measured: rays in a thread's lists, over the outermost
   const double work = rays_in_block(size) * fan_out;
   const double workers = work < static_cast<double>(least_work) ? 1 : thread_count(size.threads);
   const auto discs = static_cast<double>(size.discs);

@@ -61,7 +61,7 @@ double walk_bytes(const Problem& problem, const RunOptions& options, const Neste
 
 double sphere_tree_bytes(const Problem& problem, const RunOptions& options, const SphereTreeParameters& parameters) {
   constexpr double node = sizeof(Sphere) + sizeof(Box);
-  constexpr double nested = 4.5;  // measured: rays in the lists inside the outermost, over its own
+  constexpr double nested = 5;  // measured: rays in the lists inside the outermost, over its own
   const auto discs = static_cast<double>(problem.discs.size());
   const auto rays = static_cast<double>(problem.rays.size());
   const double above = (1.0 / parameters.leaf) * (1 + 1.0 / (parameters.fan_out - 1));  // nodes a disc
