@@ -72,8 +72,8 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   require_non_negative("--time-limit", common.time_limit);
   check_outputs({{"--output", common.output}});
   interruption.limit(common.time_limit);
-  Result result =
-      sim::in_memory(fmt::format("detp {} was at work", command.app->get_name()), [&] { return command.run(common, interruption.token()); });
+  Result result = sim::in_memory(fmt::format("detp {} was at work", command.app->get_name()),
+                                 [&] { return command.run(common, interruption.token()); });
   if (common.format == "json") {
     const Json json = envelope(command.app->get_name(), common, threads, result);
     require_finite_numbers(json);
