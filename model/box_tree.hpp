@@ -35,17 +35,18 @@ inline constexpr std::array box_tree_leaves{8, 16, 64};
 ///
 /// Source     our derivation, and the table.
 /// Valid      fan-out 4, leaf 8, 16 or 64; samples uniform over a volume or over surfaces, discs turned isotropically;
-///            n_P from two leaves to 2²⁰, d 2⁻⁴ … 2⁶ sample distances. Beyond more samples it goes on as the table ends, beyond the others
-///            it stays.
-/// Accuracy   against structural counts of 60 fresh sets of samples for each leaf, in a cube and on its faces, n_P 2¹⁰ …
+///            n_P from two leaves to 2²⁰, d 2⁻⁴ … 2⁶ sample distances. Beyond more samples it goes on as the table
+///            ends, beyond the others it stays.
+/// Accuracy   against structural counts of 60 fresh sets of samples for each leaf, in a cube and on its faces, n_P 2¹⁰
+/// …
 ///            2²⁰, d 2⁻¹⁰ … 2³ sample distances but 0.16 of the side at most; off in the median, at the 95th percentile
 ///            and at worst:
 ///              leaf          8                   16                  64
 ///              tests boxes   2.0, 4.8, 5.7 %     2.0, 4.1, 6.2 %     2.6, 8.1, 15.7 %
 ///              rays listed   3.5, 10.6, 11.3 %   3.8, 9.8, 11.3 %    3.3, 14.0, 21.7 %
 ///              tests discs   8.9, 21.8, 23.3 %   6.1, 13.4, 14.5 %   5.5, 13.1, 16.1 %
-///            `rebuilds` by 3 … 10 % in the median and 73 % at worst: too many where there are fewer rays than nodes. In
-///            scenes see README.md.
+///            `rebuilds` by 3 … 10 % in the median and 73 % at worst: too many where there are fewer rays than nodes.
+///            In scenes see README.md.
 /// Throws     std::invalid_argument for a workload out of range, and for any other tree.
 [[nodiscard]] Counts<double> box_tree_counts(const Workload& workload, const SphereTreeParameters& parameters);
 
