@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <limits>
 #include <system_error>
 
 namespace detp::sim {
@@ -16,6 +18,20 @@ std::errc parse_whole(std::string_view text, Number& number) {
   return stop == end ? error : std::errc::invalid_argument;
 }
 
+/// Of a number beyond what a long double holds: whether it is too large, not too small. Its first digit that is not 0
+/// has the place value 10^(places before the point + exponent).
+bool too_large(std::string_view text) {
+  const std::size_t e = text.find_first_of("eE");
+  const std::string_view mantissa = text.substr(0, e);
+  const std::size_t point = std::min(mantissa.find('.'), mantissa.size());
+  const std::size_t first = mantissa.find_first_of("123456789");
+  std::string_view exponent = e == std::string_view::npos ? std::string_view{} : text.substr(e + 1);
+  if (exponent.starts_with('+')) exponent.remove_prefix(1);
+  double places = 0;
+  if (parse_whole(exponent, places) == std::errc::result_out_of_range) return !exponent.starts_with('-');
+  return static_cast<double>(point) - static_cast<double>(first) + places > 0;
+}
+
 }  // namespace
 
 std::optional<double> number_in(std::string_view text) {
@@ -27,7 +43,7 @@ std::optional<double> number_in(std::string_view text) {
   // from_chars does not tell too large from too small; the wider type does.
   long double wide = 0;
   if (parse_whole(text, wide) == std::errc{}) return static_cast<double>(wide);
-  return std::nullopt;
+  return std::copysign(too_large(text) ? std::numeric_limits<double>::infinity() : 0.0, text.starts_with('-') ? -1 : 1);
 }
 
 std::string_view trimmed(std::string_view text) {
