@@ -113,6 +113,20 @@ TEST_SUITE("bad input") {
                    tables.ray("0,0,0,inf,0,1,1,1", "dx must be finite"), tables.ray("0,0,0,0,0,1", "6 fields")});
   }
 
+  TEST_CASE("powers whose irradiance would not be finite are refused with the ray's number") {
+    Tables tables;
+    const std::string row = "0,0,1,0,0,1,1,";
+    std::vector<Refusal> refusals;
+    for (const std::string power : {"1e300", "1e308"})
+      for (const std::string format : {"text", "csv", "json"}) {
+        const std::string rays = tables.file(ray_header + row + "1\n" + row + power + "\n" + row + power + "\n");
+        refusals.push_back(
+            {Arguments{"run", "--discs", tables.discs, "--ray-file", rays, "--format", format}, "ray 1"});
+        refusals.push_back({Arguments{"choose", "--discs", tables.discs, "--ray-file", rays, "--analyze"}, "ray 1"});
+      }
+    check_refused(refusals);
+  }
+
   TEST_CASE("options that a file makes pointless are refused") {
     const Tables tables;
     const std::string rays = tables.folder.file("rays.csv", ray_header + "0,0,0,0,0,1,1,1\n");
