@@ -34,14 +34,19 @@ using CurveCell = std::array<std::uint32_t, 3>;
 }
 
 /// Indices of the points by rising code(point, their bounding box), of 48 bits; points of the same code keep their
-/// order. At most 2³² - 1 points.
+/// order. At most 2³² - 1 points. Throws Stopped if a stop was requested.
 template <class Code>
-[[nodiscard]] std::vector<std::uint32_t> order_along(std::span<const glm::dvec3> points, const Code& code) {
+[[nodiscard]] std::vector<std::uint32_t> order_along(std::span<const glm::dvec3> points, const Code& code,
+                                                     const std::stop_token& stop) {
+  StopCheck check(stop, "sorting along a curve");
   Box box;
   for (const glm::dvec3& point : points) box.include(point);
   std::vector<KeyedIndex> entries(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) entries[i] = {code(points[i], box), static_cast<std::uint32_t>(i)};
-  radix_sort(entries, 48);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    entries[i] = {code(points[i], box), static_cast<std::uint32_t>(i)};
+    check.after(1);
+  }
+  radix_sort(entries, 48, stop);
   std::vector<std::uint32_t> order(points.size());
   std::transform(entries.begin(), entries.end(), order.begin(), [](const KeyedIndex& entry) { return entry.index; });
   return order;

@@ -3,11 +3,13 @@
 #include <embree3/rtcore.h>
 
 #include <memory>
+#include <stop_token>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
 
 #include "memory.hpp"
+#include "stopped.hpp"
 
 /// Embree's handles, released when they go, and its errors, thrown.
 namespace detp::sim::embree {
@@ -28,6 +30,23 @@ inline void require_no_error(const Owned<RTCDevice>& device) {
   const RTCError error = rtcGetDeviceError(device.get());
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory("Embree builds its tree");
   if (error != RTC_ERROR_NONE || device == nullptr)
+    throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
+}
+
+/// Builds the scene's tree. Embree calls us back while it builds: throws Stopped ("stopped while " + doing) if a stop was
+/// requested by then.
+inline void commit(const Owned<RTCDevice>& device, const Owned<RTCScene>& scene, const std::stop_token& stop,
+                   const char* doing) {
+  const auto go_on = [](void* token, double) {
+    return !static_cast<const std::stop_token*>(token)->stop_requested();
+  };
+  rtcSetSceneProgressMonitorFunction(scene.get(), go_on, const_cast<std::stop_token*>(&stop));
+  rtcCommitScene(scene.get());
+  rtcSetSceneProgressMonitorFunction(scene.get(), nullptr, nullptr);
+  const RTCError error = rtcGetDeviceError(device.get());
+  if (error == RTC_ERROR_CANCELLED) throw Stopped(std::string("stopped while ") + doing);
+  if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory("Embree builds its tree");
+  if (error != RTC_ERROR_NONE)
     throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
 }
 

@@ -56,8 +56,8 @@ std::uint64_t hilbert_code(const glm::dvec3& point, const Box& box) {
   return code;
 }
 
-std::vector<std::uint32_t> hilbert_order(std::span<const glm::dvec3> points) {
-  return order_along(points, hilbert_code);
+std::vector<std::uint32_t> hilbert_order(std::span<const glm::dvec3> points, const std::stop_token& stop) {
+  return order_along(points, hilbert_code, stop);
 }
 
 }  // namespace detp::sim

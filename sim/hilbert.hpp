@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "geometry.hpp"
@@ -31,7 +32,8 @@ namespace detp::sim {
 [[nodiscard]] std::uint64_t hilbert_code(const glm::dvec3& point, const Box& box);
 
 /// Indices of the points in the order of the curve through their bounding box; points of the same cell keep their
-/// order. At most 2³² - 1 points.
-[[nodiscard]] std::vector<std::uint32_t> hilbert_order(std::span<const glm::dvec3> points);
+/// order. At most 2³² - 1 points. Throws Stopped if a stop was requested.
+[[nodiscard]] std::vector<std::uint32_t> hilbert_order(std::span<const glm::dvec3> points,
+                                                       const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -21,8 +21,8 @@ std::uint64_t lebesgue_code(const glm::dvec3& point, const Box& box) {
   return spread(cell[0]) << 2 | spread(cell[1]) << 1 | spread(cell[2]);
 }
 
-std::vector<std::uint32_t> lebesgue_order(std::span<const glm::dvec3> points) {
-  return order_along(points, lebesgue_code);
+std::vector<std::uint32_t> lebesgue_order(std::span<const glm::dvec3> points, const std::stop_token& stop) {
+  return order_along(points, lebesgue_code, stop);
 }
 
 }  // namespace detp::sim

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "stop_check.hpp"
+
 namespace detp::sim {
 
 /// Something to sort: by a key, such as its place on a curve.
@@ -14,24 +16,27 @@ struct KeyedIndex {
 };
 
 /// Stable sort by the digit of 8 bits at `shift`; false where all digits are equal and nothing was done.
-inline bool sort_by_digit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& to, int shift) {
+inline bool sort_by_digit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& to, int shift,
+                          StopCheck& check) {
   std::array<std::size_t, 256> place{};
   const auto digit = [shift](const KeyedIndex& entry) { return (entry.key >> shift) & 0xff; };
-  for (const KeyedIndex& entry : from) ++place[digit(entry)];
+  for_each_checked(std::span(from), check, [&](const KeyedIndex& entry) { ++place[digit(entry)]; });
   if (place[digit(from.front())] == from.size()) return false;
   std::size_t next = 0;
   for (std::size_t& start : place) next += std::exchange(start, next);
-  for (const KeyedIndex& entry : from) to[place[digit(entry)]++] = entry;
+  for_each_checked(std::span(from), check, [&](const KeyedIndex& entry) { to[place[digit(entry)]++] = entry; });
   return true;
 }
 
 /// Sorts by rising key; entries of the same key keep their order. Keys have at most `bits` bits. Cost O(n): a pass to
-/// count each digit of 8 bits, and one to move for each that is not the same throughout.
-inline void radix_sort(std::vector<KeyedIndex>& entries, int bits = 64) {
+/// count each digit of 8 bits, and one to move for each that is not the same throughout. Throws Stopped if a stop was
+/// requested: the entries are then in any order.
+inline void radix_sort(std::vector<KeyedIndex>& entries, int bits = 64, const std::stop_token& stop = {}) {
   if (entries.empty()) return;
+  StopCheck check(stop, "sorting along a curve");
   std::vector<KeyedIndex> other(entries.size());
   for (int shift = 0; shift < bits; shift += 8)
-    if (sort_by_digit(entries, other, shift)) entries.swap(other);
+    if (sort_by_digit(entries, other, shift, check)) entries.swap(other);
 }
 
 }  // namespace detp::sim

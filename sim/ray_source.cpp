@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "stop_check.hpp"
+
 namespace detp::sim {
 
-void RaysInMemory::read(std::uint64_t first, std::span<Ray> block) const {
+void RaysInMemory::read(std::uint64_t first, std::span<Ray> block, const std::stop_token&) const {
   std::ranges::copy(rays_.subspan(first, block.size()), block.begin());
 }
 
@@ -18,11 +20,13 @@ double RaysInMemory::farthest_from(const glm::dvec3& point) const {
   return farthest;
 }
 
-void LinesOfField::read(std::uint64_t first, std::span<Ray> block) const {
+void LinesOfField::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
   constexpr std::size_t lines_at_once = 4096;
   using Range = oneapi::tbb::blocked_range<std::size_t>;
   oneapi::tbb::parallel_for(Range(0, block.size(), lines_at_once), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) block[i] = field_.line(first + i);
+    StopCheck check(stop, "making lines");
+    check.now();
+    for_each_checked(range.begin(), range.end(), check, [&](std::size_t i) { block[i] = field_.line(first + i); });
   });
 }
 

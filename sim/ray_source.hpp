@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 
 #include "geometry.hpp"
 #include "line_field.hpp"
@@ -17,8 +18,8 @@ class RaySource {
   [[nodiscard]] virtual std::uint64_t size() const = 0;
 
   /// Rays first, first + 1, … as many as the block holds. Callers ask for none beyond the last. May use oneTBB's
-  /// threads.
-  virtual void read(std::uint64_t first, std::span<Ray> block) const = 0;
+  /// threads. Throws Stopped if a stop was requested: what is in the block is then any rays.
+  virtual void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const = 0;
 
   /// No ray's origin is farther from the point.
   [[nodiscard]] virtual double farthest_from(const glm::dvec3& point) const = 0;
@@ -30,7 +31,7 @@ class RaysInMemory final : public RaySource {
   explicit RaysInMemory(std::span<const Ray> rays) : rays_(rays) {}
 
   [[nodiscard]] std::uint64_t size() const override { return rays_.size(); }
-  void read(std::uint64_t first, std::span<Ray> block) const override;
+  void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
 
  private:
@@ -44,7 +45,7 @@ class LinesOfField final : public RaySource {
       : field_(sphere, seed), sphere_(sphere), count_(count) {}
 
   [[nodiscard]] std::uint64_t size() const override { return count_; }
-  void read(std::uint64_t first, std::span<Ray> block) const override;
+  void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
 
  private:

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <stdexcept>
+#include <string>
+
+#include "progress.hpp"
 
 namespace detp::sim {
 
@@ -8,7 +11,13 @@ namespace detp::sim {
 /// came: "stopped while reading rays.csv after 12000 lines".
 class Stopped : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit Stopped(const std::string& message, Progress progress = {}) : runtime_error(message), progress_(progress) {}
+
+  /// The same in numbers; of 0 units where that is not known.
+  [[nodiscard]] const Progress& progress() const { return progress_; }
+
+ private:
+  Progress progress_;
 };
 
 }  // namespace detp::sim

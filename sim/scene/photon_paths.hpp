@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "scene.hpp"
@@ -19,7 +20,8 @@ namespace detp::sim {
 ///
 /// Determined by the seed alone, whatever the number of threads. Throws std::invalid_argument for a scene without
 /// light, triangles or box, for an albedo outside [0, 1] or a light that is not finite or has no area, and if after
-/// 1000 + 100 count photons too few pieces were found.
-[[nodiscard]] std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed);
+/// 1000 + 100 count photons too few pieces were found. Throws Stopped if a stop was requested.
+[[nodiscard]] std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
+                                            const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "detp/sim/stopped.hpp"
+
 namespace detp::sim {
 
 /// How many photons to trace for a number of pieces of path: round by round, for how many pieces a photon gives is
@@ -46,5 +48,11 @@ class PhotonRounds {
   std::uint64_t limit_;
   std::uint64_t traced_ = 0;
 };
+
+/// Throws Stopped, which says how many of the rays have been traced.
+[[noreturn]] inline void stopped_tracing(std::uint64_t rays, std::uint64_t of) {
+  throw Stopped("stopped while tracing photons after " + std::to_string(rays) + " of " + std::to_string(of) + " rays",
+                {rays, of, "rays"});
+}
 
 }  // namespace detp::sim

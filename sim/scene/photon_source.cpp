@@ -13,30 +13,34 @@ constexpr std::uint64_t group_size = 1024;  // photons
 
 }  // namespace
 
-PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed)
-    : tracer_(scene, seed), count_(count), limit_(0), starts_{0} {
+PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed, const std::stop_token& stop)
+    : tracer_(scene, seed, stop), count_(count), limit_(0), starts_{0} {
   PhotonRounds rounds(scene.name, count);
   limit_ = rounds.limit();
-  for (std::uint64_t photons = 0; starts_.back() < count;) {
-    photons += rounds.next(starts_.back());
-    count_rays((photons + group_size - 1) / group_size);
+  try {
+    for (std::uint64_t photons = 0; starts_.back() < count;) {
+      photons += rounds.next(starts_.back());
+      count_rays((photons + group_size - 1) / group_size, stop);
+    }
+    power_ = 1 / static_cast<double>(emitted(stop));
+  } catch (const Stopped&) {
+    stopped_tracing(std::min(starts_.back(), count), count);
   }
-  power_ = 1 / static_cast<double>(emitted());
 }
 
-PhotonPieces PhotonSource::trace_group(std::uint64_t group) const {
+PhotonPieces PhotonSource::trace_group(std::uint64_t group, const std::stop_token& stop) const {
   const std::uint64_t first = group * group_size;
-  return tracer_.trace(first, std::min(first + group_size, limit_));
+  return tracer_.trace(first, std::min(first + group_size, limit_), stop);
 }
 
 /// Goes on until that many groups have been counted.
-void PhotonSource::count_rays(std::uint64_t groups) {
+void PhotonSource::count_rays(std::uint64_t groups, const std::stop_token& stop) {
   const std::uint64_t known = starts_.size() - 1;
   if (groups <= known) return;
   std::vector<std::uint64_t> rays(groups - known);
   std::vector<Box> boxes(groups - known);
   oneapi::tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
-    const PhotonPieces pieces = trace_group(known + i);
+    const PhotonPieces pieces = trace_group(known + i, stop);
     rays[i] = pieces.rays.size();
     for (const Ray& ray : pieces.rays) boxes[i].include(ray.origin);
   });
@@ -48,18 +52,18 @@ void PhotonSource::count_rays(std::uint64_t groups) {
   }
 }
 
-std::uint64_t PhotonSource::emitted() const {
+std::uint64_t PhotonSource::emitted(const std::stop_token& stop) const {
   if (count_ == 0) return 1;
   const auto group = static_cast<std::uint64_t>(std::ranges::lower_bound(starts_, count_) - starts_.begin()) - 1;
-  return trace_group(group).photons[count_ - 1 - starts_[group]] + 1;
+  return trace_group(group, stop).photons[count_ - 1 - starts_[group]] + 1;
 }
 
-void PhotonSource::read(std::uint64_t first, std::span<Ray> block) const {
+void PhotonSource::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
   const std::uint64_t last = first + block.size();
   const auto begin = static_cast<std::uint64_t>(std::ranges::upper_bound(starts_, first) - starts_.begin()) - 1;
   const auto end = static_cast<std::uint64_t>(std::ranges::lower_bound(starts_, last) - starts_.begin());
   oneapi::tbb::parallel_for(begin, end, [&](std::uint64_t group) {
-    const std::vector<Ray> rays = trace_group(group).rays;
+    const std::vector<Ray> rays = trace_group(group, stop).rays;
     const std::uint64_t from = std::max(first, starts_[group]);
     const std::uint64_t to = std::min(last, starts_[group] + rays.size());
     for (std::uint64_t number = from; number < to; ++number) {

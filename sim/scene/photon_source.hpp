@@ -15,17 +15,17 @@ namespace detp::sim {
 class PhotonSource final : public RaySource {
  public:
   /// Throws as photon_paths does.
-  PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed);
+  PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed, const std::stop_token& stop = {});
 
   [[nodiscard]] std::uint64_t size() const override { return count_; }
-  void read(std::uint64_t first, std::span<Ray> block) const override;
+  void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
 
  private:
-  [[nodiscard]] PhotonPieces trace_group(std::uint64_t group) const;
-  void count_rays(std::uint64_t groups);
+  [[nodiscard]] PhotonPieces trace_group(std::uint64_t group, const std::stop_token& stop) const;
+  void count_rays(std::uint64_t groups, const std::stop_token& stop);
   /// Photons up to the one that gives the last ray.
-  [[nodiscard]] std::uint64_t emitted() const;
+  [[nodiscard]] std::uint64_t emitted(const std::stop_token& stop) const;
 
   PhotonTracer tracer_;
   std::uint64_t count_;

@@ -8,11 +8,13 @@
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/directions.hpp"
 #include "detp/sim/random.hpp"
+#include "detp/sim/stop_check.hpp"
 
 namespace detp::sim {
 namespace {
 
 constexpr std::uint64_t most_pieces = 1000;  // of one photon: an albedo of 1 must come to an end
+constexpr std::uint64_t work_of_a_bounce = 64;  // for StopCheck: a bounce takes microseconds
 constexpr double gap_share = 1e-5;           // of the box's diagonal
 
 /// Checks first, so that nothing else need cope with what cannot be traced.
@@ -31,18 +33,22 @@ const Scene& checked(const Scene& scene) {
 
 }  // namespace
 
-PhotonTracer::PhotonTracer(const Scene& scene, std::uint64_t seed)
-    : caster_(checked(scene).mesh, scene.box), emitter_(*scene.light), albedo_(scene.albedo), seed_(seed) {
+PhotonTracer::PhotonTracer(const Scene& scene, std::uint64_t seed, const std::stop_token& stop)
+    : caster_(checked(scene).mesh, scene.box, stop), emitter_(*scene.light), albedo_(scene.albedo), seed_(seed) {
   const glm::dvec3 size = scene.box.size() / caster_.scale();
   reach_ = glm::length(size);
   gap_ = gap_share * reach_;
 }
 
-PhotonPieces PhotonTracer::trace(std::uint64_t first, std::uint64_t last) const {
+PhotonPieces PhotonTracer::trace(std::uint64_t first, std::uint64_t last, const std::stop_token& stop) const {
+  StopCheck check(stop, "tracing photons");
+  check.now();
   PhotonPieces pieces;
   for (std::uint64_t photon = first; photon < last; ++photon) {
     add_path(photon, pieces.rays);
+    const std::size_t bounces = pieces.rays.size() - pieces.photons.size() + 1;
     pieces.photons.resize(pieces.rays.size(), photon);
+    check.after(work_of_a_bounce * bounces);
   }
   return pieces;
 }

@@ -19,11 +19,11 @@ struct PhotonPieces {
 /// number alone. May be used by several threads at once.
 class PhotonTracer {
  public:
-  /// Throws std::invalid_argument for a scene that photon paths cannot be traced in.
-  PhotonTracer(const Scene& scene, std::uint64_t seed);
+  /// Throws std::invalid_argument for a scene that photon paths cannot be traced in; Stopped if a stop was requested.
+  PhotonTracer(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
 
-  /// Pieces of photons first … last - 1, each of power 1.
-  [[nodiscard]] PhotonPieces trace(std::uint64_t first, std::uint64_t last) const;
+  /// Pieces of photons first … last - 1, each of power 1. Throws Stopped if a stop was requested.
+  [[nodiscard]] PhotonPieces trace(std::uint64_t first, std::uint64_t last, const std::stop_token& stop = {}) const;
 
  private:
   void add_path(std::uint64_t photon, std::vector<Ray>& rays) const;

@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "detp/sim/embree.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "distinct_facets.hpp"
 
 namespace detp::sim {
@@ -80,7 +81,7 @@ struct RayCaster::Embree {
   embree::Owned<RTCDevice> device{rtcNewDevice(nullptr)};
   embree::Owned<RTCScene> scene;
 
-  explicit Embree(std::vector<Facet> all) : distinct(distinct_facets(std::move(all))) {
+  Embree(std::vector<Facet> all, const std::stop_token& stop) : distinct(distinct_facets(std::move(all))) {
     embree::require_no_error(device);
     scene.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
@@ -92,17 +93,20 @@ struct RayCaster::Embree {
     rtcSetGeometryIntersectFunction(geometry.get(), meet);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene.get(), geometry.get());
-    rtcCommitScene(scene.get());
-    embree::require_no_error(device);
+    embree::commit(device, scene, stop, "building a tree over the scene's triangles");
   }
 };
 
-RayCaster::RayCaster(const Mesh& mesh, const Box& box) : centre_(box.centre()), scale_(own_unit(box)) {
+RayCaster::RayCaster(const Mesh& mesh, const Box& box, const std::stop_token& stop)
+    : centre_(box.centre()), scale_(own_unit(box)) {
   std::vector<Facet> facets;
   facets.reserve(mesh.triangles.size());
-  for (const auto& [a, b, c] : mesh.triangles)
+  StopCheck check(stop, "copying triangles");
+  for_each_checked(std::span(mesh.triangles), check, [&](const auto& corners) {
+    const auto& [a, b, c] = corners;
     facets.push_back(make_facet(to_own(mesh.positions[a]), to_own(mesh.positions[b]), to_own(mesh.positions[c])));
-  embree_ = std::make_unique<Embree>(std::move(facets));
+  });
+  embree_ = std::make_unique<Embree>(std::move(facets), stop);
 }
 
 RayCaster::~RayCaster() = default;

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <stop_token>
 #include <vector>
 
 #include "mesh.hpp"
@@ -17,8 +18,8 @@ namespace detp::sim {
 class RayCaster {
  public:
   /// Keeps what it needs of the mesh. Triangles without area are never met. The box holds every used vertex and is not
-  /// a single point. Throws std::runtime_error if Embree fails.
-  RayCaster(const Mesh& mesh, const Box& box);
+  /// a single point. Throws std::runtime_error if Embree fails; Stopped if a stop was requested.
+  RayCaster(const Mesh& mesh, const Box& box, const std::stop_token& stop = {});
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;

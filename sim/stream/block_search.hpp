@@ -1,5 +1,6 @@
 #pragma once
 
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/technique/totals.hpp"
 #include "disc_tree.hpp"
 #include "ray_list.hpp"
@@ -23,14 +24,25 @@ struct BlockSearch {
   bool pairs;               ///< wanted
   ClassCounts* hits;        ///< in the discs' order here; what is of one disc and one class is written by one thread
   DiscTotals* totals;       ///< likewise: powers are summed here; null where hits need only be counted
-  std::stop_token stop;
 };
+
+/// Tests of a ray against a box, a sphere or a disc that make a unit of work (StopCheck): those of a vector.
+inline constexpr std::size_t tests_a_unit = 16;
+
+/// Units of work of testing a list of rays `times`.
+[[nodiscard]] constexpr std::uint64_t test_work(std::size_t rays, std::size_t times = 1) {
+  return rays * times / tests_a_unit + 1;
+}
 
 /// What one thread has of its own.
 struct Worker {
+  explicit Worker(std::stop_token stop = {}) : check(std::move(stop), "searching") {}
+
   ListArena lists;
   std::vector<Pair> pairs;
   Counts<std::uint64_t> counts;
+  StopCheck check;
+  std::vector<DiscRun> skipped;  ///< discs not, or not wholly, searched in the last block, because of a stop request
 };
 
 }  // namespace detp::sim::stream

@@ -6,8 +6,12 @@
 #include <algorithm>
 #include <utility>
 
+#include "detp/sim/stop_check.hpp"
+
 namespace detp::sim::stream {
 namespace {
+
+constexpr const char* doing = "sorting along the curve";
 
 /// Moves bit i of a 10-bit number to bit 3i.
 std::uint32_t spread(std::uint32_t bits) {
@@ -36,7 +40,7 @@ Box box_of_centres(std::span<const Disc> discs) {
   return box;
 }
 
-std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells) {
+std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells, const std::stop_token& stop) {
   const Box box = box_of_centres(discs);
   const glm::dvec3 size = box.size();
   const double side = std::max({size.x, size.y, size.z});
@@ -46,11 +50,13 @@ std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells) {
   const auto cell = [&](double above) { return spread(std::min(static_cast<std::uint32_t>(above * scale), last)); };
   std::vector<CurvePlace> places(discs.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, discs.size(), 1U << 14), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) {
+    StopCheck check(stop, doing);
+    for_each_checked(range.begin(), range.end(), check, [&](std::size_t i) {
       const glm::dvec3 above = discs[i].centre - box.low;
       const std::uint32_t code = cell(above.x) << 2 | cell(above.y) << 1 | cell(above.z);
       places[i] = static_cast<CurvePlace>(code) << 32 | i;
-    }
+    });
+    check.now();
   });
   return places;
 }
@@ -58,47 +64,48 @@ std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells) {
 /// One pass of a radix sort: stretches of the words are counted, and moved, side by side.
 class Pass {
  public:
-  Pass(const Resolution& resolution, int digit, std::span<const CurvePlace> from)
-      : resolution_(resolution), digit_(digit), from_(from), stretches_(from.size() < (1U << 16) ? 1 : 8) {}
+  Pass(const Resolution& resolution, int digit, std::span<const CurvePlace> from, const std::stop_token& stop)
+      : resolution_(resolution), digit_(digit), from_(from), stop_(stop), stretches_(from.size() < (1U << 16) ? 1 : 8) {}
 
   void move_to(std::span<CurvePlace> to) {
     const std::size_t values = std::size_t{1} << resolution_.digit_bits;
     starts_.assign(stretches_ * values, 0);
-    for_each_stretch([&](std::size_t i, std::span<const CurvePlace> words) {
-      for (const CurvePlace word : words) ++starts_[i * values + resolution_.digit(word, digit_)];
-    });
+    for_each_word([&](std::size_t i, CurvePlace word) { ++starts_[i * values + resolution_.digit(word, digit_)]; });
     std::uint32_t next = 0;
     for (std::size_t value = 0; value < values; ++value)
       for (std::size_t i = 0; i < stretches_; ++i) next += std::exchange(starts_[i * values + value], next);
-    for_each_stretch([&](std::size_t i, std::span<const CurvePlace> words) {
-      for (const CurvePlace word : words) to[starts_[i * values + resolution_.digit(word, digit_)]++] = word;
+    for_each_word([&](std::size_t i, CurvePlace word) {
+      to[starts_[i * values + resolution_.digit(word, digit_)]++] = word;
     });
   }
 
  private:
   template <class Visit>
-  void for_each_stretch(const Visit& visit) const {
+  void for_each_word(const Visit& visit) const {
     tbb::parallel_for(std::size_t{0}, stretches_, [&](std::size_t i) {
-      const std::size_t first = from_.size() * i / stretches_;
-      visit(i, from_.subspan(first, from_.size() * (i + 1) / stretches_ - first));
+      StopCheck check(stop_, doing);
+      for_each_checked(from_.size() * i / stretches_, from_.size() * (i + 1) / stretches_, check,
+                       [&](std::size_t word) { visit(i, from_[word]); });
+      check.now();
     });
   }
 
   const Resolution& resolution_;
   int digit_;
   std::span<const CurvePlace> from_;
+  const std::stop_token& stop_;
   std::size_t stretches_;
   std::vector<std::uint32_t> starts_;  ///< for each stretch, each value of the digit: where its next word goes
 };
 
 }  // namespace
 
-std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs) {
+std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs, const std::stop_token& stop) {
   const Resolution resolution = resolution_for(discs.size());
-  std::vector<CurvePlace> places = places_of(discs, resolution.cells());
+  std::vector<CurvePlace> places = places_of(discs, resolution.cells(), stop);
   std::vector<CurvePlace> other(places.size());
   for (int digit = 0; digit < resolution.digits; ++digit) {
-    Pass(resolution, digit, places).move_to(other);
+    Pass(resolution, digit, places, stop).move_to(other);
     places.swap(other);
   }
   return places;

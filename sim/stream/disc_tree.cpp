@@ -10,6 +10,7 @@
 #include <cmath>
 
 #include "curve_sort.hpp"
+#include "detp/sim/stop_check.hpp"
 
 namespace detp::sim::stream {
 namespace {
@@ -65,8 +66,10 @@ static_assert(sizeof(Binary) == binary_node_bytes);
 
 class Builder {
  public:
-  Builder(const std::vector<CurvePlace>& places, DiscTree& tree, int fan_out, int leaf)
+  Builder(const std::vector<CurvePlace>& places, DiscTree& tree, int fan_out, int leaf, const std::stop_token& stop)
       : places_(places),
+        stop_(stop),
+        widening_(stop, doing),
         tree_(tree),
         fan_out_(static_cast<std::size_t>(fan_out)),
         leaf_(static_cast<std::uint32_t>(leaf)) {}
@@ -86,6 +89,9 @@ class Builder {
   Nodes split_in_parallel(std::uint32_t first, std::uint32_t count) const {
     constexpr std::uint32_t least = 1U << 15;  // discs that are worth a task
     Nodes nodes;
+    StopCheck check(stop_, doing);
+    check.after(2 * std::min(count, least));
+    check.now();
     if (count < least) {
       nodes.reserve(2 * (count / std::max(1U, leaf_ / 2)) + 1);
       split(first, count, nodes);
@@ -98,20 +104,21 @@ class Builder {
                          [&] { right = split_in_parallel(middle, first + count - middle); });
     nodes.reserve(1 + left.size() + right.size());
     nodes.push_back({.box = {}, .first = first, .count = count});
-    join(nodes, 0, append(left, nodes), append(right, nodes));
+    const std::uint32_t first_left = append(left, nodes, check);
+    join(nodes, 0, first_left, append(right, nodes, check));
     return nodes;
   }
 
   /// Appends a tree; the number of its root there.
-  static std::uint32_t append(const Nodes& tree, Nodes& nodes) {
+  static std::uint32_t append(const Nodes& tree, Nodes& nodes, StopCheck& check) {
     const auto offset = static_cast<std::uint32_t>(nodes.size());
-    for (Binary node : tree) {
+    for_each_checked(std::span(tree), check, [&](Binary node) {
       if (!node.leaf()) {
         node.left += offset;
         node.right += offset;
       }
       nodes.push_back(node);
-    }
+    });
     return offset;
   }
 
@@ -170,6 +177,7 @@ class Builder {
   /// Writes the node at that place, and its descendants.
   void widen(std::uint32_t number, std::size_t place) {
     const Binary& node = binary_[number];
+    widening_.after(1);
     if (node.leaf()) {
       write(node, place, node.first, node.count, true);
       return;
@@ -204,8 +212,11 @@ class Builder {
   }
 
   static constexpr std::uint32_t most_in_a_leaf = 64;
+  static constexpr const char* doing = "building the tree of boxes";
 
   const std::vector<CurvePlace>& places_;
+  const std::stop_token& stop_;
+  StopCheck widening_;
   DiscTree& tree_;
   std::size_t fan_out_;
   std::uint32_t leaf_;
@@ -226,28 +237,40 @@ FloatDisc to_float(const Disc& disc, const Frame& frame) {
 
 }  // namespace
 
-DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order) {
+DiscRun discs_below(const DiscTree& tree, const TreeNode& node) {
+  const TreeNode* first = &node;
+  const TreeNode* last = &node;
+  while (!first->leaf) first = &tree.nodes[first->first];
+  while (!last->leaf) last = &tree.nodes[last->first + last->count - 1];
+  return {first->first, last->first + last->count - first->first};
+}
+
+DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
+                        const std::stop_token& stop) {
   constexpr std::size_t grain = 4096;
   constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
   DiscTree tree;
   tree.order = std::move(order);
   tree.discs.resize(tree.order.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.order.size(), grain), [&](const auto& range) {
-    for (std::size_t place = range.begin(); place < range.end(); ++place) {
+    StopCheck check(stop, "putting discs in order");
+    for_each_checked(range.begin(), range.end(), check, [&](std::size_t place) {
       if (place + ahead < tree.order.size()) hwy::Prefetch(&problem.discs[tree.order[place + ahead]]);
       tree.discs[place] = to_float(problem.discs[tree.order[place]], frame);
-    }
+    });
+    check.now();
   });
   return tree;
 }
 
-DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf) {
-  const std::vector<CurvePlace> places = sort_along_curve(problem.discs);
+DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf,
+                        const std::stop_token& stop) {
+  const std::vector<CurvePlace> places = sort_along_curve(problem.discs, stop);
   std::vector<std::uint32_t> order;
   order.reserve(places.size());
   for (const CurvePlace place : places) order.push_back(place_index(place));
-  DiscTree tree = discs_in_order(problem, frame, std::move(order));
-  Builder(places, tree, fan_out, leaf).build();
+  DiscTree tree = discs_in_order(problem, frame, std::move(order), stop);
+  Builder(places, tree, fan_out, leaf, stop).build();
   return tree;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "frame.hpp"
@@ -34,6 +35,15 @@ struct DiscTree {
 
 inline constexpr double binary_node_bytes = 44;
 
+/// Places of the tree's order, one after another.
+struct DiscRun {
+  std::uint32_t first;
+  std::uint32_t count;
+};
+
+/// The discs of the leaves below a node, or of a leaf.
+[[nodiscard]] DiscRun discs_below(const DiscTree& tree, const TreeNode& node);
+
 /// Splits the discs, sorted along the Lebesgue curve, wherever the curve leaves a cell; then keeps those splits that
 /// pay, and joins them into nodes of up to `fan_out` children. A leaf holds up to `leaf` discs, more only where that
 /// costs less (or where they share a place on the curve: such are split in the middle).
@@ -41,9 +51,13 @@ inline constexpr double binary_node_bytes = 44;
 /// What pays is judged by the surface-area heuristic: a line that crosses a node crosses a child with probability
 /// F(child)/F(node). (Runs of equal length along the curve, as nodes, take 1.7 to 2.3 times the tests: their boxes
 /// bridge the curve's jumps.)
-[[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf);
+///
+/// Throws Stopped if a stop was requested.
+[[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf,
+                                      const std::stop_token& stop = {});
 
-/// The discs alone, in that order: a tree without nodes.
-[[nodiscard]] DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order);
+/// The discs alone, in that order: a tree without nodes. Throws Stopped if a stop was requested.
+[[nodiscard]] DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
+                                      const std::stop_token& stop = {});
 
 }  // namespace detp::sim::stream

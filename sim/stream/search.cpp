@@ -27,10 +27,13 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(node.first, node.first + node.count, [&](std::uint32_t child) {
       Worker& worker = workers.local();
+      const TreeNode& next = block.tree.nodes[child];
+      if (worker.check.requested_after(test_work(size(lists))))
+        return worker.skipped.push_back(discs_below(block.tree, next));
       const ArenaScope scope(worker.lists);
       RayLists inside = worker.lists.take_like(lists, block.segments);
-      cull_node(block, block.tree.nodes[child], lists, inside, worker);
-      if (size(inside) > 0) divide(block, block.tree.nodes[child], inside, workers);
+      cull_node(block, next, lists, inside, worker);
+      if (size(inside) > 0) divide(block, next, inside, workers);
     });
   });
 }
@@ -48,14 +51,15 @@ void search_boxes(const Problem& problem, const SphereTreeParameters& parameters
   Stopwatch watch;
   const Frame frame(problem);
   on_threads(thread_count(options.threads), [&] {
-    const DiscTree tree = make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf);
+    const DiscTree tree = make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf, options.stop);
     outcome.seconds.build = watch.lap();
     const auto nodes = static_cast<double>(tree.binary_nodes);
     need_memory(what, boxes_bytes(size, parameters.fan_out, nodes), problem, outcome);
-    Workers workers;
+    Workers workers([&] { return Worker(options.stop); });
     Gathering gathering(problem, tree, options);
     for_each_block(problem, frame, options.stop, [&](const Block& block) {
       divide(gathering.begin(frame, block.first(), block.traits()), tree.nodes.front(), block.lists(), workers);
+      gathering.end(block, workers);
     });
     gathering.give(workers, outcome);
   });

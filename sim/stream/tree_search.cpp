@@ -24,17 +24,29 @@ HWY_INLINE void cull(const BlockSearch& block, const TreeNode& node, const RayLi
   ++worker.counts.rebuilds;
 }
 
+/// Tests a leaf's discs, few enough at a time for the check between.
+template <bool segments, bool counting_only>
+void visit_leaf(const BlockSearch& block, TreeNode leaf, const RayLists& lists, Worker& worker) {
+  const auto at_once = static_cast<std::uint32_t>(std::max<std::size_t>(1, StopCheck::most_work * tests_a_unit / size(lists)));
+  for (std::uint32_t left = leaf.count; left > 0; left -= leaf.count, leaf.first += leaf.count) {
+    leaf.count = std::min(left, at_once) & 0x7fff'ffff;
+    if (worker.check.requested_after(test_work(size(lists), leaf.count)))
+      return worker.skipped.push_back({leaf.first, left});
+    test_leaf<segments, counting_only>(block, leaf, lists, worker);
+  }
+}
+
 template <bool segments, bool counting_only>
 void visit(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker) {
-  if (node.leaf) {
-    test_leaf<segments, counting_only>(block, node, lists, worker);
-    return;
-  }
-  if (block.stop.stop_requested()) return;
+  if (node.leaf) return visit_leaf<segments, counting_only>(block, node, lists, worker);
   const ArenaScope scope(worker.lists);
   RayLists inside = worker.lists.take_like(lists, segments);
   for (std::uint32_t child = node.first; child < node.first + node.count; ++child) {
     const TreeNode& next = block.tree.nodes[child];
+    if (worker.check.requested_after(test_work(size(lists)))) {
+      worker.skipped.push_back(discs_below(block.tree, next));
+      continue;
+    }
     cull<segments>(block, next, lists, inside, worker);
     if (size(inside) > 0) visit<segments, counting_only>(block, next, inside, worker);
   }

@@ -9,7 +9,8 @@ namespace detp::sim::stream {
 void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
                Worker& worker);
 
-/// Searches all that is below a node, whose lists these are. Asks for a stop now and then: then it leaves off early.
+/// Searches all that is below a node, whose lists these are. If a stop was requested, it ends early, and the discs not
+/// searched are in worker.skipped.
 void search_below(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker);
 
 /// The instruction set that the kernels use here: "AVX3", …

@@ -31,16 +31,23 @@ class ClassWalk {
     const ArenaScope scope(worker_.lists);
     for (std::uint32_t place = 0; place < block_.tree.order.size(); ++place) {
       const int first = walk_.enter(block_.problem.discs[block_.tree.order[place]]);
-      for (int level = first; level <= walk_.innermost(); ++level)
+      for (int level = first; level <= walk_.innermost(); ++level) {
+        if (worker_.check.requested_after(test_work(lists_[static_cast<std::size_t>(level - 1)].size)))
+          return skip_from(place);
         build(static_cast<std::size_t>(level), level == first);
+      }
       const RayList& rays = lists_[static_cast<std::size_t>(walk_.innermost())];
+      if (worker_.check.requested_after(test_work(rays.size))) return skip_from(place);
       if (rays.size > 0) test_discs(block_, k_, place, 1, rays, worker_);
       worker_.counts.disc_tests += rays.size;
-      if (place % 64 == 0 && block_.stop.stop_requested()) return;
     }
   }
 
  private:
+  void skip_from(std::uint32_t place) {
+    worker_.skipped.push_back({place, static_cast<std::uint32_t>(block_.tree.order.size()) - place});
+  }
+
   /// Lists further in were made of this one, and go with it.
   void build(std::size_t level, bool first) {
     if (first && level < built_) worker_.lists.release(marks_[level]);
@@ -79,10 +86,10 @@ void add(const std::vector<SphereCounts>& events, std::vector<SphereCounts>& sum
 void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const MakeWalk& make_walk,
                  const RunOptions& options, Outcome& outcome) {
   const Frame frame(problem);
-  std::array<Worker, classes> workers;
+  std::array workers{Worker(options.stop), Worker(options.stop), Worker(options.stop)};
   std::array<std::vector<SphereCounts>, classes> events;
   on_threads(thread_count(options.threads), [&] {
-    const DiscTree discs = discs_in_order(problem, frame, std::move(order));
+    const DiscTree discs = discs_in_order(problem, frame, std::move(order), options.stop);
     Gathering gathering(problem, discs, options);
     for_each_block(problem, frame, options.stop, [&](const Block& rays) {
       const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());
@@ -91,6 +98,7 @@ void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const
         const std::unique_ptr<ListWalk> walk = make_walk();
         ClassWalk(block, k, rays.lists()[i], *walk, workers[i], events[i]).run();
       });
+      gathering.end(rays, workers);
     });
     gathering.give(workers, outcome);
   });

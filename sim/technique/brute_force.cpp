@@ -1,3 +1,4 @@
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/stream/search.hpp"
 #include "hit_collector.hpp"
 #include "ray_search.hpp"
@@ -10,13 +11,15 @@ namespace {
 template <bool counting>
 class BruteForceSearch final : public RaySearch {
  public:
-  explicit BruteForceSearch(const Problem& problem) : problem_(problem) {}
+  BruteForceSearch(const Problem& problem, const std::stop_token& stop)
+      : problem_(problem), check_(stop, "searching") {}
 
   void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
     for (std::uint32_t d = 0; d < problem_.discs.size(); ++d) {
       const Disc disc = problem_.discs[d];
       for (std::uint32_t r = first; r < last; ++r)
         if (counts_as_hit(problem_, problem_.rays[r], disc)) hits.push_back({r, d});
+      check_.after(last - first);
     }
     tally_.add(&Counts<std::uint64_t>::disc_tests, problem_.discs.size() * (last - first));
   }
@@ -25,13 +28,14 @@ class BruteForceSearch final : public RaySearch {
 
  private:
   const Problem& problem_;
+  StopCheck check_;
   Tally<counting> tally_;
 };
 
 template <bool counting>
 void search(const Problem& problem, const RunOptions& options, Outcome& outcome) {
   search_rays(
-      problem, options, [&] { return std::make_unique<BruteForceSearch<counting>>(problem); }, outcome);
+      problem, options, [&] { return std::make_unique<BruteForceSearch<counting>>(problem, options.stop); }, outcome);
 }
 
 void search(const Problem& problem, const RunOptions& options, Outcome& outcome) {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "detp/sim/memory.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "disc_box.hpp"
 #include "indexed_search.hpp"
 
@@ -34,14 +35,16 @@ double area_of(const glm::dvec3& size) { return 2 * (size.x * size.y + size.y * 
 class Builder {
  public:
   Builder(const Problem& problem, const BspParameters& parameters, const std::stop_token& stop)
-      : problem_(problem), parameters_(parameters), stop_(stop) {
+      : problem_(problem), parameters_(parameters), check_(stop, "building the BSP tree") {
+    check_.now();
     tree_.box = index_box(problem);
   }
 
   BspNodes build() && {
     require_memory("the bounds of the discs", static_cast<double>(problem_.discs.size()) * sizeof(Box));
     bounds_.reserve(problem_.discs.size());
-    for (const Disc& disc : problem_.discs) bounds_.push_back(bounds(disc, problem_.slack));
+    for_each_checked(problem_.discs, check_,
+                     [&](const Disc& disc) { bounds_.push_back(bounds(disc, problem_.slack)); });
     Discs all(problem_.discs.size());
     std::iota(all.begin(), all.end(), 0U);
     listed_ = most_listed_ = all.size();
@@ -55,7 +58,7 @@ class Builder {
 
  private:
   void build(std::uint32_t number, const Box& box, int level, Discs discs) {
-    if (stop_.stop_requested()) return;
+    check_.after(1);
     require_room(discs.size());
     const Split split = halving(box);
     if (level == parameters_.depth || discs.size() <= static_cast<std::size_t>(parameters_.leaf) ||
@@ -76,12 +79,12 @@ class Builder {
   }
 
   /// Whether the search of the halves is expected to be cheaper than testing all discs.
-  [[nodiscard]] bool pays(const Split& split, const Box& box, const Discs& discs) const {
+  [[nodiscard]] bool pays(const Split& split, const Box& box, const Discs& discs) {
     double in_parts = 0;
-    for (const std::uint32_t disc : discs) {
+    for_each_checked(std::span(discs), check_, [&](std::uint32_t disc) {
       in_parts += bounds_[disc].low[split.axis] <= split.plane ? 1 : 0;
       in_parts += bounds_[disc].high[split.axis] >= split.plane ? 1 : 0;
-    }
+    });
     const double half = area_of(part_of(box, split.axis, split.plane, false).size());
     const double visit = parameters_.leaf / 4.0;
     return half * (2 * visit + in_parts) < clear * area_of(box.size()) * static_cast<double>(discs.size());
@@ -94,10 +97,11 @@ class Builder {
     listed_ -= discs.size();
   }
 
-  Discs discs_in(const Box& box, const Discs& discs) const {
+  Discs discs_in(const Box& box, const Discs& discs) {
     Discs inside;
-    for (const std::uint32_t disc : discs)
+    for_each_checked(std::span(discs), check_, [&](std::uint32_t disc) {
       if (overlaps(problem_.discs[disc], box, problem_.slack)) inside.push_back(disc);
+    });
     return inside;
   }
 
@@ -120,7 +124,7 @@ class Builder {
 
   const Problem& problem_;
   const BspParameters& parameters_;
-  const std::stop_token& stop_;
+  StopCheck check_;
   std::vector<Box> bounds_;
   std::size_t listed_ = 0;       ///< in the lists of nodes not yet built
   std::size_t most_listed_ = 0;  ///< at any time

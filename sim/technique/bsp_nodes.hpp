@@ -49,7 +49,7 @@ struct BspNodes {
 /// Discs that are in both halves alike, as coincident ones are, end the splitting. Placing the planes by the heuristic
 /// too, at the best of 15 places along each axis, saves tests but no time (sim/README.md, "Trees").
 ///
-/// Asked to stop, it leaves out what is not yet built. Throws std::length_error, naming the bytes, before it would take
+/// Throws Stopped if a stop was requested, and std::length_error, naming the bytes, before it would take
 /// more than the memory budget.
 [[nodiscard]] BspNodes build_bsp(const Problem& problem, const BspParameters& parameters, const std::stop_token& stop);
 

@@ -5,6 +5,7 @@
 
 #include "detp/sim/embree.hpp"
 #include "detp/sim/memory.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/threads.hpp"
 #include "disc_box.hpp"
 #include "hit_collector.hpp"
@@ -66,7 +67,8 @@ class OwnFrame {
 /// Is shown discs whose box the ray being traced meets.
 class DiscTest {
  public:
-  virtual void test(std::uint32_t disc) noexcept = 0;
+  /// False if it wants to see no more.
+  virtual bool test(std::uint32_t disc) noexcept = 0;
 
  protected:
   ~DiscTest() = default;
@@ -82,7 +84,8 @@ static_assert(std::is_standard_layout_v<Query>);
 /// Embree's tree over the boxes of the discs.
 class Bvh {
  public:
-  Bvh(const Problem& problem, BuildQuality quality, int threads) : problem_(problem), frame_(problem) {
+  Bvh(const Problem& problem, BuildQuality quality, int threads, const std::stop_token& stop)
+      : problem_(problem), frame_(problem) {
     require_memory("the BVH", bytes_per_disc * static_cast<double>(problem.discs.size()));
     embree::require_no_error(device_);
     scene_.reset(rtcNewScene(device_.get()));
@@ -98,8 +101,7 @@ class Bvh {
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene_.get(), geometry.get());
     // (A device made with "threads=1" would hold the whole process to one thread.)
-    on_threads(thread_count(threads), [&] { rtcCommitScene(scene_.get()); });
-    embree::require_no_error(device_);
+    on_threads(thread_count(threads), [&] { embree::commit(device_, scene_, stop, "building the BVH"); });
   }
 
   /// Shows the query every disc whose box the ray meets.
@@ -116,9 +118,10 @@ class Bvh {
     *arguments->bounds_o = {low.x, low.y, low.z, 0, high.x, high.y, high.z, 0};
   }
 
-  /// Says of no disc that it was met, so that Embree goes on.
+  /// Says of no disc that it was met, so that Embree goes on, unless it shall end.
   static void show_disc(const RTCOccludedFunctionNArguments* arguments) {
-    if (arguments->valid[0] != 0) reinterpret_cast<Query*>(arguments->context)->discs->test(arguments->primID);
+    if (arguments->valid[0] != 0 && !reinterpret_cast<Query*>(arguments->context)->discs->test(arguments->primID))
+      RTCRayN_tfar(arguments->ray, arguments->N, 0) = -INFINITY;
   }
 
   const Problem& problem_;
@@ -130,31 +133,37 @@ class Bvh {
 template <bool counting>
 class BvhSearch final : public RaySearch, private DiscTest {
  public:
-  BvhSearch(const Bvh& bvh, const Problem& problem) : bvh_(bvh), problem_(problem) {}
+  BvhSearch(const Bvh& bvh, const Problem& problem, const std::stop_token& stop)
+      : bvh_(bvh), problem_(problem), check_(stop, "searching") {}
 
   void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
     Query query{.context = {}, .discs = this};
     rtcInitIntersectContext(&query.context);
     hits_ = &hits;
-    for (ray_ = first; ray_ < last; ++ray_) bvh_.trace(problem_.rays[ray_], query);
-    if (failure_) std::rethrow_exception(failure_);
+    for (ray_ = first; ray_ < last; ++ray_) {
+      bvh_.trace(problem_.rays[ray_], query);
+      if (failure_) std::rethrow_exception(failure_);
+      check_.after(1);
+    }
   }
 
   [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
 
  private:
-  void test(std::uint32_t disc) noexcept override {
+  bool test(std::uint32_t disc) noexcept override {
     tally_.add(&Counts<std::uint64_t>::disc_tests);
-    if (!counts_as_hit(problem_, problem_.rays[ray_], problem_.discs[disc])) return;
-    try {
-      hits_->push_back({ray_, disc});
-    } catch (...) {  // must not pass through Embree
+    try {  // nothing thrown must pass through Embree
+      check_.after(1);
+      if (counts_as_hit(problem_, problem_.rays[ray_], problem_.discs[disc])) hits_->push_back({ray_, disc});
+    } catch (...) {
       failure_ = std::current_exception();
     }
+    return failure_ == nullptr;
   }
 
   const Bvh& bvh_;
   const Problem& problem_;
+  StopCheck check_;
   Tally<counting> tally_;
   std::uint32_t ray_ = 0;
   std::vector<Pair>* hits_ = nullptr;
@@ -164,14 +173,14 @@ class BvhSearch final : public RaySearch, private DiscTest {
 template <bool counting>
 void search_bvh(const Bvh& bvh, const Problem& problem, const RunOptions& options, Outcome& outcome) {
   search_rays(
-      problem, options, [&] { return std::make_unique<BvhSearch<counting>>(bvh, problem); }, outcome);
+      problem, options, [&] { return std::make_unique<BvhSearch<counting>>(bvh, problem, options.stop); }, outcome);
   if constexpr (counting) outcome.counts.references += problem.discs.size();
 }
 
 class PreparedBvh final : public Prepared {
  public:
-  PreparedBvh(const Problem& problem, BuildQuality quality, int threads)
-      : problem_(problem), bvh_(problem, quality, threads) {}
+  PreparedBvh(const Problem& problem, BuildQuality quality, int threads, const std::stop_token& stop)
+      : problem_(problem), bvh_(problem, quality, threads, stop) {}
 
   void search(const RunOptions& options, Outcome& outcome) const override {
     options.count ? search_bvh<true>(bvh_, problem_, options, outcome)
@@ -189,13 +198,14 @@ class PreparedBvh final : public Prepared {
 
 }  // namespace
 
-std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters, int threads) {
-  return std::make_unique<PreparedBvh>(problem, parameters.quality, threads);
+std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters, int threads,
+                                      const std::stop_token& stop) {
+  return std::make_unique<PreparedBvh>(problem, parameters.quality, threads, stop);
 }
 
 void run_bvh(const Problem& problem, const BvhParameters& parameters, const RunOptions& options, Outcome& outcome) {
   Stopwatch watch;
-  const PreparedBvh prepared(problem, parameters.quality, options.threads);
+  const PreparedBvh prepared(problem, parameters.quality, options.threads, options.stop);
   outcome.seconds.build = watch.lap();
   need_memory("the BVH", static_cast<double>(prepared.bytes()) + found_bytes(problem, options), problem, outcome);
   prepared.search(options, outcome);

@@ -13,7 +13,7 @@ void run_cell_spheres(const Problem& problem, const CellSpheresParameters& param
   need_memory("lists of rays inside one another", walk_bytes(problem, options, lists_of(problem, parameters), plain),
               problem, outcome);
   Stopwatch watch;
-  std::vector<std::uint32_t> order = along_curve(problem.discs);
+  std::vector<std::uint32_t> order = along_curve(problem.discs, SampleOrder::lebesgue, options.stop);
   outcome.seconds.order = watch.lap();
   const std::size_t sorted = order.size();
   if (!plain) {

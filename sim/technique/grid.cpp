@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "detp/sim/memory.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "disc_box.hpp"
 #include "indexed_search.hpp"
 #include "ray_box.hpp"
@@ -103,15 +104,17 @@ class Grid {
   }
 
   template <class Visit>
-  void for_each_overlapped_cell(const Disc& disc, const Visit& visit) const {
+  void for_each_overlapped_cell(const Disc& disc, StopCheck& check, const Visit& visit) const {
     const Box reach = bounds(disc, problem_.slack);
     const Cell low = cell_of(reach.low);
     const Cell high = cell_of(reach.high);
     for (std::int64_t z = low[2]; z <= high[2]; ++z)
       for (std::int64_t y = low[1]; y <= high[1]; ++y)
-        for (std::int64_t x = low[0]; x <= high[0]; ++x)
+        for (std::int64_t x = low[0]; x <= high[0]; ++x) {
+          check.after(1);
           if (low == high || insertion_ == Insertion::bounding_box || overlaps(disc, box_of({x, y, z}), problem_.slack))
             visit(index({x, y, z}));
+        }
   }
 
   struct Placement {
@@ -128,16 +131,22 @@ class Grid {
 
   /// Finds each disc's cells, and lists the discs cell by cell.
   void fill(const std::stop_token& stop) {
+    StopCheck check(stop, "building the grid");
+    check.now();
     std::vector<Placement> placements;
-    for (std::uint32_t disc = 0; disc < problem_.discs.size() && !stop.stop_requested(); ++disc) {
-      for_each_overlapped_cell(problem_.discs[disc], [&](std::size_t cell) { placements.push_back({cell, disc}); });
+    for (std::uint32_t disc = 0; disc < problem_.discs.size(); ++disc) {
+      for_each_overlapped_cell(problem_.discs[disc], check,
+                               [&](std::size_t cell) { placements.push_back({cell, disc}); });
       require_memory("the grid", building_bytes(placements.size()));
     }
-    for (const Placement& placement : placements) ++starts_[placement.cell + 1];
-    for (std::size_t cell = 1; cell < starts_.size(); ++cell) starts_[cell] += starts_[cell - 1];
+    for_each_checked(std::span(placements), check, [&](const Placement& placement) { ++starts_[placement.cell + 1]; });
+    std::size_t sum = 0;
+    for_each_checked(std::span(starts_), check, [&](std::size_t& start) { start = sum += start; });
     references_.resize(placements.size());
     std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    for (const Placement& placement : placements) references_[next[placement.cell]++] = placement.disc;
+    for_each_checked(std::span(placements), check, [&](const Placement& placement) {
+      references_[next[placement.cell]++] = placement.disc;
+    });
   }
 
   const Problem& problem_;

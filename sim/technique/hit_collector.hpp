@@ -1,9 +1,10 @@
 #pragma once
 
-#include <algorithm>
+#include <optional>
 
 #include "detp/sim/dominant_axis.hpp"
 #include "detp/sim/predicates.hpp"
+#include "sort_pairs.hpp"
 #include "technique.hpp"
 
 namespace detp::sim {
@@ -34,7 +35,7 @@ class HitCollector {
  public:
   /// Borrows the problem, and the options' totals if there are any.
   HitCollector(const Problem& problem, const RunOptions& options)
-      : problem_(problem), keep_pairs_(options.pairs), shared_(options.totals) {
+      : problem_(problem), keep_pairs_(options.pairs), stop_(options.stop), shared_(options.totals) {
     if (totals().empty()) totals().resize(problem.discs.size());
   }
 
@@ -49,13 +50,38 @@ class HitCollector {
     if (keep_pairs_) pairs_.push_back({ray, disc});
   }
 
-  /// Moves what was found into the outcome: powers become irradiance, unless the totals are another's.
-  void give(Outcome& outcome) && {
-    std::sort(pairs_.begin(), pairs_.end());
-    outcome.pairs = std::move(pairs_);
+  [[nodiscard]] std::uint64_t kept() const { return kept_; }
+
+  /// Moves what was found into the outcome: powers become irradiance, unless the totals are another's. `rays` of the
+  /// problem's first rays have been searched, fewer than all where the search was stopped.
+  void give(std::uint64_t rays, Outcome& outcome) && {
+    outcome.progress = {rays, problem_.rays.size()};
+    outcome.stopped = rays < problem_.rays.size() || !sort_pairs(pairs_, stop_);
+    if (!outcome.stopped) outcome.pairs = std::move(pairs_);
     outcome.total_hits = kept_;
     outcome.counts.hits = kept_;
+    if (outcome.batches.count == 0 && rays > 0) outcome.batches.add(rays, kept_);
     if (shared_ == nullptr) finish(own_, problem_.discs, outcome);
+  }
+
+  /// For a search that takes one disc after another: only after this may it call give_discs.
+  void take_discs() {
+    if (shared_ != nullptr) before_ = *shared_;
+  }
+
+  /// The same of a search that was stopped when all rays had been tested against these discs. Totals of another's are
+  /// as they were before: they could not be told to lack some discs.
+  void give_discs(std::span<const std::uint32_t> done, Outcome& outcome) && {
+    outcome.stopped = true;
+    if (shared_ != nullptr) {
+      *shared_ = std::move(*before_);
+      outcome.progress = {0, problem_.rays.size()};
+      return;
+    }
+    finish(own_, problem_.discs, outcome);
+    outcome.done_discs.assign(problem_.discs.size(), false);
+    for (const std::uint32_t disc : done) outcome.done_discs[disc] = true;
+    keep_done_discs(outcome);
   }
 
  private:
@@ -63,7 +89,9 @@ class HitCollector {
 
   const Problem& problem_;
   bool keep_pairs_;
+  std::stop_token stop_;
   Totals* shared_;
+  std::optional<Totals> before_;  ///< the shared totals at first
   Totals own_;
   std::uint64_t kept_ = 0;
   std::vector<Pair> pairs_;

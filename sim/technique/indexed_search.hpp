@@ -1,5 +1,6 @@
 #pragma once
 
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/threads.hpp"
 #include "disc_index.hpp"
 #include "hit_collector.hpp"
@@ -17,8 +18,8 @@ namespace detp::sim {
 template <bool counting, bool mailboxing, class Index>
 class IndexedSearch final : public RaySearch {
  public:
-  IndexedSearch(const Index& index, const Problem& problem)
-      : index_(index), problem_(problem), last_ray_(problem.discs.size(), 0) {}
+  IndexedSearch(const Index& index, const Problem& problem, const std::stop_token& stop)
+      : index_(index), problem_(problem), check_(stop, "searching"), last_ray_(problem.discs.size(), 0) {}
 
   void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
     hits_ = &hits;
@@ -30,7 +31,16 @@ class IndexedSearch final : public RaySearch {
   /// Counts a visit to a cell (steps) or a node (nodes).
   void visit(std::uint64_t Counts<std::uint64_t>::*term) { tally_.add(term); }
 
+  /// Throws Stopped if a stop was requested.
   void test(std::uint32_t ray, std::span<const std::uint32_t> discs) {
+    for (; discs.size() >= StopCheck::most_work; discs = discs.subspan(StopCheck::most_work - 1))
+      test_some(ray, discs.first(StopCheck::most_work - 1));
+    test_some(ray, discs);
+  }
+
+ private:
+  void test_some(std::uint32_t ray, std::span<const std::uint32_t> discs) {
+    check_.after(discs.size() + 1);
     const Ray& tested = problem_.rays[ray];
     std::uint64_t known = 0;
     for (const std::uint32_t disc : discs) {
@@ -44,9 +54,9 @@ class IndexedSearch final : public RaySearch {
     tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size() - known);
   }
 
- private:
   const Index& index_;
   const Problem& problem_;
+  StopCheck check_;
   Tally<counting> tally_;
   std::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray known to hit it or not; 0: none yet
   std::vector<Pair>* hits_ = nullptr;
@@ -55,7 +65,8 @@ class IndexedSearch final : public RaySearch {
 template <bool counting, bool mailboxing, class Index>
 void trace_all(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome) {
   search_rays(
-      problem, options, [&] { return std::make_unique<IndexedSearch<counting, mailboxing, Index>>(index, problem); },
+      problem, options,
+      [&] { return std::make_unique<IndexedSearch<counting, mailboxing, Index>>(index, problem, options.stop); },
       outcome);
   if constexpr (counting) {
     outcome.counts.references += index.size().references;

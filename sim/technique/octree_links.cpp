@@ -3,14 +3,13 @@
 #include <algorithm>
 
 #include "detp/sim/memory.hpp"
+#include "detp/sim/stop_check.hpp"
 
 namespace detp::sim {
 namespace {
 
-constexpr std::uint32_t asked = 1024;  // nodes between two looks at the stop
-
 /// Lays out the nodes, without links.
-std::vector<LinkedNode> lay_out(const OctreeNodes& tree, const std::stop_token& stop) {
+std::vector<LinkedNode> lay_out(const OctreeNodes& tree, StopCheck& check) {
   const auto inner = static_cast<std::size_t>(
       std::count_if(tree.nodes.begin(), tree.nodes.end(), [](const OctreeNode& node) { return node.octants != 0; }));
   const std::size_t total = 1 + 8 * inner;
@@ -24,7 +23,7 @@ std::vector<LinkedNode> lay_out(const OctreeNodes& tree, const std::stop_token& 
   const LinkedNode unlinked{.links = {no_node, no_node, no_node, no_node, no_node, no_node}};
   nodes.push_back(unlinked);
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-    if (i % asked == 0 && stop.stop_requested()) break;
+    check.after(1);
     if (source[i] == no_node) continue;
     const OctreeNode& from = tree.nodes[source[i]];
     nodes[i].inner = from.octants != 0;
@@ -57,10 +56,11 @@ void link_children(std::vector<LinkedNode>& nodes, const LinkedNode& node) {
 }  // namespace
 
 std::vector<LinkedNode> link_neighbours(const OctreeNodes& tree, const std::stop_token& stop) {
-  std::vector<LinkedNode> nodes = lay_out(tree, stop);
+  StopCheck check(stop, "linking the octree");
+  std::vector<LinkedNode> nodes = lay_out(tree, check);
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
-    if (i % asked == 0 && stop.stop_requested()) break;
     if (nodes[i].inner) link_children(nodes, nodes[i]);
+    check.after(6);
   }
   return nodes;
 }

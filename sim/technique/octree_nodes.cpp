@@ -3,6 +3,7 @@
 #include <array>
 
 #include "detp/sim/memory.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "disc_box.hpp"
 #include "indexed_search.hpp"
 
@@ -12,7 +13,8 @@ namespace {
 class Builder {
  public:
   Builder(const Problem& problem, int depth, Insertion insertion, const std::stop_token& stop)
-      : problem_(problem), insertion_(insertion), stop_(stop) {
+      : problem_(problem), insertion_(insertion), check_(stop, "building the octree") {
+    check_.now();
     const Box box = index_box(problem);
     const glm::dvec3 size = box.size();
     tree_.depth = depth;
@@ -33,7 +35,7 @@ class Builder {
 
  private:
   void build(std::uint32_t node, const Box& box, int level, const std::vector<std::uint32_t>& discs) {
-    if (stop_.stop_requested()) return;
+    check_.after(1);
     if (level == tree_.depth) {
       tree_.nodes[node].first = static_cast<std::uint32_t>(tree_.references.size());
       tree_.nodes[node].count = static_cast<std::uint32_t>(discs.size());
@@ -62,7 +64,7 @@ class Builder {
   }
 
   /// The discs of each octant. Only those octants are looked at that the disc's bounds reach into.
-  std::array<std::vector<std::uint32_t>, 8> split(const Box& box, const std::vector<std::uint32_t>& discs) const {
+  std::array<std::vector<std::uint32_t>, 8> split(const Box& box, const std::vector<std::uint32_t>& discs) {
     std::array<std::vector<std::uint32_t>, 8> parts;
     const glm::dvec3 middle = box.centre();
     for (const std::uint32_t i : discs) {
@@ -76,6 +78,7 @@ class Builder {
                         overlaps(problem_.discs[i], octant_of(box, octant), problem_.slack)))
           parts[octant].push_back(i);
       }
+      check_.after(8);
     }
     return parts;
   }
@@ -97,7 +100,7 @@ class Builder {
 
   const Problem& problem_;
   Insertion insertion_;
-  const std::stop_token& stop_;
+  StopCheck check_;
   std::size_t listed_ = 0;       ///< in the lists of the nodes under way
   std::size_t most_listed_ = 0;  ///< at any time
   OctreeNodes tree_;

@@ -32,7 +32,7 @@ struct OctreeNodes {
 /// One eighth of a box: its upper half along axis i where bit i of the octant is set.
 [[nodiscard]] Box octant_of(const Box& box, unsigned octant);
 
-/// Builds the octree of a problem's discs. Asked to stop, it leaves out what is not yet built. Throws
+/// Builds the octree of a problem's discs. Throws Stopped if a stop was requested, and
 /// std::length_error, naming the bytes, where it would not fit the memory.
 [[nodiscard]] OctreeNodes build_octree(const Problem& problem, int depth, Insertion insertion,
                                        const std::stop_token& stop);

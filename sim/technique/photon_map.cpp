@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "detp/sim/predicates.hpp"
+#include "detp/sim/stop_check.hpp"
+#include "sort_pairs.hpp"
 #include "techniques.hpp"
 
 namespace detp::sim {
@@ -20,20 +22,25 @@ struct Photon {
   std::uint32_t ray;
 };
 
-std::vector<Photon> photons_of(std::span<const Ray> rays) {
+std::vector<Photon> photons_of(std::span<const Ray> rays, StopCheck& check) {
   std::vector<Photon> photons;
   photons.reserve(rays.size());
-  for (std::uint32_t ray = 0; ray < rays.size(); ++ray)
+  for (std::uint32_t ray = 0; ray < rays.size(); ++ray) {
     if (!rays[ray].is_line()) photons.push_back({rays[ray].origin + rays[ray].length * rays[ray].direction, ray});
+    check.after(1);
+  }
   return photons;
 }
 
-/// The photons as nanoflann wants to see them.
+/// The photons as nanoflann wants to see them. Whoever builds a tree of them looks at nothing else, so that a stop
+/// request can end that: with Stopped.
 struct Cloud {
   std::vector<Photon> photons;
+  StopCheck* building;  ///< null once the tree is built
 
   [[nodiscard]] std::size_t kdtree_get_point_count() const { return photons.size(); }
   [[nodiscard]] double kdtree_get_pt(std::size_t photon, std::size_t axis) const {
+    if (building != nullptr) building->after(1);
     return photons[photon].place[static_cast<int>(axis)];
   }
   template <class BoundingBox>
@@ -85,8 +92,12 @@ class Nearest {
 
 class PhotonMap {
  public:
-  PhotonMap(const Problem& problem, int nearest)
-      : problem_(problem), cloud_{photons_of(problem.rays)}, wanted_(static_cast<std::size_t>(nearest)) {
+  PhotonMap(const Problem& problem, int nearest, const std::stop_token& stop)
+      : problem_(problem),
+        check_(stop, "building the photon map"),
+        cloud_{photons_of(problem.rays, check_), &check_},
+        wanted_(static_cast<std::size_t>(nearest)) {
+    cloud_.building = nullptr;
     if (cloud_.photons.empty())
       throw std::invalid_argument("no ray is a segment, so that there is no photon; give the rays lengths");
     if (cloud_.photons.size() < wanted_)
@@ -98,7 +109,8 @@ class PhotonMap {
     outcome.hits.resize(problem_.discs.size());
     outcome.irradiance.resize(problem_.discs.size());
     Nearest nearest(problem_, cloud_, wanted_);
-    for (std::uint32_t disc = 0; disc < problem_.discs.size() && !outcome.stopped; ++disc) {
+    std::uint32_t disc = 0;
+    for (; disc < problem_.discs.size() && !options.stop.stop_requested(); ++disc) {
       find(problem_.discs[disc], nearest);
       const std::vector<std::uint32_t> rays = nearest.rays();
       double power = 0;
@@ -109,14 +121,24 @@ class PhotonMap {
       outcome.hits[disc] = rays.size();
       outcome.total_hits += rays.size();
       if (!rays.empty()) outcome.irradiance[disc] = density(power, nearest.square(), disc);
-      outcome.stopped = options.stop.stop_requested();
     }
-    std::sort(outcome.pairs.begin(), outcome.pairs.end());
-    outcome.counts.hits = outcome.total_hits;
+    finish(disc, options, outcome);
     if (options.count) outcome.counts.references = cloud_.photons.size();
   }
 
  private:
+  /// After that many of the discs.
+  void finish(std::uint32_t done, const RunOptions& options, Outcome& outcome) const {
+    outcome.counts.hits = outcome.total_hits;
+    outcome.progress = {problem_.rays.size(), problem_.rays.size()};
+    outcome.stopped = done < problem_.discs.size() || !sort_pairs(outcome.pairs, options.stop);
+    if (outcome.stopped) outcome.pairs.clear();
+    if (done == problem_.discs.size()) return;
+    outcome.done_discs.assign(problem_.discs.size(), false);
+    std::fill_n(outcome.done_discs.begin(), done, true);
+    keep_done_discs(outcome);
+  }
+
   void find(const Disc& disc, Nearest& nearest) const {
     nearest.start(disc);
     const double centre[3]{disc.centre.x, disc.centre.y, disc.centre.z};
@@ -131,6 +153,7 @@ class PhotonMap {
   }
 
   const Problem& problem_;
+  StopCheck check_;
   Cloud cloud_;
   std::size_t wanted_;
   Tree tree_{3, cloud_};
@@ -148,7 +171,7 @@ void run_photon_map(const Problem& problem, const PhotonMapParameters& parameter
               static_cast<double>(problem.rays.size()) * (1.5 * sizeof(Photon) + sizeof(std::uint32_t) + node) +
                   static_cast<double>(problem.discs.size()) * (sizeof(std::uint64_t) + sizeof(double)),
               problem, outcome);
-  const PhotonMap map(problem, parameters.nearest);
+  const PhotonMap map(problem, parameters.nearest, options.stop);
   outcome.seconds.build = watch.lap();
   map.estimate(options, outcome);
   outcome.seconds.search = watch.lap();

@@ -10,7 +10,7 @@ std::unique_ptr<Prepared> prepare(const Problem& problem, const Candidate& candi
     case Technique::grid:
       return prepare_grid(problem, std::get<GridParameters>(candidate.parameters), options.stop);
     case Technique::bvh:
-      return prepare_bvh(problem, std::get<BvhParameters>(candidate.parameters), options.threads);
+      return prepare_bvh(problem, std::get<BvhParameters>(candidate.parameters), options.threads, options.stop);
     case Technique::bsp:
       return prepare_bsp(problem, std::get<BspParameters>(candidate.parameters), options.stop);
     default:

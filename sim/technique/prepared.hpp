@@ -23,7 +23,7 @@ class Prepared {
 };
 
 /// Builds the index of a technique that has one, to be searched with these options; null for all others. Throws as run
-/// does.
+/// does, and Stopped if a stop was requested.
 [[nodiscard]] std::unique_ptr<Prepared> prepare(const Problem& problem, const Candidate& candidate,
                                                 const RunOptions& options);
 
@@ -32,7 +32,7 @@ class Prepared {
 [[nodiscard]] std::unique_ptr<Prepared> prepare_grid(const Problem& problem, const GridParameters& parameters,
                                                      const std::stop_token& stop);
 [[nodiscard]] std::unique_ptr<Prepared> prepare_bvh(const Problem& problem, const BvhParameters& parameters,
-                                                    int threads);
+                                                    int threads, const std::stop_token& stop);
 [[nodiscard]] std::unique_ptr<Prepared> prepare_bsp(const Problem& problem, const BspParameters& parameters,
                                                     const std::stop_token& stop);
 

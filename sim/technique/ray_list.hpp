@@ -7,6 +7,7 @@
 
 #include "detp/sim/hilbert.hpp"
 #include "detp/sim/lebesgue.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "hit_collector.hpp"
 
 /// Lists of rays, which spheres cull: the work that all techniques with spheres share.
@@ -31,26 +32,30 @@ using RayList = std::vector<ListedRay>;
 
 /// Lists in `inside` those rays of `around` that come within `slack` of the sphere: all that hit a disc in it, if
 /// `around` holds them.
-inline void cull(const RayList& around, const Sphere& sphere, double slack, RayList& inside) {
+inline void cull(const RayList& around, const Sphere& sphere, double slack, RayList& inside, StopCheck& check) {
   const Sphere grown{sphere.centre, sphere.radius + slack};
   inside.clear();
   inside.reserve(around.size());  // pages are touched only as far as it is filled
-  for (const ListedRay& listed : around)
+  for_each_checked(std::span(around), check, [&](const ListedRay& listed) {
     if (hits(listed.ray, grown)) inside.push_back(listed);
+  });
 }
 
 /// Tests disc number `index` against the listed rays.
 template <bool counting>
 void test_disc(const RayList& rays, const Disc& disc, std::uint32_t index, HitCollector& collector,
-               Tally<counting>& tally) {
-  for (const auto& [ray, number] : rays)
-    if (collector.decide(ray, disc)) collector.keep(number, index);
+               Tally<counting>& tally, StopCheck& check) {
+  for_each_checked(std::span(rays), check, [&](const ListedRay& listed) {
+    if (collector.decide(listed.ray, disc)) collector.keep(listed.index, index);
+  });
   tally.add(&Counts<std::uint64_t>::disc_tests, rays.size());
 }
 
-/// The discs' numbers in that order of their centres; by default along the Lebesgue curve.
+/// The discs' numbers in that order of their centres; by default along the Lebesgue curve. Throws Stopped if a stop was
+/// requested.
 [[nodiscard]] inline std::vector<std::uint32_t> along_curve(std::span<const Disc> discs,
-                                                            SampleOrder order = SampleOrder::lebesgue) {
+                                                            SampleOrder order = SampleOrder::lebesgue,
+                                                            const std::stop_token& stop = {}) {
   if (order == SampleOrder::none) {
     std::vector<std::uint32_t> as_given(discs.size());
     std::iota(as_given.begin(), as_given.end(), 0U);
@@ -59,7 +64,7 @@ void test_disc(const RayList& rays, const Disc& disc, std::uint32_t index, HitCo
   std::vector<glm::dvec3> centres;
   centres.reserve(discs.size());
   for (const Disc& disc : discs) centres.push_back(disc.centre);
-  return order == SampleOrder::hilbert ? hilbert_order(centres) : lebesgue_order(centres);
+  return order == SampleOrder::hilbert ? hilbert_order(centres, stop) : lebesgue_order(centres, stop);
 }
 
 }  // namespace detp::sim

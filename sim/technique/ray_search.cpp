@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "detp/sim/stopped.hpp"
 #include "detp/sim/threads.hpp"
 #include "hit_collector.hpp"
 
@@ -28,9 +29,7 @@ class Chunks {
 
   /// False after the last one, or when asked to stop.
   bool next(Chunk& chunk) {
-    if (begun_ >= rays_) return false;
-    stopped_ = stop_.stop_requested();
-    if (stopped_) return false;
+    if (begun_ >= rays_ || stop_.stop_requested()) return false;
     const std::size_t end = std::min(begun_ + chunk_rays, rays_);
     chunk = {static_cast<std::uint32_t>(begun_), static_cast<std::uint32_t>(end),
              &buffers_[begun_ / chunk_rays % buffers_.size()]};
@@ -39,32 +38,45 @@ class Chunks {
     return true;
   }
 
-  [[nodiscard]] bool stopped() const { return stopped_; }
-
  private:
   std::size_t rays_;
   std::size_t begun_ = 0;
   std::vector<std::vector<Pair>> buffers_;
   const std::stop_token& stop_;
-  bool stopped_ = false;
 };
 
-void add(const Chunk& chunk, HitCollector& collector) {
-  for (const Pair& hit : *chunk.hits) collector.keep(hit.ray, hit.disc);
-}
+/// Adds up the hits of one chunk after another.
+class Sum {
+ public:
+  explicit Sum(HitCollector& collector) : collector_(collector) {}
 
-Counts<std::uint64_t> search_alone(Chunks& chunks, const MakeRaySearch& make, HitCollector& collector) {
+  void add(const Chunk& chunk) {
+    for (const Pair& hit : *chunk.hits) collector_.keep(hit.ray, hit.disc);
+    batches_.add(chunk.last - chunk.first, chunk.hits->size());
+  }
+
+  [[nodiscard]] const HitBatches& batches() const { return batches_; }
+
+ private:
+  HitCollector& collector_;
+  HitBatches batches_;
+};
+
+Counts<std::uint64_t> search_alone(Chunks& chunks, const MakeRaySearch& make, Sum& sum) {
   const std::unique_ptr<RaySearch> search = make();
-  for (Chunk chunk; chunks.next(chunk);) {
-    search->search(chunk.first, chunk.last, *chunk.hits);
-    add(chunk, collector);
+  try {
+    for (Chunk chunk; chunks.next(chunk);) {
+      search->search(chunk.first, chunk.last, *chunk.hits);
+      sum.add(chunk);
+    }
+  } catch (const Stopped&) {  // the chunk under way is left out
   }
   return search->counts();
 }
 
 /// A chunk leaves the pipeline after all before it, so that its buffer is free when its turn comes again.
 Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, const MakeRaySearch& make,
-                                      HitCollector& collector) {
+                                      Sum& total) {
   using namespace oneapi::tbb;
   enumerable_thread_specific<std::unique_ptr<RaySearch>> searches(make);
   const auto cut = make_filter<void, Chunk>(filter_mode::serial_in_order, [&](flow_control& flow) {
@@ -77,8 +89,11 @@ Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, con
     return chunk;
   });
   const auto sum =
-      make_filter<Chunk, void>(filter_mode::serial_in_order, [&](const Chunk& chunk) { add(chunk, collector); });
-  parallel_pipeline(under_way, cut & search & sum);
+      make_filter<Chunk, void>(filter_mode::serial_in_order, [&](const Chunk& chunk) { total.add(chunk); });
+  try {
+    parallel_pipeline(under_way, cut & search & sum);
+  } catch (const Stopped&) {  // chunks under way are left out
+  }
   Counts<std::uint64_t> counts;
   for (const std::unique_ptr<RaySearch>& one : searches) counts += one->counts();
   return counts;
@@ -91,12 +106,13 @@ void search_rays(const Problem& problem, const RunOptions& options, const MakeRa
   const std::size_t under_way = threads == 1 ? 1 : chunks_a_thread * static_cast<std::size_t>(threads);
   HitCollector collector(problem, options);
   Chunks chunks(problem.rays.size(), under_way, options.stop);
+  Sum sum(collector);
   if (threads == 1)
-    outcome.counts = search_alone(chunks, make, collector);
+    outcome.counts = search_alone(chunks, make, sum);
   else
-    on_threads(threads, [&] { outcome.counts = search_together(chunks, under_way, make, collector); });
-  outcome.stopped = chunks.stopped();
-  std::move(collector).give(outcome);
+    on_threads(threads, [&] { outcome.counts = search_together(chunks, under_way, make, sum); });
+  outcome.batches = sum.batches();
+  std::move(collector).give(outcome.batches.rays, outcome);
 }
 
 }  // namespace detp::sim

@@ -14,7 +14,7 @@ class RaySearch {
  public:
   virtual ~RaySearch() = default;
 
-  /// Appends the hits of rays first … last - 1; those of any one disc in the order of the rays.
+  /// Appends the hits of rays first … last - 1; those of any one disc in the order of the rays. May throw Stopped.
   virtual void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) = 0;
 
   [[nodiscard]] virtual Counts<std::uint64_t> counts() const = 0;
@@ -22,7 +22,8 @@ class RaySearch {
 
 using MakeRaySearch = std::function<std::unique_ptr<RaySearch>()>;
 
-/// Searches all rays of the problem, asking for a stop between chunks of them, and fills in the outcome.
+/// Searches all rays of the problem and fills in the outcome. Checks for a stop request between chunks of rays; a
+/// stopped run keeps the hits of all chunks before the first that was not finished.
 ///
 /// Chunks of 64 rays are searched by options.threads threads at once, each with a search of its own. Their hits are
 /// added to the totals chunk after chunk, while later ones are searched, so that powers are summed in the rays' order

@@ -15,7 +15,7 @@ void search(const Problem& problem, const SphereCacheParameters& parameters, Sph
   need_memory(fmt::format("{} spheres and their lists of rays", SphereWalk::levels(problem, parameters)),
               walk_bytes(problem, options, lists_of(problem, parameters), plain), problem, outcome);
   Stopwatch watch;
-  std::vector<std::uint32_t> order = along_curve(problem.discs, parameters.order);
+  std::vector<std::uint32_t> order = along_curve(problem.discs, parameters.order, options.stop);
   outcome.seconds.order = watch.lap();
   const std::size_t sorted = parameters.order == SampleOrder::none ? 0 : order.size();
   if (plain) {

@@ -23,7 +23,7 @@ struct Reach {
   glm::dvec3 towards{0};  ///< unit, or zero from the child's own centre
 };
 
-Reach farthest_reach(std::span<const Node> children, const glm::dvec3& from) {
+Reach farthest_reach(std::span<const Node> children, const glm::dvec3& from, StopCheck& check) {
   double farthest = -1;
   glm::dvec3 offset{0};
   for (const Node& child : children) {
@@ -33,12 +33,14 @@ Reach farthest_reach(std::span<const Node> children, const glm::dvec3& from) {
       farthest = distance;
       offset = away;
     }
+    check.add(1);
   }
+  check.after(0);
   const double length = glm::length(offset);
   return {farthest, length > 0 ? offset / length : glm::dvec3{0}};
 }
 
-Node around(std::span<const Node> children) {
+Node around(std::span<const Node> children, StopCheck& check) {
   constexpr int steps = 6;
   constexpr double first_step = 0.1;  // of the distance
   constexpr double shrink = 0.7;
@@ -51,7 +53,7 @@ Node around(std::span<const Node> children) {
   glm::dvec3 centre = node.box.centre();
   double step = first_step;
   for (int i = 0; i <= steps; ++i, step *= shrink) {
-    const Reach reach = farthest_reach(children, centre);
+    const Reach reach = farthest_reach(children, centre, check);
     if (reach.distance < node.sphere.radius) node.sphere = {centre, reach.distance};
     centre += step * reach.distance * reach.towards;
   }
@@ -59,11 +61,13 @@ Node around(std::span<const Node> children) {
 }
 
 /// The nodes one level above: one for each `run` in a row.
-std::vector<Node> level_above(const std::vector<Node>& below, std::size_t run) {
+std::vector<Node> level_above(const std::vector<Node>& below, std::size_t run, StopCheck& check) {
   std::vector<Node> level;
   level.reserve((below.size() - 1) / run + 1);
-  for (std::size_t first = 0; first < below.size(); first += run)
-    level.push_back(around(std::span(below).subspan(first, std::min(run, below.size() - first))));
+  for (std::size_t first = 0; first < below.size(); first += run) {
+    level.push_back(around(std::span(below).subspan(first, std::min(run, below.size() - first)), check));
+    check.after(1);
+  }
   return level;
 }
 
@@ -83,53 +87,70 @@ class Search {
         parameters_(parameters),
         tree_(tree),
         order_(order),
-        options_(options),
+        check_(options.stop, "searching"),
         collector_(problem, options),
         lists_(tree.levels.size()) {}
 
   void run(Outcome& outcome) && {
-    visit(tree_.levels.size() - 1, 0, list_of(problem_.rays));
+    collector_.take_discs();
+    try {
+      visit(tree_.levels.size() - 1, 0, list_of(problem_.rays));
+      place_ = order_.size();
+    } catch (const Stopped&) {  // the disc or node under way is left out
+    }
     tally_.add(&Counts<std::uint64_t>::rebuilds, tree_.nodes());
     tally_.add(&Counts<std::uint64_t>::sorted, order_.size());
     outcome.counts = tally_.counts();
-    outcome.stopped = stopped_;
-    std::move(collector_).give(outcome);
+    if (place_ < order_.size())
+      std::move(collector_).give_discs(std::span(order_).first(place_), outcome);
+    else
+      std::move(collector_).give(problem_.rays.size(), outcome);
   }
 
  private:
   void visit(std::size_t level, std::size_t number, const RayList& outer) {
     RayList& inside = lists_[level];
-    cull(outer, tree_.levels[level][number], problem_.slack, inside);
+    check_.after(1);
+    cull(outer, tree_.levels[level][number], problem_.slack, inside, check_);
     tally_.add(&Counts<std::uint64_t>::sphere_tests, outer.size());
     tally_.add(&Counts<std::uint64_t>::copies, inside.size());
-    if (inside.empty()) return;
+    if (inside.empty()) {
+      place_ = std::min(order_.size(), (number + 1) * discs_below(level));
+      return;
+    }
     level == 0 ? test_discs(number, inside) : visit_children(level, number, inside);
+  }
+
+  /// Discs below a node of that level, if it and all below are full.
+  std::size_t discs_below(std::size_t level) const {
+    auto discs = static_cast<std::size_t>(parameters_.leaf);
+    for (std::size_t i = 0; i < level && discs < order_.size(); ++i)
+      discs *= static_cast<std::size_t>(parameters_.fan_out);
+    return discs;
   }
 
   void visit_children(std::size_t level, std::size_t number, const RayList& inside) {
     const auto fan_out = static_cast<std::size_t>(parameters_.fan_out);
     const std::size_t end = std::min((number + 1) * fan_out, tree_.levels[level - 1].size());
-    for (std::size_t child = number * fan_out; child < end && !stopped_; ++child) visit(level - 1, child, inside);
+    for (std::size_t child = number * fan_out; child < end; ++child) visit(level - 1, child, inside);
   }
 
   void test_discs(std::size_t number, const RayList& inside) {
     const auto leaf = static_cast<std::size_t>(parameters_.leaf);
     const std::size_t end = std::min((number + 1) * leaf, order_.size());
-    for (std::size_t i = number * leaf; i < end && !stopped_; ++i) {
-      test_disc(inside, problem_.discs[order_[i]], order_[i], collector_, tally_);
-      stopped_ = options_.stop.stop_requested();
-    }
+    for (place_ = number * leaf; place_ < end; ++place_)
+      test_disc(inside, problem_.discs[order_[place_]], order_[place_], collector_, tally_, check_);
   }
 
   const Problem& problem_;
   const SphereTreeParameters& parameters_;
   const SphereTree& tree_;
   const std::vector<std::uint32_t>& order_;
-  const RunOptions& options_;
+  StopCheck check_;
   HitCollector collector_;
   Tally<counting> tally_;
   std::vector<RayList> lists_;  ///< one a level: children are visited one after another
-  bool stopped_ = false;
+  std::size_t place_ = 0;       ///< the discs before it in the order are done
 };
 
 }  // namespace
@@ -141,16 +162,17 @@ std::size_t SphereTree::nodes() const {
 }
 
 SphereTree make_sphere_tree(std::span<const Disc> discs, std::span<const std::uint32_t> order,
-                            const SphereTreeParameters& parameters) {
+                            const SphereTreeParameters& parameters, const std::stop_token& stop) {
   check({Technique::sphere_tree, parameters});
   require_count("number of discs", static_cast<double>(discs.size()), 1, 1e18);
   std::vector<Node> nodes;
   nodes.reserve(order.size());
   for (const std::uint32_t i : order)
     nodes.push_back({{discs[i].centre, discs[i].radius}, {discs[i].centre, discs[i].centre}});
+  StopCheck check_stop(stop, "building the sphere tree");
   SphereTree tree;
   for (auto run = static_cast<std::size_t>(parameters.leaf);; run = static_cast<std::size_t>(parameters.fan_out)) {
-    nodes = level_above(nodes, run);
+    nodes = level_above(nodes, run, check_stop);
     tree.levels.push_back(spheres_of(nodes));
     if (nodes.size() == 1) return tree;
   }
@@ -164,9 +186,9 @@ void run_sphere_tree(const Problem& problem, const SphereTreeParameters& paramet
   }
   need_memory("a tree of spheres and lists of rays", sphere_tree_bytes(problem, options, parameters), problem, outcome);
   Stopwatch watch;
-  const std::vector<std::uint32_t> order = along_curve(problem.discs);
+  const std::vector<std::uint32_t> order = along_curve(problem.discs, SampleOrder::lebesgue, options.stop);
   outcome.seconds.order = watch.lap();
-  const SphereTree tree = make_sphere_tree(problem.discs, order, parameters);
+  const SphereTree tree = make_sphere_tree(problem.discs, order, parameters, options.stop);
   outcome.seconds.build = watch.lap();
   options.count ? Search<true>(problem, parameters, tree, order, options).run(outcome)
                 : Search<false>(problem, parameters, tree, order, options).run(outcome);

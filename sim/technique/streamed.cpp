@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "detp/sim/memory.hpp"
+#include "detp/sim/stopped.hpp"
 #include "detp/sim/threads.hpp"
 #include "prepared.hpp"
 #include "techniques.hpp"
@@ -28,7 +29,11 @@ class Stream {
     const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());
     streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, source.size()));
     foretell(0);
-    prepared_ = prepare(problem_, candidate_, run_);
+    try {
+      prepared_ = prepare(problem_, candidate_, run_);
+    } catch (const Stopped&) {
+      streamed_.outcome.stopped = true;
+    }
     streamed_.outcome.seconds.build = watch.lap();
     foretell(prepared_ ? static_cast<double>(prepared_->bytes()) : 0);
     totals_.resize(discs.size());
@@ -38,11 +43,17 @@ class Stream {
 
   Streamed go() && {
     Outcome& outcome = streamed_.outcome;
-    for (std::uint64_t first = 0; first < source_.size() && !outcome.stopped; first += block_.size()) {
-      if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(source_.size()));
-      outcome.stopped = run_.stop.stop_requested();
-      if (!outcome.stopped) search(first);
+    outcome.progress.of = source_.size();
+    try {
+      for (std::uint64_t first = 0; first < source_.size() && !outcome.stopped; first += block_.size()) {
+        if (options_.progress) options_.progress(static_cast<double>(first) / static_cast<double>(source_.size()));
+        outcome.stopped = run_.stop.stop_requested();
+        if (!outcome.stopped) search(first);
+      }
+    } catch (const Stopped&) {  // while rays were made
+      outcome.stopped = true;
     }
+    if (outcome.stopped) outcome.pairs.clear();
     finish(totals_, problem_.discs, outcome);
     return std::move(streamed_);
   }
@@ -71,7 +82,7 @@ class Stream {
     Stopwatch watch;
     const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(block_.size(), source_.size() - first));
     const std::span<Ray> rays = std::span(block_).first(count);
-    on_threads(thread_count(run_.threads), [&] { source_.read(first, rays); });
+    on_threads(thread_count(run_.threads), [&] { source_.read(first, rays, run_.stop); });
     streamed_.read_seconds += watch.lap();
     set_rays(problem_, rays, options_.run.threads, first);
     streamed_.check_seconds += watch.lap();
@@ -83,15 +94,17 @@ class Stream {
       part = run(problem_, candidate_, run_);
     }
     streamed_.bytes = std::max(streamed_.bytes, own_bytes_ + part.bytes);
-    add(std::move(part), static_cast<std::uint32_t>(first));
+    add(std::move(part), static_cast<std::uint32_t>(first), count);
   }
 
-  void add(Outcome part, std::uint32_t first) {
+  void add(Outcome part, std::uint32_t first, std::size_t rays) {
     Outcome& sum = streamed_.outcome;
     if (prepared_) sum.counts.references = sum.counts.placements = 0;  // of the one index, told by each search
     sum.counts += part.counts;
     sum.total_hits += part.total_hits;
     sum.stopped = part.stopped;
+    sum.progress.done += part.stopped ? part.progress.done : rays;
+    sum.batches += part.batches;
     sum.seconds.order += part.seconds.order;
     sum.seconds.build += part.seconds.build;
     sum.seconds.search += part.seconds.search;

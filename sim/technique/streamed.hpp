@@ -33,7 +33,7 @@ struct Streamed {
 /// What run gives, bit for bit (hits, irradiance, pairs), whatever the block. Indices over the discs are built once;
 /// techniques that sort discs and cull lists of rays do so for each block, which their counts and times show.
 ///
-/// The stop is asked between blocks too; what was found until then is given, and told to be partial. Throws as
+/// A stop request ends it while it makes rays, too; what is given is then what the first rays hit. Throws as
 /// make_problem and run do (but there may be more than 2³² rays, unless pairs are asked for), and std::length_error,
 /// naming the bytes, before it would take more than the memory budget. Of what is not foretold, pairs (8 bytes each)
 /// may be large, and lists of plain runs (72 bytes for each ray of each list).

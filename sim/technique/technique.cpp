@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "detp/sim/memory.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/threads.hpp"
 #include "techniques.hpp"
 
@@ -46,10 +47,21 @@ void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome)
   }
 }
 
-Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
-  check(candidate);
-  check_options(options, problem);
-  Outcome outcome;
+void keep_done_discs(Outcome& outcome) {
+  outcome.progress = {0, outcome.done_discs.size(), "discs"};
+  outcome.total_hits = 0;
+  for (std::size_t disc = 0; disc < outcome.done_discs.size(); ++disc) {
+    if (!outcome.done_discs[disc]) outcome.hits[disc] = 0;
+    if (!outcome.done_discs[disc]) outcome.irradiance[disc] = 0;
+    outcome.progress.done += outcome.done_discs[disc] ? 1 : 0;
+    outcome.total_hits += outcome.hits[disc];
+  }
+  outcome.counts.hits = outcome.total_hits;
+}
+
+namespace {
+
+void run_technique(const Problem& problem, const Candidate& candidate, const RunOptions& options, Outcome& outcome) {
   switch (candidate.technique) {
     case Technique::brute_force:
       run_brute_force(problem, options, outcome);
@@ -81,6 +93,29 @@ Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions
     case Technique::photon_map:
       run_photon_map(problem, std::get<PhotonMapParameters>(candidate.parameters), options, outcome);
       break;
+  }
+}
+
+}  // namespace
+
+void give_nothing(const Problem& problem, const RunOptions& options, Outcome& outcome) {
+  const Phases seconds = outcome.seconds;
+  outcome = {};
+  outcome.seconds = seconds;
+  outcome.stopped = true;
+  outcome.progress.of = problem.rays.size();
+  if (options.totals == nullptr) finish(Totals(problem.discs.size()), problem.discs, outcome);
+}
+
+Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
+  check(candidate);
+  check_options(options, problem);
+  Outcome outcome;
+  try {
+    StopCheck(options.stop, "beginning").now();
+    run_technique(problem, candidate, options, outcome);
+  } catch (const Stopped&) {  // before the search
+    give_nothing(problem, options, outcome);
   }
   return outcome;
 }

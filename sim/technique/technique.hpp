@@ -8,6 +8,8 @@
 
 #include "detp/model/vocabulary.hpp"
 #include "detp/sim/geometry.hpp"
+#include "detp/sim/progress.hpp"
+#include "hit_batches.hpp"
 #include "totals.hpp"
 
 /// One question, many techniques: which rays cross which discs? All answers but the published walk's are the same.
@@ -81,7 +83,7 @@ struct RunOptions {
   bool count = true;          ///< fill in Outcome::counts; a timing run turns it off and pays nothing for it
   bool pairs = false;         ///< fill in Outcome::pairs
   bool plain = false;         ///< in doubles, one ray and one disc at a time: the simple version, to compare with
-  std::stop_token stop = {};  ///< asked between discs or blocks of rays
+  std::stop_token stop = {};  ///< checked in every phase, after at most StopCheck::most_work units of work
   /// 0: all cores; at most 4096. What is found and counted does not depend on it. Techniques that trace rays one by one
   /// use them all, those that cull lists of rays one.
   int threads = 1;
@@ -106,10 +108,16 @@ struct Outcome {
   std::uint64_t total_hits = 0;
   Counts<std::uint64_t> counts;       ///< all zero unless asked for (`hits` always holds total_hits)
   std::vector<SphereCounts> spheres;  ///< S₁ … S_k of a sphere cache; empty unless counting
-  std::vector<Pair> pairs;            ///< sorted by ray, then disc; empty unless asked for
+  std::vector<Pair> pairs;            ///< sorted by ray, then disc; empty unless asked for, and of a stopped run
   double bytes = 0;  ///< predicted memory at its peak, rays, discs and pairs left out; checked before it was taken
   Phases seconds;
-  bool stopped = false;  ///< the stop was asked for: what is here is partial
+  bool stopped = false;  ///< a stop request ended the run: hits and irradiance are partial
+  /// How far the run came. In rays: hits and irradiance are those of the first `done` rays, none of whose hits is
+  /// missing. In discs: `done` discs, those marked in done_discs, were tested against all rays; hits and irradiance of
+  /// the others are 0 and say nothing.
+  Progress progress;
+  std::vector<bool> done_discs;  ///< empty unless progress is in discs
+  HitBatches batches;            ///< the hits of the rays done, batch by batch; empty where progress is in discs
 };
 
 /// Runs one technique. Throws std::invalid_argument for a problem that make_problem did not make, parameters out of
@@ -119,5 +127,8 @@ struct Outcome {
 
 /// Fills in the outcome's hits and irradiance from totals, one for each disc.
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
+
+/// Of a stopped outcome whose done_discs are marked: drops the hits of all other discs, and sets its progress and total.
+void keep_done_discs(Outcome& outcome);
 
 }  // namespace detp::sim

@@ -6,7 +6,8 @@
 
 #include "technique.hpp"
 
-/// The techniques behind `run`. Each fills in an outcome; its parameters have been checked.
+/// The techniques behind `run`. Each fills in an outcome; its parameters have been checked. One that is stopped before
+/// it searches (while it sorts or builds) throws Stopped.
 namespace detp::sim {
 
 /// Seconds since it was made or last read.
@@ -32,6 +33,9 @@ void need_memory(std::string_view what, double bytes, const Problem& problem, Ou
 
 /// Bytes of a run's own totals, hits and irradiance; none where its totals are another's.
 [[nodiscard]] double found_bytes(const Problem& problem, const RunOptions& options);
+
+/// The outcome of a run that was stopped before it searched.
+void give_nothing(const Problem& problem, const RunOptions& options, Outcome& outcome);
 
 /// Every disc against every ray.
 void run_brute_force(const Problem& problem, const RunOptions& options, Outcome& outcome);

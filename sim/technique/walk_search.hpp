@@ -22,30 +22,40 @@ void search_along_counting(ListWalk& walk, const Problem& problem, std::span<con
                            const RunOptions& options, Outcome& outcome) {
   HitCollector collector(problem, options);
   Tally<counting> tally;
+  StopCheck check(options.stop, "searching");
   std::vector<RayList> lists(static_cast<std::size_t>(walk.deepest()) + 1);
   std::vector<SphereCounts> events(lists.size() - 1);
   lists[0] = list_of(problem.rays);
-  for (const std::uint32_t d : order) {
+  collector.take_discs();
+  std::size_t done = 0;
+  const auto take = [&](std::uint32_t d) {
     const Disc disc = problem.discs[d];
     for (int level = walk.enter(disc); level <= walk.innermost(); ++level) {
       const auto i = static_cast<std::size_t>(level);
-      cull(lists[i - 1], walk.sphere(level), problem.slack, lists[i]);
+      check.after(1);
+      cull(lists[i - 1], walk.sphere(level), problem.slack, lists[i], check);
       if constexpr (counting) {
         ++events[i - 1].rebuilds;
         events[i - 1].tests += lists[i - 1].size();
         events[i - 1].listed += lists[i].size();
       }
     }
-    test_disc(lists[static_cast<std::size_t>(walk.innermost())], disc, d, collector, tally);
-    outcome.stopped = options.stop.stop_requested();
-    if (outcome.stopped) break;
+    check.after(1);
+    test_disc(lists[static_cast<std::size_t>(walk.innermost())], disc, d, collector, tally, check);
+  };
+  try {
+    for (; done < order.size(); ++done) take(order[done]);
+  } catch (const Stopped&) {  // the disc under way is left out
   }
   outcome.counts = tally.counts();
   if constexpr (counting) {
     add_spheres(events, outcome.counts);
     outcome.spheres = std::move(events);
   }
-  std::move(collector).give(outcome);
+  if (done < order.size())
+    std::move(collector).give_discs(order.first(done), outcome);
+  else
+    std::move(collector).give(problem.rays.size(), outcome);
 }
 
 inline void search_along(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,

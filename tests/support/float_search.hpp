@@ -41,8 +41,7 @@ std::vector<std::uint64_t> count_hits(const Floats& floats, const sim::stream::F
                                        .segments = floats.traits.segments,
                                        .pairs = false,
                                        .hits = hits.data(),
-                                       .totals = nullptr,
-                                       .stop = {}};
+                                       .totals = nullptr};
   sim::stream::Worker worker;
   search(block, worker);
   std::vector<std::uint64_t> sums(hits.size());

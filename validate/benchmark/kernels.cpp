@@ -88,8 +88,7 @@ class Scene {
             .segments = segments,
             .pairs = false,
             .hits = hits_.data(),
-            .totals = nullptr,
-            .stop = {}};
+            .totals = nullptr};
   }
 
   [[nodiscard]] const std::vector<Ray>& rays() const { return rays_; }

@@ -1,6 +1,6 @@
 #include "interruption.hpp"
 
-#include <chrono>
+#include <algorithm>
 #include <condition_variable>
 #include <csignal>
 #include <cstdlib>
@@ -14,12 +14,19 @@ namespace {
 /// What ends the wait for signals when the program ends; by default it does nothing, so that no one else misses it.
 constexpr int wake_up = SIGURG;
 
+constexpr double longest = 1e9;  // seconds: what a clock can add to its time without overflow
+
+bool ignored(int signal) {
+  struct sigaction action {};
+  return sigaction(signal, nullptr, &action) == 0 && (action.sa_flags & SA_SIGINFO) == 0 &&
+         action.sa_handler == SIG_IGN;
+}
+
 sigset_t watched_signals() {
   sigset_t set;
   sigemptyset(&set);
-  sigaddset(&set, SIGINT);
-  sigaddset(&set, SIGTERM);
-  sigaddset(&set, wake_up);
+  for (const int signal : {SIGINT, SIGTERM, wake_up}) sigaddset(&set, signal);
+  if (!ignored(SIGHUP)) sigaddset(&set, SIGHUP);
   return set;
 }
 
@@ -28,29 +35,43 @@ sigset_t watched_signals() {
 Interruption::Interruption() {
   const sigset_t set = watched_signals();
   pthread_sigmask(SIG_BLOCK, &set, nullptr);
-  signals_ = std::jthread([stop = stop_, set](const std::stop_token& end) mutable {
+  signals_ = std::jthread([this, set](const std::stop_token& end) {
     const std::stop_callback wake(end, [self = pthread_self()] { pthread_kill(self, wake_up); });
+    bool second = false;
     while (!end.stop_requested()) {
       const int signal = sigwaitinfo(&set, nullptr);
       if (signal < 0 || signal == wake_up) continue;
-      if (stop.stop_requested()) {
+      if (std::exchange(second, true)) {
         sim::remove_all_part_files_for_good();
         std::_Exit(130);
       }
-      stop.request_stop();
+      request();
     }
   });
 }
 
 void Interruption::limit(double seconds) {
   if (!(seconds > 0)) return;
-  clock_ = std::jthread([stop = stop_, seconds](const std::stop_token& end) mutable {
+  const auto end_of_time = start_ + std::chrono::duration_cast<Clock::duration>(
+                                        std::chrono::duration<double>(std::min(seconds, longest)));
+  clock_ = std::jthread([this, end_of_time](const std::stop_token& end) {
     std::mutex mutex;
     std::condition_variable_any never;
     std::unique_lock lock(mutex);
-    never.wait_for(lock, end, std::chrono::duration<double>(seconds), [] { return false; });
-    if (!end.stop_requested()) stop.request_stop();
+    never.wait_until(lock, end, end_of_time, [] { return false; });
+    if (!end.stop_requested()) request();
   });
+}
+
+double Interruption::seconds_since_request() const {
+  const Clock::time_point requested = requested_;
+  return requested == Clock::time_point{} ? 0 : std::chrono::duration<double>(Clock::now() - requested).count();
+}
+
+void Interruption::request() {
+  Clock::time_point none{};
+  requested_.compare_exchange_strong(none, Clock::now());
+  stop_.request_stop();
 }
 
 }  // namespace detp::cli

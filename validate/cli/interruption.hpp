@@ -1,24 +1,36 @@
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <stop_token>
 #include <thread>
 
 namespace detp::cli {
 
-/// Turns Ctrl-C, a termination signal or the end of a time limit into a stop that is asked for, so that a command can
-/// print what it has. A second Ctrl-C ends the program at once.
+/// Turns Ctrl-C (SIGINT), SIGTERM, SIGHUP or the end of a time limit into a stop request, so that a command can print
+/// what it has. A second signal ends the program at once. A SIGHUP that was ignored when the program started (nohup)
+/// stays so.
 ///
 /// To be made before any other thread: they inherit that the signals are not theirs.
 class Interruption {
  public:
   Interruption();
 
-  /// Starts the clock: 0 or less is no limit.
+  /// The time limit, in seconds since this was made. 0 or less is no limit.
   void limit(double seconds);
 
   [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
 
+  /// Seconds since the stop request; 0 where there was none.
+  [[nodiscard]] double seconds_since_request() const;
+
  private:
+  using Clock = std::chrono::steady_clock;
+
+  void request();
+
+  Clock::time_point start_ = Clock::now();
+  std::atomic<Clock::time_point> requested_ = Clock::time_point{};
   std::stop_source stop_;
   std::jthread signals_;
   std::jthread clock_;

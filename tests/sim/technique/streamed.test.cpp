@@ -48,7 +48,9 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
 class Understated final : public RaySource {
  public:
   std::uint64_t size() const override { return rays().size(); }
-  void read(std::uint64_t first, std::span<Ray> block) const override { RaysInMemory(rays()).read(first, block); }
+  void read(std::uint64_t first, std::span<Ray> block, const std::stop_token&) const override {
+    RaysInMemory(rays()).read(first, block);
+  }
   double farthest_from(const glm::dvec3& point) const override {
     return 0.9 * RaysInMemory(rays()).farthest_from(point);
   }

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <stop_token>
+#include <string>
+
+#include "stopped.hpp"
+
+/// Checks for a stop request from inside a loop, so often that the work between two checks is bounded.
+namespace detp::sim {
+
+/// What a test sees of the checks.
+struct WorkLog {
+  std::atomic<std::uint64_t> total = 0;    ///< units of work reported
+  std::atomic<std::uint64_t> largest = 0;  ///< the most between two checks
+  std::function<void(std::uint64_t total)> seen = {};  ///< called at each check, before the stop request is looked at
+
+  void add(std::uint64_t work) {
+    total += work;
+    if (seen) seen(total);
+    std::uint64_t known = largest;
+    while (known < work && !largest.compare_exchange_weak(known, work)) {
+    }
+  }
+};
+
+/// Where checks are logged: null except in the tests that count work.
+inline std::atomic<WorkLog*> work_log = nullptr;
+
+/// Adds up the work that a loop reports, and checks for a stop request each time that `most_work` units have come
+/// together. A unit is what takes 1 ns to 1 µs: a test of a ray against a disc, a disc put into a cell, a photon's
+/// bounce, a vector of rays against a box. Loops report pieces of at most `most_work` units, so that there are fewer
+/// than twice as many between two checks.
+///
+/// For one thread; a loop on several threads has one for each.
+class StopCheck {
+ public:
+  static constexpr std::uint64_t most_work = std::uint64_t{1} << 16;
+
+  /// `doing` is for the message of Stopped: "building the octree".
+  explicit StopCheck(std::stop_token stop = {}, const char* doing = "working") : stop_(std::move(stop)), doing_(doing) {}
+  /// Reports work; does not check.
+  void add(std::uint64_t work) { work_ += work; }
+
+  /// Reports work; whether a stop was requested, as far as is known: once true, always true.
+  [[nodiscard]] bool requested_after(std::uint64_t work) {
+    work_ += work;
+    return work_ >= most_work && requested();
+  }
+
+  /// Reports work; throws Stopped if a stop was requested.
+  void after(std::uint64_t work) {
+    if (requested_after(work)) stop_now();
+  }
+
+  /// Checks now.
+  [[nodiscard]] bool requested() {
+    if (stopped_) return true;
+    if (WorkLog* const log = work_log.load(std::memory_order_relaxed)) log->add(work_);
+    stopped_ = stop_.stop_requested();
+    work_ = stopped_ ? most_work : 0;  // the next report comes here again
+    return stopped_;
+  }
+
+  /// Checks now; throws Stopped if a stop was requested.
+  void now() {
+    if (requested()) stop_now();
+  }
+
+ private:
+  [[noreturn]] void stop_now() const { throw Stopped(std::string("stopped while ") + doing_); }
+
+  std::stop_token stop_;
+  const char* doing_;
+  std::uint64_t work_ = 0;
+  bool stopped_ = false;
+};
+
+/// Calls visit(i) for i = first … last - 1, each a unit of work. Throws Stopped in between if a stop was requested.
+template <class Visit>
+void for_each_checked(std::size_t first, std::size_t last, StopCheck& check, const Visit& visit) {
+  while (first < last) {
+    const std::size_t end = std::min<std::size_t>(last, first + StopCheck::most_work);
+    check.after(end - first);
+    for (; first < end; ++first) visit(first);
+  }
+}
+
+/// The same for all items.
+template <class T, class Visit>
+void for_each_checked(std::span<T> items, StopCheck& check, const Visit& visit) {
+  for_each_checked(0, items.size(), check, [&](std::size_t i) { visit(items[i]); });
+}
+
+}  // namespace detp::sim

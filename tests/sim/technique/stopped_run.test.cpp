@@ -1,0 +1,228 @@
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "detp/sim/line_field.hpp"
+#include "detp/sim/technique/streamed.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/sim/uniform_discs.hpp"
+#include "support/work_log.hpp"
+
+namespace detp::sim {
+namespace {
+
+using support::LoggedWork;
+
+const std::vector<Disc>& discs() {
+  static const std::vector<Disc> all = uniform_discs(Body::cube, 2, 1000, 0.08, 4);
+  return all;
+}
+
+std::vector<Ray> lines(std::size_t count) { return LineField(enclosing_sphere(discs()), 5).lines(0, count); }
+
+struct Way {
+  Candidate candidate;
+  bool plain = false;
+};
+
+const std::vector<Way>& ways() {
+  static const std::vector<Way> all{{{Technique::brute_force, BruteForceParameters{}}},
+                                    {{Technique::brute_force, BruteForceParameters{}}, true},
+                                    {{Technique::sphere_cache, SphereCacheParameters{0.6, 6}}},
+                                    {{Technique::sphere_cache, SphereCacheParameters{0.6, 6}}, true},
+                                    {{Technique::cell_spheres, CellSpheresParameters{3}}},
+                                    {{Technique::cell_spheres, CellSpheresParameters{3}}, true},
+                                    {{Technique::sphere_tree, SphereTreeParameters{8, 4}}},
+                                    {{Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}}},
+                                    {{Technique::sphere_tree, SphereTreeParameters{1 << 20, 1 << 20, Bounds::boxes}}},
+                                    {{Technique::octree, OctreeParameters{3}}},
+                                    {{Technique::octree, OctreeParameters{0}}},
+                                    {{Technique::octree, OctreeParameters{3, Traversal::neighbour_links}}},
+                                    {{Technique::grid, GridParameters{8}}},
+                                    {{Technique::bsp, BspParameters{}}},
+                                    {{Technique::bvh, BvhParameters{}}}};
+  return all;
+}
+
+Outcome run_way(const Way& way, std::span<const Ray> rays, const std::stop_token& stop, bool pairs = false) {
+  return run(make_problem(rays, discs()), way.candidate, {.pairs = pairs, .plain = way.plain, .stop = stop});
+}
+
+Outcome truth(std::span<const Ray> rays) {
+  return run(make_problem(rays, discs()), {Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}});
+}
+
+/// What a stopped outcome says is right: of the first rays, or of the discs marked.
+void check_stopped(const Outcome& outcome, std::span<const Ray> rays) {
+  CHECK(outcome.stopped);
+  CHECK(outcome.pairs.empty());
+  CHECK(outcome.progress.done <= outcome.progress.of);
+  if (outcome.progress.unit == "discs") {
+    const Outcome all = truth(rays);
+    CHECK(outcome.progress.of == discs().size());
+    std::uint64_t done = 0;
+    std::uint64_t hits = 0;
+    for (std::size_t disc = 0; disc < discs().size(); ++disc) {
+      CHECK(outcome.hits[disc] == (outcome.done_discs[disc] ? all.hits[disc] : 0));
+      CHECK(outcome.irradiance[disc] == (outcome.done_discs[disc] ? all.irradiance[disc] : 0));
+      done += outcome.done_discs[disc] ? 1 : 0;
+      hits += outcome.hits[disc];
+    }
+    CHECK(done == outcome.progress.done);
+    CHECK(hits == outcome.total_hits);
+    return;
+  }
+  CHECK(outcome.done_discs.empty());
+  CHECK(outcome.progress.of == rays.size());
+  CHECK(outcome.batches.rays == outcome.progress.done);
+  CHECK(outcome.batches.hits == outcome.total_hits);
+  if (outcome.progress.done == 0) {
+    CHECK(outcome.total_hits == 0);
+    return;
+  }
+  const Outcome first = truth(rays.first(outcome.progress.done));
+  CHECK(outcome.hits == first.hits);
+  CHECK(outcome.irradiance == first.irradiance);
+  CHECK(outcome.total_hits == first.total_hits);
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("a run that is stopped anywhere is right about the rays or discs it says are done") {
+    for (const std::size_t count : {6000U, 70'000U}) {  // one block of rays, and several
+      const std::vector<Ray> rays = lines(count);
+      for (const Way& way : ways()) {
+        if (way.plain && count > 10'000) continue;
+        CAPTURE(name(way.candidate.technique));
+        CAPTURE(describe(way.candidate.parameters));
+        CAPTURE(count);
+        std::uint64_t total = 0;
+        {
+          const LoggedWork logged;
+          CHECK_FALSE(run_way(way, rays, {}).stopped);
+          total = logged.total();
+        }
+        for (const double share : {0.1, 0.6}) {
+          std::stop_source source;
+          const LoggedWork logged([&](std::uint64_t done) {
+            if (static_cast<double>(done) >= share * static_cast<double>(total)) source.request_stop();
+          });
+          const Outcome outcome = run_way(way, rays, source.get_token(), true);
+          if (!outcome.stopped) continue;  // there was no check after that
+          check_stopped(outcome, rays);
+          CHECK(static_cast<double>(logged.total()) < share * static_cast<double>(total) + 3 * StopCheck::most_work);
+        }
+      }
+    }
+  }
+
+  TEST_CASE("stopped before it begins, a run has found nothing and says so") {
+    const std::vector<Ray> rays = lines(1000);
+    std::stop_source source;
+    source.request_stop();
+    for (const Way& way : ways()) {
+      CAPTURE(name(way.candidate.technique));
+      const Outcome outcome = run_way(way, rays, source.get_token(), true);
+      check_stopped(outcome, rays);
+      CHECK(outcome.total_hits == 0);
+      CHECK(outcome.hits.size() == discs().size());
+    }
+  }
+
+  TEST_CASE("stopped while pairs are sorted, all rays are done and no pair is given") {
+    const std::vector<Ray> rays = lines(10'000);
+    std::uint64_t search = 0;
+    {
+      const LoggedWork logged;
+      static_cast<void>(run_way(ways().front(), rays, {}));
+      search = logged.total();
+    }
+    std::stop_source source;
+    const LoggedWork logged([&](std::uint64_t done) {
+      if (done > search + StopCheck::most_work) source.request_stop();
+    });
+    const Outcome outcome = run_way(ways().front(), rays, source.get_token(), true);
+    CHECK(outcome.progress.done == rays.size());
+    check_stopped(outcome, rays);
+  }
+
+  TEST_CASE("a stream that is stopped anywhere is right about the rays it says are done") {
+    const std::vector<Ray> rays = lines(40'000);
+    for (const Way& way : ways()) {
+      if (way.plain) continue;
+      CAPTURE(name(way.candidate.technique));
+      CAPTURE(describe(way.candidate.parameters));
+      for (const std::uint64_t at : {1, 20, 100}) {
+        std::stop_source source;
+        const LoggedWork logged([&](std::uint64_t done) {
+          if (done >= at * StopCheck::most_work / 2) source.request_stop();
+        });
+        const LinesOfField source_of_lines(enclosing_sphere(discs()), 5, rays.size());
+        const Streamed streamed = run_streamed(discs(), source_of_lines, way.candidate,
+                                               {.run = {.stop = source.get_token()}, .block = 10'000});
+        if (streamed.outcome.stopped) check_stopped(streamed.outcome, rays);
+      }
+    }
+  }
+
+  TEST_CASE("the hits of all rays are within five standard errors of what those of the first rays say") {
+    const std::vector<Ray> rays = lines(20'000);
+    const auto all = static_cast<double>(truth(rays).total_hits);
+    for (const std::uint64_t first : {3840U, 19'968U}) {
+      HitBatches batches;
+      for (std::uint64_t ray = 0; ray < first; ray += 768)
+        batches.add(768, truth(std::span(rays).subspan(ray, 768)).total_hits);
+      const HitEstimate estimate = estimate_hits(batches, rays.size());
+      CHECK(std::abs(estimate.hits - all) < 5 * *estimate.standard_error);
+      CHECK(*estimate.standard_error < 0.1 * all);
+    }
+    HitBatches one;
+    one.add(10, 3);
+    CHECK(estimate_hits(one, 100).hits == 30);
+    CHECK_FALSE(estimate_hits(one, 100).standard_error);
+    one.add(10, 5);
+    // Batch means 0.3 and 0.5: σ² = 10 · 0.1² + 10 · 0.1² = 0.2, SE² = 100 · 80 / 20 · 0.2.
+    CHECK(*estimate_hits(one, 100).standard_error == doctest::Approx(std::sqrt(80.0)));
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("the work between two checks of a run is bounded, and all tests are among it") {
+    const std::vector<Ray> rays = lines(70'000);
+    for (const Way& way : ways()) {
+      if (way.plain) continue;
+      CAPTURE(name(way.candidate.technique));
+      CAPTURE(describe(way.candidate.parameters));
+      const LoggedWork logged;
+      const Outcome outcome = run_way(way, rays, {});
+      CHECK(logged.bounded());
+      const std::uint64_t tests = outcome.counts.disc_tests + outcome.counts.sphere_tests;
+      CHECK(logged.total() + 10 * StopCheck::most_work > tests / 17);  // of lists 16 are a unit
+    }
+  }
+
+  TEST_CASE("few discs with endless lists, or one disc in all cells, are work between checks too") {
+    const std::vector<Ray> rays = lines(3000);
+    const std::vector<Disc> coincident(100'000, Disc{.centre = {0.1, 0.1, 0.1}, .normal = {0, 0, 1}, .radius = 0.5});
+    for (const Candidate& candidate :
+         {Candidate{Technique::bvh, BvhParameters{}}, Candidate{Technique::octree, OctreeParameters{1}},
+          Candidate{Technique::bsp, BspParameters{}}, Candidate{Technique::grid, GridParameters{2}}}) {
+      CAPTURE(name(candidate.technique));
+      std::stop_source source;
+      const LoggedWork logged([&](std::uint64_t done) {
+        if (done > 20 * StopCheck::most_work) source.request_stop();
+      });
+      CHECK(run(make_problem(rays, coincident), candidate, {.stop = source.get_token()}).stopped);
+      CHECK(logged.bounded());
+    }
+    const std::vector<Disc> large(2, Disc{.centre = {}, .normal = {0.6, 0.48, 0.64}, .radius = 1});
+    std::stop_source source;
+    const LoggedWork logged([&](std::uint64_t) { source.request_stop(); });
+    const Candidate fine{Technique::grid, GridParameters{200}};
+    CHECK(run(make_problem(std::span(rays).first(10), large), fine, {.stop = source.get_token()}).stopped);
+    CHECK(logged.bounded());
+  }
+}
+
+}  // namespace detp::sim

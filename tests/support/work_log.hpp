@@ -1,0 +1,28 @@
+#pragma once
+
+#include "detp/sim/stop_check.hpp"
+
+namespace detp::sim::support {
+
+/// Logs the checks for a stop request as long as it lives.
+class LoggedWork {
+ public:
+  explicit LoggedWork(std::function<void(std::uint64_t total)> seen = {}) {
+    log_.seen = std::move(seen);
+    work_log = &log_;
+  }
+  ~LoggedWork() { work_log = nullptr; }
+  LoggedWork(const LoggedWork&) = delete;
+  LoggedWork& operator=(const LoggedWork&) = delete;
+
+  [[nodiscard]] std::uint64_t total() const { return log_.total; }
+  [[nodiscard]] std::uint64_t largest() const { return log_.largest; }
+
+  /// Whether the work between two checks was bounded as promised.
+  [[nodiscard]] bool bounded() const { return log_.largest < 2 * StopCheck::most_work; }
+
+ private:
+  WorkLog log_;
+};
+
+}  // namespace detp::sim::support
