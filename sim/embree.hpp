@@ -3,8 +3,8 @@
 #include <embree3/rtcore.h>
 
 #include <memory>
-#include <stop_token>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
 #include <type_traits>
 
@@ -33,13 +33,11 @@ inline void require_no_error(const Owned<RTCDevice>& device) {
     throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
 }
 
-/// Builds the scene's tree. Embree calls us back while it builds: throws Stopped ("stopped while " + doing) if a stop was
-/// requested by then.
+/// Builds the scene's tree. Embree calls us back while it builds: throws Stopped ("stopped while " + doing) if a stop
+/// was requested by then.
 inline void commit(const Owned<RTCDevice>& device, const Owned<RTCScene>& scene, const std::stop_token& stop,
                    const char* doing) {
-  const auto go_on = [](void* token, double) {
-    return !static_cast<const std::stop_token*>(token)->stop_requested();
-  };
+  const auto go_on = [](void* token, double) { return !static_cast<const std::stop_token*>(token)->stop_requested(); };
   rtcSetSceneProgressMonitorFunction(scene.get(), go_on, const_cast<std::stop_token*>(&stop));
   rtcCommitScene(scene.get());
   rtcSetSceneProgressMonitorFunction(scene.get(), nullptr, nullptr);

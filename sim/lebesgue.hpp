@@ -18,6 +18,6 @@ namespace detp::sim {
 /// order. Cost: one pass for the codes, then a radix sort, O(n). At most 2³² - 1 points. Throws Stopped if a stop was
 /// requested.
 [[nodiscard]] std::vector<std::uint32_t> lebesgue_order(std::span<const glm::dvec3> points,
-                                                       const std::stop_token& stop = {});
+                                                        const std::stop_token& stop = {});
 
 }  // namespace detp::sim

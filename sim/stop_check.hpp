@@ -15,8 +15,8 @@ namespace detp::sim {
 
 /// What a test sees of the checks.
 struct WorkLog {
-  std::atomic<std::uint64_t> total = 0;    ///< units of work reported
-  std::atomic<std::uint64_t> largest = 0;  ///< the most between two checks
+  std::atomic<std::uint64_t> total = 0;                ///< units of work reported
+  std::atomic<std::uint64_t> largest = 0;              ///< the most between two checks
   std::function<void(std::uint64_t total)> seen = {};  ///< called at each check, before the stop request is looked at
 
   void add(std::uint64_t work) {
@@ -42,7 +42,8 @@ class StopCheck {
   static constexpr std::uint64_t most_work = std::uint64_t{1} << 16;
 
   /// `doing` is for the message of Stopped: "building the octree".
-  explicit StopCheck(std::stop_token stop = {}, const char* doing = "working") : stop_(std::move(stop)), doing_(doing) {}
+  explicit StopCheck(std::stop_token stop = {}, const char* doing = "working")
+      : stop_(std::move(stop)), doing_(doing) {}
   /// Reports work; does not check.
   void add(std::uint64_t work) { work_ += work; }
 

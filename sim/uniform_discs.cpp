@@ -9,14 +9,15 @@
 
 namespace detp::sim {
 
-std::vector<Disc> uniform_discs(Body body, double side, std::size_t count, double radius, std::uint64_t seed) {
+std::vector<Disc> uniform_discs(Body body, double side, std::size_t count, double radius, std::uint64_t seed,
+                                const std::stop_token& stop) {
   require_positive("cube side", side);
   require_positive("disc radius", radius);
   require_memory(fmt::format("{} discs and samples", count),
                  static_cast<double>(count) * (sizeof(Disc) + sizeof(Sample)));
   std::vector<Disc> discs;
   discs.reserve(count);
-  for (const Sample& sample : built_in::uniform_samples(count, seed)) {
+  for (const Sample& sample : built_in::uniform_samples(count, seed, stop)) {
     glm::dvec3 position = sample.position;
     if (body == Body::cube_faces) {
       const int face = static_cast<int>(6 * uniform4(seed, Stream::samples, discs.size(), 2)[0]);

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/line_field.hpp"
 #include "detp/sim/memory.hpp"
 #include "detp/sim/scene/disc_file.hpp"
 #include "detp/sim/scene/photon_paths.hpp"
@@ -86,7 +85,7 @@ class JobMaker {
     job_.discs =
         sim::uniform_discs(on_faces(workload) ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
                            count_in_memory("samples", workload.samples, sizeof(sim::Sample) + sizeof(sim::Disc)),
-                           workload.disc_radius, request_.seed);
+                           workload.disc_radius, request_.seed, stop_);
   }
 
   void from_scene_and_files() {
@@ -111,7 +110,7 @@ class JobMaker {
     job_.name = scene_->name;
     job_.notices = scene_->notices;
     job_.triangles = scene_->mesh.triangles.size();
-    surface_ = {triangle_area(scene_->mesh), request_.samples ? 0 : sim::mean_edge_length(scene_->mesh)};
+    surface_ = {triangle_area(scene_->mesh), request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
     const double side = longest_side(scene_->box);
     const double radius = request_.disc_radius ? absolute(*request_.disc_radius, side)
                                                : default_radius(*scene_, side, surface_.edge_length);
@@ -133,10 +132,20 @@ class JobMaker {
     const double made = request_.workload_only ? std::min(rays, block) : rays;
     const std::size_t count = count_in_memory("rays", made, sizeof(sim::Ray));
     if (job_.field == sim::Field::isotropic) {
-      job_.rays = sim::LineField(sim::enclosing_sphere(job_.discs), request_.seed).lines(0, count);
+      make_lines(count);
       return;
     }
-    job_.rays = sim::photon_paths(scene_for_photons(), count, request_.seed);
+    job_.rays = sim::photon_paths(scene_for_photons(), count, request_.seed, stop_);
+  }
+
+  void make_lines(std::size_t count) {
+    constexpr std::size_t at_once = std::size_t{1} << 18;
+    const sim::LinesOfField lines(sim::enclosing_sphere(job_.discs), request_.seed, count);
+    job_.rays.reserve(count);
+    for (std::size_t made = 0; made < count; made = job_.rays.size()) {
+      job_.rays.resize(std::min(count, made + at_once));
+      lines.read(made, std::span(job_.rays).subspan(made), stop_);
+    }
   }
 
   const sim::Scene& scene_for_photons() const {
@@ -148,7 +157,7 @@ class JobMaker {
     if (job_.field == sim::Field::isotropic)
       job_.stream = std::make_unique<sim::LinesOfField>(sim::enclosing_sphere(job_.discs), request_.seed, count);
     else
-      job_.stream = std::make_unique<sim::PhotonSource>(scene_for_photons(), count, request_.seed);
+      job_.stream = std::make_unique<sim::PhotonSource>(scene_for_photons(), count, request_.seed, stop_);
   }
 
   /// Of a stream, on its first block.
@@ -156,16 +165,16 @@ class JobMaker {
     if (!job_.stream) {
       const sim::Problem problem = job_.problem();
       job_.warnings = outlier_warnings(problem);
-      Workload workload = measure(problem, surface_);
+      Workload workload = measure(problem, surface_, stop_);
       if (request_.workload_only && !request_.ray_file)
         workload.rays = std::max(workload.rays, request_.rays.value_or(default_rays));
       return workload;
     }
     std::vector<sim::Ray> block(sim::default_block(job_.discs.size()));
-    job_.stream->read(0, block);
+    job_.stream->read(0, block, stop_);
     const sim::Problem problem = sim::make_problem(block, job_.discs, job_.front_facing);
     job_.warnings = outlier_warnings(problem);
-    Workload workload = measure(problem, surface_);
+    Workload workload = measure(problem, surface_, stop_);
     workload.rays = static_cast<double>(job_.stream->size());
     return workload;
   }

@@ -77,7 +77,7 @@ struct Job {
 };
 
 /// Opens, makes and measures what was asked for. Throws sim::FileError and std::invalid_argument as the parts do.
-/// Reading files throws sim::Stopped within 0.1 s of a stop request.
+/// Throws sim::Stopped within 0.1 s of a stop request.
 [[nodiscard]] Job make_job(const JobRequest& request, std::stop_token stop = {});
 
 }  // namespace detp::validate

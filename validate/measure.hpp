@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 
 #include "detp/model/vocabulary.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -19,10 +20,11 @@ struct SurfaceFacts {
 /// levels would count the corners and edges of a body.) 3 for fewer than 4096 points, too few for three such levels.
 ///
 /// Accuracy   0.1 for 10⁵ points uniform in a cube or on its faces.
-[[nodiscard]] double sample_dimension(std::span<const sim::Disc> discs);
+[[nodiscard]] double sample_dimension(std::span<const sim::Disc> discs, const std::stop_token& stop = {});
 
 /// The workload that the problem is: counts, S₀, the samples' box and dimension, root mean square disc radius, mean
 /// path length (unbounded lines among segments count with the mean chord of S₀, 4r₀/3).
-[[nodiscard]] Workload measure(const sim::Problem& problem, const SurfaceFacts& surface = {});
+[[nodiscard]] Workload measure(const sim::Problem& problem, const SurfaceFacts& surface = {},
+                               const std::stop_token& stop = {});
 
 }  // namespace detp::validate

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/unit_vector.hpp"
 #include "scene.hpp"
 
@@ -68,24 +69,26 @@ struct Fan {
   [[nodiscard]] glm::dvec3 normal() const { return unit_or_zero(glm::length(sum) > least_sum * area ? sum : largest); }
 };
 
-std::vector<glm::dvec3> normals_by_area(const Mesh& mesh) {
+std::vector<glm::dvec3> normals_by_area(const Mesh& mesh, StopCheck& check) {
   std::vector<Fan> fans(mesh.positions.size());
   const int exponent = scale_exponent(mesh);
-  for (const auto& [a, b, c] : mesh.triangles) {
+  for_each_checked(std::span(mesh.triangles), check, [&](const auto& corners) {
+    const auto& [a, b, c] = corners;
     const glm::dvec3 vector = area_vector({scaled(mesh.positions[a], exponent), scaled(mesh.positions[b], exponent),
                                            scaled(mesh.positions[c], exponent)});
     for (const std::uint32_t corner : {a, b, c}) fans[corner].add(vector);
-  }
+  });
   std::vector<glm::dvec3> normals;
   normals.reserve(fans.size());
-  for (const Fan& fan : fans) normals.push_back(fan.normal());
+  for_each_checked(std::span(fans), check, [&](const Fan& fan) { normals.push_back(fan.normal()); });
   return normals;
 }
 
-std::vector<glm::dvec3> normals_given(const Mesh& mesh) {
+std::vector<glm::dvec3> normals_given(const Mesh& mesh, StopCheck& check) {
   std::vector<glm::dvec3> normals;
   normals.reserve(mesh.normals.size());
-  for (const glm::dvec3& normal : mesh.normals) normals.push_back(unit_or_zero(normal));
+  for_each_checked(std::span(mesh.normals), check,
+                   [&](const glm::dvec3& normal) { normals.push_back(unit_or_zero(normal)); });
   return normals;
 }
 
@@ -96,43 +99,49 @@ void note_dropped(Notices& notices, std::size_t count, const std::string& kind, 
 
 }  // namespace
 
-std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices) {
-  const std::vector<glm::dvec3> normals = mesh.normals.empty() ? normals_by_area(mesh) : normals_given(mesh);
+std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices, const std::stop_token& stop) {
+  StopCheck check(stop, "taking samples at the vertices");
+  const std::vector<glm::dvec3> normals =
+      mesh.normals.empty() ? normals_by_area(mesh, check) : normals_given(mesh, check);
   const std::vector<bool> used = used_vertices(mesh);
   std::vector<Sample> samples;
   samples.reserve(mesh.positions.size());
   std::size_t unreferenced = 0;
   std::size_t without_normal = 0;
-  for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+  for_each_checked(0, mesh.positions.size(), check, [&](std::size_t i) {
     if (!used[i])
       ++unreferenced;
     else if (normals[i] == glm::dvec3{0.0})
       ++without_normal;
     else
       samples.push_back({.position = mesh.positions[i], .normal = normals[i]});
-  }
+  });
   note_dropped(notices, unreferenced, " unreferenced");
   note_dropped(notices, without_normal, "",
                mesh.normals.empty() ? ": no triangle around has an area" : ": the normal is zero");
   return samples;
 }
 
-double mean_edge_length(const Mesh& mesh) {
+double mean_edge_length(const Mesh& mesh, const std::stop_token& stop) {
+  StopCheck check(stop, "measuring edges");
   std::vector<std::array<std::uint32_t, 2>> edges;
   edges.reserve(3 * mesh.triangles.size());
   for (const auto& [a, b, c] : mesh.triangles)
     for (const auto& [from, to] : {std::array{a, b}, std::array{b, c}, std::array{c, a}})
       edges.push_back({std::min(from, to), std::max(from, to)});
-  std::sort(edges.begin(), edges.end());
+  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) {
+    check.after(1);
+    return a < b;
+  });
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
   double sum = 0;
   std::size_t count = 0;
-  for (const auto& [from, to] : edges) {
-    const glm::dvec3 edge = mesh.positions[to] - mesh.positions[from];
-    if (edge == glm::dvec3{0.0}) continue;  // joins no two neighbours
+  for_each_checked(std::span(edges), check, [&](const auto& ends) {
+    const glm::dvec3 edge = mesh.positions[ends[1]] - mesh.positions[ends[0]];
+    if (edge == glm::dvec3{0.0}) return;  // joins no two neighbours
     sum += std::hypot(edge.x, edge.y, edge.z);
     ++count;
-  }
+  });
   return count == 0 ? 0 : sum / static_cast<double>(count);
 }
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ using Notices = std::vector<std::string>;
 /// Normals are the mesh's own where it has them, else the area-weighted mean of the triangles around the vertex.
 /// Unreferenced vertices are dropped; where no normal can be found (all triangles around it have no area, or the
 /// file's normal is zero) the vertex is dropped too. Each kind of drop adds one notice with its count.
-[[nodiscard]] std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices);
+/// Throws Stopped if a stop was requested.
+[[nodiscard]] std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices,
+                                                      const std::stop_token& stop = {});
 
 }  // namespace detp::sim

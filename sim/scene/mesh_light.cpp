@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detp/sim/stop_check.hpp"
+
 namespace detp::sim {
 namespace {
 
@@ -55,7 +57,7 @@ void meet(Drop& drop, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
 }
 
 /// All coordinates in units of the box's longest side.
-std::vector<Drop> drops(const Mesh& mesh, const Box& box, const AreaLight& light) {
+std::vector<Drop> drops(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
   const double unit = longest_side(box);
   const glm::dvec3 top{box.centre().x, box.high.y, box.centre().z};
   std::vector<Drop> all;
@@ -64,17 +66,20 @@ std::vector<Drop> drops(const Mesh& mesh, const Box& box, const AreaLight& light
       all.push_back({.x = ((i + 0.5) / drops_along_edge - 0.5) * light.edge_u.x / unit,
                      .z = ((j + 0.5) / drops_along_edge - 0.5) * light.edge_v.z / unit,
                      .depths = {}});
-  for (const auto& [a, b, c] : mesh.triangles)
+  StopCheck check(stop, "placing the light");
+  for (const auto& [a, b, c] : mesh.triangles) {
     for (Drop& drop : all)
       meet(drop, (mesh.positions[a] - top) / unit, (mesh.positions[b] - top) / unit, (mesh.positions[c] - top) / unit);
+    check.after(all.size());
+  }
   for (Drop& drop : all) std::sort(drop.depths.begin(), drop.depths.end());
   return all;
 }
 
 /// Depth of the light below the top of the box, as a share of the box's height.
-double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light) {
+double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
   const double height = box.size().y / longest_side(box);
-  const std::vector<Drop> all = drops(mesh, box, light);
+  const std::vector<Drop> all = drops(mesh, box, light, stop);
   for (int i = 1; i <= most_steps; ++i) {
     // From half a step higher, so that the light cannot lie in the ceiling.
     const auto falls_far = [&](const Drop& drop) { return drop.fall((i - 0.5) * step * height) >= 0.5 * height; };
@@ -85,11 +90,11 @@ double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light) 
 
 }  // namespace
 
-AreaLight light_for(const Mesh& mesh, const Box& box) {
+AreaLight light_for(const Mesh& mesh, const Box& box, const std::stop_token& stop) {
   AreaLight light = level_light(box);
   const double height = box.size().y;
   const bool flat = height < 0.05 * longest_side(box);
-  light.corner.y += flat ? 0.5 * longest_side(box) : -depth_of_light(mesh, box, light) * height;
+  light.corner.y += flat ? 0.5 * longest_side(box) : -depth_of_light(mesh, box, light, stop) * height;
   return light;
 }
 

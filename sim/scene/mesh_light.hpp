@@ -15,7 +15,8 @@ namespace detp::sim {
 /// of what falls from the light must then fall through half the box's height before it lands. If no height does that
 /// (an object without a room around) it is 1 %.
 ///
-/// The box is that of the used vertices; it must not be empty, nor a single point. Cost O(triangles).
-[[nodiscard]] AreaLight light_for(const Mesh& mesh, const Box& box);
+/// The box is that of the used vertices; it must not be empty, nor a single point. Cost O(triangles). Throws
+/// Stopped if a stop was requested.
+[[nodiscard]] AreaLight light_for(const Mesh& mesh, const Box& box, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

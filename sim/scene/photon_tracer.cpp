@@ -13,9 +13,9 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::uint64_t most_pieces = 1000;  // of one photon: an albedo of 1 must come to an end
+constexpr std::uint64_t most_pieces = 1000;     // of one photon: an albedo of 1 must come to an end
 constexpr std::uint64_t work_of_a_bounce = 64;  // for StopCheck: a bounce takes microseconds
-constexpr double gap_share = 1e-5;           // of the box's diagonal
+constexpr double gap_share = 1e-5;              // of the box's diagonal
 
 /// Checks first, so that nothing else need cope with what cannot be traced.
 const Scene& checked(const Scene& scene) {

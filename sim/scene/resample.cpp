@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "detp/sim/random.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/unit_vector.hpp"
 
 namespace detp::sim {
@@ -46,7 +47,9 @@ Sample sample_in(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle,
 
 }  // namespace
 
-std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t count, std::uint64_t seed) {
+std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t count, std::uint64_t seed,
+                            const std::stop_token& stop) {
+  StopCheck check(stop, "thinning samples");
   // Selection sampling: Knuth, The Art of Computer Programming 2, 3.4.2, algorithm S.
   std::vector<Sample> kept;
   kept.reserve(count);
@@ -54,11 +57,14 @@ std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t coun
     const double left = static_cast<double>(samples.size() - i);
     const double wanted = static_cast<double>(count - kept.size());
     if (left * uniform4(seed, Stream::thinning, i)[0] < wanted) kept.push_back(samples[i]);
+    check.after(1);
   }
   return kept;
 }
 
-void add_by_area(std::vector<Sample>& samples, const Mesh& mesh, std::size_t count, std::uint64_t seed) {
+void add_by_area(std::vector<Sample>& samples, const Mesh& mesh, std::size_t count, std::uint64_t seed,
+                 const std::stop_token& stop) {
+  StopCheck check(stop, "spreading samples over the triangles");
   const double scale = longest_side(mesh);
   if (!(scale > 0)) return;
   const std::vector<double> sums = running_areas(mesh, scale);
@@ -69,6 +75,7 @@ void add_by_area(std::vector<Sample>& samples, const Mesh& mesh, std::size_t cou
     const auto chosen = std::upper_bound(sums.begin(), sums.end(), random[0] * sums.back());
     const std::size_t index = std::min<std::size_t>(chosen - sums.begin(), sums.size() - 1);
     samples.push_back(sample_in(mesh, mesh.triangles[index], random[1], random[2], scale));
+    check.after(1);
   }
 }
 

@@ -1,7 +1,6 @@
 #include "scene.hpp"
 
 #include <stdexcept>
-#include <utility>
 
 #include "built_in/built_in.hpp"
 #include "file_error.hpp"
@@ -46,49 +45,49 @@ Box box_of(const Scene& scene) {
 }
 
 /// The samples of a mesh; `scene` has its mesh and name.
-void put_samples(Scene& scene, const SceneRequest& request) {
-  scene.samples = samples_at_vertices(scene.mesh, scene.notices);
+void put_samples(Scene& scene, const SceneRequest& request, const std::stop_token& stop) {
+  scene.samples = samples_at_vertices(scene.mesh, scene.notices, stop);
   if (scene.samples.empty())
     throw FileError(request.name, "no vertex has a normal; irradiance needs triangles with an area");
   const std::size_t wanted = request.samples.value_or(scene.samples.size());
-  if (wanted < scene.samples.size()) scene.samples = thinned(scene.samples, wanted, request.seed);
+  if (wanted < scene.samples.size()) scene.samples = thinned(scene.samples, wanted, request.seed, stop);
   if (wanted > scene.samples.size())
-    add_by_area(scene.samples, scene.mesh, wanted - scene.samples.size(), request.seed);
+    add_by_area(scene.samples, scene.mesh, wanted - scene.samples.size(), request.seed, stop);
   if (scene.samples.size() < wanted)
     throw FileError(request.name, "its triangles have no area, so that only its " +
                                       std::to_string(scene.samples.size()) + " vertices can be samples (" +
                                       std::to_string(wanted) + " asked for)");
 }
 
-Scene uniform_scene(const SceneRequest& request) {
+Scene uniform_scene(const SceneRequest& request, const std::stop_token& stop) {
   Scene scene;
   scene.name = request.name;
-  scene.samples = built_in::uniform_samples(request.samples.value_or(default_uniform_samples), request.seed);
+  scene.samples = built_in::uniform_samples(request.samples.value_or(default_uniform_samples), request.seed, stop);
   scene.box = {glm::dvec3(-1), glm::dvec3(1)};  // not the samples' own: 1 % of it is 0.02 whatever their number
   scene.field = Field::isotropic;
   return scene;
 }
 
-Scene built_in_scene(const SceneRequest& request) {
+Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
   const BuiltIn& known = built_in_named(request.name);
-  if (known.make == nullptr) return uniform_scene(request);
+  if (known.make == nullptr) return uniform_scene(request, stop);
   Scene scene;
   scene.name = request.name;
   built_in::Setting setting = known.make();
   scene.mesh = std::move(setting.mesh);
   scene.light = setting.light;
-  put_samples(scene, request);
+  put_samples(scene, request, stop);
   scene.box = box_of(scene);
   return scene;
 }
 
-Scene mesh_scene(const SceneRequest& request, std::stop_token stop) {
+Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
   Scene scene;
   scene.name = request.name;
-  scene.mesh = read_mesh(request.name, scene.notices, std::move(stop));
-  put_samples(scene, request);
+  scene.mesh = read_mesh(request.name, scene.notices, stop);
+  put_samples(scene, request, stop);
   scene.box = box_of(scene);
-  if (scene.box.low != scene.box.high) scene.light = light_for(scene.mesh, scene.box);
+  if (scene.box.low != scene.box.high) scene.light = light_for(scene.mesh, scene.box, stop);
   return scene;
 }
 
@@ -103,9 +102,9 @@ const std::vector<std::string>& built_in_scenes() {
   return names;
 }
 
-Scene open_scene(const SceneRequest& request, std::stop_token stop) {
+Scene open_scene(const SceneRequest& request, const std::stop_token& stop) {
   if (request.samples == std::size_t{0}) throw std::invalid_argument("a scene needs at least 1 sample (got 0)");
-  return request.name.starts_with('@') ? built_in_scene(request) : mesh_scene(request, std::move(stop));
+  return request.name.starts_with('@') ? built_in_scene(request, stop) : mesh_scene(request, stop);
 }
 
 }  // namespace detp::sim

@@ -58,12 +58,12 @@ struct SceneRequest {
 /// distributed by area over the triangles, with the triangles' normals. Either is a function of the seed alone.
 /// The light of a mesh file hangs where light_for (mesh_light.hpp) says.
 /// Throws FileError as read_mesh does, and for a mesh that gives no sample or too few; std::invalid_argument for 0
-/// samples and for an unknown built-in name (the message lists the known ones). Reading a file throws Stopped within
-/// 0.1 s of a stop request.
-[[nodiscard]] Scene open_scene(const SceneRequest& request, std::stop_token stop = {});
+/// samples and for an unknown built-in name (the message lists the known ones). Throws Stopped within 0.1 s of a
+/// stop request.
+[[nodiscard]] Scene open_scene(const SceneRequest& request, const std::stop_token& stop = {});
 
 /// Mean length of the mesh's edges, each counted once; 0 without triangles. An estimate of the distance between
-/// neighbouring samples at vertices.
-[[nodiscard]] double mean_edge_length(const Mesh& mesh);
+/// neighbouring samples at vertices. Throws Stopped if a stop was requested.
+[[nodiscard]] double mean_edge_length(const Mesh& mesh, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

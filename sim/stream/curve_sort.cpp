@@ -65,7 +65,11 @@ std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells, con
 class Pass {
  public:
   Pass(const Resolution& resolution, int digit, std::span<const CurvePlace> from, const std::stop_token& stop)
-      : resolution_(resolution), digit_(digit), from_(from), stop_(stop), stretches_(from.size() < (1U << 16) ? 1 : 8) {}
+      : resolution_(resolution),
+        digit_(digit),
+        from_(from),
+        stop_(stop),
+        stretches_(from.size() < (1U << 16) ? 1 : 8) {}
 
   void move_to(std::span<CurvePlace> to) {
     const std::size_t values = std::size_t{1} << resolution_.digit_bits;
@@ -74,9 +78,8 @@ class Pass {
     std::uint32_t next = 0;
     for (std::size_t value = 0; value < values; ++value)
       for (std::size_t i = 0; i < stretches_; ++i) next += std::exchange(starts_[i * values + value], next);
-    for_each_word([&](std::size_t i, CurvePlace word) {
-      to[starts_[i * values + resolution_.digit(word, digit_)]++] = word;
-    });
+    for_each_word(
+        [&](std::size_t i, CurvePlace word) { to[starts_[i * values + resolution_.digit(word, digit_)]++] = word; });
   }
 
  private:

@@ -26,9 +26,9 @@ class Gathering {
   /// After the search of a block.
   template <class Workers>
   void end(const Block& block, const Workers& workers) {
-    const bool skipped = options_.stop.stop_requested() && std::any_of(workers.begin(), workers.end(), [](const Worker& w) {
-                           return !w.skipped.empty();
-                         });
+    const bool skipped =
+        options_.stop.stop_requested() &&
+        std::any_of(workers.begin(), workers.end(), [](const Worker& w) { return !w.skipped.empty(); });
     if (skipped) return end_partly(block);
     std::uint64_t tests = 0;
     for (const Worker& worker : workers) tests += worker.counts.sphere_tests + worker.counts.disc_tests;

@@ -31,8 +31,7 @@ inline constexpr std::uint32_t falling = 1U << 31;
 /// `count` rays of a list from number `first` on, a multiple of the padding.
 [[nodiscard]] inline RayList part_of(const RayList& list, std::size_t first, std::size_t count) {
   const auto from = [first](auto* array) { return array == nullptr ? array : array + first; };
-  return {count,         from(list.a),  from(list.b), from(list.p), from(list.q),
-          from(list.id), from(list.from), from(list.to)};
+  return {count, from(list.a), from(list.b), from(list.p), from(list.q), from(list.id), from(list.from), from(list.to)};
 }
 
 /// One list for each class.

@@ -135,8 +135,9 @@ class Grid {
     check.now();
     std::vector<Placement> placements;
     for (std::uint32_t disc = 0; disc < problem_.discs.size(); ++disc) {
-      for_each_overlapped_cell(problem_.discs[disc], check,
-                               [&](std::size_t cell) { placements.push_back({cell, disc}); });
+      for_each_overlapped_cell(problem_.discs[disc], check, [&](std::size_t cell) {
+        placements.push_back({cell, disc});
+      });
       require_memory("the grid", building_bytes(placements.size()));
     }
     for_each_checked(std::span(placements), check, [&](const Placement& placement) { ++starts_[placement.cell + 1]; });
@@ -144,9 +145,8 @@ class Grid {
     for_each_checked(std::span(starts_), check, [&](std::size_t& start) { start = sum += start; });
     references_.resize(placements.size());
     std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    for_each_checked(std::span(placements), check, [&](const Placement& placement) {
-      references_[next[placement.cell]++] = placement.disc;
-    });
+    for_each_checked(std::span(placements), check,
+                     [&](const Placement& placement) { references_[next[placement.cell]++] = placement.disc; });
   }
 
   const Problem& problem_;

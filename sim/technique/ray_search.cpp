@@ -75,8 +75,7 @@ Counts<std::uint64_t> search_alone(Chunks& chunks, const MakeRaySearch& make, Su
 }
 
 /// A chunk leaves the pipeline after all before it, so that its buffer is free when its turn comes again.
-Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, const MakeRaySearch& make,
-                                      Sum& total) {
+Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, const MakeRaySearch& make, Sum& total) {
   using namespace oneapi::tbb;
   enumerable_thread_specific<std::unique_ptr<RaySearch>> searches(make);
   const auto cut = make_filter<void, Chunk>(filter_mode::serial_in_order, [&](flow_control& flow) {

@@ -32,9 +32,9 @@ struct SphereTree {
 /// that reaches farthest; the best is kept. Summed over a tree, areas are 10 % less than without steps and 1 % more
 /// than after twenty (10⁵ samples, fan-out 8).
 ///
-/// Throws std::invalid_argument for parameters out of range, or where there is no disc; Stopped if a stop was requested.
+/// Throws std::invalid_argument for parameters out of range, or where there is no disc; Stopped if a stop was
+/// requested.
 [[nodiscard]] SphereTree make_sphere_tree(std::span<const Disc> discs, std::span<const std::uint32_t> order,
-                                          const SphereTreeParameters& parameters,
-                                          const std::stop_token& stop = {});
+                                          const SphereTreeParameters& parameters, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -128,7 +128,8 @@ struct Outcome {
 /// Fills in the outcome's hits and irradiance from totals, one for each disc.
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
 
-/// Of a stopped outcome whose done_discs are marked: drops the hits of all other discs, and sets its progress and total.
+/// Of a stopped outcome whose done_discs are marked: drops the hits of all other discs, and sets its progress and
+/// total.
 void keep_done_discs(Outcome& outcome);
 
 }  // namespace detp::sim

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <cstdlib>
 #include <mutex>
+#include <utility>
 
 #include "detp/sim/scene/part_files.hpp"
 
@@ -52,8 +53,8 @@ Interruption::Interruption() {
 
 void Interruption::limit(double seconds) {
   if (!(seconds > 0)) return;
-  const auto end_of_time = start_ + std::chrono::duration_cast<Clock::duration>(
-                                        std::chrono::duration<double>(std::min(seconds, longest)));
+  const auto end_of_time =
+      start_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(std::min(seconds, longest)));
   clock_ = std::jthread([this, end_of_time](const std::stop_token& end) {
     std::mutex mutex;
     std::condition_variable_any never;

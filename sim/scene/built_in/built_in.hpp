@@ -31,6 +31,8 @@ struct Setting {
 [[nodiscard]] Setting cornell();
 
 /// `count` points uniform in the cube [-1, 1]³ with isotropic normals; a function of the seed and each point's number.
-[[nodiscard]] std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed);
+/// Throws Stopped if a stop was requested.
+[[nodiscard]] std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed,
+                                                  const std::stop_token& stop = {});
 
 }  // namespace detp::sim::built_in

@@ -1,10 +1,12 @@
 #include "built_in.hpp"
 #include "detp/sim/directions.hpp"
 #include "detp/sim/random.hpp"
+#include "detp/sim/stop_check.hpp"
 
 namespace detp::sim::built_in {
 
-std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed) {
+std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed, const std::stop_token& stop) {
+  StopCheck check(stop, "making samples");
   std::vector<Sample> samples;
   samples.reserve(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -12,6 +14,7 @@ std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed) {
     const auto turn = uniform4(seed, Stream::samples, i, 1);
     samples.push_back({.position = {2 * place[0] - 1, 2 * place[1] - 1, 2 * place[2] - 1},
                        .normal = uniform_direction(turn[0], turn[1])});
+    check.after(1);
   }
   return samples;
 }
