@@ -35,13 +35,12 @@ inline void require_no_error(const Owned<RTCDevice>& device) {
 
 /// Builds the scene's tree. Embree calls us back while it builds: throws Stopped ("stopped while " + doing) if a stop
 /// was requested by then.
-inline void commit(const Owned<RTCDevice>& device, const Owned<RTCScene>& scene, const std::stop_token& stop,
-                   const char* doing) {
+inline void commit(RTCDevice device, RTCScene scene, const std::stop_token& stop, const char* doing) {
   const auto go_on = [](void* token, double) { return !static_cast<const std::stop_token*>(token)->stop_requested(); };
-  rtcSetSceneProgressMonitorFunction(scene.get(), go_on, const_cast<std::stop_token*>(&stop));
-  rtcCommitScene(scene.get());
-  rtcSetSceneProgressMonitorFunction(scene.get(), nullptr, nullptr);
-  const RTCError error = rtcGetDeviceError(device.get());
+  rtcSetSceneProgressMonitorFunction(scene, go_on, const_cast<std::stop_token*>(&stop));
+  rtcCommitScene(scene);
+  rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);
+  const RTCError error = rtcGetDeviceError(device);
   if (error == RTC_ERROR_CANCELLED) throw Stopped(std::string("stopped while ") + doing);
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory("Embree builds its tree");
   if (error != RTC_ERROR_NONE)

@@ -10,6 +10,7 @@
 #include "detp/model/vocabulary.hpp"
 #include "directions.hpp"
 #include "random.hpp"
+#include "stop_check.hpp"
 
 namespace detp::sim {
 
@@ -32,10 +33,11 @@ Ray LineField::line(std::uint64_t index) const {
           .direction = direction};
 }
 
-std::vector<Ray> LineField::lines(std::uint64_t first, std::size_t count) const {
+std::vector<Ray> LineField::lines(std::uint64_t first, std::size_t count, const std::stop_token& stop) const {
+  StopCheck check(stop, "making lines");
   std::vector<Ray> rays;
   rays.reserve(count);
-  for (std::size_t i = 0; i < count; ++i) rays.push_back(line(first + i));
+  for_each_checked(0, count, check, [&](std::size_t i) { rays.push_back(line(first + i)); });
   return rays;
 }
 

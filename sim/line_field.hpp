@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "geometry.hpp"
@@ -20,7 +21,7 @@ class LineField {
   [[nodiscard]] Ray line(std::uint64_t index) const;
 
   /// Lines first … first + count - 1.
-  [[nodiscard]] std::vector<Ray> lines(std::uint64_t first, std::size_t count) const;
+  [[nodiscard]] std::vector<Ray> lines(std::uint64_t first, std::size_t count, const std::stop_token& stop = {}) const;
 
  private:
   Sphere sphere_;

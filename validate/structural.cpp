@@ -25,11 +25,12 @@ class RaylessProblem {
   sim::Problem problem_;
 };
 
-Counts<double> cache_counts(const sim::Problem& problem, double rays, const SphereCacheParameters& parameters) {
+Counts<double> cache_counts(const sim::Problem& problem, double rays, const SphereCacheParameters& parameters,
+                            const std::stop_token& stop) {
   if (parameters.order != SampleOrder::lebesgue)
     throw std::invalid_argument(fmt::format(
         "the sphere cache has a structural tier along the Lebesgue curve only (got order {})", name(parameters.order)));
-  const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, parameters);
+  const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, parameters, stop);
   Counts<double> counts{.sphere_tests = rays * walk.sphere_tests,
                         .disc_tests = rays * walk.disc_tests,
                         .sorted = static_cast<double>(problem.discs.size())};
@@ -47,19 +48,20 @@ double expected_hits(const sim::Problem& problem, double rays) {
   return rays * hits;
 }
 
-Counts<double> technique_counts(const sim::Problem& problem, double rays, const Candidate& candidate) {
+Counts<double> technique_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
+                                const std::stop_token& stop) {
   switch (candidate.technique) {
     case Technique::brute_force:
       return {.disc_tests = rays * static_cast<double>(problem.discs.size())};
     case Technique::sphere_cache:
-      return cache_counts(problem, rays, std::get<SphereCacheParameters>(candidate.parameters));
+      return cache_counts(problem, rays, std::get<SphereCacheParameters>(candidate.parameters), stop);
     case Technique::cell_spheres:
     case Technique::sphere_tree:
-      return structural_hierarchy_counts(problem, rays, candidate);
+      return structural_hierarchy_counts(problem, rays, candidate, stop);
     case Technique::octree:
     case Technique::grid:
     case Technique::bsp:
-      return structural_index_counts(problem, rays, candidate);
+      return structural_index_counts(problem, rays, candidate, stop);
     case Technique::sphere_cache_published:
       throw std::invalid_argument("sphere-cache-published has no structural tier: its walk loses rays");
     case Technique::bvh:
@@ -72,11 +74,12 @@ Counts<double> technique_counts(const sim::Problem& problem, double rays, const 
 
 }  // namespace
 
-Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Candidate& candidate) {
+Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Candidate& candidate,
+                                 const std::stop_token& stop) {
   require_count("number of rays", rays, 1, 1e18);
   check(candidate);
   const RaylessProblem problem(discs);
-  Counts<double> counts = technique_counts(problem.get(), rays, candidate);
+  Counts<double> counts = technique_counts(problem.get(), rays, candidate, stop);
   counts.hits = expected_hits(problem.get(), rays);
   return counts;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <stop_token>
 
 #include "detp/model/vocabulary.hpp"
 #include "detp/sim/geometry.hpp"
@@ -30,6 +31,6 @@ namespace detp::validate {
 ///            sphere-cache-published, whose walk loses rays, for a sphere cache in another order, for bvh and
 ///            photon-map, and for an octree that is not searched top-down or front to back.
 [[nodiscard]] Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays,
-                                               const Candidate& candidate);
+                                               const Candidate& candidate, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/stream/ray_blocks.hpp"
 
 namespace detp::validate {
@@ -83,15 +84,19 @@ double BoxCrossing::operator()(const TreeNode& box) const {
   return std::min(1.0, share * share_through(outer_, centre, half, lines));
 }
 
-BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters) {
+BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters,
+                              const std::stop_token& stop) {
   const sim::stream::Frame frame(problem);
-  const sim::stream::DiscTree tree = sim::stream::make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf);
+  const sim::stream::DiscTree tree =
+      sim::stream::make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf, stop);
   const BoxCrossing crossing(problem.enclosing.radius * frame.scale, frame.margin);
   const double blocks = std::ceil(rays / static_cast<double>(sim::stream::block_size(problem.discs.size())));
   BoxTreeCounts counts;
+  sim::StopCheck check(stop, "counting boxes");
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const TreeNode& node = tree.nodes[i];
     const double listed = i == 0 ? 1 : crossing(node);
+    check.after(pool_size);  // lines at most
     if (i > 0) counts.listed += listed;
     const auto count = static_cast<double>(node.count);
     if (node.leaf) {

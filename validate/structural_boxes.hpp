@@ -48,6 +48,6 @@ struct BoxTreeCounts {
 
 /// What `rays` isotropic lines do in the tree of boxes over the discs. As boxes are nested, so are the lists.
 [[nodiscard]] BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays,
-                                            const SphereTreeParameters& parameters);
+                                            const SphereTreeParameters& parameters, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

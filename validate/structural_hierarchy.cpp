@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "detp/model/line_measure.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/technique/cell_walk.hpp"
 #include "detp/sim/technique/ray_list.hpp"
 #include "detp/sim/technique/sphere_tree.hpp"
@@ -32,12 +33,14 @@ class Crossing {
 };
 
 /// Per ray.
-Counts<double> cell_spheres(const sim::Problem& problem, const CellSpheresParameters& parameters) {
+Counts<double> cell_spheres(const sim::Problem& problem, const CellSpheresParameters& parameters,
+                            const std::stop_token& stop) {
+  sim::StopCheck check(stop, "counting spheres");
   const Crossing crossing(problem.enclosing);
   sim::CellWalk walk(problem.discs, parameters.depth);
   std::vector<double> listed(static_cast<std::size_t>(parameters.depth) + 1, 1);  // S₀'s list: every ray
   Counts<double> counts;
-  for (const std::uint32_t d : sim::along_curve(problem.discs)) {
+  for (const std::uint32_t d : sim::along_curve(problem.discs, SampleOrder::lebesgue, stop)) {
     for (int level = std::max(1, walk.enter(problem.discs[d])); level <= parameters.depth; ++level) {
       const auto i = static_cast<std::size_t>(level);
       listed[i] = crossing(walk.sphere(level));
@@ -46,6 +49,7 @@ Counts<double> cell_spheres(const sim::Problem& problem, const CellSpheresParame
       counts.copies += listed[i];
     }
     counts.disc_tests += listed.back();
+    check.after(listed.size());
   }
   return counts;
 }
@@ -58,13 +62,17 @@ double parents(const std::vector<double>& crossed, std::size_t children, int in_
 }
 
 /// Per ray.
-Counts<double> sphere_tree(const sim::Problem& problem, const SphereTreeParameters& parameters) {
+Counts<double> sphere_tree(const sim::Problem& problem, const SphereTreeParameters& parameters,
+                           const std::stop_token& stop) {
+  sim::StopCheck check(stop, "counting spheres");
   const Crossing crossing(problem.enclosing);
-  const sim::SphereTree tree = sim::make_sphere_tree(problem.discs, sim::along_curve(problem.discs), parameters);
+  const sim::SphereTree tree = sim::make_sphere_tree(
+      problem.discs, sim::along_curve(problem.discs, SampleOrder::lebesgue, stop), parameters, stop);
   Counts<double> counts{.sphere_tests = 1, .rebuilds = static_cast<double>(tree.nodes())};
   for (std::size_t level = 0; level < tree.levels.size(); ++level) {
     std::vector<double> crossed;
-    for (const sim::Sphere& sphere : tree.levels[level]) crossed.push_back(crossing(sphere));
+    sim::for_each_checked(std::span(tree.levels[level]), check,
+                          [&](const sim::Sphere& sphere) { crossed.push_back(crossing(sphere)); });
     counts.copies += std::accumulate(crossed.begin(), crossed.end(), 0.0);
     if (level == 0)
       counts.disc_tests = parents(crossed, problem.discs.size(), parameters.leaf);
@@ -75,27 +83,31 @@ Counts<double> sphere_tree(const sim::Problem& problem, const SphereTreeParamete
 }
 
 /// Per ray, but for the nodes tested, which are all rays'.
-Counts<double> box_tree(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters) {
-  const BoxTreeCounts counts = box_tree_counts(problem, rays, parameters);
+Counts<double> box_tree(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters,
+                        const std::stop_token& stop) {
+  const BoxTreeCounts counts = box_tree_counts(problem, rays, parameters, stop);
   return {.sphere_tests = counts.tests, .disc_tests = counts.discs, .copies = counts.listed, .rebuilds = counts.culls};
 }
 
-Counts<double> per_ray(const sim::Problem& problem, double rays, const Candidate& candidate) {
+Counts<double> per_ray(const sim::Problem& problem, double rays, const Candidate& candidate,
+                       const std::stop_token& stop) {
   if (candidate.technique == Technique::cell_spheres)
-    return cell_spheres(problem, std::get<CellSpheresParameters>(candidate.parameters));
+    return cell_spheres(problem, std::get<CellSpheresParameters>(candidate.parameters), stop);
   if (candidate.technique == Technique::sphere_tree) {
     const auto& parameters = std::get<SphereTreeParameters>(candidate.parameters);
-    return parameters.bounds == Bounds::boxes ? box_tree(problem, rays, parameters) : sphere_tree(problem, parameters);
+    return parameters.bounds == Bounds::boxes ? box_tree(problem, rays, parameters, stop)
+                                              : sphere_tree(problem, parameters, stop);
   }
   throw std::invalid_argument("only cell-spheres and sphere-tree are hierarchies of spheres");
 }
 
 }  // namespace
 
-Counts<double> structural_hierarchy_counts(const sim::Problem& problem, double rays, const Candidate& candidate) {
+Counts<double> structural_hierarchy_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
+                                           const std::stop_token& stop) {
   check(candidate);
   require_count("number of rays", rays, 1, 1e18);
-  Counts<double> counts = per_ray(problem, rays, candidate);
+  Counts<double> counts = per_ray(problem, rays, candidate, stop);
   counts.sphere_tests *= rays;
   counts.copies *= rays;
   counts.disc_tests *= rays;

@@ -22,8 +22,9 @@ namespace detp::validate {
 ///            @courtyard, @cornell, 2000 and 50 000 samples, d 0.25, 1 and 4 % of the scene's side, 400 000 lines:
 ///            tests of boxes off by 0.25 % in the median, 0.71 % at worst, rays listed by 0.29, 0.84 %, tests of discs
 ///            by 0.31, 1.1 %, nodes tested by 0.00, 0.81 %; the lines' noise in it (of hits 0.44, 2.3 %).
-/// Throws     std::invalid_argument for another technique, or parameters out of range.
+/// Throws     std::invalid_argument for another technique, or parameters out of range; sim::Stopped if a stop was
+///            requested.
 [[nodiscard]] Counts<double> structural_hierarchy_counts(const sim::Problem& problem, double rays,
-                                                         const Candidate& candidate);
+                                                         const Candidate& candidate, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

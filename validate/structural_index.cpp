@@ -11,6 +11,7 @@
 #include "detp/sim/directions.hpp"
 #include "detp/sim/predicates.hpp"
 #include "detp/sim/random.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/technique/disc_index.hpp"
 
 namespace detp::validate {
@@ -75,28 +76,36 @@ class Crossing {
   double operator()(const sim::Box& box) {
     const double share = area_of(box.size()) / (4 * pi * enclosing_.radius * enclosing_.radius);
     const glm::dvec3 reach = glm::max(glm::abs(box.low - enclosing_.centre), glm::abs(box.high - enclosing_.centre));
+    lines_ = 0;
     if (glm::dot(reach, reach) <= enclosing_.radius * enclosing_.radius) return share;
-    const auto lines = static_cast<std::size_t>(std::clamp(16 * pool_size * share, 32.0, 1.0 * pool_size));
+    lines_ = static_cast<std::size_t>(std::clamp(16 * pool_size * share, 32.0, 1.0 * pool_size));
     std::size_t crossing = 0;
-    for (std::size_t i = 0; i < lines; ++i)
+    for (std::size_t i = 0; i < lines_; ++i)
       crossing += sim::hits(line_into(box, pool_[next_++ % pool_size]), enclosing_) ? 1 : 0;
-    return share * static_cast<double>(crossing) / static_cast<double>(lines);
+    return share * static_cast<double>(crossing) / static_cast<double>(lines_);
   }
+
+  /// Drawn for the last node.
+  [[nodiscard]] std::size_t lines() const { return lines_; }
 
  private:
   sim::Sphere enclosing_;
   std::vector<Entry> pool_ = make_pool();
   std::size_t next_ = 0;
+  std::size_t lines_ = 0;
 };
 
 }  // namespace
 
-Counts<double> structural_index_counts(const sim::Problem& problem, double rays, const Candidate& candidate) {
+Counts<double> structural_index_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
+                                       const std::stop_token& stop) {
+  sim::StopCheck check(stop, "counting cells");
   Crossing crossing(problem.enclosing);
   double visits = 0;
   double tests = 0;
   const auto visit = [&](const sim::IndexNode& node) {
     const double chance = crossing(node.box);
+    check.after(crossing.lines() + 1);
     visits += chance;
     tests += chance * static_cast<double>(node.references);
   };
@@ -108,9 +117,9 @@ Counts<double> structural_index_counts(const sim::Problem& problem, double rays,
   if (octree != nullptr && octree->traversal != Traversal::top_down && octree->traversal != Traversal::front_to_back)
     throw std::invalid_argument(fmt::format(
         "the structural tier knows an octree top-down or front-to-back only (got {})", name(octree->traversal)));
-  const sim::IndexSize size = octree != nullptr ? inspect_octree(problem, *octree, {}, visit)
-                              : grid != nullptr ? inspect_grid(problem, *grid, {}, visit)
-                                                : inspect_bsp(problem, *bsp, visit);
+  const sim::IndexSize size = octree != nullptr ? inspect_octree(problem, *octree, {}, visit, stop)
+                              : grid != nullptr ? inspect_grid(problem, *grid, {}, visit, stop)
+                                                : inspect_bsp(problem, *bsp, visit, stop);
   return {.disc_tests = rays * tests,
           .steps = grid != nullptr ? rays * visits : 0,
           .nodes = grid == nullptr ? rays * visits : 0,

@@ -23,6 +23,6 @@ namespace detp::validate {
 ///            each (restart, neighbour links); as sim::run does for parameters out of range and
 ///            for an index that would not fit the memory.
 [[nodiscard]] Counts<double> structural_index_counts(const sim::Problem& problem, double rays,
-                                                     const Candidate& candidate);
+                                                     const Candidate& candidate, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

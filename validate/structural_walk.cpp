@@ -5,6 +5,7 @@
 
 #include "detp/sim/lebesgue.hpp"
 #include "detp/sim/line_field.hpp"
+#include "detp/sim/stop_check.hpp"
 
 namespace detp::validate {
 namespace {
@@ -29,7 +30,9 @@ struct Level {
 
 class Walk {
  public:
-  Walk(const sim::Sphere& enclosing, const SphereCacheParameters& parameters, double disc_radius) {
+  Walk(const sim::Sphere& enclosing, const SphereCacheParameters& parameters, double disc_radius,
+       const std::stop_token& stop)
+      : check_(stop, "walking the spheres") {
     levels_.push_back({enclosing, 1});
     for (std::int64_t i = 1; i <= parameters.spheres; ++i) {
       const double radius = enclosing.radius * std::pow(parameters.ratio, static_cast<double>(i));
@@ -78,10 +81,12 @@ class Walk {
       std::size_t around = i;  // one past the next sphere to be crossed
       while (around > outermost && crosses(point, line.direction, levels_[around - 1].sphere)) --around;
       listed += around == outermost ? 1 : 0;
+      check_.after(i - around + 1);
     }
     return static_cast<double>(listed) / static_cast<double>(lines);
   }
 
+  sim::StopCheck check_;
   std::vector<Level> levels_;
   std::vector<sim::Ray> pool_ = make_pool();
   std::size_t next_ = 0;
@@ -92,15 +97,15 @@ class Walk {
 }  // namespace
 
 ExpectedWalk structural_walk(std::span<const sim::Disc> discs, const sim::Sphere& enclosing,
-                             const SphereCacheParameters& parameters) {
+                             const SphereCacheParameters& parameters, const std::stop_token& stop) {
   double smallest = enclosing.radius;
   std::vector<glm::dvec3> centres;
   for (const sim::Disc& disc : discs) {
     smallest = std::min(smallest, disc.radius);
     centres.push_back(disc.centre);
   }
-  Walk walk(enclosing, parameters, smallest);
-  for (const std::uint32_t i : sim::lebesgue_order(centres)) walk.visit(discs[i]);
+  Walk walk(enclosing, parameters, smallest, stop);
+  for (const std::uint32_t i : sim::lebesgue_order(centres, stop)) walk.visit(discs[i]);
   return std::move(walk).finish();
 }
 

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include "detp/model/vocabulary.hpp"
@@ -35,7 +36,8 @@ struct ExpectedWalk {
 ///            within 0.35 %, T_I within 0.33 % (the lines' noise: 0.1 and 0.4 %). On 20 000 samples of @tree, @cornell
 ///            and three meshes, Q 0.5 … 0.9, 4 × 10 000 lines: T_R within 2.1 %, T_I within 5 %, the largest (@tree)
 ///            the lines' noise: 1.000 ± 0.004 and 1.008 ± 0.008 over 24 × 10 000 others.
+/// Throws     sim::Stopped if a stop was requested.
 [[nodiscard]] ExpectedWalk structural_walk(std::span<const sim::Disc> discs, const sim::Sphere& enclosing,
-                                           const SphereCacheParameters& parameters);
+                                           const SphereCacheParameters& parameters, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

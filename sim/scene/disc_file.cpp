@@ -9,6 +9,7 @@
 #include "kept_memory.hpp"
 #include "output_file.hpp"
 #include "table.hpp"
+#include "writing_check.hpp"
 
 namespace detp::sim {
 namespace {
@@ -42,12 +43,15 @@ std::vector<Disc> read_discs(const std::string& path, std::optional<double> defa
   return discs;
 }
 
-void write_discs(const std::string& path, const std::vector<Disc>& discs) {
+void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop) {
+  WritingCheck check(path, discs.size(), "discs", stop);
   OutputFile file(path);
   file.write("x,y,z,nx,ny,nz,radius\n");
-  for (const auto& [centre, normal, disc_radius] : discs)
+  for (const auto& [centre, normal, disc_radius] : discs) {
+    check.next();
     file.write(
         fmt::format("{},{},{},{},{},{},{}\n", centre.x, centre.y, centre.z, normal.x, normal.y, normal.z, disc_radius));
+  }
   file.commit();
 }
 

@@ -20,6 +20,6 @@ namespace detp::sim {
                                            std::stop_token stop = {});
 
 /// Writes discs as CSV with the header x,y,z,nx,ny,nz,radius, in digits that read back to the same doubles.
-void write_discs(const std::string& path, const std::vector<Disc>& discs);
+void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include "detp/sim/stop_check.hpp"
+
 namespace detp::sim {
 namespace {
 
@@ -24,7 +26,8 @@ std::uint64_t hash_of(const Facet& facet) {
 
 }  // namespace
 
-DistinctFacets distinct_facets(std::vector<Facet> all) {
+DistinctFacets distinct_facets(std::vector<Facet> all, const std::stop_token& stop) {
+  StopCheck check(stop, "looking for identical triangles");
   DistinctFacets distinct;
   distinct.places.reserve(all.size());
   distinct.triangles.reserve(all.size());
@@ -32,6 +35,7 @@ DistinctFacets distinct_facets(std::vector<Facet> all) {
   std::uint32_t count = 0;                                                        // the front of `all` that is kept
   for (std::uint32_t triangle = 0; triangle < all.size(); ++triangle) {
     const Facet facet = all[triangle];
+    check.after(1);
     if (facet.normal == glm::dvec3{0.0}) {
       distinct.places.push_back(no_facet);
       continue;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <stop_token>
 #include <vector>
 
 #include "facet.hpp"
@@ -20,7 +21,8 @@ struct DistinctFacets {
 
 inline constexpr std::uint32_t no_facet = UINT32_MAX;
 
-/// Takes the facets of all triangles, in their order; fewer than 2³² - 1. Cost O(triangles).
-[[nodiscard]] DistinctFacets distinct_facets(std::vector<Facet> all);
+/// Takes the facets of all triangles, in their order; fewer than 2³² - 1. Cost O(triangles). Throws Stopped if a stop
+/// was requested.
+[[nodiscard]] DistinctFacets distinct_facets(std::vector<Facet> all, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

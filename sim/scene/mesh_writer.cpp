@@ -7,6 +7,7 @@
 #include <bit>
 
 #include "output_file.hpp"
+#include "writing_check.hpp"
 
 namespace detp::sim {
 namespace {
@@ -32,14 +33,17 @@ void write_header(OutputFile& file, const Mesh& mesh) {
 
 }  // namespace
 
-void write_ply(const std::string& path, const Mesh& mesh) {
+void write_ply(const std::string& path, const Mesh& mesh, const std::stop_token& stop) {
+  WritingCheck check(path, mesh.positions.size() + mesh.triangles.size(), "vertices and triangles", stop);
   OutputFile file(path);
   write_header(file, mesh);
   for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+    check.next();
     write_vector(file, mesh.positions[i]);
     if (!mesh.normals.empty()) write_vector(file, mesh.normals[i]);
   }
   for (const auto& triangle : mesh.triangles) {
+    check.next();
     write_little_endian(file, std::uint8_t{3});
     for (const std::uint32_t corner : triangle) write_little_endian(file, static_cast<std::int32_t>(corner));
   }

@@ -81,7 +81,7 @@ struct RayCaster::Embree {
   embree::Owned<RTCDevice> device{rtcNewDevice(nullptr)};
   embree::Owned<RTCScene> scene;
 
-  Embree(std::vector<Facet> all, const std::stop_token& stop) : distinct(distinct_facets(std::move(all))) {
+  Embree(std::vector<Facet> all, const std::stop_token& stop) : distinct(distinct_facets(std::move(all), stop)) {
     embree::require_no_error(device);
     scene.reset(rtcNewScene(device.get()));
     rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
@@ -93,7 +93,7 @@ struct RayCaster::Embree {
     rtcSetGeometryIntersectFunction(geometry.get(), meet);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene.get(), geometry.get());
-    embree::commit(device, scene, stop, "building a tree over the scene's triangles");
+    embree::commit(device.get(), scene.get(), stop, "building a tree over the scene's triangles");
   }
 };
 

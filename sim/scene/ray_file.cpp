@@ -9,6 +9,7 @@
 #include "kept_memory.hpp"
 #include "output_file.hpp"
 #include "table.hpp"
+#include "writing_check.hpp"
 
 namespace detp::sim {
 namespace {
@@ -46,12 +47,15 @@ std::vector<Ray> read_rays(const std::string& path, std::stop_token stop) {
   return rays;
 }
 
-void write_rays(const std::string& path, const std::vector<Ray>& rays) {
+void write_rays(const std::string& path, const std::vector<Ray>& rays, const std::stop_token& stop) {
+  WritingCheck check(path, rays.size(), "rays", stop);
   OutputFile file(path);
   file.write("ox,oy,oz,dx,dy,dz,length,power\n");
-  for (const auto& [origin, direction, ray_length, ray_power] : rays)
+  for (const auto& [origin, direction, ray_length, ray_power] : rays) {
+    check.next();
     file.write(fmt::format("{},{},{},{},{},{},{},{}\n", origin.x, origin.y, origin.z, direction.x, direction.y,
                            direction.z, ray_length, ray_power));
+  }
   file.commit();
 }
 

@@ -16,6 +16,6 @@ namespace detp::sim {
 [[nodiscard]] std::vector<Ray> read_rays(const std::string& path, std::stop_token stop = {});
 
 /// Writes rays as CSV with the header ox,oy,oz,dx,dy,dz,length,power, in digits that read back to the same doubles.
-void write_rays(const std::string& path, const std::vector<Ray>& rays);
+void write_rays(const std::string& path, const std::vector<Ray>& rays, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -68,9 +68,10 @@ class Bsp {
 
 }  // namespace
 
-IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, const VisitNode& visit) {
+IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, const VisitNode& visit,
+                      const std::stop_token& stop) {
   check({Technique::bsp, parameters});
-  const Bsp tree(problem, parameters, {});
+  const Bsp tree(problem, parameters, stop);
   tree.show(visit);
   return tree.size();
 }

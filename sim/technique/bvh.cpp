@@ -101,7 +101,7 @@ class Bvh {
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene_.get(), geometry.get());
     // (A device made with "threads=1" would hold the whole process to one thread.)
-    on_threads(thread_count(threads), [&] { embree::commit(device_, scene_, stop, "building the BVH"); });
+    on_threads(thread_count(threads), [&] { embree::commit(device_.get(), scene_.get(), stop, "building the BVH"); });
   }
 
   /// Shows the query every disc whose box the ray meets.

@@ -28,16 +28,18 @@ struct IndexSize {
 using VisitNode = std::function<void(const IndexNode&)>;
 
 /// Builds an octree, needing no ray, and shows its nodes, parents before children.
-/// Throws as run does for parameters out of range, and for an index that would not fit the memory.
+/// Throws as run does for parameters out of range, and for an index that would not fit the memory; Stopped if a stop
+/// was requested while it was built.
 IndexSize inspect_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
-                         const VisitNode& visit);
+                         const VisitNode& visit, const std::stop_token& stop = {});
 
 /// The same for a grid: its cells, empty ones too.
 IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
-                       const VisitNode& visit);
+                       const VisitNode& visit, const std::stop_token& stop = {});
 
 /// The same for a BSP tree, empty leaves too.
-IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, const VisitNode& visit);
+IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, const VisitNode& visit,
+                      const std::stop_token& stop = {});
 
 /// Runs a variant of the octree. All variants find the same hits.
 [[nodiscard]] Outcome search_octree(const Problem& problem, const OctreeParameters& parameters,

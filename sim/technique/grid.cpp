@@ -161,9 +161,9 @@ class Grid {
 }  // namespace
 
 IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
-                       const VisitNode& visit) {
+                       const VisitNode& visit, const std::stop_token& stop) {
   check({Technique::grid, parameters});
-  const Grid grid(problem, parameters.cells, variant.insertion, {});
+  const Grid grid(problem, parameters.cells, variant.insertion, stop);
   grid.show(visit);
   return grid.size();
 }

@@ -110,9 +110,9 @@ class Octree {
 }  // namespace
 
 IndexSize inspect_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
-                         const VisitNode& visit) {
+                         const VisitNode& visit, const std::stop_token& stop) {
   check({Technique::octree, parameters});
-  const Octree octree(problem, parameters, variant, {});
+  const Octree octree(problem, parameters, variant, stop);
   octree.show(visit);
   return octree.size();
 }

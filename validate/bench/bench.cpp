@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "contenders.hpp"
+#include "detp/sim/stopped.hpp"
 
 namespace detp::validate {
 namespace {
@@ -34,9 +35,12 @@ class Benchmark {
     for (std::size_t i = 0; i < workloads_.size() && !options_.stop.stop_requested(); ++i) {
       if (i == 0 || !same_but_rays(workloads_[i - 1], workloads_[i])) hits_per_ray_ = 0;
       share_ = static_cast<double>(i) / static_cast<double>(workloads_.size());
-      run(workloads_[i]);
+      try {
+        if (run(workloads_[i])) ++result_.done;
+      } catch (const sim::Stopped&) {  // while rays were made
+      }
     }
-    result_.stopped = options_.stop.stop_requested();
+    result_.stopped = result_.done < workloads_.size();
     return std::move(result_);
   }
 
@@ -55,22 +59,23 @@ class Benchmark {
     return true;
   }
 
-  void run(const BenchWorkload& workload) {
-    if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return;
+  /// False where a stop request ended it.
+  bool run(const BenchWorkload& workload) {
+    if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return true;
     show(workload, "making rays");
-    const Job job = make_job(request_of(workload, options_.seed));
+    const Job job = make_job(request_of(workload, options_.seed), options_.stop);
     const Contenders ours = contenders(job.workload, options_.techniques, options_.hopeless);
     if (ours.candidates.empty()) {
       result_.skipped.push_back({workload, "none of the techniques named fits in memory on it"});
-      return;
+      return true;
     }
     if (hits_per_ray_ == 0 && too_many_hits(workload, ours.hits)) {
       hits_per_ray_ = ours.hits / workload.rays;
-      return;
+      return true;
     }
     show(workload, "hits");
     const auto right = right_hits(job, ours.candidates.front(), options_.checkable, options_.stop);
-    if (!right) return;
+    if (!right) return false;
     const auto sum = std::accumulate(right->hits.begin(), right->hits.end(), std::uint64_t{0});
     hits_per_ray_ = static_cast<double>(sum) / workload.rays;
     std::vector<Competitor> competitors(ours.candidates.begin(), ours.candidates.end());
@@ -80,10 +85,13 @@ class Benchmark {
       const RaceOptions how{
           .repeats = options_.repeats, .enough = options_.enough, .threads = threads, .stop = options_.stop};
       Race found = race(job, *right, *peers_.at(threads), competitors, how);
-      if (found.finishes.empty()) return;
-      result_.entries.push_back(
-          {workload, job.workload.samples, job.workload.disc_radius, threads, right->judge, std::move(found)});
+      const bool complete = found.complete;
+      if (!found.finishes.empty())
+        result_.entries.push_back(
+            {workload, job.workload.samples, job.workload.disc_radius, threads, right->judge, std::move(found)});
+      if (!complete) return false;
     }
+    return true;
   }
 
   std::span<const BenchWorkload> workloads_;

@@ -52,7 +52,8 @@ struct BenchResult {
   std::vector<BenchEntry> entries;
   std::vector<BenchSkip> skipped;
   std::size_t workloads = 0;  ///< asked for
-  bool stopped = false;       ///< not all was run
+  std::size_t done = 0;       ///< of them, raced to the end or skipped
+  bool stopped = false;       ///< a stop request came before the end
 };
 
 /// Races on all workloads. Throws what make_job throws for a scene or a number that is wrong.

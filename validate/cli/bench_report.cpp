@@ -124,7 +124,6 @@ std::string left_out_text(const BenchResult& bench, const std::vector<std::strin
   for (const std::string& why : missing) text += fmt::format("left out  {}\n", why);
   for (const validate::BenchSkip& skip : bench.skipped)
     text += fmt::format("skipped   {}: {}\n", describe(skip.workload), skip.why);
-  if (bench.stopped) text += "stopped before the end: what is above is partial\n";
   return text.empty() ? text : "\n" + text;
 }
 
@@ -168,12 +167,11 @@ Result report_bench(const BenchResult& bench, const validate::BenchOptions& opti
   result.json = {{"rows", std::move(rows)},
                  {"summary", summary_json(bench, options)},
                  {"skipped", std::move(skipped)},
-                 {"left_out", missing},
-                 {"stopped", bench.stopped}};
+                 {"left_out", missing}};
   result.text = to_text(bench, options, missing);
   result.csv = to_csv(bench);
   if (!validate::ours_agree(bench.entries)) result.code = ExitCode::refuted;
-  if (bench.stopped) result.code = ExitCode::stopped;
+  if (bench.stopped) result.stopped = {bench.done, bench.workloads, "workloads"};
   return result;
 }
 

@@ -8,6 +8,8 @@
 #include <stop_token>
 #include <string>
 
+#include "detp/sim/progress.hpp"
+
 /// What the commands share: their options, and the shape of their results.
 namespace detp::cli {
 
@@ -26,13 +28,15 @@ struct CommonOptions {
   std::optional<std::string> memory_limit;
 };
 
-/// What a command found, in the three formats. The envelope of the JSON (schema, provenance) is added by `main`.
+/// What a command found, in the three formats. `main` adds the envelope of the JSON (schema, provenance) and how a
+/// stopped command says so.
 struct Result {
   Json inputs;
   Json json;
   std::string text;
   std::string csv;
   ExitCode code = ExitCode::done;
+  std::optional<sim::Progress> stopped = {};  ///< how far it came, if a stop request ended it: the rest is partial
 };
 
 /// One command: its parser, and what runs once options have been parsed.

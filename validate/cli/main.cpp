@@ -12,11 +12,11 @@
 #include "detp/sim/memory.hpp"
 #include "detp/sim/scene/file_error.hpp"
 #include "detp/sim/scene/output_file.hpp"
-#include "detp/sim/stopped.hpp"
 #include "detp/sim/threads.hpp"
 #include "interruption.hpp"
 #include "messages.hpp"
 #include "outputs.hpp"
+#include "stop_report.hpp"
 
 namespace detp::cli {
 namespace {
@@ -62,6 +62,16 @@ void set_memory_limit(const std::string& size) {
   }
 }
 
+/// A command that was stopped before it had an answer says so on stderr, too.
+Result result_of(const Command& command, const CommonOptions& common, const std::stop_token& stop) {
+  try {
+    return command.run(common, stop);
+  } catch (const sim::Stopped& stopped) {
+    static_cast<void>(fail(ExitCode::stopped, stopped.what()));
+    return stopped_result(*command.app, stopped);
+  }
+}
+
 int run(const Command& command, const CommonOptions& common, Interruption& interruption) {
   if (common.memory_limit) set_memory_limit(*common.memory_limit);
   const int wanted = sim::thread_count(common.threads);
@@ -73,7 +83,9 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   check_outputs({{"--output", common.output}});
   interruption.limit(common.time_limit);
   Result result = sim::in_memory(fmt::format("detp {} was at work", command.app->get_name()),
-                                 [&] { return command.run(common, interruption.token()); });
+                                 [&] { return result_of(command, common, interruption.token()); });
+  result.json["stopped"] = result.stopped.has_value();
+  if (result.stopped) mark_stopped(result, interruption.seconds_since_request());
   if (common.format == "json") {
     const Json json = envelope(command.app->get_name(), common, threads, result);
     require_finite_numbers(json);
@@ -109,8 +121,6 @@ int main(int argc, char** argv) {
   prepare_streams();
   try {
     return guarded_main(argc, argv);
-  } catch (const detp::sim::Stopped& stopped) {
-    return fail(ExitCode::stopped, stopped.what());
   } catch (const detp::sim::FileError& error) {
     return fail(ExitCode::bad_input, error.what());
   } catch (const std::invalid_argument& error) {

@@ -8,6 +8,7 @@
 #include "detp/sim/scene/disc_file.hpp"
 #include "detp/sim/scene/mesh_writer.hpp"
 #include "detp/sim/scene/ray_file.hpp"
+#include "detp/sim/stopped.hpp"
 #include "outputs.hpp"
 #include "table.hpp"
 #include "workload_options.hpp"
@@ -27,7 +28,7 @@ void write_mesh(const std::string& path, const validate::JobRequest& request, co
   const sim::Scene scene = sim::open_scene({*request.scene, std::nullopt, request.seed}, stop);
   if (scene.mesh.triangles.empty())
     throw std::invalid_argument(fmt::format("{} has no triangles to write", shown_path(scene.name)));
-  sim::write_ply(path, scene.mesh);
+  sim::write_ply(path, scene.mesh, stop);
 }
 
 /// One row: the workload, what is measured of it, and "finite_paths", "finite_paths_evidence" of each effect.
@@ -61,11 +62,16 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
   if (options.mesh_file) write_mesh(*options.mesh_file, request, stop);
   const validate::Job job = validate::make_job(request, stop);
   note_all(common, job);
-  if (options.disc_file) sim::write_discs(*options.disc_file, job.discs);
-  if (options.ray_file) sim::write_rays(*options.ray_file, job.rays);
+  Result result;
+  try {
+    if (options.disc_file) sim::write_discs(*options.disc_file, job.discs, stop);
+    if (options.ray_file) sim::write_rays(*options.ray_file, job.rays, stop);
+  } catch (const sim::Stopped& stopped) {
+    note(common, fmt::format("{}; the file is not kept", stopped.what()));
+    result.stopped = stopped.progress();
+  }
 
   const Workload& w = job.workload;
-  Result result;
   result.inputs = to_json(job, request);
   result.json = {{"scene", job.name},
                  {"triangles", job.triangles},

@@ -83,6 +83,7 @@ void report_sweep(const validate::SweepResult& sweep, Table& table, Result& resu
   json["summary"] = Json::array();
   for (const DeviationSummary& summary : summaries) json["summary"].push_back(to_json(summary));
   result.text += fmt::format("\n{} of {} workloads measured\n", sweep.measured, sweep.points) + to_text(summaries);
+  if (sweep.measured < sweep.points) result.stopped = {sweep.measured, sweep.points, "workloads of the sweep"};
   for (const Deviation& row : sweep.deviations) table.add(cells_of(row));
 }
 

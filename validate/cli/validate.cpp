@@ -176,11 +176,10 @@ Table table_of(const std::vector<Claim>& claims, const Json& inputs) {
   return table;
 }
 
-ExitCode code_of(const std::vector<Claim>& claims, bool stopped) {
+ExitCode code_of(const std::vector<Claim>& claims) {
   const bool refuted = std::any_of(claims.begin(), claims.end(), [](const Claim& claim) {
     return claim.form == model::Form::corrected && claim.verdict == Verdict::refuted;
   });
-  if (stopped) return ExitCode::stopped;
   return refuted ? ExitCode::refuted : ExitCode::done;
 }
 
@@ -229,17 +228,18 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   const ProgressLine progress(common);
   Result result;
   const validate::Experiment experiment = make_experiment(options.workload.request(common), common, stop, result);
-  const auto findings =
-      validate::all_findings(experiment, [&](std::string_view next, double done) { progress.show(next, done); });
+  sim::Progress done;
+  const auto findings = validate::all_findings(
+      experiment, [&](std::string_view next, double share) { progress.show(next, share); }, &done);
   const std::vector<Claim> claims = validate::judge_all(findings);
   result.json["claims"] = Json::array();
   for (const Claim& claim : claims) result.json["claims"].push_back(to_json(claim));
-  result.text = to_text(claims) + legend(claims) + summary(claims);
+  if (done.done < done.of) result.stopped = done;
+  result.text = claims.empty() ? "no claim was judged\n" : to_text(claims) + legend(claims) + summary(claims);
   Table table = table_of(claims, result.inputs);
-  if (options.thorough && !stop.stop_requested()) sweep(options, common, stop, progress, table, result);
+  if (options.thorough && !result.stopped) sweep(options, common, stop, progress, table, result);
   result.csv = table.csv();
-  result.json["stopped"] = stop.stop_requested();
-  result.code = code_of(claims, stop.stop_requested());
+  result.code = code_of(claims);
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "detp/sim/stop_check.hpp"
 #include "detp/validate/claim.hpp"
 
 namespace detp::validate {
@@ -20,11 +21,15 @@ inline constexpr int batch_count = 32;
          static_cast<std::uint64_t>(batch);
 }
 
-/// result[b] = one(b) for all batches, in parallel. Each writes its own place: the order of work does not show.
+/// result[b] = one(b) for all batches, in parallel. Each writes its own place: the order of work does not show. Throws
+/// sim::Stopped if a stop was requested.
 template <class One>
-auto for_each_batch(const One& one) {
+auto for_each_batch(const Experiment& experiment, const One& one) {
   std::vector<decltype(one(0))> results(batch_count);
-  tbb::parallel_for(0, batch_count, [&](int batch) { results[static_cast<std::size_t>(batch)] = one(batch); });
+  tbb::parallel_for(0, batch_count, [&](int batch) {
+    sim::StopCheck(experiment.stop, "counting").now();
+    results[static_cast<std::size_t>(batch)] = one(batch);
+  });
   return results;
 }
 

@@ -52,7 +52,8 @@ sim::Box index_cube(const std::vector<sim::Disc>& discs) {
 /// Lines through S₀, run through one technique, and what of them the discs' cube sees.
 Batch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& discs, const Candidate& candidate, int part,
                 std::size_t count, int batch) {
-  const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch)).lines(0, count);
+  const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch))
+                         .lines(0, count, experiment.stop);
   const sim::Outcome outcome = sim::run(sim::make_problem(lines, discs), candidate, {.stop = experiment.stop});
   return {.lines = static_cast<double>(count),
           .hitting = lines_that_hit(lines, index_cube(discs)),
@@ -78,7 +79,7 @@ Finding cells_finding(const Experiment& experiment) {
   const int depth = tested_depth(experiment.workload);
   const std::vector<sim::Disc> corners{{.centre = glm::dvec3{-1}, .radius = 1e-3},
                                        {.centre = glm::dvec3{1}, .radius = 1e-3}};
-  const auto batches = for_each_batch([&](int batch) {
+  const auto batches = for_each_batch(experiment, [&](int batch) {
     return run_batch(experiment, corners, {Technique::grid, GridParameters{1 << depth}}, 20, lines, batch);
   });
   const double cells = model::published::cells_per_line(depth);
@@ -155,7 +156,7 @@ std::vector<Finding> disc_index_findings(const Experiment& experiment) {
   const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
   const int depth = tested_depth(workload);
   const std::size_t lines = std::max<std::size_t>(100, static_cast<std::size_t>(workload.rays) / batch_count);
-  const auto batches = for_each_batch([&](int batch) {
+  const auto batches = for_each_batch(experiment, [&](int batch) {
     return run_batch(experiment, discs, {Technique::octree, OctreeParameters{depth}}, 21, lines, batch);
   });
   if (experiment.stop.stop_requested()) return {};

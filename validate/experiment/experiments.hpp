@@ -4,12 +4,13 @@
 #include <string_view>
 #include <vector>
 
+#include "detp/sim/progress.hpp"
 #include "detp/validate/claim.hpp"
 
 /// The experiments behind the claims. Each counts by simulation; none uses a formula to count.
 ///
-/// All are determined by the seed, whatever the number of threads. A stop that was asked for makes them return early
-/// with nothing.
+/// All are determined by the seed, whatever the number of threads. After a stop request they return nothing, or throw
+/// sim::Stopped.
 namespace detp::validate {
 
 /// P(sphere), n_i and P(disc): lines through S₀ against spheres and discs placed at random inside it.
@@ -31,7 +32,8 @@ namespace detp::validate {
 /// Called between experiments with what comes next and the share of the work that is done.
 using Progress = std::function<void(std::string_view next, double done)>;
 
-/// All experiments.
-[[nodiscard]] std::vector<Finding> all_findings(const Experiment& experiment, const Progress& progress = {});
+/// All experiments, or those that were done when a stop was requested. `done`, if given: how many.
+[[nodiscard]] std::vector<Finding> all_findings(const Experiment& experiment, const Progress& progress = {},
+                                                sim::Progress* done = nullptr);
 
 }  // namespace detp::validate

@@ -48,10 +48,12 @@ std::vector<sim::Disc> discs_inside(double radius, std::uint64_t seed) {
 /// Share of the lines that hit, averaged over the bodies: one number a batch.
 template <class Body>
 Estimate hit_share(const Experiment& experiment, const std::vector<Body>& bodies, int part) {
-  const auto shares = for_each_batch([&](int batch) {
+  const auto shares = for_each_batch(experiment, [&](int batch) {
     const sim::LineField field({}, batch_seed(experiment, part, batch));
     std::uint64_t hit = 0;
-    for (std::size_t i = 0; i < lines_per_batch && !experiment.stop.stop_requested(); ++i) {
+    sim::StopCheck check(experiment.stop, "counting");
+    for (std::size_t i = 0; i < lines_per_batch; ++i) {
+      check.after(positions);
       const sim::Ray line = field.line(i);
       for (const Body& body : bodies) hit += sim::hits(line, body) ? 1 : 0;
     }

@@ -13,7 +13,7 @@ namespace detp::validate {
   const Workload& workload = experiment.workload;
   return sim::uniform_discs(workload.dimension < 2.5 ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
                             static_cast<std::size_t>(workload.samples), workload.disc_radius,
-                            batch_seed(experiment, 10, set));
+                            batch_seed(experiment, 10, set), experiment.stop);
 }
 
 }  // namespace detp::validate

@@ -85,7 +85,7 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
   const Counts<double> published = model::published::counts(workload, {ratios[q]}, k);
   result.published[q] = {mean_log_rebuilds(levels, of_published), std::log(published.sphere_tests / workload.rays),
                          std::log(published.disc_tests / workload.rays)};
-  const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, parameters);
+  const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, parameters, experiment.stop);
   result.time_ratio[q] = static_cast<double>(run.counts.sphere_tests) / rays / walk.sphere_tests;
 }
 
@@ -97,10 +97,11 @@ Workload workload_of(const Experiment& experiment, const sim::Problem& problem) 
 }
 
 std::vector<SetResult> run_all(const Experiment& experiment, std::size_t lines) {
-  return for_each_batch([&](int set) {
+  return for_each_batch(experiment, [&](int set) {
     SetResult result;
     const std::vector<sim::Disc> discs = sample_discs(experiment, set);
-    const auto rays = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 11, set)).lines(0, lines);
+    const auto rays =
+        sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 11, set)).lines(0, lines, experiment.stop);
     const sim::Problem problem = sim::make_problem(rays, discs);
     for (std::size_t q = 0; q < ratios.size(); ++q)
       compare(result, q, workload_of(experiment, problem), problem, experiment);

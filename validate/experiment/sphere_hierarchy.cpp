@@ -75,7 +75,8 @@ Workload workload_of(const Experiment& experiment, const sim::Problem& problem) 
 SetResult run_set(const Experiment& experiment, const Subject& subject, std::size_t lines, int set) {
   SetResult result;
   const std::vector<sim::Disc> discs = sample_discs(experiment, set);
-  const auto rays = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 31, set)).lines(0, lines);
+  const auto rays =
+      sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 31, set)).lines(0, lines, experiment.stop);
   const sim::Problem problem = sim::make_problem(rays, discs);
   const auto count = static_cast<double>(lines);
   const std::size_t all = subject.candidates.size();
@@ -84,7 +85,7 @@ SetResult run_set(const Experiment& experiment, const Subject& subject, std::siz
     if (outcome.stopped) return {};
     result.counted.add(as_expected(outcome.counts), count, all);
     result.closed.add(model::predict(workload_of(experiment, problem), candidate), experiment.workload.rays, all);
-    result.structural.add(structural_hierarchy_counts(problem, count, candidate), count, all);
+    result.structural.add(structural_hierarchy_counts(problem, count, candidate, experiment.stop), count, all);
   }
   return result;
 }
@@ -134,7 +135,7 @@ std::vector<Finding> sphere_hierarchy_findings(const Experiment& experiment) {
   std::vector<Finding> findings;
   for (const Subject& subject : {cell_spheres(experiment.workload), sphere_tree()}) {
     const Clock clock;
-    const auto sets = for_each_batch([&](int set) { return run_set(experiment, subject, lines, set); });
+    const auto sets = for_each_batch(experiment, [&](int set) { return run_set(experiment, subject, lines, set); });
     if (experiment.stop.stop_requested()) return {};
     std::vector<Finding> found;
     found.push_back(closed_finding(subject, sets, &Logs::sphere_tests, "sphere"));

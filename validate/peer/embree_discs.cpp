@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "detp/sim/embree.hpp"
 #include "sse_state.hpp"
 
 namespace detp::validate {
@@ -36,7 +37,8 @@ EmbreeOwned<RTCDevice> make_embree_device(int threads) {
   return device;
 }
 
-EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs, EmbreeQuality quality) {
+EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs, EmbreeQuality quality,
+                                         const std::stop_token& stop) {
   EmbreeOwned<RTCScene> scene(rtcNewScene(device));
   rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_CONTEXT_FILTER_FUNCTION);
   rtcSetSceneBuildQuality(scene.get(), to_embree(quality));
@@ -56,8 +58,7 @@ EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::
   });
   rtcCommitGeometry(geometry.get());
   rtcAttachGeometry(scene.get(), geometry.get());
-  rtcCommitScene(scene.get());
-  require_no_embree_error(device);
+  sim::embree::commit(device, scene.get(), stop, "building Embree's tree");
   return scene;
 }
 

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <span>
+#include <stop_token>
 #include <type_traits>
 
 #include "detp/sim/geometry.hpp"
@@ -27,6 +28,6 @@ void require_no_embree_error(RTCDevice device);
 
 /// A committed scene of oriented discs, in single precision; primitive i is disc i. A filter in the context is heeded.
 [[nodiscard]] EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs,
-                                                       EmbreeQuality quality);
+                                                       EmbreeQuality quality, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

@@ -7,6 +7,7 @@
 
 #include <numbers>
 
+#include "detp/sim/stopped.hpp"
 #include "embree_discs.hpp"
 #include "embree_tracer.hpp"
 
@@ -56,11 +57,11 @@ EmbreePeer::EmbreePeer(int threads) : threads_(std::make_unique<Threads>(threads
 EmbreePeer::~EmbreePeer() = default;
 
 PeerOutcome EmbreePeer::run(std::span<const sim::Ray> rays, std::span<const sim::Disc> discs, const EmbreeMode& mode,
-                            const std::stop_token& stop) const {
+                            const std::stop_token& stop) const try {
   // A device builds with as many threads as the largest of all devices alive may have, whatever was asked of it.
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads_->count));
-  const auto scene = build_embree_discs(threads_->device.get(), discs, mode.quality);
+  const auto scene = build_embree_discs(threads_->device.get(), discs, mode.quality, stop);
   const EmbreeTracer tracer(scene.get(), rays, sphere_around(scene.get()), mode);
   oneapi::tbb::enumerable_thread_specific<Tallies> all(Tallies(discs.size()));
   const std::size_t blocks = (rays.size() + block - 1) / block;
@@ -72,6 +73,8 @@ PeerOutcome EmbreePeer::run(std::span<const sim::Ray> rays, std::span<const sim:
   outcome.stopped = stop.stop_requested();
   require_no_embree_error(threads_->device.get());
   return outcome;
+} catch (const sim::Stopped&) {
+  return {.hits = {}, .irradiance = {}, .stopped = true};
 }
 
 }  // namespace detp::validate

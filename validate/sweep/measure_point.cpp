@@ -12,6 +12,7 @@
 #include "detp/model/sphere_cache_published.hpp"
 #include "detp/model/sphere_count.hpp"
 #include "detp/sim/line_field.hpp"
+#include "detp/sim/stopped.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 namespace detp::validate {
@@ -144,9 +145,9 @@ std::vector<Deviation> compare(const SweepPoint& point, const Workload& workload
 /// All candidates on one set. False where a stop was asked for.
 bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidates, std::uint64_t seed, int set,
                  const std::stop_token& stop, Observations& all) {
-  const std::vector<sim::Disc> discs = point.discs(seed, set);
+  const std::vector<sim::Disc> discs = point.discs(seed, set, stop);
   const sim::LineField field(sim::enclosing_sphere(discs), seed * 7919 + static_cast<std::uint64_t>(set));
-  const auto lines = field.lines(0, point.lines);
+  const auto lines = field.lines(0, point.lines, stop);
   const sim::Problem problem = sim::make_problem(lines, discs);
   all.sphere_radius += problem.enclosing.radius / point.sets;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
@@ -160,7 +161,7 @@ bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidat
 
 }  // namespace
 
-std::vector<Deviation> measure_point(const SweepPoint& point, std::uint64_t seed, const std::stop_token& stop) {
+std::vector<Deviation> measure_point(const SweepPoint& point, std::uint64_t seed, const std::stop_token& stop) try {
   const std::vector<Candidate> candidates = sweep_candidates(point);
   Observations all{.of_candidates = std::vector<Observed>(candidates.size())};
   for (int set = 0; set < point.sets; ++set)
@@ -171,6 +172,8 @@ std::vector<Deviation> measure_point(const SweepPoint& point, std::uint64_t seed
   for (std::size_t i = 0; i < candidates.size(); ++i)
     for (Deviation& row : compare(point, workload, candidates[i], all.of_candidates[i])) rows.push_back(std::move(row));
   return rows;
+} catch (const sim::Stopped&) {
+  return {};
 }
 
 }  // namespace detp::validate

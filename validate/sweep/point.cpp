@@ -72,10 +72,10 @@ Workload SweepPoint::workload() const {
   return cube_workload(static_cast<double>(lines), samples, disc_radius(), side, dimension);
 }
 
-std::vector<sim::Disc> SweepPoint::discs(std::uint64_t seed, int set) const {
+std::vector<sim::Disc> SweepPoint::discs(std::uint64_t seed, int set, const std::stop_token& stop) const {
   const auto body = dimension == 2 ? sim::Body::cube_faces : sim::Body::cube;
   return sim::uniform_discs(body, side, static_cast<std::size_t>(samples), disc_radius(),
-                            seed * 1000003 + static_cast<std::uint64_t>(set));
+                            seed * 1000003 + static_cast<std::uint64_t>(set), stop);
 }
 
 std::string SweepPoint::name() const { return fmt::format("D={} n={:g} d/r0={:g}", dimension, samples, disc_share); }

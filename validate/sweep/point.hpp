@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -22,7 +23,7 @@ struct SweepPoint {
 
   [[nodiscard]] double disc_radius() const;
   [[nodiscard]] Workload workload() const;
-  [[nodiscard]] std::vector<sim::Disc> discs(std::uint64_t seed, int set) const;
+  [[nodiscard]] std::vector<sim::Disc> discs(std::uint64_t seed, int set, const std::stop_token& stop = {}) const;
 
   /// Where it lies in the sweep: "D=3 n=1000 d/r0=0.01".
   [[nodiscard]] std::string name() const;

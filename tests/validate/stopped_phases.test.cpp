@@ -1,0 +1,134 @@
+#include <doctest/doctest.h>
+
+#include "detp/sim/line_field.hpp"
+#include "detp/sim/uniform_discs.hpp"
+#include "detp/validate/bench/bench.hpp"
+#include "detp/validate/experiment/experiments.hpp"
+#include "detp/validate/job.hpp"
+#include "detp/validate/measure.hpp"
+#include "detp/validate/structural.hpp"
+#include "detp/validate/sweep/sweep.hpp"
+#include "support/work_log.hpp"
+
+namespace detp::validate {
+namespace {
+
+using sim::StopCheck;
+using sim::support::LoggedWork;
+
+constexpr std::uint64_t block = StopCheck::most_work;
+
+/// A stop request when so much work has been done; the log of that.
+class StopAfterWork {
+ public:
+  explicit StopAfterWork(std::uint64_t work)
+      : log_([this, work](std::uint64_t done) {
+          if (done >= work) source_.request_stop();
+        }) {}
+
+  [[nodiscard]] std::stop_token token() const { return source_.get_token(); }
+  [[nodiscard]] const LoggedWork& log() const { return log_; }
+
+ private:
+  std::stop_source source_;
+  LoggedWork log_;
+};
+
+std::uint64_t work_of(const std::function<void()>& run) {
+  const LoggedWork logged;
+  run();
+  CHECK(logged.bounded());
+  return logged.total();
+}
+
+Experiment small(const std::stop_token& stop) {
+  return {.workload = cube_workload(32'000, 2000, 0.03, 2), .discs = {}, .seed = 5, .stop = stop};
+}
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("what the structures say is counted with bounded work between checks, and a stop request ends it") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 60'000, 0.01, 1);
+    for (const Candidate& candidate : {Candidate{Technique::sphere_cache, SphereCacheParameters{0.6, 6}},
+                                       Candidate{Technique::cell_spheres, CellSpheresParameters{4}},
+                                       Candidate{Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                                       Candidate{Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}},
+                                       Candidate{Technique::octree, OctreeParameters{4}},
+                                       Candidate{Technique::grid, GridParameters{30}}}) {
+      CAPTURE(name(candidate.technique));
+      CAPTURE(describe(candidate.parameters));
+      const std::uint64_t work = work_of([&] { static_cast<void>(structural_counts(discs, 1e5, candidate)); });
+      CHECK(work > discs.size());
+      const StopAfterWork stop(work / 2);
+      CHECK_THROWS_AS(static_cast<void>(structural_counts(discs, 1e5, candidate, stop.token())), sim::Stopped);
+      CHECK(stop.log().total() < work / 2 + 4 * block);
+    }
+  }
+
+  TEST_CASE("rays and discs are made and measured with bounded work between checks, and a stop request ends it") {
+    JobRequest request;
+    request.scene = "@uniform";
+    request.samples = 100'000;
+    request.rays = 400'000;
+    const std::uint64_t work = work_of([&] { static_cast<void>(make_job(request)); });
+    CHECK(work > 100'000 + 400'000);
+    for (const double share : {0.1, 0.5, 0.9}) {
+      const StopAfterWork stop(static_cast<std::uint64_t>(share * static_cast<double>(work)));
+      CHECK_THROWS_AS(static_cast<void>(make_job(request, stop.token())), sim::Stopped);
+    }
+  }
+
+  TEST_CASE("experiments, sweep and races do bounded work between checks") {
+    work_of([] { static_cast<void>(all_findings(small({}))); });
+    const std::vector<BenchWorkload> workloads{{.scene = "@uniform",
+                                                .path = "@uniform",
+                                                .field = sim::Field::isotropic,
+                                                .samples = 5000,
+                                                .disc_radius = Length{0.02},
+                                                .rays = 20'000}};
+    const BenchOptions options{.techniques = {}, .embree_modes = {EmbreeMode{}}, .repeats = 1};
+    work_of([&] { static_cast<void>(run_bench(workloads, options)); });
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("experiments that are stopped give the findings of those done, and say how many") {
+    sim::Progress all;
+    std::size_t findings = 0;
+    const std::uint64_t work = work_of([&] { findings = all_findings(small({}), {}, &all).size(); });
+    CHECK(all.done == all.of);
+    CHECK(all.unit == "experiments");
+    const StopAfterWork stop(work * 9 / 10);
+    sim::Progress some;
+    const auto found = all_findings(small(stop.token()), {}, &some);
+    CHECK(some.of == all.of);
+    CHECK(some.done < some.of);
+    CHECK(found.size() < findings);
+    CHECK((some.done > 0) == !found.empty());
+  }
+
+  TEST_CASE("races that are stopped say how many workloads were done") {
+    const BenchWorkload one{.scene = "@uniform",
+                            .path = "@uniform",
+                            .field = sim::Field::isotropic,
+                            .samples = 500,
+                            .disc_radius = Length{0.02},
+                            .rays = 2000};
+    const std::vector<BenchWorkload> workloads{one, one, one};
+    std::stop_source source;
+    const BenchOptions options{.techniques = {Technique::brute_force},
+                               .embree_modes = {EmbreeMode{}},
+                               .repeats = 1,
+                               .stop = source.get_token(),
+                               .progress = [&](std::string_view, double share) {
+                                 if (share > 0.5) source.request_stop();
+                               }};
+    const BenchResult result = run_bench(workloads, options);
+    CHECK(result.stopped);
+    CHECK(result.done == 2);
+    CHECK(result.workloads == 3);
+  }
+}
+
+}  // namespace detp::validate
