@@ -54,7 +54,7 @@ std::optional<Ranked> best_cache(Technique technique, const Workload& workload, 
 
 std::optional<Ranked> best_cells(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
   Fastest fastest(workload, costs, limits);
-  for (int depth = 0; depth <= std::min(limits.most_depth, 16); ++depth)
+  for (int depth = 0; depth <= std::min(limits.most_depth, 16) && !limits.stop.stop_requested(); ++depth)
     fastest.consider({Technique::cell_spheres, CellSpheresParameters{depth}});
   return std::move(fastest).best();
 }
@@ -69,7 +69,8 @@ std::optional<Ranked> best_octree(const Workload& workload, const UnitCosts& cos
 
 std::optional<Ranked> best_grid(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
   Fastest fastest(workload, costs, limits);
-  for (int cells = 1; cells <= 1 << 16 && index_cells(workload, cells).count() <= limits.most_cells;
+  for (int cells = 1;
+       cells <= 1 << 16 && index_cells(workload, cells).count() <= limits.most_cells && !limits.stop.stop_requested();
        cells = std::max(cells + 1, static_cast<int>(1.1 * cells)))
     fastest.consider({Technique::grid, GridParameters{cells}});
   return std::move(fastest).best();
@@ -137,9 +138,11 @@ std::optional<Ranked> best_of(Technique technique, const Workload& workload, con
 
 std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
   std::vector<Ranked> ranking;
-  for (const Technique technique : all_techniques)
+  for (const Technique technique : all_techniques) {
+    if (!ranking.empty() && limits.stop.stop_requested()) break;
     if (finds_all_hits(technique) && has_closed_form(technique))
       if (auto best = best_of(technique, workload, costs, limits)) ranking.push_back(std::move(*best));
+  }
   std::stable_sort(ranking.begin(), ranking.end(),
                    [](const Ranked& a, const Ranked& b) { return a.time.total() < b.time.total(); });
   return ranking;

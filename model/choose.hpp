@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <vector>
 
@@ -22,9 +23,11 @@ struct SearchLimits {
   int most_depth = 14;           ///< of an octree, and of cells with spheres
   double most_cells = 1 << 26;   ///< of a grid, all together: 8 bytes each
   double most_references = 1e9;  ///< to discs in an index: 4 bytes each
+  std::stop_token stop = {};     ///< ends the search: what it has found by then is given
 };
 
-/// All exact techniques with a closed form, each with its best parameters, fastest first.
+/// All exact techniques with a closed form, each with its best parameters, fastest first. After a stop request those
+/// tried by then, one at least.
 ///
 /// The sphere caches by best_ratio_and_stop; cell spheres and the octree over their depths; the sphere tree by
 /// best_tree; the grid over cell counts in steps of 10 %. Throws std::invalid_argument for a workload out of range.

@@ -44,6 +44,12 @@ class StopCheck {
   /// `doing` is for the message of Stopped: "building the octree".
   explicit StopCheck(std::stop_token stop = {}, const char* doing = "working")
       : stop_(std::move(stop)), doing_(doing) {}
+  StopCheck(const StopCheck&) = default;
+  StopCheck& operator=(const StopCheck&) = default;
+  ~StopCheck() {
+    if (WorkLog* const log = work_log.load(std::memory_order_relaxed); log != nullptr && !stopped_) log->add(work_);
+  }
+
   /// Reports work; does not check.
   void add(std::uint64_t work) { work_ += work; }
 

@@ -102,6 +102,14 @@ TEST_SUITE("identity") {
     CHECK(best_sphere_tree(typical, costs, 5, 7) == SphereTreeParameters{5, 7});
   }
 
+  TEST_CASE("after a stop request the ranking has what was tried by then: one at least, no more than without") {
+    std::stop_source source;
+    source.request_stop();
+    const auto some = rank(typical, costs, {.stop = source.get_token()});
+    CHECK(some.size() == 1);
+    CHECK(rank(typical, costs).size() > 4);
+  }
+
   TEST_CASE("the sphere cache chosen is that of the best ratio and stop") {
     const auto best = best_of(Technique::sphere_cache, typical, costs);
     const BestRatio expected = best_ratio_and_stop(typical, costs);

@@ -50,12 +50,12 @@ Experiment small(const std::stop_token& stop) {
 TEST_SUITE("identity") {
   TEST_CASE("what the structures say is counted with bounded work between checks, and a stop request ends it") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 60'000, 0.01, 1);
-    for (const Candidate& candidate : {Candidate{Technique::sphere_cache, SphereCacheParameters{0.6, 6}},
-                                       Candidate{Technique::cell_spheres, CellSpheresParameters{4}},
-                                       Candidate{Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                       Candidate{Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}},
-                                       Candidate{Technique::octree, OctreeParameters{4}},
-                                       Candidate{Technique::grid, GridParameters{30}}}) {
+    for (const Candidate& candidate :
+         {Candidate{Technique::sphere_cache, SphereCacheParameters{0.6, 6}},
+          Candidate{Technique::cell_spheres, CellSpheresParameters{4}},
+          Candidate{Technique::sphere_tree, SphereTreeParameters{8, 4}},
+          Candidate{Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}},
+          Candidate{Technique::octree, OctreeParameters{4}}, Candidate{Technique::grid, GridParameters{30}}}) {
       CAPTURE(name(candidate.technique));
       CAPTURE(describe(candidate.parameters));
       const std::uint64_t work = work_of([&] { static_cast<void>(structural_counts(discs, 1e5, candidate)); });

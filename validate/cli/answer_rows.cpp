@@ -35,11 +35,10 @@ Json rows_json(const std::vector<AnswerRow>& rows) {
   return json;
 }
 
-std::string to_text(const std::vector<AnswerRow>& rows, std::size_t expected, const TextColumns& columns) {
+std::string to_text(const std::vector<AnswerRow>& rows, const TextColumns& columns) {
   std::vector<Json> cells;
   for (const AnswerRow& row : rows) cells.push_back(row.cells.front());
   std::string text = aligned_text(cells, columns.inputs, columns.answers);
-  if (rows.size() < expected) text += fmt::format("\nstopped after {} of {} rows\n", rows.size(), expected);
   return text;
 }
 
@@ -48,15 +47,16 @@ std::string to_text(const std::vector<AnswerRow>& rows, std::size_t expected, co
 Result result_of(const std::vector<AnswerRow>& rows, std::size_t expected, const Columns& columns,
                  const TextColumns& text) {
   Result result;
-  const bool stopped = rows.size() < expected || rows.back().answer.value("stopped", false);
-  if (stopped) result.code = ExitCode::stopped;
+  const bool last_is_partial = rows.back().answer.value("stopped", false);
+  const bool stopped = rows.size() < expected || last_is_partial;
+  if (stopped) result.stopped = {rows.size() - (last_is_partial ? 1 : 0), expected, "rows"};
   if (expected == 1) {
     result.inputs = rows.front().inputs;
     result.json = rows.front().answer;
   } else {
     result.inputs = shared_inputs(rows);
     result.json = {{"rows", rows_json(rows)}, {"stopped", stopped}};
-    result.text = to_text(rows, expected, text);
+    result.text = to_text(rows, text);
   }
   Table table(columns);
   for (const AnswerRow& row : rows)

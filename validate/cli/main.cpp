@@ -84,6 +84,7 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   interruption.limit(common.time_limit);
   Result result = sim::in_memory(fmt::format("detp {} was at work", command.app->get_name()),
                                  [&] { return result_of(command, common, interruption.token()); });
+  if (result.code == ExitCode::stopped && !result.stopped) result.stopped.emplace();
   result.json["stopped"] = result.stopped.has_value();
   if (result.stopped) mark_stopped(result, interruption.seconds_since_request());
   if (common.format == "json") {

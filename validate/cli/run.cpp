@@ -7,6 +7,7 @@
 #include "detp/model/best_ratio.hpp"
 #include "detp/model/choose.hpp"
 #include "detp/sim/scene/output_file.hpp"
+#include "detp/sim/scene/writing_check.hpp"
 #include "detp/sim/threads.hpp"
 #include "detp/validate/unit_costs.hpp"
 #include "outputs.hpp"
@@ -81,16 +82,25 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
   return best->candidate;
 }
 
-void write_pairs(const std::string& path, const std::vector<sim::Pair>& pairs) {
+void write_pairs(const std::string& path, const std::vector<sim::Pair>& pairs, const std::stop_token& stop) {
+  sim::WritingCheck check(path, pairs.size(), "pairs", stop);
   sim::OutputFile file(path);
   file.write("ray,disc\n");
-  for (const sim::Pair& pair : pairs) file.write(fmt::format("{},{}\n", pair.ray, pair.disc));
+  for (const sim::Pair& pair : pairs) {
+    check.next();
+    file.write(fmt::format("{},{}\n", pair.ray, pair.disc));
+  }
   file.commit();
 }
 
-void write_text(const std::string& path, const std::string& text) {
+void write_per_disc(const std::string& path, const sim::Outcome& outcome, const std::stop_token& stop) {
+  sim::WritingCheck check(path, outcome.hits.size(), "discs", stop);
   sim::OutputFile file(path);
-  file.write(text);
+  file.write("disc,hits,irradiance\n");
+  for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc) {
+    check.next();
+    file.write(fmt::format("{},{},{}\n", disc, outcome.hits[disc], outcome.irradiance[disc]));
+  }
   file.commit();
 }
 
@@ -101,12 +111,24 @@ void check_files(const RunOptions& options, const CommonOptions& common, std::si
   check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
 }
 
-void write_hits(const RunOptions& options, const sim::Outcome& outcome, const CommonOptions& common) {
-  if (!options.per_disc && !options.pairs) return;
-  if (outcome.stopped)
-    return note(common, "stopped before the end: --per-disc and --pairs are not written, for they would be partial");
-  if (options.per_disc) write_text(*options.per_disc, per_disc_csv(outcome));
-  if (options.pairs) write_pairs(*options.pairs, outcome.pairs);
+/// How far a run and the writing of its hits came, if a stop request ended them. A file is written whole or not at all.
+std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnswer& answer, const CommonOptions& common,
+                                        const std::stop_token& stop) {
+  const sim::Outcome& outcome = answer.run.outcome;
+  if (outcome.stopped && (options.per_disc || options.pairs))
+    note(common, "stopped before the end: --per-disc and --pairs are not written, for they would be partial");
+  if (outcome.stopped) return outcome.progress;
+  try {
+    if (options.per_disc) write_per_disc(*options.per_disc, outcome, stop);
+    if (options.pairs) write_pairs(*options.pairs, outcome.pairs, stop);
+  } catch (const sim::Stopped& stopped) {
+    note(common, fmt::format("{}; the file is not kept", stopped.what()));
+    return stopped.progress();
+  }
+  const std::size_t timed = answer.timing.all.size();
+  if (options.repeat > 0 && timed < static_cast<std::size_t>(options.repeat))
+    return sim::Progress{timed, static_cast<std::uint64_t>(options.repeat), "timed runs"};
+  return std::nullopt;
 }
 
 /// A photon map looks for rays in any order and wants all of them in memory.
@@ -120,7 +142,9 @@ bool can_stream(CandidateOptions& options, std::size_t rows) {
 
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CommonOptions& common,
                   const std::stop_token& stop, const ProgressLine& progress) {
-  RunAnswer answer{.candidate = complete(options.candidate, job.workload), .repeat = options.repeat};
+  RunAnswer answer{.candidate = complete(options.candidate, job.workload),
+                   .repeat = options.repeat,
+                   .random_rays = !options.workload.request(common).ray_file};
   const bool plain = options.engine == "plain";
   sim::RunOptions run{.pairs = options.pairs.has_value(), .plain = plain, .stop = stop, .threads = common.threads};
   answer.run = run_job(job, answer.candidate, run, progress);
@@ -140,6 +164,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   const ProgressLine progress(common);
   Json inputs;
   std::string text;
+  std::optional<sim::Progress> stopped;
   const auto prepare = [&] {
     progress.show("scene and rays", 0);
     validate::JobRequest request = options.workload.request(common);
@@ -151,7 +176,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   };
   const auto answer = [&](const validate::Job& job) {
     const RunAnswer found = run_one(options, job, common, stop, progress);
-    write_hits(options, found.run.outcome, common);
+    stopped = write_hits(options, found, common, stop);
     inputs["engine"] = options.engine;
     inputs["threads"] = sim::thread_count(common.threads);
     inputs["repeat"] = options.repeat;
@@ -160,7 +185,10 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   };
   Result result =
       result_of(answer_all(problems, candidates, stop, prepare, answer), expected, run_columns(), run_text_columns());
-  if (expected == 1) result.text = text;
+  if (expected == 1) {
+    result.text = text;
+    result.stopped = stopped;
+  }
   return result;
 }
 

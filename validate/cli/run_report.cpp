@@ -52,14 +52,49 @@ void add_stops(const Workload& workload, const Candidate& candidate, Json& json)
   json["k_best"] = stops.best;
 }
 
+/// Nothing where the rays done, if any, do not say what the others are like.
+std::optional<sim::HitEstimate> estimate(const RunAnswer& answer) {
+  const sim::Outcome& outcome = answer.run.outcome;
+  if (!answer.random_rays || outcome.batches.rays == 0) return std::nullopt;
+  return sim::estimate_hits(outcome.batches, outcome.progress.of);
+}
+
+Json hits_so_far(const RunAnswer& answer) {
+  Json json{{"hits", nullptr},
+            {"hits_per_disc", nullptr},
+            {"mean_irradiance", nullptr},
+            {"hits_so_far", answer.run.outcome.total_hits},
+            {"hits_estimate", nullptr}};
+  if (const auto all = estimate(answer)) {
+    json["hits_estimate"] = {{"value", all->hits}, {"standard_error", nullptr}};
+    if (all->standard_error) json["hits_estimate"]["standard_error"] = *all->standard_error;
+  }
+  return json;
+}
+
+std::string hits_text(const RunAnswer& answer) {
+  const sim::Outcome& outcome = answer.run.outcome;
+  if (!outcome.stopped)
+    return fmt::format("{}, {:.4g} a disc; mean irradiance {:.6g}", outcome.total_hits, hits_per_disc(outcome),
+                       mean_irradiance(outcome));
+  std::string text =
+      fmt::format("{} of the {} {} done", outcome.total_hits, outcome.progress.done, outcome.progress.unit);
+  if (const auto all = estimate(answer)) {
+    text += fmt::format("; of all rays an estimated {:.5g}", all->hits);
+    text += all->standard_error ? fmt::format(" ± {:.2g}", *all->standard_error) : " (error not known)";
+  }
+  return text;
+}
+
 Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   Json json{{"technique", name(answer.candidate.technique)}, {"parameters", to_json(answer.candidate.parameters)}};
   add_stops(job.workload, answer.candidate, json);
-  json.update({{"hits", outcome.total_hits},
-               {"hits_per_disc", hits_per_disc(outcome)},
-               {"mean_irradiance", mean_irradiance(outcome)},
-               {"counts", to_json(outcome.counts)}});
+  json.update(outcome.stopped ? hits_so_far(answer)
+                              : Json{{"hits", outcome.total_hits},
+                                     {"hits_per_disc", hits_per_disc(outcome)},
+                                     {"mean_irradiance", mean_irradiance(outcome)}});
+  json["counts"] = to_json(outcome.counts);
   if (const auto predicted = prediction(job.workload, answer.candidate)) {
     json["predicted"] = to_json(*predicted);
     json["predicted_seconds"] = price(*predicted, validate::built_in_unit_costs(), answer.candidate.technique).total();
@@ -80,6 +115,11 @@ Json cells_of(const Json& inputs, const Candidate& candidate, const Json& json) 
   for (const auto& [name, value] : json.items())
     if (!value.is_structured()) cells[name] = value;
   cells.update(count_cells(json["counts"]));
+  cells["hits"] = json["hits"];
+  if (json.contains("hits_estimate") && !json["hits_estimate"].is_null()) {
+    cells["hits_estimate"] = json["hits_estimate"]["value"];
+    cells["hits_estimate_error"] = json["hits_estimate"]["standard_error"];
+  }
   if (json.contains("predicted")) {
     const Json predicted = count_cells(json["predicted"]);
     for (const auto& [name, value] : predicted.items()) cells["predicted_" + name] = value;
@@ -104,8 +144,9 @@ Columns run_columns() {
   return workload_columns() + Columns{"engine", "threads"} + candidate_columns() +
          Columns{"k", "k_max", "k_best", "hits_per_disc", "mean_irradiance"} + count_columns() +
          count_columns("predicted_") +
-         Columns{"predicted_seconds", "seconds",    "prepare_seconds", "order_seconds",  "build_seconds",
-                 "search_seconds",    "timed_runs", "read_seconds",    "rays_in_memory", "stopped"};
+         Columns{"predicted_seconds", "seconds",       "prepare_seconds",    "order_seconds",  "build_seconds",
+                 "search_seconds",    "timed_runs",    "read_seconds",       "rays_in_memory", "stopped",
+                 "hits_so_far",       "hits_estimate", "hits_estimate_error"};
 }
 
 TextColumns run_text_columns() {
@@ -120,8 +161,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer) {
   const Timing& timing = answer.timing;
   std::string text = describe(job);
   text += fmt::format("technique {} {}\n", name(answer.candidate.technique), describe(answer.candidate.parameters));
-  text += fmt::format("hits      {}, {:.4g} a disc; mean irradiance {:.6g}\n", outcome.total_hits,
-                      hits_per_disc(outcome), mean_irradiance(outcome));
+  text += fmt::format("hits      {}\n", hits_text(answer));
   text += fmt::format(
       "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before\n",
       timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
@@ -132,15 +172,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer) {
     if (value > 0) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", term, value);
   });
   text += counts + "\n";
-  if (outcome.stopped) text += "stopped   before the end: what is above is partial\n";
   return text;
-}
-
-std::string per_disc_csv(const sim::Outcome& outcome) {
-  std::string csv = "disc,hits,irradiance\n";
-  for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc)
-    csv += fmt::format("{},{},{}\n", disc, outcome.hits[disc], outcome.irradiance[disc]);
-  return csv;
 }
 
 }  // namespace detp::cli
