@@ -7,6 +7,7 @@
 
 #include "choose_report.hpp"
 #include "detp/model/paper_rule.hpp"
+#include "detp/sim/stopped.hpp"
 #include "detp/validate/structural.hpp"
 #include "detp/validate/unit_costs.hpp"
 #include "unit_cost_option.hpp"
@@ -22,9 +23,10 @@ struct ChooseOptions {
   bool analyze = false;
 };
 
-void decide(ChooseAnswer& answer, const UnitCosts& costs) {
+/// How far the ranking came, if a stop request ended it.
+std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs, const std::stop_token& stop) {
   const auto start = std::chrono::steady_clock::now();
-  answer.ranking = model::rank(answer.workload, costs);
+  answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
   answer.choosing_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   const double fastest = answer.ranking.front().time.total();
   if (!(fastest > 0))
@@ -37,36 +39,61 @@ void decide(ChooseAnswer& answer, const UnitCosts& costs) {
         fmt::format("with these unit costs the time of {} exceeds 1.8e308 s and cannot be compared; give smaller costs",
                     name(answer.ranking.back().candidate.technique)));
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs);
+  const auto all = std::count_if(all_techniques.begin(), all_techniques.end(),
+                                 [](Technique one) { return finds_all_hits(one) && has_closed_form(one); });
+  if (!stop.stop_requested() || std::ssize(answer.ranking) >= all) return std::nullopt;
+  return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
 }
 
 /// What the structures built of the discs say of a candidate.
-model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const UnitCosts& costs) {
-  const Counts<double> counts = validate::structural_counts(job.discs, job.workload.rays, candidate);
+model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const UnitCosts& costs,
+                                  const std::stop_token& stop) {
+  const Counts<double> counts = validate::structural_counts(job.discs, job.workload.rays, candidate, stop);
   return {candidate, counts, price(counts, costs, candidate.technique), {}};
 }
 
 /// A candidate that was not ranked; nothing where neither a closed form nor its structure predicts it.
 std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
-                                       const UnitCosts& costs) {
+                                       const UnitCosts& costs, const std::stop_token& stop) {
   try {
-    return structural ? assess_structurally(job, candidate, costs) : model::assess(job.workload, candidate, costs);
+    return structural ? assess_structurally(job, candidate, costs, stop)
+                      : model::assess(job.workload, candidate, costs);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   } catch (const std::length_error&) {
     return std::nullopt;
+  } catch (const sim::Stopped&) {
+    return std::nullopt;
   }
 }
 
-/// Ranks anew by what the samples, and the structures built of them, say.
-void decide_structurally(ChooseAnswer& answer, const validate::Job& job, const UnitCosts& costs) {
+/// Ranks again by what the samples, and the structures built of them, say. A stop request leaves the ranking as it was:
+/// then, how many candidates had been counted.
+std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const validate::Job& job, const UnitCosts& costs,
+                                                 const std::stop_token& stop) {
   if (job.field != sim::Field::isotropic)
     throw std::invalid_argument(
         "--rigor structural counts isotropic lines; give --field isotropic, or --rigor estimate");
   const auto start = std::chrono::steady_clock::now();
-  for (model::Ranked& ranked : answer.ranking) ranked = assess_structurally(job, ranked.candidate, costs);
+  std::vector<model::Ranked> ranking;
+  try {
+    for (const model::Ranked& ranked : answer.ranking)
+      ranking.push_back(assess_structurally(job, ranked.candidate, costs, stop));
+  } catch (const sim::Stopped&) {
+    return sim::Progress{ranking.size(), answer.ranking.size(), "candidates counted by their structures"};
+  }
+  answer.ranking = std::move(ranking);
   std::stable_sort(answer.ranking.begin(), answer.ranking.end(),
                    [](const model::Ranked& a, const model::Ranked& b) { return a.time.total() < b.time.total(); });
   answer.choosing_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return std::nullopt;
+}
+
+/// How far putting the choice to the test came.
+sim::Progress measured(const validate::Analysis& analysis) {
+  const auto done = std::count_if(analysis.candidates.begin(), analysis.candidates.end(),
+                                  [](const validate::Analysed& one) { return one.seconds.has_value(); });
+  return {static_cast<std::uint64_t>(done), analysis.candidates.size(), "candidates measured"};
 }
 
 std::string describe_numbers(const Workload& workload) {
@@ -86,9 +113,10 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   request.workload_only = !options.analyze;
   Result result;
   ChooseAnswer answer;
+  answer.rigor = options.rigor;
   if (request.numbers_alone() && !options.analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
-    decide(answer, costs);
+    result.stopped = decide(answer, costs, stop);
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
   } else {
@@ -97,15 +125,16 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     const validate::Job job = validate::make_job(request, stop);
     note_all(common, job);
     answer.workload = job.workload;
-    decide(answer, costs);
-    if (structural) decide_structurally(answer, job, costs);
-    if (options.analyze) {
+    result.stopped = decide(answer, costs, stop);
+    if (structural && !result.stopped) result.stopped = decide_structurally(answer, job, costs, stop);
+    if (structural && result.stopped) answer.rigor = "estimate";
+    if (options.analyze && !result.stopped) {
       answer.analysis = validate::analyse(
           job.problem(), answer.ranking,
           {.stop = stop,
-           .predict = [&](const Candidate& candidate) { return predicted(candidate, job, structural, costs); },
+           .predict = [&](const Candidate& candidate) { return predicted(candidate, job, structural, costs, stop); },
            .progress = [&](std::string_view step, double done) { progress.show(step, done); }});
-      if (answer.analysis->stopped) result.code = ExitCode::stopped;
+      if (answer.analysis->stopped) result.stopped = measured(*answer.analysis);
     }
     result.inputs = to_json(job, request);
     answer.title = describe(job);
@@ -114,7 +143,6 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   result.inputs["unit_costs"] = to_json(costs);
   result.inputs["rigor"] = options.rigor;
   result.inputs["analyze"] = options.analyze;
-  answer.rigor = options.rigor;
   answer.costs = costs;
   answer.costs_given = !options.costs.empty();
   result.json = to_json(answer);

@@ -152,8 +152,8 @@ TEST_SUITE("bad input") {
                          std::invalid_argument);
     std::vector<Ray> bad = rays();
     bad[250].power = -1;
-    CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory(bad), {}), doctest::Contains("ray 250: power must be >= 0 and finite (got -1)"),
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory(bad), {}),
+                         doctest::Contains("ray 250: power must be >= 0 and finite (got -1)"), std::invalid_argument);
     CHECK_THROWS_WITH_AS(stream(discs(), Understated(), {}), doctest::Contains("a ray starts"), std::invalid_argument);
     Totals totals;
     CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory(rays()), {.totals = &totals}), doctest::Contains("totals"),
