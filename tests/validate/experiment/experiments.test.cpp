@@ -45,10 +45,10 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("statistical") {
-  void check_claims(double dimension) {
+  void check_claims(double dimension, double samples) {
     CAPTURE(dimension);
     Experiment experiment{
-        .workload = cube_workload(480'000, 20'000, 0.02, 2, dimension), .discs = {}, .seed = 20261121, .stop = {}};
+        .workload = cube_workload(480'000, samples, 0.02, 2, dimension), .discs = {}, .seed = 20261121, .stop = {}};
     const std::vector<Claim> claims = judge_all(all_findings(experiment));
     std::set<std::string> ids;
     for (const Claim& claim : claims) {
@@ -71,8 +71,10 @@ TEST_SUITE("statistical") {
   }
 
   TEST_CASE("every claim has its say, corrected ones agree, wrong ones are refuted, and so is each control") {
-    check_claims(3);
+    check_claims(3, 20'000);
   }
 
-  TEST_CASE("… and likewise with the samples on the faces of a cube") { check_claims(2); }
+  TEST_CASE("… and likewise with the samples on the faces of a cube") {
+    check_claims(2, 40'000);  // with half as many, sets of samples differ by too much to decide on all claims
+  }
 }
