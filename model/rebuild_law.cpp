@@ -15,7 +15,8 @@ namespace {
 constexpr std::size_t phases = 32;
 constexpr int least_power = -9;
 constexpr std::size_t single_rows = 23;
-constexpr std::size_t columns = 5;  // 10³ … 10⁷ samples
+constexpr std::size_t columns = 5;          // 10³ … 10⁷ samples
+constexpr std::size_t coarse_columns = 17;  // the same by quarters of a decade
 constexpr double coarse_from = -1;
 constexpr double coarse_to = 4.5;  // fading from half a halving before
 constexpr std::size_t coarse_phases = 64;
@@ -28,8 +29,12 @@ constexpr std::array octave_steps{2.,  3.,  4.,  5.,  6.,  7.,  8.,  10., 12., 1
 
 #include "rebuild_law_tables.inc"
 
+static_assert(coarse_table.size() == 2 * 2 * coarse_columns * coarse_steps);
 static_assert(chain_table.size() ==
               (8 * chain_steps + dense_chain_steps[0] + dense_chain_steps[1]) * octave_steps.size());
+
+/// A digit of base 90: the characters from '#' on, the question mark and the backslash left out.
+int digit(char character) { return character - '#' - (character > '?' ? 1 : 0) - (character > '\\' ? 1 : 0); }
 
 double mix(double a, double b, double weight) { return (1 - weight) * a + weight * b; }
 
@@ -72,8 +77,9 @@ double log_extent(int dimension) { return dimension == 3 ? 0 : 2.584962500721156
 
 constexpr double log2_of_10 = 3.321928094887362;
 
-/// Where a table's columns 10³ … 10⁷ stand for as many samples as the cube would hold at the ball's density.
-double column_of(int dimension, double log_lambda, double halvings) {
+/// Decades above 10³, where a table's columns start, of as many samples as the cube would hold at the ball's density;
+/// at most to its last column, of 10⁷.
+double decades_of(int dimension, double log_lambda, double halvings) {
   const double log_samples = log_lambda + log_extent(dimension) + dimension * halvings;
   return std::clamp(log_samples / log2_of_10 - 3, 0.0, columns - 1.0);
 }
@@ -82,17 +88,20 @@ double column_of(int dimension, double log_lambda, double halvings) {
 double coarse_column(int dimension, std::size_t column, double halvings) {
   const double place = std::max(halvings - coarse_from, 0.0) * coarse_phases;
   const auto step = std::min(static_cast<std::size_t>(place), coarse_steps - 2);
-  const double* row = &coarse_table[(static_cast<std::size_t>(dimension - 2) * columns + column) * coarse_steps];
-  const double counted = mix(row[step], row[step + 1], place - static_cast<double>(step));
-  const double log_samples = (3 + static_cast<double>(column)) * log2_of_10;
+  const std::size_t first = (static_cast<std::size_t>(dimension - 2) * coarse_columns + column) * coarse_steps;
+  const auto at = [&](std::size_t entry) {
+    return (90 * digit(coarse_table[2 * (first + entry)]) + digit(coarse_table[2 * (first + entry) + 1])) / 500.0;
+  };
+  const double counted = mix(at(step), at(step + 1), place - static_cast<double>(step));
+  const double log_samples = (3 + static_cast<double>(column) / 4) * log2_of_10;
   const double log_lambda = log_samples - dimension * halvings - log_extent(dimension);
   return counted - log_samples * std::numbers::ln2 - log_share(dimension, log_lambda, halvings - std::floor(halvings));
 }
 
 double log_coarse_factor(int dimension, double log_lambda, double halvings) {
   if (halvings >= coarse_to) return 0;
-  const double place = column_of(dimension, log_lambda, halvings);
-  const auto column = std::min(static_cast<std::size_t>(place), columns - 2);
+  const double place = 4 * decades_of(dimension, log_lambda, halvings);
+  const auto column = std::min(static_cast<std::size_t>(place), coarse_columns - 2);
   const double factor = mix(coarse_column(dimension, column, halvings), coarse_column(dimension, column + 1, halvings),
                             place - static_cast<double>(column));
   return factor * std::min(1.0, 2 * (coarse_to - halvings));
@@ -126,10 +135,9 @@ void require_share(std::string_view what, double value) {
     throw std::invalid_argument(fmt::format("{} must be from 0 to 1 (got {})", what, value));
 }
 
-/// b as a character of the table has it: 90 b/(1 + b) after '#', the question mark and the backslash left out.
+/// b as a digit of the table has it: 90 b/(1 + b).
 double tabulated_b(std::size_t row, std::size_t octaves) {
-  const char character = chain_table[row * octave_steps.size() + octaves];
-  const int ninetieths = character - '#' - (character > '?' ? 1 : 0) - (character > '\\' ? 1 : 0);
+  const int ninetieths = digit(chain_table[row * octave_steps.size() + octaves]);
   return ninetieths / (90.0 - ninetieths);
 }
 
@@ -150,7 +158,7 @@ double chain_column(int dimension, std::size_t column, double halvings, double o
 
 /// b of a large ball: between the columns by the number of samples.
 double large_ball_b(int dimension, double log_lambda, double halvings, double octaves) {
-  const double place = column_of(dimension, log_lambda, halvings);
+  const double place = decades_of(dimension, log_lambda, halvings);
   const auto column = std::min(static_cast<std::size_t>(place), columns - 2);
   return mix(chain_column(dimension, column, halvings, octaves), chain_column(dimension, column + 1, halvings, octaves),
              place - static_cast<double>(column));

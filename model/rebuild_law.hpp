@@ -17,7 +17,12 @@
 ///
 /// F_D → 1 for λ → 0 (each sample starts a ball) and ∝ 1/λ for λ → ∞: m ∝ ρ^{-D}, times a factor periodic in log ρ that
 /// varies by a factor of two, with jumps where the ball just holds a cell of the curve. Balls larger than a sixteenth
-/// of the cube see its ends: their counts, in a cube or on its faces, are tabulated apart.
+/// of the cube see its ends: their counts, in a cube or on its faces, are tabulated apart, by quarters of a decade in
+/// n: the more samples, the smaller the ball at which the count jumps, so that between whole decades it would be
+/// smoothed.
+/// Against 355 such spheres of nests, r_i from 0.3 of the side, at random n_P 10³ … 10⁶ and Q over other samples, m_1
+/// is off by 0.4, 1.9, 3.5 % (D = 2: median, 95th percentile, worst) and 0.6, 3.1, 8.1 % (D = 3), those inside it
+/// by 1.1, 4.7, 5.9 % and 1.2, 4.0, 10.0 %; the noise is 0.6 % in the mean.
 ///
 /// Nested balls. S_i is rebuilt where the sphere around it is, and at those of its own rebuilds that still come:
 ///

@@ -191,6 +191,24 @@ TEST_SUITE("known answer") {
     }
   }
 
+  TEST_CASE("large balls between the table's numbers of samples and radii: m_1 as counted over other sets of samples") {
+    struct Counted {
+      double dimension, samples, disc, ratio, rebuilds;  // in a cube of side 2; the noise is 0.1 to 1.9 %
+    };
+    for (const Counted& counted :
+         {Counted{3, 30'000, 0.015, 0.62, 55.9}, Counted{2, 1898, 0.05516789, 0.77059285, 23.25},
+          Counted{3, 173'075, 0.00111974, 0.64684837, 53.18}, Counted{2, 2161, 0.002440997, 0.76880349, 22.75},
+          Counted{3, 19'672, 0.01205304, 0.77261178, 23.24}, Counted{2, 2078, 0.003590052, 0.50952726, 54.22},
+          Counted{2, 2483, 0.07473541, 0.78547676, 22.42}, Counted{3, 48'971, 0.08149026, 0.63925295, 56.85},
+          Counted{2, 27'431, 0.003529412, 0.83539616, 17.89}, Counted{2, 25'553, 0.03752348, 0.7772724, 26.19},
+          Counted{3, 494'242, 0.001956411, 0.8043485, 26.33}}) {
+      const Workload w = cube_workload(1, counted.samples, counted.disc, 2, counted.dimension);
+      const double radius = w.sphere_radius * counted.ratio - w.disc_radius;
+      CAPTURE(counted.samples);
+      CHECK(single_rebuilds(w, radius, SampleOrder::lebesgue) == Approx(counted.rebuilds).epsilon(0.06));
+    }
+  }
+
   TEST_CASE("balls of radius ρ in [-1, 1]³ start 37 to 63 ρ^-3 times (volume), 46 to 80 ρ^-2 times (faces)") {
     for (double radius = 0.05; radius < 0.2; radius *= 1.07) {
       CHECK(single_rebuilds(cube_workload(1, 1e9, 0.001, 2), radius, SampleOrder::lebesgue) ==

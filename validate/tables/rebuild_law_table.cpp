@@ -2,7 +2,8 @@
 // along the Lebesgue curve, and which share of their rays they list.
 //
 //   cmake --build build --target rebuild_law_table
-//   build/rebuild_law_table rebuilds > model/rebuild_law_tables.inc      (ten minutes)
+//   build/rebuild_law_table rebuilds > model/rebuild_law_tables.inc      (fifteen minutes)
+//   build/rebuild_law_table coarse       (five minutes: of the rebuilds' tables the second alone)
 //   build/rebuild_law_table lists > model/listed_rays_tables.inc         (ten minutes)
 //   build/rebuild_law_table counted      (half a minute: the rows of tests/model/sphere_cache.test.cpp)
 //
@@ -10,11 +11,14 @@
 // along the curve: a ball is centred at a sample and kept while it and those around it hold the next samples. Tables of
 // rebuilds hold, for D = 2 and then D = 3, with h = log₂(2/ρ) the halvings from the cube's side to the radius ρ,
 //   single   ln(m/n) of small balls alone, by 32 phases φ of h, in rows of λ 2^{Dφ} = 2⁻⁹ … 2¹³, λ = n ρ^D/extent
-//   coarse   ln m of large balls alone, for n = 10³ … 10⁷ by h from -1 to 4.5 in steps of 1/64
+//   coarse   ln m of large balls alone, for n = 10³, 10^3¼ … 10⁷ by h from -1 to 4.5 in steps of 1/64; printed is
+//            500 ln m in two digits of base 90. Four columns a decade: where a ball just holds a cell of the curve,
+//            its count doubles within little more than a decade of n
 //   chain    for n = 10³ … 10⁷ by h from 0.5 in steps of 1/32, then by u (log₂ of the ratio to the ball around): what
 //            becomes of a ball's own rebuilds inside a nest of the ratio 2^{-u}. Of s alone, all of the nest's m_{i-1}
-//            and a share exp(-b m_{i-1}/s) (1 - m_{i-1}/n) remain; b is printed as the character 90 b/(1 + b) after
-//            '#', without the question mark and the backslash.
+//            and a share exp(-b m_{i-1}/s) (1 - m_{i-1}/n) remain; b is printed as the digit 90 b/(1 + b).
+//
+// Digits of base 90 are the characters from '#' on, without the question mark and the backslash.
 
 #include <fmt/format.h>
 
@@ -37,6 +41,13 @@ constexpr std::uint64_t seed = 20261121;
 constexpr std::array sample_counts{1'000UL, 10'000UL, 100'000UL, 1'000'000UL, 10'000'000UL};
 constexpr std::array chain_steps{2,  3,  4,  5,  6,  7,  8,  10, 12, 14, 16, 18,
                                  20, 22, 24, 26, 28, 30, 32, 36, 40, 48, 56, 72};  // 32 u
+
+/// 0 … 89 as a character.
+char digit(long value) {
+  const auto plain = static_cast<char>('#' + value);
+  const auto place = static_cast<char>(plain < '?' ? plain : plain + 1);
+  return place < '\\' ? place : static_cast<char>(place + 1);
+}
 
 double balls(const Points& walk, double radius) { return moves(walk, {radius}).front(); }
 
@@ -79,14 +90,17 @@ void print_single() {
 void print_coarse() {
   constexpr int steps = 64;  // a halving: the counts jump where a ball just holds a cell of the curve
   for (const int dimension : {2, 3})
-    for (const std::size_t samples : sample_counts) {
+    for (int column = 0; column <= 16; ++column) {
+      const auto samples = static_cast<std::size_t>(std::llround(std::pow(10, 3 + column / 4.)));
       const std::vector<Points> sets = sets_of(dimension, samples, 10'000'000);
       for (int step = -steps; step <= 9 * steps / 2; ++step) {
         double sum = 0;
         for (const Points& walk : sets) sum += balls(walk, side * std::exp2(-step / double(steps)));
-        fmt::print("{:.3f},{}", std::log(sum / static_cast<double>(sets.size())), step % 16 == 15 ? "\n" : "");
+        const long value = std::lround(500 * std::log(sum / static_cast<double>(sets.size())));
+        if ((step + steps) % 48 == 0) fmt::print("{}\"", step == -steps ? "" : "\"\n");
+        fmt::print("{}{}", digit(value / 90), digit(value % 90));
       }
-      fmt::print("\n");
+      fmt::print("\"\n");
     }
 }
 
@@ -154,9 +168,7 @@ class Chain {
     const double outer = outer_[step][u];
     const double own = (nested_[step][u] - outer) / (1 - outer / samples_) / alone_[step];
     const double b = outer > 0 ? std::max(0.0, -std::log(std::max(own, 1e-9)) * alone_[step] / outer) : 0;
-    const auto plain = static_cast<char>('#' + std::min(89L, std::lround(90 * b / (1 + b))));
-    const auto place = static_cast<char>(plain < '?' ? plain : plain + 1);
-    return place < '\\' ? place : static_cast<char>(place + 1);
+    return digit(std::min(89L, std::lround(90 * b / (1 + b))));
   }
 
   double samples_;
@@ -165,12 +177,18 @@ class Chain {
   std::vector<double> alone_;
 };
 
+void print_coarse_table() {
+  fmt::print("constexpr std::string_view coarse_table =\n");
+  print_coarse();
+  fmt::print(";\n");
+}
+
 void print_rebuilds() {
   fmt::print("constexpr std::array<double, 2 * single_rows * phases> single_table{{{{\n");
   print_single();
-  fmt::print("}}}};\n\nconstexpr std::array<double, 2 * columns * coarse_steps> coarse_table{{{{\n");
-  print_coarse();
-  fmt::print("}}}};\n\nconstexpr std::string_view chain_table =\n");
+  fmt::print("}}}};\n\n");
+  print_coarse_table();
+  fmt::print("\nconstexpr std::string_view chain_table =\n");
   for (const int dimension : {2, 3})
     for (const std::size_t samples : sample_counts) Chain(dimension, samples).print();
   fmt::print(";\n");
@@ -182,11 +200,13 @@ int main(int arguments, char** argument) {
   const std::string_view table = arguments > 1 ? argument[1] : "";
   if (table == "counted") {
     print_counted_spheres();
+  } else if (table == "coarse") {
+    print_coarse_table();
   } else if (table == "rebuilds" || table == "lists") {
     fmt::print("// Made by validate/tables/rebuild_law_table.cpp.\n\n");
     table == "rebuilds" ? print_rebuilds() : print_listed_rays();
   } else {
-    fmt::print(stderr, "usage: rebuild_law_table rebuilds|lists|counted\n");
+    fmt::print(stderr, "usage: rebuild_law_table rebuilds|coarse|lists|counted\n");
     return 1;
   }
 }
