@@ -212,6 +212,25 @@ TEST_SUITE("end to end") {
     CHECK(text.find("disc_radius      0.02\n") != std::string::npos);
   }
 
+  TEST_CASE("a table that is stopped has its rows so far, says so, and ends with code 3") {
+    const std::string model = "model" + numbers + " --spheres best --ratio 0.9:0.99:0.00001 --time-limit 0.1";
+    const Finished text = detp(model);
+    CHECK(text.code == 3);
+    CHECK(text.out.find(" of 9001 rows") != std::string::npos);
+    const Finished json = detp(model + " --format json");
+    CHECK(json.code == 3);
+    CHECK(json.json().at("stopped") == true);
+    CHECK(json.json().at("rows").size() < 9001);
+    CHECK(json.json().at("rows").size() > 0);
+    const Finished run = detp(
+        "run @uniform --samples 3000 --rays 3000 --technique brute-force --engine plain --disc-radius 0.001:1:0.001 "
+        "--format csv --time-limit 0.3");
+    CHECK(run.code == 3);
+    const auto rows = csv_rows(run.out);
+    CHECK(rows.size() < 1000);
+    for (const CsvRow& row : rows) CHECK(row.at("stopped") == (&row == &rows.back() ? row.at("stopped") : "false"));
+  }
+
   TEST_CASE("-o is short for --output") {
     const sim::support::ScratchFolder folder;
     const std::string path = folder.path("table.csv");
