@@ -9,7 +9,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("a predicted time is off by its counts times its unit costs; the count that costs most is named") {
     const UnitCosts costs{.sphere_test = 2, .disc_test = 1};
     model::Ranked predicted{
-        {Technique::sphere_cache, SphereCacheParameters{}}, {.sphere_tests = 10, .disc_tests = 100}, {}};
+        {Technique::sphere_cache, SphereCacheParameters{}}, {.sphere_tests = 10, .disc_tests = 100}, {}, {}};
     predicted.time = price(predicted.counts, costs, predicted.candidate.technique);  // 120
     const PredictionError error = prediction_error(predicted, {.sphere_tests = 20, .disc_tests = 20}, 30, costs);
     CHECK(error.seconds == doctest::Approx(4));
@@ -21,7 +21,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("where all counts are right, nothing but the unit costs is off") {
     const UnitCosts costs{.index_test = 3, .step = 1};
-    model::Ranked predicted{{Technique::grid, GridParameters{4}}, {.disc_tests = 10, .steps = 5}, {}};
+    model::Ranked predicted{{Technique::grid, GridParameters{4}}, {.disc_tests = 10, .steps = 5}, {}, {}};
     predicted.time = price(predicted.counts, costs, predicted.candidate.technique);  // 35
     const PredictionError error = prediction_error(predicted, {.disc_tests = 10, .steps = 5}, 7, costs);
     CHECK(error.counts == doctest::Approx(1));

@@ -24,7 +24,7 @@ struct Case {
 /// Corrected: r_k >= d > r_{k+1}. Published: the same where r_k = d, else one more.
 void see_count(const Case& c, Ledger& ledger) {
   const auto [q, d, r0] = c;
-  const auto inputs = [&] { return fmt::format("Q {:a}, d {:a}, r0 {:a}", q, d, r0); };
+  const auto inputs = [&] { return fmt::format("Q {:a}, d {:a}, r0 {:a}", c.ratio, c.disc, c.outer); };
   try {
     const std::int64_t corrected = sphere_count(model::Form::corrected, {q}, {d}, {r0});
     const std::int64_t published = sphere_count(model::Form::published, {q}, {d}, {r0});
