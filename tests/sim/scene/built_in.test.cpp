@@ -90,7 +90,8 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("the lights shine down") {
-    for (const auto& [name, make] : all) {
+    for (const auto& [bound_name, make] : all) {
+      const auto& name = bound_name;
       CAPTURE(name);
       const auto light = std::get<AreaLight>(make().light);
       CHECK(glm::cross(light.edge_u, light.edge_v).y < 0);
@@ -121,7 +122,8 @@ TEST_SUITE("known answer") {
 
 TEST_SUITE("identity") {
   TEST_CASE("every built-in mesh is the same on every call") {
-    for (const auto& [name, make] : all) {
+    for (const auto& [bound_name, make] : all) {
+      const auto& name = bound_name;
       CAPTURE(name);
       const Mesh first = make().mesh;
       const Mesh second = make().mesh;
@@ -131,7 +133,8 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("no triangle of a built-in mesh is degenerate, and every vertex is a sample with a unit normal") {
-    for (const auto& [name, make] : all) {
+    for (const auto& [bound_name, make] : all) {
+      const auto& name = bound_name;
       CAPTURE(name);
       const Mesh mesh = make().mesh;
       double thinnest = 1;

@@ -101,7 +101,7 @@ TEST_SUITE("bad input") {
   TEST_CASE("what is wrong is told with its line") {
     std::string fifteen;
     for (int i = 0; i < 15; ++i) fifteen += "\\xff";
-    for (const auto& [content, reason] :
+    for (const auto& [bound_content, reason] :
          {std::pair<std::string, std::string>{"", ": is empty; wanted is a header a,b,c"},
           {"\n \n", ": is empty"},
           {"a,b,radius\n", ":1: unknown column \"radius\"; known are a,b,c"},
@@ -125,6 +125,7 @@ TEST_SUITE("bad input") {
           {"a,b\n# comment\n", ":2: 1 fields, but"},
           {std::string("a,b\n1,2\0\n", 9), ":2: holds a NUL byte"},
           {"a,b\n1," + std::string(99, '\xff') + "\n", ":2: b is \"" + fifteen + "...\", which"}}) {
+      const auto& content = bound_content;
       CAPTURE(content.substr(0, 200));
       CHECK_MESSAGE(refusal(content).find("t.csv" + reason) != std::string::npos, refusal(content));
     }

@@ -73,13 +73,14 @@ TEST_SUITE("known answer") {
 TEST_SUITE("bad input") {
   TEST_CASE("a bad disc in a CSV file is refused with its line") {
     const std::string header = "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,1\n";
-    for (const auto& [row, reason] : {std::pair{"0,0,0,0,0,0,1", ":3: the normal is zero; it needs a length"},
-                                      {"0,0,0,0,nan,1,1", ":3: ny must be finite (got nan)"},
-                                      {"0,inf,0,0,0,1,1", ":3: y must be finite (got inf)"},
-                                      {"0,0,0,0,0,1,0", ":3: radius must be > 0 and finite (got 0)"},
-                                      {"0,0,0,0,0,1,-1", ":3: radius must be > 0 and finite (got -1)"},
-                                      {"0,0,0,0,0,1,inf", ":3: radius must be finite (got inf)"},
-                                      {"0,0,0,0,0,1,", ":3: radius is empty; a number is needed"}}) {
+    for (const auto& [bound_row, reason] : {std::pair{"0,0,0,0,0,0,1", ":3: the normal is zero; it needs a length"},
+                                            {"0,0,0,0,nan,1,1", ":3: ny must be finite (got nan)"},
+                                            {"0,inf,0,0,0,1,1", ":3: y must be finite (got inf)"},
+                                            {"0,0,0,0,0,1,0", ":3: radius must be > 0 and finite (got 0)"},
+                                            {"0,0,0,0,0,1,-1", ":3: radius must be > 0 and finite (got -1)"},
+                                            {"0,0,0,0,0,1,inf", ":3: radius must be finite (got inf)"},
+                                            {"0,0,0,0,0,1,", ":3: radius is empty; a number is needed"}}) {
+      const auto& row = bound_row;
       CAPTURE(row);
       const std::string message = refusal("d.csv", header + row + "\n");
       CHECK_MESSAGE(message.find(std::string("d.csv") + reason) != std::string::npos, message);

@@ -98,7 +98,7 @@ TEST_SUITE("bad input") {
     struct Endless {
       std::string name, front, text, reason;
     };
-    for (const auto& [name, front, text, reason] :
+    for (const auto& [bound_name, front, text, reason] :
          {Endless{"a.obj", "", "y\n", ":101: most lines"}, Endless{"b.obj", "", "v 1 x 3\n", ":1: \"x\""},
           Endless{"c.obj", "v ", "9", ":1: the line is longer than 16777216 bytes"},
           Endless{"d.obj", "v 1 2 3\n", "f 1 1 \\\n", ":2: the joined lines are longer"},
@@ -110,6 +110,7 @@ TEST_SUITE("bad input") {
                   "1", "vertex 1 of 3 (line 8): its \"x\""},
           Endless{"h.csv", "", "1", "the line is longer"},
           Endless{"i.csv", "x,y,z,nx,ny,nz\n", "0,0,0,0,0,0\n", ":2: the normal is zero"}}) {
+      const auto& name = bound_name;
       CAPTURE(name);
       const std::string path = pipe_in(folder, name);
       const std::jthread writer = endless_writer(path, front, text, gigabyte);

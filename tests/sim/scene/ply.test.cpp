@@ -144,7 +144,7 @@ TEST_SUITE("known answer") {
 TEST_SUITE("bad input") {
   TEST_CASE("a bad header is refused with its line") {
     const std::string start = "ply\nformat ascii 1.0\n";
-    for (const auto& [content, reason] :
+    for (const auto& [bound_content, reason] :
          {std::pair<std::string, const char*>{"", ": is empty"},
           {"plyx\n", ":1: is no PLY file"},
           {"ply\nformat ascii 2.0\n", ":2: unknown format"},
@@ -167,6 +167,7 @@ TEST_SUITE("bad input") {
           {std::string(5000, '\0'), ":1: holds a NUL byte"},
           {std::string("\xFE\xFF\0p\0l\0y", 8), ": is text in UTF-16"},
           {start + std::string(400'000, 'c'), ":3: the header is longer than 262144 bytes"}}) {
+      const auto& content = bound_content;
       CAPTURE(content.substr(0, 200));
       const std::string message = refusal(content);
       CHECK_MESSAGE(message.find(reason) != std::string::npos, message);
@@ -177,7 +178,7 @@ TEST_SUITE("bad input") {
   TEST_CASE("a bad body is refused with the element and the row") {
     const std::string start = "ply\nformat ascii 1.0\nelement thing 2\nproperty float a\nend_header\n";
     const std::string list = "ply\nformat ascii 1.0\nelement thing 2\nproperty list int int few\nend_header\n";
-    for (const auto& [content, reason] :
+    for (const auto& [bound_content, reason] :
          {std::pair<std::string, const char*>{start + "1\nx\n", "thing 2 of 2 (line 7): its \"a\" is not a number"},
           {start + "  1\n ", "thing 2 of 2 (line 7): the file ends early"},
           {start + "1\n2\n3\n", "holds more than its header says (line 8)"},
@@ -185,6 +186,7 @@ TEST_SUITE("bad input") {
           {list + "1 7\n1.5 8 9\n", "thing 2 of 2 (line 7): its \"few\" has no valid length"},
           {list + "1 7\nnan 8\n", "thing 2 of 2 (line 7): its \"few\" has no valid length"},
           {list + "1 7\n1e9 8\n", "thing 2 of 2 (line 7): the file ends early"}}) {
+      const auto& content = bound_content;
       CAPTURE(content.substr(0, 200));
       CHECK_MESSAGE(refusal(content).find(reason) != std::string::npos, refusal(content));
     }

@@ -68,16 +68,18 @@ TEST_SUITE("known answer") {
 TEST_SUITE("bad input") {
   TEST_CASE("a bad ray in a CSV file is refused with its line") {
     const std::string header = "ox,oy,oz,dx,dy,dz,length,power\n0,0,0,0,0,1,1,1\n";
-    for (const auto& [row, reason] : {std::pair{"0,0,0,0,0,0,1,1", ":3: the direction is zero; it needs a length"},
-                                      {"0,0,0,0,0,inf,1,1", ":3: dz must be finite (got inf)"},
-                                      {"0,nan,0,0,0,1,1,1", ":3: oy must be finite (got nan)"},
-                                      {"0,0,0,0,0,1,0,1", ":3: length must be > 0, or inf for a line (got 0)"},
-                                      {"0,0,0,0,0,1,-1,1", ":3: length must be > 0, or inf for a line (got -1)"},
-                                      {"0,0,0,0,0,1,-inf,1", ":3: length must be > 0, or inf for a line (got -inf)"},
-                                      {"0,0,0,0,0,1,nan,1", ":3: length must be > 0, or inf for a line (got nan)"},
-                                      {"0,0,0,0,0,1,1,-1", ":3: power must be >= 0 and finite (got -1)"},
-                                      {"0,0,0,0,0,1,1,inf", ":3: power must be finite (got inf)"},
-                                      {"0,0,0,0,0,1,1,", ":3: power is empty; a number is needed"}}) {
+    for (const auto& [bound_row, reason] :
+         {std::pair{"0,0,0,0,0,0,1,1", ":3: the direction is zero; it needs a length"},
+          {"0,0,0,0,0,inf,1,1", ":3: dz must be finite (got inf)"},
+          {"0,nan,0,0,0,1,1,1", ":3: oy must be finite (got nan)"},
+          {"0,0,0,0,0,1,0,1", ":3: length must be > 0, or inf for a line (got 0)"},
+          {"0,0,0,0,0,1,-1,1", ":3: length must be > 0, or inf for a line (got -1)"},
+          {"0,0,0,0,0,1,-inf,1", ":3: length must be > 0, or inf for a line (got -inf)"},
+          {"0,0,0,0,0,1,nan,1", ":3: length must be > 0, or inf for a line (got nan)"},
+          {"0,0,0,0,0,1,1,-1", ":3: power must be >= 0 and finite (got -1)"},
+          {"0,0,0,0,0,1,1,inf", ":3: power must be finite (got inf)"},
+          {"0,0,0,0,0,1,1,", ":3: power is empty; a number is needed"}}) {
+      const auto& row = bound_row;
       CAPTURE(row);
       const std::string message = refusal("r.csv", header + row + "\n");
       CHECK_MESSAGE(message.find(std::string("r.csv") + reason) != std::string::npos, message);

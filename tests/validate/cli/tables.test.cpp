@@ -153,7 +153,8 @@ TEST_SUITE("end to end") {
       const Json json = result_of(line);
       const CsvRow row = csv_of(line).front();
       const auto check = [&](const Json& part) {
-        for (const auto& [key, value] : part.items()) {
+        for (const auto& [bound_key, value] : part.items()) {
+          const auto& key = bound_key;
           CAPTURE(key);
           if (value.is_number()) CHECK(number(row, key) == value.get<double>());
           if (value.is_string()) CHECK(row.at(key) == value.get<std::string>());
