@@ -21,11 +21,15 @@ double block_bytes(const SearchSize& size) {
   return bytes_a_ray * static_cast<double>(std::min(2 * block_size(size.discs), size.rays));
 }
 
-/// A disc in order, its counts, its sums twice (in this order, then in the problem's), its share of the outcome.
+/// A disc in order, its counts, its sums twice (in this order, then in the problem's), its share of the outcome; of
+/// several blocks the copy that is kept for a stopped run.
 double bytes_a_disc(const SearchSize& size) {
   constexpr double in_order = sizeof(FloatDisc) + sizeof(std::uint32_t);
   constexpr double outcome = sizeof(std::uint64_t) + sizeof(double);
-  return in_order + sizeof(ClassCounts) + (size.sums ? 2 * sizeof(DiscTotals) : 0) + (size.own_totals ? outcome : 0);
+  const double kept =
+      size.rays > block_size(size.discs) ? sizeof(ClassCounts) + (size.sums ? sizeof(DiscTotals) : 0) : 0;
+  return in_order + sizeof(ClassCounts) + (size.sums ? 2 * sizeof(DiscTotals) : 0) + (size.own_totals ? outcome : 0) +
+         kept;
 }
 
 }  // namespace
