@@ -19,7 +19,7 @@ using namespace detp::model;
 namespace {
 
 /// Room for any index, so that memory does not choose its cells.
-constexpr SearchLimits unlimited{.most_depth = 20, .most_cells = 1e16, .most_references = 1e16};
+const SearchLimits unlimited{.most_depth = 20, .most_cells = 1e16, .most_references = 1e16};
 const UnitCosts costs{};
 
 /// A cube of side 1 with 2^{Dj} samples; discs that shrink with their distance are powers of 2, so that depths of cells
