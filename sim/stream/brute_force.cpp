@@ -20,15 +20,20 @@ constexpr std::size_t chunk = 512;
 /// Rays tested against a chunk between two checks for a stop request.
 constexpr std::size_t rays_at_once = StopCheck::most_work * tests_a_unit / chunk;
 
-void test_chunk(const BlockSearch& block, const RayLists& lists, const DiscRun& discs, Worker& worker) {
+/// Whether it was finished: not after a stop request.
+bool test_chunk(const BlockSearch& block, const RayLists& lists, const DiscRun& discs, Worker& worker) {
   for (int k = 0; k < classes; ++k) {
     const RayList& rays = lists[static_cast<std::size_t>(k)];
     for (std::size_t first = 0; first < rays.size; first += rays_at_once) {
       const RayList some = part_of(rays, first, std::min(rays_at_once, rays.size - first));
-      if (worker.check.requested_after(test_work(some.size, discs.count))) return worker.skipped.push_back(discs);
+      if (worker.check.requested_after(test_work(some.size, discs.count))) {
+        worker.skipped.push_back(discs);
+        return false;
+      }
       test_discs(block, k, discs.first, discs.count, some, worker);
     }
   }
+  return true;
 }
 
 }  // namespace
@@ -46,9 +51,9 @@ void search_all(const Problem& problem, const RunOptions& options, Outcome& outc
       const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());
       tbb::parallel_for(std::size_t{0}, (discs.discs.size() - 1) / chunk + 1, [&](std::size_t i) {
         const std::size_t count = std::min(chunk, discs.discs.size() - i * chunk);
-        test_chunk(block, rays.lists(), {static_cast<std::uint32_t>(i * chunk), static_cast<std::uint32_t>(count)},
-                   workers.local());
-        workers.local().counts.disc_tests += count * rays.size();
+        Worker& worker = workers.local();
+        const DiscRun run{static_cast<std::uint32_t>(i * chunk), static_cast<std::uint32_t>(count)};
+        if (test_chunk(block, rays.lists(), run, worker)) worker.counts.disc_tests += count * rays.size();
       });
       gathering.end(rays, workers);
     });

@@ -141,7 +141,7 @@ TEST_SUITE("bad input") {
     check_refused({{"run @cornell --rays 1e12", "GB"},
                    {"run @uniform --samples 1e12", "GB"},
                    {"scene @cornell --samples 1e12", "GB"},
-                   {"choose @cornell --rays 1e17", "GB"},
+                   {"choose @cornell --rays 1e17 --analyze", "GB"},
                    {uniform + "--technique grid --cells 1000000", "GB"}});
   }
 
