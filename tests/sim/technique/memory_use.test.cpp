@@ -88,7 +88,7 @@ const std::vector<Case>& cases() {
 
 }  // namespace
 
-TEST_SUITE("statistical") {
+TEST_SUITE("memory") {
   TEST_CASE("no technique takes more memory than predicted, nor much less") {
     if (support::sanitized || !forget_peak()) {
       MESSAGE("skipped: the peak of this process cannot be measured");
