@@ -78,36 +78,9 @@ TEST_SUITE("identity") {
       CHECK_THROWS_AS(static_cast<void>(make_job(request, stop.token())), sim::Stopped);
     }
   }
-
-  TEST_CASE("experiments, sweep and races do bounded work between checks") {
-    work_of([] { static_cast<void>(all_findings(small({}))); });
-    const std::vector<BenchWorkload> workloads{{.scene = "@uniform",
-                                                .path = "@uniform",
-                                                .field = sim::Field::isotropic,
-                                                .samples = 5000,
-                                                .disc_radius = Length{0.02},
-                                                .rays = 20'000}};
-    const BenchOptions options{.techniques = {}, .embree_modes = {EmbreeMode{}}, .repeats = 1};
-    work_of([&] { static_cast<void>(run_bench(workloads, options)); });
-  }
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("experiments that are stopped give the findings of those done, and say how many") {
-    sim::Progress all;
-    std::size_t findings = 0;
-    const std::uint64_t work = work_of([&] { findings = all_findings(small({}), {}, &all).size(); });
-    CHECK(all.done == all.of);
-    CHECK(all.unit == "experiments");
-    const StopAfterWork stop(work * 9 / 10);
-    sim::Progress some;
-    const auto found = all_findings(small(stop.token()), {}, &some);
-    CHECK(some.of == all.of);
-    CHECK(some.done < some.of);
-    CHECK(found.size() < findings);
-    CHECK((some.done > 0) == !found.empty());
-  }
-
   TEST_CASE("races that are stopped say how many workloads were done") {
     const BenchWorkload one{.scene = "@uniform",
                             .path = "@uniform",
@@ -128,6 +101,36 @@ TEST_SUITE("known answer") {
     CHECK(result.stopped);
     CHECK(result.done == 2);
     CHECK(result.workloads == 3);
+  }
+}
+
+/// The experiments count millions of lines, whatever the workload: too long for the quick suites.
+TEST_SUITE("statistical") {
+  TEST_CASE("experiments and races do bounded work between checks") {
+    work_of([] { static_cast<void>(all_findings(small({}))); });
+    const std::vector<BenchWorkload> workloads{{.scene = "@uniform",
+                                                .path = "@uniform",
+                                                .field = sim::Field::isotropic,
+                                                .samples = 5000,
+                                                .disc_radius = Length{0.02},
+                                                .rays = 20'000}};
+    const BenchOptions options{.techniques = {}, .embree_modes = {EmbreeMode{}}, .repeats = 1};
+    work_of([&] { static_cast<void>(run_bench(workloads, options)); });
+  }
+
+  TEST_CASE("experiments that are stopped give the findings of those done, and say how many") {
+    sim::Progress all;
+    std::size_t findings = 0;
+    const std::uint64_t work = work_of([&] { findings = all_findings(small({}), {}, &all).size(); });
+    CHECK(all.done == all.of);
+    CHECK(all.unit == "experiments");
+    const StopAfterWork stop(work * 9 / 10);
+    sim::Progress some;
+    const auto found = all_findings(small(stop.token()), {}, &some);
+    CHECK(some.of == all.of);
+    CHECK(some.done < some.of);
+    CHECK(found.size() < findings);
+    CHECK((some.done > 0) == !found.empty());
   }
 }
 
