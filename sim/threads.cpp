@@ -5,10 +5,10 @@
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
+#include <exception>
 #include <latch>
 #include <mutex>
 #include <optional>
-#include <exception>
 #include <thread>
 #include <vector>
 

@@ -10,8 +10,8 @@ inline constexpr int most_threads = 4096;
 [[nodiscard]] int thread_count(int asked);
 
 /// As many of these threads as the system lets this process start, at least 1. (oneTBB ends the process where it cannot
-/// start one: a limit of processes or of memory may forbid that.) Starts threads to find out, once for each number larger
-/// than those before.
+/// start one: a limit of processes or of memory may forbid that.) Starts threads to find out, once for each number
+/// larger than those before.
 [[nodiscard]] int startable_threads(int threads);
 
 /// Calls `work`, whose oneTBB algorithms then run on that many threads, this one among them. On fewer, where the
