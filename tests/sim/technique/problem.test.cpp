@@ -154,6 +154,14 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("identity") {
+  TEST_CASE("rays that all pass one disc at a distance hit nothing, by any technique") {
+    const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 0.1}};
+    const std::vector<Ray> rays{{{0, 5, 0}, {1, 0, 0}}, {{0, 0, 7}, {0, 1, 0}}};
+    const Problem problem = make_problem(rays, discs);
+    CHECK(truth_of(problem).total_hits == 0);
+    check_all_agree(problem);
+  }
+
   TEST_CASE("directions and normals normalised in floats, or not at all, give all techniques the same hits") {
     auto discs = uniform_discs(Body::cube, 2, 300, 0.1, 5);
     auto rays = LineField(enclosing_sphere(discs), 6).lines(0, 400);
