@@ -18,7 +18,7 @@ std::string extrapolated_lines(std::span<const std::pair<Technique, std::vector<
                                       [&](const auto& entry) { return entry.first == reason; });
       if (known == techniques_of.end())
         techniques_of.emplace_back(reason, name(technique));
-      else
+      else if (known->second.find(name(technique)) == std::string::npos)
         known->second += fmt::format(", {}", name(technique));
     }
   std::string text;
