@@ -22,7 +22,7 @@ int started_beside(int wanted) {
   threads.reserve(static_cast<std::size_t>(wanted));
   try {
     while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([&end] { end.wait(); });
-  } catch (const std::exception&) {  // no more, for want of processes or of memory
+  } catch (const std::exception&) {  // a limit of processes or memory is reached
   }
   end.count_down();
   for (std::thread& thread : threads) thread.join();

@@ -28,14 +28,14 @@ class Stream {
     streamed_.check_seconds = watch.lap();
     const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());
     streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, source.size()));
-    foretell(0);
+    predict_bytes(0);
     try {
       prepared_ = prepare(problem_, candidate_, run_);
     } catch (const Stopped&) {
       streamed_.outcome.stopped = true;
     }
     streamed_.outcome.seconds.build = watch.lap();
-    foretell(prepared_ ? static_cast<double>(prepared_->bytes()) : 0);
+    predict_bytes(prepared_ ? static_cast<double>(prepared_->bytes()) : 0);
     totals_.resize(discs.size());
     block_.resize(streamed_.block);
     run_.totals = &totals_;
@@ -68,7 +68,7 @@ class Stream {
   }
 
   /// Predicted bytes beside what each block's run takes. Refuses what would not fit, before it is taken.
-  void foretell(double index) {
+  void predict_bytes(double index) {
     const auto threads = static_cast<double>(prepared_ ? thread_count(run_.threads) : 0);
     const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
                               threads * sizeof(std::uint32_t);  // mailboxes

@@ -33,7 +33,7 @@ struct BenchAxes {
 
 enum class BenchEffort { quick, thorough };
 
-/// What is to be run, and what for want of its files cannot be.
+/// Workloads to run, and those whose files are missing.
 struct BenchSet {
   std::vector<BenchWorkload> workloads;  ///< those that differ in the number of rays alone follow each other, rising
   std::vector<std::string> missing;      ///< why, for each that was left out

@@ -15,7 +15,7 @@ using detp::support::sanitized;
 
 namespace {
 
-/// Refused, as the contract says, for want of memory or threads.
+/// Refused with exit code 2: the memory or the threads do not suffice.
 void check_short_of(const Finished& finished, const std::string& named) {
   CAPTURE(finished.err);
   CHECK(finished.signal == 0);

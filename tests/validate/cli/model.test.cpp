@@ -132,7 +132,7 @@ TEST_SUITE("known answer") {
                                                        tests.at("counts").at("disc_tests").get<double>()));
   }
 
-  TEST_CASE("k is told however large it is: a tiny disc and Q next to 1 leave 4e18 spheres") {
+  TEST_CASE("k is reported however large it is: a tiny disc and Q next to 1 leave 4e18 spheres") {
     const Json json =
         result_of("model --rays 1e6 --samples 1e6 --sphere-radius 1 --disc-radius 1e-200 --ratio 0.9999999999999999");
     CHECK(json.at("k") == 4'147'968'546'718'736'978);
