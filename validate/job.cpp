@@ -15,6 +15,7 @@
 #include "detp/sim/scene/photon_paths.hpp"
 #include "detp/sim/scene/photon_source.hpp"
 #include "detp/sim/scene/ray_file.hpp"
+#include "detp/sim/stop_check.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/sim/uniform_discs.hpp"
 #include "measure.hpp"
@@ -32,10 +33,13 @@ std::size_t count_in_memory(std::string_view what, double count, std::size_t byt
   return static_cast<std::size_t>(count);
 }
 
-double triangle_area(const sim::Mesh& mesh) {
+double triangle_area(const sim::Mesh& mesh, const std::stop_token& stop) {
+  sim::StopCheck check(stop, "measuring triangles");
   double area = 0;
-  for (const auto& [a, b, c] : mesh.triangles)
-    area += 0.5 * glm::length(glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
+  sim::for_each_checked(std::span(mesh.triangles), check, [&](const auto& corners) {
+    const glm::dvec3& a = mesh.positions[corners[0]];
+    area += 0.5 * glm::length(glm::cross(mesh.positions[corners[1]] - a, mesh.positions[corners[2]] - a));
+  });
   return area;
 }
 
@@ -53,11 +57,14 @@ double default_radius(const sim::Scene& scene, double side, double edge_length) 
   return 0.5 * (edge_length > 0 ? edge_length : spread);
 }
 
-std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double radius) {
+std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double radius, const std::stop_token& stop) {
   require_positive("disc radius", radius);
+  sim::StopCheck check(stop, "making discs");
   std::vector<sim::Disc> discs;
   discs.reserve(samples.size());
-  for (const sim::Sample& sample : samples) discs.push_back({sample.position, sample.normal, radius});
+  sim::for_each_checked(std::span(samples), check, [&](const sim::Sample& sample) {
+    discs.push_back({sample.position, sample.normal, radius});
+  });
   return discs;
 }
 
@@ -110,11 +117,11 @@ class JobMaker {
     job_.name = scene_->name;
     job_.notices = scene_->notices;
     job_.triangles = scene_->mesh.triangles.size();
-    surface_ = {triangle_area(scene_->mesh), request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
+    surface_ = {triangle_area(scene_->mesh, stop_), request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
     const double side = longest_side(scene_->box);
     const double radius = request_.disc_radius ? absolute(*request_.disc_radius, side)
                                                : default_radius(*scene_, side, surface_.edge_length);
-    job_.discs = discs_at(scene_->samples, radius);
+    job_.discs = discs_at(scene_->samples, radius, stop_);
   }
 
   void make_rays() {
@@ -140,7 +147,7 @@ class JobMaker {
 
   void make_lines(std::size_t count) {
     constexpr std::size_t at_once = std::size_t{1} << 18;
-    const sim::LinesOfField lines(sim::enclosing_sphere(job_.discs), request_.seed, count);
+    const sim::LinesOfField lines(sim::enclosing_sphere(job_.discs, stop_), request_.seed, count);
     job_.rays.reserve(count);
     for (std::size_t made = 0; made < count; made = job_.rays.size()) {
       job_.rays.resize(std::min(count, made + at_once));
@@ -155,7 +162,7 @@ class JobMaker {
 
   void make_stream(std::uint64_t count) {
     if (job_.field == sim::Field::isotropic)
-      job_.stream = std::make_unique<sim::LinesOfField>(sim::enclosing_sphere(job_.discs), request_.seed, count);
+      job_.stream = std::make_unique<sim::LinesOfField>(sim::enclosing_sphere(job_.discs, stop_), request_.seed, count);
     else
       job_.stream = std::make_unique<sim::PhotonSource>(scene_for_photons(), count, request_.seed, stop_);
   }
@@ -163,8 +170,8 @@ class JobMaker {
   /// Of a stream, on its first block.
   Workload measure_rays_and_discs() {
     if (!job_.stream) {
-      const sim::Problem problem = job_.problem();
-      job_.warnings = outlier_warnings(problem);
+      const sim::Problem problem = job_.problem(1, stop_);
+      job_.warnings = outlier_warnings(problem, stop_);
       Workload workload = measure(problem, surface_, stop_);
       if (request_.workload_only && !request_.ray_file)
         workload.rays = std::max(workload.rays, request_.rays.value_or(default_rays));
@@ -172,8 +179,8 @@ class JobMaker {
     }
     std::vector<sim::Ray> block(sim::default_block(job_.discs.size()));
     job_.stream->read(0, block, stop_);
-    const sim::Problem problem = sim::make_problem(block, job_.discs, job_.front_facing);
-    job_.warnings = outlier_warnings(problem);
+    const sim::Problem problem = sim::make_problem(block, job_.discs, job_.front_facing, 1, stop_);
+    job_.warnings = outlier_warnings(problem, stop_);
     Workload workload = measure(problem, surface_, stop_);
     workload.rays = static_cast<double>(job_.stream->size());
     return workload;

@@ -71,8 +71,8 @@ struct Job {
   double read_seconds = 0;  ///< reading or making scene and rays
 
   /// The problem; borrows from this job. Throws std::invalid_argument where the rays are a stream.
-  [[nodiscard]] sim::Problem problem(int threads = 1) const {
-    return sim::make_problem(rays, discs, front_facing, threads);
+  [[nodiscard]] sim::Problem problem(int threads = 1, const std::stop_token& stop = {}) const {
+    return sim::make_problem(rays, discs, front_facing, threads, stop);
   }
 };
 

@@ -12,16 +12,16 @@
 namespace detp::validate {
 namespace {
 
-sim::Box box_of_centres(std::span<const sim::Disc> discs) {
+sim::Box box_of_centres(std::span<const sim::Disc> discs, sim::StopCheck& check) {
   sim::Box box;
-  for (const sim::Disc& disc : discs) box.include(disc.centre);
+  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) { box.include(disc.centre); });
   return box;
 }
 
 /// Occupied cells at each level of halving, 0 … 16.
 std::vector<double> occupied_cells(std::span<const sim::Disc> discs, const std::stop_token& stop) {
   sim::StopCheck check(stop, "measuring the samples");
-  const sim::Box box = box_of_centres(discs);
+  const sim::Box box = box_of_centres(discs, check);
   std::vector<std::uint64_t> codes;
   codes.reserve(discs.size());
   sim::for_each_checked(discs, check,
@@ -42,9 +42,9 @@ std::vector<double> occupied_cells(std::span<const sim::Disc> discs, const std::
 }
 
 /// Mean length of the rays inside the samples' box grown by the disc radius; 0 where all are unbounded lines.
-double mean_path_length(const sim::Problem& problem, double disc_radius, const std::stop_token& stop) {
+double mean_path_length(const sim::Problem& problem, const sim::Box& box, double disc_radius,
+                        const std::stop_token& stop) {
   sim::StopCheck check(stop, "measuring the rays");
-  const sim::Box box = box_of_centres(problem.discs);
   const sim::Box grown{box.low - disc_radius, box.high + disc_radius};
   double sum = 0;
   bool segments = false;
@@ -57,12 +57,14 @@ double mean_path_length(const sim::Problem& problem, double disc_radius, const s
 }
 
 /// The root of the mean square; exactly the discs' radius where all have the same.
-double rms_radius(std::span<const sim::Disc> discs) {
-  const auto same = [&](const sim::Disc& disc) { return disc.radius == discs.front().radius; };
-  if (std::all_of(discs.begin(), discs.end(), same)) return discs.front().radius;
+double rms_radius(std::span<const sim::Disc> discs, sim::StopCheck& check) {
   double sum = 0;
-  for (const sim::Disc& disc : discs) sum += disc.radius * disc.radius;
-  return std::sqrt(sum / static_cast<double>(discs.size()));
+  bool same = true;
+  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) {
+    sum += disc.radius * disc.radius;
+    same = same && disc.radius == discs.front().radius;
+  });
+  return same ? discs.front().radius : std::sqrt(sum / static_cast<double>(discs.size()));
 }
 
 }  // namespace
@@ -87,15 +89,18 @@ double sample_dimension(std::span<const sim::Disc> discs, const std::stop_token&
 }
 
 Workload measure(const sim::Problem& problem, const SurfaceFacts& surface, const std::stop_token& stop) {
-  const glm::dvec3 size = box_of_centres(problem.discs).size();
+  sim::StopCheck check(stop, "measuring the samples");
+  const sim::Box box = box_of_centres(problem.discs, check);
+  const glm::dvec3 size = box.size();
+  const double radius = rms_radius(problem.discs, check);
   Workload workload{.rays = static_cast<double>(problem.rays.size()),
                     .samples = static_cast<double>(problem.discs.size()),
-                    .disc_radius = rms_radius(problem.discs),
+                    .disc_radius = radius,
                     .sphere_radius = problem.enclosing.radius,
                     .box = {size.x, size.y, size.z},
                     .dimension = sample_dimension(problem.discs, stop),
                     .sample_distance = surface.edge_length,
-                    .path_length = mean_path_length(problem, rms_radius(problem.discs), stop)};
+                    .path_length = mean_path_length(problem, box, radius, stop)};
   // One sample, or all in one place: the disc itself is the only length there is.
   if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
   workload.sample_extent = sample_extent(workload);  // of their own: a scene's samples need not lie on its box

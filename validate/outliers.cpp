@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/vector_relational.hpp>
 
+#include "detp/sim/stop_check.hpp"
+
 namespace detp::validate {
 namespace {
 
@@ -55,32 +57,34 @@ std::string some_of(std::size_t some, std::size_t all, const char* what, const c
 }
 
 void warn_of_far_discs(std::span<const sim::Disc> discs, const std::vector<sim::Disc>& taken, double radius,
-                       std::vector<std::string>& warnings) {
+                       sim::StopCheck& check, std::vector<std::string>& warnings) {
   sim::Box whole;
-  for (const sim::Disc& disc : discs) whole.include(disc.centre);
+  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) { whole.include(disc.centre); });
   const sim::Box centre = central_box(taken);
   const double reach = std::max(longest(centre), 2 * radius);  // of discs in one place, their own size
   if (!(longest(whole) > far_boxes * reach)) return;
-  const auto far = std::count_if(discs.begin(), discs.end(), [&](const sim::Disc& disc) {
-    return glm::any(glm::lessThan(disc.centre, centre.low - reach)) ||
-           glm::any(glm::greaterThan(disc.centre, centre.high + reach));
+  std::size_t far = 0;
+  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) {
+    const bool outside = glm::any(glm::lessThan(disc.centre, centre.low - reach)) ||
+                         glm::any(glm::greaterThan(disc.centre, centre.high + reach));
+    far += outside ? 1 : 0;
   });
   warnings.push_back(fmt::format(
       "{} far from the others: the box of all is {:.3g} long, {:.3g} times that of the central 90 % ({:.3g}); "
       "predictions, S0 and percentages take the box of all, as if discs were spread over it",
-      some_of(static_cast<std::size_t>(far), discs.size(), "discs", "lies", "lie"), longest(whole),
-      longest(whole) / reach, reach));
+      some_of(far, discs.size(), "discs", "lies", "lie"), longest(whole), longest(whole) / reach, reach));
 }
 
-void warn_of_large_discs(std::span<const sim::Disc> discs, double median, std::vector<std::string>& warnings) {
+void warn_of_large_discs(std::span<const sim::Disc> discs, double median, sim::StopCheck& check,
+                         std::vector<std::string>& warnings) {
   double largest = 0;
   double squares = 0;
   std::size_t large = 0;
-  for (const sim::Disc& disc : discs) {
+  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) {
     largest = std::max(largest, disc.radius);
     squares += disc.radius / median * (disc.radius / median);
     large += disc.radius > heavy_radii * median ? 1 : 0;
-  }
+  });
   const double rms = std::sqrt(squares / static_cast<double>(discs.size()));
   if (!(largest > large_radii * median || (largest > heavy_radii * median && rms > heavy_mean))) return;
   const std::string radius = large == 1 ? "a radius of" : "radii up to";
@@ -90,15 +94,15 @@ void warn_of_large_discs(std::span<const sim::Disc> discs, double median, std::v
       some_of(large, discs.size(), "discs", "has", "have"), radius, largest, largest / median, median, rms * median));
 }
 
-void warn_of_far_rays(const sim::Problem& problem, std::vector<std::string>& warnings) {
+void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::vector<std::string>& warnings) {
   const double radius = problem.enclosing.radius;
   double farthest = 0;
   std::size_t far = 0;
-  for (const sim::Ray& ray : problem.rays) {
+  sim::for_each_checked(problem.rays, check, [&](const sim::Ray& ray) {
     const double distance = glm::length(ray.origin - problem.enclosing.centre);
     farthest = std::max(farthest, distance);
     far += distance > far_radii * radius ? 1 : 0;
-  }
+  });
   if (far == 0) return;
   warnings.push_back(fmt::format(
       "{} far outside: up to {:.3g} from the centre of the scene, {:.3g} times the radius {:.4g} of S0; every cull is "
@@ -109,13 +113,14 @@ void warn_of_far_rays(const sim::Problem& problem, std::vector<std::string>& war
 
 }  // namespace
 
-std::vector<std::string> outlier_warnings(const sim::Problem& problem) {
+std::vector<std::string> outlier_warnings(const sim::Problem& problem, const std::stop_token& stop) {
+  sim::StopCheck check(stop, "looking for outliers");
   const std::vector<sim::Disc> taken = taken_evenly(problem.discs);
   const double median = median_radius(taken);
   std::vector<std::string> warnings;
-  warn_of_far_discs(problem.discs, taken, median, warnings);
-  warn_of_large_discs(problem.discs, median, warnings);
-  warn_of_far_rays(problem, warnings);
+  warn_of_far_discs(problem.discs, taken, median, check, warnings);
+  warn_of_large_discs(problem.discs, median, check, warnings);
+  warn_of_far_rays(problem, check, warnings);
   return warnings;
 }
 

@@ -17,6 +17,7 @@ namespace detp::validate {
 ///     rays from far away    an origin is over 100 r₀ from the centre of S₀
 ///
 /// Medians and central boxes are those of 4096 discs at most, taken evenly; the rest is one pass over discs and rays.
-[[nodiscard]] std::vector<std::string> outlier_warnings(const sim::Problem& problem);
+/// Throws sim::Stopped on a stop request.
+[[nodiscard]] std::vector<std::string> outlier_warnings(const sim::Problem& problem, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

@@ -51,7 +51,7 @@ void require_non_zero(const std::string& what, const glm::dvec3& vector) {
 }
 
 /// Refuses what is wrong with the ray, with its number.
-void check(const Ray& ray, std::uint64_t number, double most_power) {
+void refuse_unsound(const Ray& ray, std::uint64_t number, double most_power) {
   const std::string who = fmt::format("ray {}: ", number);
   require_coordinates(who + "origin", ray.origin);
   require_non_zero(who + "direction", ray.direction);
@@ -62,7 +62,7 @@ void check(const Ray& ray, std::uint64_t number, double most_power) {
         fmt::format("{}power must be at most {:.4g}, or irradiance overflows (got {})", who, most_power, ray.power));
 }
 
-void check(const Disc& disc, std::uint64_t number) {
+void refuse_unsound(const Disc& disc, std::uint64_t number) {
   const std::string who = fmt::format("disc {}: ", number);
   require_coordinates(who + "centre", disc.centre);
   require_non_zero(who + "normal", disc.normal);
@@ -90,17 +90,19 @@ struct Glance {
   bool sound = true;
 };
 
-Glance look_at(std::span<const Ray> rays, const glm::dvec3& centre, double most_power) {
+Glance look_at(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, const StopCheck& stop) {
   return tbb::parallel_reduce(
       Range(0, rays.size(), rays_at_once), Glance{},
       [&](const Range& range, Glance glance) {
-        for (const Ray& ray : rays.subspan(range.begin(), range.size())) {
+        StopCheck check = stop;
+        for_each_checked(rays.subspan(range.begin(), range.size()), check, [&](const Ray& ray) {
           glance.sound = glance.sound && surely_sound(ray, most_power);
           const glm::dvec3 away = ray.origin - centre;
           glance.farthest2 = std::max(glance.farthest2, glm::dot(away, away));
           glance.least_power = std::min(glance.least_power, ray.power);
           glance.most_power = std::max(glance.most_power, ray.power);
-        }
+        });
+        check.now();
         return glance;
       },
       [](const Glance& a, const Glance& b) {
@@ -109,42 +111,48 @@ Glance look_at(std::span<const Ray> rays, const glm::dvec3& centre, double most_
       });
 }
 
+/// A copy with unit directions or normals.
+template <class T>
+std::shared_ptr<const std::vector<T>> normalised_copy(std::span<const T> given, StopCheck& check) {
+  auto unit = std::make_shared<std::vector<T>>();
+  unit->reserve(given.size());
+  for_each_checked(given, check, [&](const T& one) { unit->push_back(normalised(one)); });
+  return unit;
+}
+
 /// A copy with unit directions; null if all were. Checks one by one: there is one that a glance left in doubt.
 std::shared_ptr<const std::vector<Ray>> normalised_if_needed(std::span<const Ray> rays, double most_power,
-                                                             std::uint64_t first) {
+                                                             std::uint64_t first, StopCheck check) {
   bool all_unit = true;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+  for_each_checked(0, rays.size(), check, [&](std::size_t i) {
     all_unit = all_unit && surely_unit(rays[i].direction);
-    if (!surely_sound(normalised(rays[i]), most_power)) check(rays[i], first + i, most_power);
-  }
-  if (all_unit) return nullptr;
-  auto unit = std::make_shared<std::vector<Ray>>(rays.begin(), rays.end());
-  tbb::parallel_for(Range(0, unit->size(), rays_at_once), [&](const Range& range) {
-    for (std::size_t i = range.begin(); i < range.end(); ++i) (*unit)[i] = normalised((*unit)[i]);
+    if (!surely_sound(normalised(rays[i]), most_power)) refuse_unsound(rays[i], first + i, most_power);
   });
-  return unit;
+  if (all_unit) return nullptr;
+  return normalised_copy(rays, check);
 }
 
 }  // namespace
 
-void require_sound(std::span<const Disc> discs) {
-  for (std::size_t i = 0; i < discs.size(); ++i)
-    if (!surely_sound(discs[i]) && !surely_sound(normalised(discs[i]))) check(discs[i], i);
+void require_sound(std::span<const Disc> discs, StopCheck& check) {
+  for_each_checked(0, discs.size(), check, [&](std::size_t i) {
+    if (!surely_sound(discs[i]) && !surely_sound(normalised(discs[i]))) refuse_unsound(discs[i], i);
+  });
 }
 
-std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Disc> discs) {
-  require_sound(discs);
-  if (std::all_of(discs.begin(), discs.end(), [](const Disc& disc) { return surely_unit(disc.normal); }))
-    return nullptr;
-  auto unit = std::make_shared<std::vector<Disc>>(discs.begin(), discs.end());
-  for (Disc& disc : *unit) disc = normalised(disc);
-  return unit;
+std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Disc> discs, StopCheck& check) {
+  require_sound(discs, check);
+  bool all_unit = true;
+  for_each_checked(discs, check, [&](const Disc& disc) { all_unit = all_unit && surely_unit(disc.normal); });
+  if (all_unit) return nullptr;
+  return normalised_copy(discs, check);
 }
 
-CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, std::uint64_t first) {
-  const Glance seen = look_at(rays, centre, most_power);
+CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, std::uint64_t first,
+                       const StopCheck& check) {
+  const Glance seen = look_at(rays, centre, most_power, check);
   CheckedRays checked{std::sqrt(seen.farthest2), seen.least_power == seen.most_power};
-  if (!seen.sound) checked.unit = normalised_if_needed(rays, most_power, first);
+  if (!seen.sound) checked.unit = normalised_if_needed(rays, most_power, first, check);
   return checked;
 }
 

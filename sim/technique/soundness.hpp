@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "detp/sim/geometry.hpp"
+#include "detp/sim/stop_check.hpp"
 
-/// What make_problem accepts, and how it makes directions and normals unit.
+/// What make_problem accepts, and how it makes directions and normals unit. All throw Stopped on a stop request.
 namespace detp::sim {
 
 /// No disc is smaller: squares must not underflow.
@@ -15,10 +16,11 @@ inline constexpr double least_radius = 1e-100;
 
 /// Throws std::invalid_argument, with the disc's number, for a number that is not finite, a coordinate or radius beyond
 /// 1e100, a radius below 1e-100, and a normal of length 0. Normals may have any other length.
-void require_sound(std::span<const Disc> discs);
+void require_sound(std::span<const Disc> discs, StopCheck& check);
 
 /// A copy of the discs with unit normals; null if all are unit to 1e-12. Throws as require_sound does.
-[[nodiscard]] std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Disc> discs);
+[[nodiscard]] std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Disc> discs,
+                                                                            StopCheck& check);
 
 /// What check_rays finds out.
 struct CheckedRays {
@@ -31,6 +33,6 @@ struct CheckedRays {
 /// Throws std::invalid_argument, with the ray's number, for a number that is not finite (of lengths: but +infinity), a
 /// coordinate beyond 1e100, a direction of length 0, a length <= 0, and a power that is negative or above most_power.
 [[nodiscard]] CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power,
-                                     std::uint64_t first);
+                                     std::uint64_t first, const StopCheck& check);
 
 }  // namespace detp::sim

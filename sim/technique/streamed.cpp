@@ -22,8 +22,8 @@ class Stream {
     check(candidate);
     require_few_enough();
     Stopwatch watch;
-    problem_ =
-        make_problem_without_rays(discs, source.farthest_from(enclosing_sphere(discs).centre), options.front_facing);
+    problem_ = make_problem_without_rays(discs, source.farthest_from(enclosing_sphere(discs, run_.stop).centre),
+                                         options.front_facing, run_.stop);
     check_options(run_, problem_);
     streamed_.check_seconds = watch.lap();
     const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());

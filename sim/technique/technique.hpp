@@ -31,8 +31,8 @@ struct Problem {
 };
 
 /// The smallest sphere around the box of the discs' centres, plus the largest radius. Throws std::invalid_argument for
-/// no discs, for numbers that are not finite, and where the sphere would not be.
-[[nodiscard]] Sphere enclosing_sphere(std::span<const Disc> discs);
+/// no discs, for numbers that are not finite, and where the sphere would not be; Stopped on a stop request.
+[[nodiscard]] Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop = {});
 
 /// A problem with its S₀. Checks rays and discs, and normalises directions and normals.
 ///
@@ -45,7 +45,7 @@ struct Problem {
 /// in "ray 17: direction must be non-zero (got 0 0 0)". Malformed are: a number that is not finite (except +infinity as
 /// a length: the whole line), a coordinate or radius above 1e100, a radius below 1e-100, a direction or normal of
 /// length 0, a length <= 0, a power that is negative or above most_power (for radii of 1 or more 9.6e288: more could
-/// overflow). Throws std::length_error for 2³² or more rays or discs.
+/// overflow). Throws std::length_error for 2³² or more rays or discs, and Stopped on a stop request.
 ///
 /// The slack is 16e-12 E + ∛(2d κ²) + 1e-15 M: a ray taken for a hit comes nearer than this to the disc, whatever
 /// rounding did, with room for that of the culls (proof: sim/README.md, "Geometry"). E is the distance of the farthest
@@ -54,12 +54,12 @@ struct Problem {
 /// rays that graze a disc near its rim, where rounding moves the crossing farthest; the third for cells far from the
 /// origin.
 [[nodiscard]] Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing = false,
-                                   int threads = 1);
+                                   int threads = 1, const std::stop_token& stop = {});
 
 /// A problem whose rays are still to come, block by block: no origin of theirs is to be farther than `farthest` from
 /// the centre of S₀, from which the slack follows. Throws as make_problem does.
-[[nodiscard]] Problem make_problem_without_rays(std::span<const Disc> discs, double farthest,
-                                                bool front_facing = false);
+[[nodiscard]] Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, bool front_facing = false,
+                                                const std::stop_token& stop = {});
 
 /// Puts other rays in the place of a problem's, borrowed. Throws as make_problem does, and std::invalid_argument where
 /// one starts too far away. The first ray is number `first` in messages. The problem stays as it is where this throws.

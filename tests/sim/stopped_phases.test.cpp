@@ -99,6 +99,18 @@ TEST_SUITE("identity") {
                  300'000});
   }
 
+  TEST_CASE("the work between two checks is bounded while rays and discs are checked, and a stop request ends it") {
+    std::vector<Ray> rays = LineField(problem().enclosing, 2).lines(0, 400'000);
+    std::vector<Disc> some = discs();
+    check_phase({"enclosing sphere", [&](const auto& stop) { use(enclosing_sphere(some, stop)); }, some.size()});
+    const Phase problem_phase{"a problem", [&](const auto& stop) { use(make_problem(rays, some, false, 1, stop)); },
+                              3 * some.size() + rays.size()};
+    check_phase(problem_phase);
+    rays.back().direction *= 2.0;  // now both are copied
+    some.back().normal *= 2.0;
+    check_phase({"a problem with directions to normalise", problem_phase.run, 4 * some.size() + 3 * rays.size()});
+  }
+
   TEST_CASE("the work between two checks is bounded while a mesh is measured, and a stop request ends it") {
     const Mesh& mesh = tree().mesh;
     const std::uint64_t triangles = mesh.triangles.size();

@@ -51,8 +51,9 @@ class Runner {
       const PeerOutcome outcome = embree_.run(job_.rays, job_.discs, *mode, options_.stop);
       return note(finish, outcome, seconds_since(start));
     }
-    const sim::Outcome outcome = sim::run(job_.problem(options_.threads), std::get<Candidate>(finish.competitor),
-                                          {.count = false, .stop = options_.stop, .threads = options_.threads});
+    const sim::Outcome outcome =
+        sim::run(job_.problem(options_.threads, options_.stop), std::get<Candidate>(finish.competitor),
+                 {.count = false, .stop = options_.stop, .threads = options_.threads});
     return note(finish, outcome, seconds_since(start));
   }
 

@@ -17,7 +17,7 @@ TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim
     return {std::move(streamed.outcome), streamed.check_seconds, streamed.read_seconds, streamed.block};
   }
   const auto start = std::chrono::steady_clock::now();
-  const sim::Problem problem = job.problem(options.threads);
+  const sim::Problem problem = job.problem(options.threads, options.stop);
   const double prepare = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return {sim::run(problem, candidate, options), prepare, 0, job.rays.size()};
 }
