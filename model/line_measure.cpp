@@ -111,7 +111,8 @@ double crossing_probability(const Workload& workload, double volume, double area
 double expected_hits(const Workload& workload) {
   check(workload);
   const long double d = workload.disc_radius;
-  return saturated(workload.rays * (workload.samples * crossing(workload, 0, 2 * exact_pi * d * d)));
+  const long double faces = workload.front_facing ? 1 : 2;
+  return saturated(workload.rays * (workload.samples * crossing(workload, 0, faces * exact_pi * d * d)));
 }
 
 double both_hit_share(double a, double b, double c) {

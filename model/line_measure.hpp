@@ -63,7 +63,13 @@ namespace detp::model {
 [[nodiscard]] double crossing_probability(const Workload& workload, double volume, double area);
 
 /// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².
-/// Accuracy: 1.1e-16.
+///
+/// Half of them where only rays that arrive at a disc's front count (our derivation): a ray that crosses the disc
+/// arrives at its front or at its back. Reversing the directions of all rays exchanges the two and leaves the isotropic
+/// measure as it is, so that both are equally likely.
+///
+/// Valid      fronts: isotropic directions; photons prefer the side that the light comes from.
+/// Accuracy   1.1e-16.
 [[nodiscard]] double expected_hits(const Workload& workload);
 
 /// Share of the lines through sphere B that also cross sphere A, which need not contain B.

@@ -16,6 +16,8 @@ Claim judge_one(const Finding& finding, const Prediction& prediction, double wid
   const auto verdict_on = [&](double value) { return judge(value, finding.observed, finding.tolerance, width); };
   Claim claim{.id = finding.id + "." + std::string(name(prediction.form)),
               .quantity = finding.quantity,
+              .technique = finding.technique,
+              .parameters = finding.parameters,
               .form = prediction.form,
               .source = prediction.source,
               .predicted = prediction.value,

@@ -25,8 +25,10 @@ struct Prediction {
 
 /// A quantity that was counted, and what the formulas say of it.
 struct Finding {
-  std::string id;        ///< "rebuild-time"
-  std::string quantity;  ///< "T_R per ray, t = 1: geometric mean over Q = 0.3, 0.5, 0.65, 0.8"
+  std::string id;               ///< "rebuild-time"
+  std::string quantity;         ///< "T_R per ray, t = 1: geometric mean over Q = 0.3, 0.5, 0.65, 0.8"
+  std::string technique = {};   ///< "sphere-cache"; empty where the claim is about lines alone
+  std::string parameters = {};  ///< "Q 0.65, k 9"; empty where it is about several of them, or none
   std::vector<Prediction> predictions = {};
   Estimate observed = {};
   int batches = 0;       ///< independent batches behind the standard error; 0: exact
@@ -39,6 +41,8 @@ struct Finding {
 struct Claim {
   std::string id;  ///< "rebuild-time.corrected"
   std::string quantity;
+  std::string technique;   ///< as in the finding
+  std::string parameters;  ///< as in the finding
   model::Form form;
   std::string source;
   double predicted = 0;
@@ -61,7 +65,6 @@ struct Claim {
 struct ChoiceQuestion {
   Workload workload;           ///< as choose measures it
   std::vector<sim::Ray> rays;  ///< at least one
-  bool front_facing = false;   ///< count only rays that arrive at a disc's front
 };
 
 /// What an experiment works on.

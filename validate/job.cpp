@@ -244,6 +244,7 @@ Workload workload_of_numbers(const JobRequest& request) {
   workload.sphere_radius = outer;
   workload.sample_extent = request.sample_extent.value_or(0);
   if (request.sample_extent) require_positive("sample extent", *request.sample_extent);
+  workload.front_facing = request.front_facing;
   check(workload);
   return workload;
 }

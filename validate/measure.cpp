@@ -100,7 +100,8 @@ Workload measure(const sim::Problem& problem, const SurfaceFacts& surface, const
                     .box = {size.x, size.y, size.z},
                     .dimension = sample_dimension(problem.discs, stop),
                     .sample_distance = surface.edge_length,
-                    .path_length = mean_path_length(problem, box, radius, stop)};
+                    .path_length = mean_path_length(problem, box, radius, stop),
+                    .front_facing = problem.front_facing};
   // One sample, or all in one place: the disc itself is the only length there is.
   if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
   workload.sample_extent = sample_extent(workload);  // of their own: a scene's samples need not lie on its box

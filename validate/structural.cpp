@@ -75,12 +75,12 @@ Counts<double> technique_counts(const sim::Problem& problem, double rays, const 
 }  // namespace
 
 Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Candidate& candidate,
-                                 const std::stop_token& stop) {
+                                 const std::stop_token& stop, bool front_facing) {
   require_count("number of rays", rays, 1, 1e18);
   check(candidate);
   const RaylessProblem problem(discs);
   Counts<double> counts = technique_counts(problem.get(), rays, candidate, stop);
-  counts.hits = expected_hits(problem.get(), rays);
+  counts.hits = (front_facing ? 0.5 : 1) * expected_hits(problem.get(), rays);
   return counts;
 }
 

@@ -15,7 +15,7 @@ namespace detp::validate {
 ///     hierarchies          built, and their spheres' surface areas summed, or what their boxes list
 ///                          (structural_hierarchy.hpp)
 ///     brute force          n_R n_P tests
-///     hits                 n_R Σ d²/(2 r₀²)
+///     hits                 n_R Σ d²/(2 r₀²), half of them where only fronts count (model/line_measure.hpp)
 ///
 /// It costs what building the index or walking the samples does.
 ///
@@ -31,6 +31,7 @@ namespace detp::validate {
 ///            sphere-cache-published, whose walk loses rays, for a sphere cache in another order, for bvh and
 ///            photon-map, and for an octree that is not searched top-down or front to back.
 [[nodiscard]] Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays,
-                                               const Candidate& candidate, const std::stop_token& stop = {});
+                                               const Candidate& candidate, const std::stop_token& stop = {},
+                                               bool front_facing = false);
 
 }  // namespace detp::validate

@@ -14,8 +14,12 @@ constexpr std::size_t ancestors = 32;
 constexpr std::size_t pool_size = 32768;
 constexpr std::uint64_t pool_seed = 1;
 
-/// Lines through the unit sphere, in the measure of lines: to integrate with, not to count hits by.
-std::vector<sim::Ray> make_pool() { return sim::LineField({}, pool_seed).lines(0, pool_size); }
+/// Lines through the unit sphere, in the measure of lines: to integrate with, not to count hits by. Made once: drawing
+/// them takes longer than a walk of few samples.
+const std::vector<sim::Ray>& line_pool() {
+  static const std::vector<sim::Ray> pool = sim::LineField({}, pool_seed).lines(0, pool_size);
+  return pool;
+}
 
 bool crosses(const glm::dvec3& point, const glm::dvec3& direction, const sim::Sphere& sphere) {
   const glm::dvec3 w = point - sphere.centre;
@@ -88,7 +92,7 @@ class Walk {
 
   sim::StopCheck check_;
   std::vector<Level> levels_;
-  std::vector<sim::Ray> pool_ = make_pool();
+  const std::vector<sim::Ray>& pool_ = line_pool();
   std::size_t next_ = 0;
   std::size_t valid_ = 1;
   ExpectedWalk expected_;

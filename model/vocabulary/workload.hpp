@@ -19,6 +19,7 @@ struct Workload {
   double sample_extent = 0;    ///< volume (D = 3) or area (D = 2) that the samples fill; 0: the box, or its faces
   double sample_distance = 0;  ///< mean distance between neighbouring samples, length; 0: from the extent
   double path_length = 0;      ///< mean length of the rays inside the box; 0: unbounded lines
+  bool front_facing = false;   ///< only rays that arrive at a disc's front count as hits
 };
 
 /// Throws std::invalid_argument where a number is out of its range, or the scene's scale beyond 1e±90.

@@ -91,6 +91,16 @@ TEST_SUITE("identity") {
     CHECK(expected_hits(w) == Approx(1e5 * 1.5 * 2 * pi * 0.05 * 0.05 / 4 / std::pow(2.1, 3)).epsilon(1e-14));
   }
 
+  TEST_CASE("where only fronts count, half of the hits are expected, of lines and of paths") {
+    for (const double path_length : {0.0, 1.5}) {
+      Workload both = in_cube();
+      both.path_length = path_length;
+      Workload fronts = both;
+      fronts.front_facing = true;
+      CHECK(expected_hits(fronts) == expected_hits(both) / 2);
+    }
+  }
+
   TEST_CASE("a sphere inside the other is crossed by no line that misses the other") {
     CHECK(both_hit_share(1, 1, 0) == 1);
     CHECK(both_hit_share(1, 0.5, 0.5) == 1);

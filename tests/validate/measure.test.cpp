@@ -38,6 +38,13 @@ TEST_SUITE("known answer") {
     CHECK(w.path_length == doctest::Approx((3 + 10 + 0) / 3.0));  // the box ends at 10 + 5
   }
 
+  TEST_CASE("a workload knows whether fronts alone count") {
+    const std::vector<sim::Disc> discs{{}};
+    const std::vector<sim::Ray> rays{{}};
+    CHECK_FALSE(validate::measure(sim::make_problem(rays, discs)).front_facing);
+    CHECK(validate::measure(sim::make_problem(rays, discs, true)).front_facing);
+  }
+
   TEST_CASE("unbounded lines have no path length") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 100, 0.01, 1);
     const auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 10);

@@ -54,6 +54,7 @@ TEST_SUITE("identity") {
     const Counts<double> counts = structural_counts(discs, 1e6, candidates().front());
     CHECK(counts.disc_tests == 5e8);
     CHECK(counts.hits == Approx(5e8 * 0.05 * 0.05 / (2 * outer * outer)).epsilon(1e-12));
+    CHECK(structural_counts(discs, 1e6, candidates().front(), {}, true).hits == counts.hits / 2);
   }
 
   TEST_CASE("twice the rays, twice the tests; as many references") {

@@ -48,7 +48,8 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs
 /// What the structures built of the discs say of a candidate.
 model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const UnitCosts& costs,
                                   const std::stop_token& stop) {
-  const Counts<double> counts = validate::structural_counts(job.discs, job.workload.rays, candidate, stop);
+  const Counts<double> counts =
+      validate::structural_counts(job.discs, job.workload.rays, candidate, stop, job.front_facing);
   return {candidate, counts, price(counts, costs, candidate.technique), {}};
 }
 

@@ -53,8 +53,9 @@ validate::Experiment scene_experiment(const validate::JobRequest& request, const
   result.inputs = to_json(job, request);
   validate::Experiment experiment{.workload = job.workload, .discs = {}, .stop = stop};
   experiment.workload.path_length = 0;
+  experiment.workload.front_facing = false;
   experiment.workload.rays = request.rays.value_or(default_lines);
-  experiment.choice = {job.workload, std::move(job.rays), job.front_facing};
+  experiment.choice = {job.workload, std::move(job.rays)};
   experiment.discs = std::move(job.discs);
   result.inputs["lines"] = whole(experiment.workload.rays);
   return experiment;
@@ -75,6 +76,8 @@ Json known(double number) { return std::isfinite(number) ? Json(number) : Json()
 Json to_json(const Claim& claim) {
   return {{"id", claim.id},
           {"quantity", claim.quantity},
+          {"technique", claim.technique.empty() ? Json() : Json(claim.technique)},
+          {"parameters", claim.parameters.empty() ? Json() : Json(claim.parameters)},
           {"form", name(claim.form)},
           {"source", claim.source},
           {"predicted", known(claim.predicted)},

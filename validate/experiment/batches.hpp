@@ -2,6 +2,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
@@ -19,6 +20,13 @@ inline constexpr int batch_count = 32;
 [[nodiscard]] inline std::uint64_t batch_seed(const Experiment& experiment, int part, int batch) {
   return experiment.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(part) * 1000003ULL +
          static_cast<std::uint64_t>(batch);
+}
+
+/// Lines a batch for claims that do not depend on the number of rays: `most` of them for a million rays and more,
+/// proportionally fewer for fewer, so that who asks for little waits little.
+[[nodiscard]] inline std::size_t lines_a_batch(const Experiment& experiment, std::size_t most) {
+  const double share = std::min(1.0, experiment.workload.rays / 1e6);
+  return std::max<std::size_t>(100, static_cast<std::size_t>(share * static_cast<double>(most)));
 }
 
 /// result[b] = one(b) for all batches, in parallel. Each writes its own place: the order of work does not show. Throws

@@ -59,7 +59,7 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
   for (std::size_t i = 0; i < taken; ++i) rays.push_back(question.rays[(i + 1) * question.rays.size() / taken - 1]);
   bool stopped = false;
   const auto counts_of = [&](const std::vector<sim::Ray>& some) {
-    const sim::Problem problem = sim::make_problem(some, experiment.discs, question.front_facing);
+    const sim::Problem problem = sim::make_problem(some, experiment.discs, question.workload.front_facing);
     const sim::Outcome outcome = sim::run(problem, ranked.candidate, {.stop = experiment.stop});
     if (outcome.stopped) stopped = true;
     return Batch{static_cast<double>(some.size()), as_expected(outcome.counts)};
@@ -122,6 +122,8 @@ std::vector<Finding> candidate_findings(const Experiment& experiment, const mode
     if (predicted == 0 && found.mean == 0) return;
     findings.push_back({.id = fmt::format("choice.{}.{}", technique, with_dashes(term)),
                         .quantity = fmt::format("{} of {}, as choose predicts them", with_dashes(term), candidate),
+                        .technique = std::string(technique),
+                        .parameters = parameters,
                         .predictions = {{model::Form::corrected, "the closed form that choose prices", predicted}},
                         .observed = found,
                         .batches = adds_up_over_rays(term) ? std::max(2, static_cast<int>(counted->batches.size())) : 0,

@@ -75,7 +75,7 @@ Estimate ratio(const std::vector<Batch>& batches, double Batch::*above, double B
 /// Two small discs in opposite corners of a cube: nothing but cells.
 Finding cells_finding(const Experiment& experiment) {
   const Clock clock;
-  constexpr std::size_t lines = 20'000;
+  const std::size_t lines = lines_a_batch(experiment, 20'000);
   const int depth = tested_depth(experiment.workload);
   const std::vector<sim::Disc> corners{{.centre = glm::dvec3{-1}, .radius = 1e-3},
                                        {.centre = glm::dvec3{1}, .radius = 1e-3}};
@@ -85,6 +85,7 @@ Finding cells_finding(const Experiment& experiment) {
   const double cells = model::published::cells_per_line(depth);
   return {.id = "cells-per-line",
           .quantity = fmt::format("cells of a 2^{} grid crossed by a line that hits its cube", depth),
+          .technique = std::string(name(Technique::grid)),
           .predictions = {{Form::published, "section 4.2", cells}, {Form::corrected, "section 4.2, unchanged", cells}},
           .observed = ratio(batches, &Batch::steps, &Batch::hitting),
           .batches = batch_count,
@@ -104,6 +105,7 @@ Finding uniform_tests(const Workload& workload, const std::vector<Batch>& batche
   const double overlapped = model::index_cells(workload, std::ldexp(1.0, depth)).overlapped;
   return {.id = "octree-tests-per-line",
           .quantity = fmt::format("ray-disc tests per line that hits the cube, octree of depth {}", depth),
+          .technique = std::string(name(Technique::octree)),
           .predictions = {{Form::published, "eq (22), n_P / 4^k",
                            model::published::tests_per_line(workload.samples, depth)},
                           {Form::corrected, "n_P E(d/a) / 4^k, our derivation",
@@ -120,6 +122,7 @@ Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& disc
   const double per_cube = 1.5 / std::numbers::pi * side * side / (radius * radius);
   return {.id = "octree-tests-per-line",
           .quantity = fmt::format("ray-disc tests per line through S0, octree of depth {}", depth),
+          .technique = std::string(name(Technique::octree)),
           .predictions = {{Form::published, "eq (22), n_P / 4^k, times P(cube)",
                            model::published::tests_per_line(workload.samples, depth) * per_cube},
                           {Form::corrected, "n_P E(d/a) P(cell), our derivation",
@@ -132,6 +135,7 @@ Finding structural_tests(const std::vector<sim::Disc>& discs, const std::vector<
   const Counts<double> expected = structural_counts(discs, 1, {Technique::octree, OctreeParameters{depth}});
   return {.id = "octree-tests-structural",
           .quantity = fmt::format("ray-disc tests per line through S0, octree of depth {}, by its nodes' areas", depth),
+          .technique = std::string(name(Technique::octree)),
           .predictions = {{Form::corrected, "eq (3) summed over the octree, our derivation", expected.disc_tests}},
           .observed = ratio(batches, &Batch::disc_tests, &Batch::lines)};
 }

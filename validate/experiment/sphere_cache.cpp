@@ -192,6 +192,7 @@ std::vector<Finding> sphere_cache_findings(const Experiment& experiment) {
                                   "eq (8) with k by eq (6) and the list of S_k"));
   for (std::size_t q = 0; q < ratios.size(); ++q) findings.push_back(walk_finding(sets, q));
   for (Finding& finding : findings) {
+    finding.technique = name(Technique::sphere_cache);
     finding.lines = std::max<std::uint64_t>(finding.lines, finding.batches > 0 ? lines * batch_count : 1);
     finding.seconds = clock.seconds();
   }

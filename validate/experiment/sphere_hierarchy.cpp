@@ -143,6 +143,7 @@ std::vector<Finding> sphere_hierarchy_findings(const Experiment& experiment) {
     found.push_back(structural_finding(subject, sets, &Logs::sphere_tests, "sphere"));
     found.push_back(structural_finding(subject, sets, &Logs::disc_tests, "disc"));
     for (Finding& finding : found) {
+      finding.technique = subject.id;
       finding.lines = lines * batch_count;
       finding.seconds = clock.seconds();
       findings.push_back(std::move(finding));

@@ -13,7 +13,7 @@ using namespace detp::validate;
 namespace {
 
 Experiment small_experiment() {
-  return {.workload = cube_workload(3200, 2000, 0.03, 2), .discs = {}, .seed = 5, .stop = {}};
+  return {.workload = cube_workload(3200, 300, 0.03, 2), .discs = {}, .seed = 5, .stop = {}};
 }
 
 }  // namespace
