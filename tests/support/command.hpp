@@ -71,6 +71,20 @@ class Process {
 
   void send(int signal) const { ::kill(id_, signal); }
 
+  /// Waits until the command watches for signals: before, one would just end it. A minute at most.
+  void wait_until_it_listens() const {
+    const std::string status = "/proc/" + std::to_string(id_) + "/status";
+    while (Clock::now() - start_ < std::chrono::seconds(60)) {
+      std::smatch blocked;
+      const std::string text = sim::support::content_of(status);
+      if (std::regex_search(text, blocked, std::regex("SigBlk:\\s*([0-9a-f]+)")) &&
+          (std::stoull(blocked[1], nullptr, 16) >> (SIGTERM - 1) & 1) != 0)
+        return;
+      if (text.find("State:\tZ") != std::string::npos) return;
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
   [[nodiscard]] Finished finish() {
     int status = 0;
     while (::waitpid(id_, &status, WNOHANG) == 0) {
@@ -102,6 +116,15 @@ inline Arguments words(const std::string& line) {
 inline Arguments operator+(Arguments left, const Arguments& right) {
   left.insert(left.end(), right.begin(), right.end());
   return left;
+}
+
+/// The line with a time limit that lets it come far enough: 0.1 s, or longer on a slow machine.
+template <class FarEnough>
+Finished stopped_in_time(const std::string& line, const FarEnough& far_enough) {
+  for (double limit = 0.1;; limit *= 2) {
+    Finished finished = Process(words(line + " --time-limit " + std::to_string(limit))).finish();
+    if (finished.code != 3 || far_enough(finished) || limit > 10) return finished;
+  }
 }
 
 inline std::string line_of(const Arguments& arguments) {

@@ -179,28 +179,42 @@ Json cells_of(const model::Ranked& ranked) {
   cells.update(count_cells(ranked.counts, "predicted_"));
   cells["predicted_seconds"] = ranked.time.total();
   cells["extrapolated"] = !ranked.extrapolated.empty();
+  cells["extrapolated_because"] = joined(ranked.extrapolated);
   return cells;
 }
 
 Json cells_of(const ChooseAnswer& answer, const Row& row) {
   Json cells = row.predicted != nullptr ? cells_of(*row.predicted) : candidate_cells(row.candidate);
   const Json json = candidate_json(answer, row);
-  for (const char* name : {"measured_seconds", "measured_spread", "not_run", "why_not"})
+  for (const char* name : {"measured_seconds", "measured_spread", "given_up_after_seconds", "not_run", "why_not"})
     if (json.contains(name)) cells[name] = json[name];
-  if (row.run != nullptr && row.run->counted) cells.update(count_cells(*row.run->counted, "counted_"));
+  if (row.run == nullptr) return cells;
+  if (row.run->counted) cells.update(count_cells(*row.run->counted, "counted_"));
+  cells.update(missed_ratios(*row.run, answer.costs));
   return cells;
+}
+
+/// "choice"; with an analysis "predicted choice" too, where another one was measured to be faster.
+const char* role_of(const ChooseAnswer& answer, const Row& row, bool first) {
+  if (row.chosen) return "choice";
+  return first && answer.analysis ? "predicted choice" : "candidate";
 }
 
 }  // namespace
 
 std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
-  Table table(workload_columns() + Columns{"role"} + candidate_columns() + count_columns("predicted_") +
-              Columns{"predicted_seconds", "extrapolated"} + count_columns("counted_") +
-              Columns{"measured_seconds", "measured_spread", "not_run", "why_not", "regret", "rigor", "unit_costs",
-                      "choosing_seconds"});
+  const Columns of_all{"tried", "regret", "rigor", "unit_costs", "choosing_seconds"};
+  Table table(workload_columns() + effect_columns() + Columns{"warnings", "role"} + candidate_columns() +
+              count_columns("predicted_") + Columns{"predicted_seconds", "extrapolated", "extrapolated_because"} +
+              count_columns("counted_") +
+              Columns{"measured_seconds", "measured_spread", "given_up_after_seconds", "not_run", "why_not",
+                      "seconds_ratio", "counts_ratio", "unit_costs_ratio", "worst_count", "worst_count_ratio"} +
+              of_all);
   Json shared = workload_cells(inputs);
   const Json json = to_json(answer);
-  for (const char* name : {"regret", "rigor", "unit_costs", "choosing_seconds"})
+  shared.update(effect_cells(json["effects"]));
+  shared["warnings"] = joined(answer.warnings);
+  for (const std::string& name : of_all)
     if (json.contains(name)) shared[name] = json[name];
   const auto add = [&](const char* role, const Json& cells) {
     Json row = shared;
@@ -208,7 +222,10 @@ std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
     row.update(cells);
     table.add(row);
   };
-  for (const Row& row : rows_of(answer)) add(row.chosen ? "choice" : "candidate", cells_of(answer, row));
+  const std::vector<Row> rows = rows_of(answer);
+  for (const Row& row : rows) {
+    add(role_of(answer, row, &row == &rows.front()), cells_of(answer, row));
+  }
   add("paper rule", cells_of(answer.paper));
   return table.csv();
 }

@@ -45,17 +45,21 @@ Json missed_json(const validate::Analysed& run, const UnitCosts& costs) {
   Json json{{"technique", name(run.candidate.technique)},
             {"parameters", to_json(run.candidate.parameters)},
             {"predicted", run.predicted.has_value()}};
-  if (!run.predicted || !run.counted || !run.seconds) return json;
-  const auto error = validate::prediction_error(*run.predicted, *run.counted, *run.seconds, costs);
-  json["seconds_ratio"] = known(error.seconds);
-  json["counts_ratio"] = known(error.counts);
-  json["unit_costs_ratio"] = known(error.unit_costs);
-  json["worst_count"] = error.worst;
-  json["worst_count_ratio"] = known(error.worst_ratio);
+  json.update(missed_ratios(run, costs));
   return json;
 }
 
 }  // namespace
+
+Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs) {
+  if (!run.predicted || !run.counted || !run.seconds) return Json::object();
+  const auto error = validate::prediction_error(*run.predicted, *run.counted, *run.seconds, costs);
+  return {{"seconds_ratio", known(error.seconds)},
+          {"counts_ratio", known(error.counts)},
+          {"unit_costs_ratio", known(error.unit_costs)},
+          {"worst_count", error.worst},
+          {"worst_count_ratio", known(error.worst_ratio)}};
+}
 
 std::string measured_head(bool second_line) {
   return second_line ? "      tests  seconds              measured" : "    counted  measured             predicted/";

@@ -11,6 +11,9 @@ namespace detp::cli {
 /// Appends what a run of the candidate showed: `counted`, `measured_seconds`, … or why it was not measured.
 void add_measured(Json& json, const validate::Analysis& analysis, const validate::Analysed& run);
 
+/// Predicted over counted and measured, as `missed` has them: empty where the candidate was not predicted or not timed.
+[[nodiscard]] Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs);
+
 /// "choice" and "missed" lines: the measured winner, and what the prediction said instead.
 [[nodiscard]] std::string measured_lines(const ChooseAnswer& answer);
 

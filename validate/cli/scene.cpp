@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 
 #include "command.hpp"
@@ -31,9 +30,9 @@ void write_mesh(const std::string& path, const validate::JobRequest& request, co
   sim::write_ply(path, scene.mesh, stop);
 }
 
-/// One row: the workload, what is measured of it, and "finite_paths", "finite_paths_evidence" of each effect.
+/// One row: the workload, what is measured of it, effects and warnings.
 std::string csv_of(const Json& inputs, const Json& json) {
-  Columns columns{"triangles", "box_x", "box_y", "box_z", "distance_over_radius", "read_seconds"};
+  const Columns columns{"triangles", "box_x", "box_y", "box_z", "distance_over_radius", "read_seconds"};
   Json row = workload_cells(inputs);
   row.update({{"triangles", json["triangles"]},
               {"box_x", json["box"][0]},
@@ -41,14 +40,9 @@ std::string csv_of(const Json& inputs, const Json& json) {
               {"box_z", json["box"][2]},
               {"distance_over_radius", json["distance_over_radius"]},
               {"read_seconds", json["read_seconds"]}});
-  for (const Json& effect : json["effects"]) {
-    std::string name = effect["name"];
-    std::replace(name.begin(), name.end(), ' ', '_');
-    columns = columns + Columns{name, name + "_evidence"};
-    row[name] = effect["on"];
-    row[name + "_evidence"] = effect["evidence"];
-  }
-  Table table(workload_columns() + columns);
+  row.update(effect_cells(json["effects"]));
+  row["warnings"] = joined(json["warnings"]);
+  Table table(workload_columns() + columns + effect_columns() + Columns{"warnings"});
   table.add(row);
   return table.csv();
 }

@@ -43,6 +43,12 @@ class Table {
 /// One column for each term of Counts, and `tests`, each after the prefix ("predicted_").
 [[nodiscard]] Columns count_columns(const std::string& prefix = "");
 
+/// Those of effect_cells().
+[[nodiscard]] const Columns& effect_columns();
+
+/// A list of texts as one cell: "; " between them.
+[[nodiscard]] std::string joined(const std::vector<std::string>& texts);
+
 /// The workload's columns, from the resolved inputs of a command.
 [[nodiscard]] Json workload_cells(const Json& inputs);
 

@@ -188,7 +188,9 @@ Json to_json(const Workload& workload) {
 }
 
 Json numbers_json(const Workload& workload) {
-  Json json{{"scene", validate::name_of_numbers(workload)}, {"field", name(sim::Field::isotropic)}};
+  Json json{{"scene", validate::name_of_numbers(workload)},
+            {"field", name(sim::Field::isotropic)},
+            {"front_facing", workload.front_facing}};
   json.update(to_json(workload));
   return json;
 }
@@ -216,6 +218,17 @@ Json effects_json(const Workload& workload) {
                        {"on", workload.dimension < 2.9},
                        {"evidence", workload.dimension},
                        {"meaning", "dimension of the samples by box counting"}}});
+}
+
+Json effect_cells(const Json& effects) {
+  Json cells = Json::object();
+  for (const Json& effect : effects) {
+    std::string name = effect["name"];
+    std::replace(name.begin(), name.end(), ' ', '_');
+    cells[name] = effect["on"];
+    cells[name + "_evidence"] = effect["evidence"];
+  }
+  return cells;
 }
 
 void note_all(const CommonOptions& common, const validate::Job& job) {

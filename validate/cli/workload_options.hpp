@@ -101,6 +101,9 @@ template <class T>
 /// The deviations from the plain model that this workload shows and the closed forms take into account.
 [[nodiscard]] Json effects_json(const Workload& workload);
 
+/// The same as cells of a table: "finite_paths" (true or false) and "finite_paths_evidence" of each effect.
+[[nodiscard]] Json effect_cells(const Json& effects);
+
 /// Notices and warnings of a job, on stderr.
 void note_all(const CommonOptions& common, const validate::Job& job);
 

@@ -76,6 +76,71 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE("choose and scene: CSV has the effects, warnings and reasons of JSON in every row") {
+    const sim::support::ScratchFolder folder;
+    std::string discs = "x,y,z,nx,ny,nz\n";
+    for (int i = 0; i < 100; ++i) discs += std::to_string(0.01 * i) + ",0,0,0,0,1\n";
+    const std::string path = folder.file("discs.csv", discs + "1000,0,0,0,0,1\n");
+    const Arguments stray = Arguments{"--discs", path} + words("--disc-radius 0.1 --rays 100 --quiet");
+    for (const Arguments& workload : {stray, words("@cornell --rays 100")})
+      for (const std::string command : {"choose", "scene"}) {
+        const Json json = result_of(Arguments{command} + workload);
+        std::string warnings;
+        for (const std::string one : json.at("warnings")) warnings += (warnings.empty() ? "" : "; ") + one;
+        CHECK(warnings.empty() == (workload != stray));
+        for (const CsvRow& row : csv_of(Arguments{command} + workload)) {
+          CHECK(row.at("warnings") == warnings);
+          for (const Json& effect : json.at("effects")) {
+            std::string column = effect.at("name");
+            std::replace(column.begin(), column.end(), ' ', '_');
+            CHECK(row.at(column) == effect.at("on").dump());
+            CHECK(number(row, column + "_evidence") == effect.at("evidence").get<double>());
+          }
+          if (command == "scene") continue;
+          CHECK(row.at("extrapolated_because").empty() == (row.at("extrapolated") == "false"));
+        }
+      }
+  }
+
+  TEST_CASE("choose --analyze: CSV has what JSON says was tried, given up and missed") {
+    const auto rows = csv_of(
+        "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze "
+        "--costs t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1");  // brute force looks best by far
+    int tried = 0;
+    int missed = 0;
+    for (const CsvRow& row : rows) {
+      tried += row.at("measured_seconds").empty() && row.at("given_up_after_seconds").empty() ? 0 : 1;
+      if (row.at("seconds_ratio").empty()) continue;
+      ++missed;
+      CHECK(number(row, "seconds_ratio") ==
+            doctest::Approx(number(row, "predicted_seconds") / number(row, "measured_seconds")));
+      CHECK_FALSE(row.at("worst_count").empty());
+    }
+    CHECK(missed >= 2);
+    CHECK(rows.front().at("role") == "predicted choice");
+    CHECK(rows.front().at("technique") == "brute-force");
+    CHECK(std::stoi(rows.front().at("tried")) == tried);
+  }
+
+  TEST_CASE("validate: each claim names its technique in JSON and CSV, and none where it is about lines") {
+    const std::string line = "validate @cornell --samples 100 --rays 320 --disc-radius 4% --format ";
+    const Json json = detp(line + "json").json();
+    const auto rows = csv_rows(detp(line + "csv").out);
+    REQUIRE(rows.size() == json.at("claims").size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const Json& claim = json.at("claims")[i];
+      const std::string id = claim.at("id");
+      CAPTURE(id);
+      CHECK(rows[i].at("id") == id);
+      for (const char* key : {"technique", "parameters"})
+        CHECK(rows[i].at(key) == (claim.at(key).is_null() ? "" : claim.at(key).get<std::string>()));
+      if (id.starts_with("choice.")) CHECK(id.starts_with("choice." + rows[i].at("technique") + "."));
+      if (id.starts_with("octree")) CHECK(rows[i].at("technique") == "octree");
+      if (id.starts_with("rebuild")) CHECK(rows[i].at("technique") == "sphere-cache");
+      if (id.starts_with("disc-hit") || id.starts_with("hits")) CHECK(rows[i].at("technique").empty());
+    }
+  }
+
   TEST_CASE("a range has the values that a reader would write, its end included where a step meets it") {
     const auto ratios = [](const std::string& range) {
       std::vector<std::string> values;
@@ -214,18 +279,21 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("a table that is stopped has its rows so far, says so, and ends with code 3") {
-    const std::string model = "model" + numbers + " --spheres best --ratio 0.9:0.99:0.00001 --time-limit 0.1";
-    const Finished text = detp(model);
+    const std::string model = "model" + numbers + " --spheres best --ratio 0.9:0.99:0.00001";
+    const Finished text =
+        stopped_in_time(model, [](const Finished& one) { return one.out.find(" of 9001 rows") != std::string::npos; });
     CHECK(text.code == 3);
     CHECK(text.out.find(" of 9001 rows") != std::string::npos);
-    const Finished json = detp(model + " --format json");
+    const Finished json =
+        stopped_in_time(model + " --format json", [](const Finished& one) { return one.json().contains("rows"); });
     CHECK(json.code == 3);
     CHECK(json.json().at("stopped") == true);
     CHECK(json.json().at("rows").size() < 9001);
     CHECK(json.json().at("rows").size() > 0);
-    const Finished run = detp(
+    const Finished run = stopped_in_time(
         "run @uniform --samples 3000 --rays 3000 --technique brute-force --engine plain --disc-radius 0.001:1:0.001 "
-        "--format csv --time-limit 0.3");
+        "--format csv",
+        [](const Finished& one) { return !one.out.empty(); });
     CHECK(run.code == 3);
     const auto rows = csv_rows(run.out);
     CHECK(rows.size() < 1000);
