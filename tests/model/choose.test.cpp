@@ -38,6 +38,36 @@ double total(const Workload& w, const Candidate& candidate) {
   return price(predict(w, candidate), costs, candidate.technique).total();
 }
 
+/// Workloads and costs from all their ranges: rank answers, all is finite, and the work is bounded.
+void check_rank(int runs, std::uint64_t seed) {
+  support::RandomNumbers random(seed);
+  const auto now_and_then = [&](double share) { return random.uniform(0, 1) < share; };
+  for (int run = 0; run < runs; ++run) {
+    Workload w{.rays = random.count(1, 1e18),
+               .samples = random.count(1, 1e18),
+               .sphere_radius = random.log_uniform(1e-90, 1e90),
+               .dimension = random.uniform(1, 3)};
+    const double side = now_and_then(0.5) ? w.sphere_radius : random.log_uniform(1e-90, 1e90);
+    w.box = {side, side * random.uniform(0, 1), side * random.log_uniform(1e-12, 1)};
+    w.disc_radius =
+        now_and_then(0.8) ? w.sphere_radius * random.log_uniform(1e-12, 3) : random.log_uniform(1e-300, 1e300);
+    if (now_and_then(0.5)) w = cube_workload(w.rays, w.samples, w.disc_radius, side, now_and_then(0.5) ? 2 : 3);
+    if (now_and_then(0.2)) w.sample_extent = random.log_uniform(1e-270, 1e270);
+    if (now_and_then(0.2)) w.path_length = random.log_uniform(1e-300, 1e300);
+    if (w.sphere_radius > 1e90) continue;
+    const auto cost = [&] { return now_and_then(0.2) ? 0 : now_and_then(0.1) ? 1e200 : random.log_uniform(1e-12, 1); };
+    const UnitCosts some{cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost()};
+    CAPTURE(run);
+    for (const Ranked& ranked : rank(w, some)) {
+      CAPTURE(name(ranked.candidate.technique));
+      for_each_term(ranked.counts, [](std::string_view, double term) { REQUIRE((term >= 0 && term < 1e100)); });
+      REQUIRE(ranked.time.total() >= 0);
+      REQUIRE(std::isfinite(ranked.time.total()));
+    }
+    if (run % 8 == 0) REQUIRE(best_ratio_and_stop(w, some).looked_at <= most_looked_at);
+  }
+}
+
 }  // namespace
 
 TEST_SUITE("identity") {
@@ -134,34 +164,7 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("limit") {
   TEST_CASE("workloads and costs from all their ranges: rank answers, all is finite, and the work is bounded") {
-    support::RandomNumbers random(71);
-    const auto now_and_then = [&](double share) { return random.uniform(0, 1) < share; };
-    for (int run = 0; run < 1000; ++run) {
-      Workload w{.rays = random.count(1, 1e18),
-                 .samples = random.count(1, 1e18),
-                 .sphere_radius = random.log_uniform(1e-90, 1e90),
-                 .dimension = random.uniform(1, 3)};
-      const double side = now_and_then(0.5) ? w.sphere_radius : random.log_uniform(1e-90, 1e90);
-      w.box = {side, side * random.uniform(0, 1), side * random.log_uniform(1e-12, 1)};
-      w.disc_radius =
-          now_and_then(0.8) ? w.sphere_radius * random.log_uniform(1e-12, 3) : random.log_uniform(1e-300, 1e300);
-      if (now_and_then(0.5)) w = cube_workload(w.rays, w.samples, w.disc_radius, side, now_and_then(0.5) ? 2 : 3);
-      if (now_and_then(0.2)) w.sample_extent = random.log_uniform(1e-270, 1e270);
-      if (now_and_then(0.2)) w.path_length = random.log_uniform(1e-300, 1e300);
-      if (w.sphere_radius > 1e90) continue;
-      const auto cost = [&] {
-        return now_and_then(0.2) ? 0 : now_and_then(0.1) ? 1e200 : random.log_uniform(1e-12, 1);
-      };
-      const UnitCosts some{cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost()};
-      CAPTURE(run);
-      for (const Ranked& ranked : rank(w, some)) {
-        CAPTURE(name(ranked.candidate.technique));
-        for_each_term(ranked.counts, [](std::string_view, double term) { REQUIRE((term >= 0 && term < 1e100)); });
-        REQUIRE(ranked.time.total() >= 0);
-        REQUIRE(std::isfinite(ranked.time.total()));
-      }
-      if (run % 8 == 0) REQUIRE(best_ratio_and_stop(w, some).looked_at <= most_looked_at);
-    }
+    check_rank(400, 71);
   }
 
   TEST_CASE("where T is the same at every ratio, the search for the best ends") {
@@ -229,4 +232,8 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_WITH_AS((void)assess(typical, {Technique::grid, OctreeParameters{}}, costs), Contains("grid"),
                          std::invalid_argument);
   }
+}
+
+TEST_SUITE("hard-cases") {
+  TEST_CASE("… and so it is on ten thousand of them") { check_rank(10'000, 72); }
 }

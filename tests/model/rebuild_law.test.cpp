@@ -177,6 +177,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("samples in a volume: m/n as counted on Morton runs of balls") {
     const double lambda[] = {0.022, 0.18, 0.85, 2.4, 11, 32, 92, 259, 732};
     const double counted[] = {0.97, 0.84, 0.60, 0.42, 0.15, 0.083, 0.042, 0.012, 0.009};
+    const double half_a_digit[] = {0.005, 0.005, 0.005, 0.005, 0.005, 0.0005, 0.0005, 0.0005, 0.0005};
     for (int i = 0; i < 9; ++i) {
       CAPTURE(lambda[i]);
       double least = 1;
@@ -186,36 +187,51 @@ TEST_SUITE("known answer") {
         least = std::min(least, share);
         most = std::max(most, share);
       }
-      CHECK(counted[i] > 0.9 * least);  // counted at one phase, with two digits
-      CHECK(counted[i] < 1.1 * most);
+      CHECK(counted[i] + half_a_digit[i] > least);  // counted at one phase, rounded
+      CHECK(counted[i] - half_a_digit[i] < most);
     }
   }
 
   TEST_CASE("large balls between the table's numbers of samples and radii: m_1 as counted over other sets of samples") {
+    // Within 2 %, except two volumes between a jump and the next number of samples in the table: 5.6 and 3.4 %.
     struct Counted {
       double dimension, samples, disc, ratio, rebuilds;  // in a cube of side 2; the noise is 0.1 to 1.9 %
+      double within = 0.02;                              // the noise and the table's own 1 %
     };
     for (const Counted& counted :
          {Counted{3, 30'000, 0.015, 0.62, 55.9}, Counted{2, 1898, 0.05516789, 0.77059285, 23.25},
-          Counted{3, 173'075, 0.00111974, 0.64684837, 53.18}, Counted{2, 2161, 0.002440997, 0.76880349, 22.75},
+          Counted{3, 173'075, 0.00111974, 0.64684837, 53.18, 0.056}, Counted{2, 2161, 0.002440997, 0.76880349, 22.75},
           Counted{3, 19'672, 0.01205304, 0.77261178, 23.24}, Counted{2, 2078, 0.003590052, 0.50952726, 54.22},
           Counted{2, 2483, 0.07473541, 0.78547676, 22.42}, Counted{3, 48'971, 0.08149026, 0.63925295, 56.85},
           Counted{2, 27'431, 0.003529412, 0.83539616, 17.89}, Counted{2, 25'553, 0.03752348, 0.7772724, 26.19},
-          Counted{3, 494'242, 0.001956411, 0.8043485, 26.33}}) {
+          Counted{3, 494'242, 0.001956411, 0.8043485, 26.33, 0.034}}) {
       const Workload w = cube_workload(1, counted.samples, counted.disc, 2, counted.dimension);
       const double radius = w.sphere_radius * counted.ratio - w.disc_radius;
       CAPTURE(counted.samples);
-      CHECK(single_rebuilds(w, radius, SampleOrder::lebesgue) == Approx(counted.rebuilds).epsilon(0.06));
+      CHECK(single_rebuilds(w, radius, SampleOrder::lebesgue) == Approx(counted.rebuilds).epsilon(counted.within));
     }
   }
 
-  TEST_CASE("balls of radius ρ in [-1, 1]³ start 37 to 63 ρ^-3 times (volume), 46 to 80 ρ^-2 times (faces)") {
-    for (double radius = 0.05; radius < 0.2; radius *= 1.07) {
-      CHECK(single_rebuilds(cube_workload(1, 1e9, 0.001, 2), radius, SampleOrder::lebesgue) ==
-            Approx(48 * std::pow(radius, -3)).epsilon(0.4));
-      CHECK(single_rebuilds(cube_workload(1, 1e9, 0.001, 2, 2), radius, SampleOrder::lebesgue) ==
-            Approx(61 * std::pow(radius, -2)).epsilon(0.4));
+  TEST_CASE("balls of radius ρ in [-1, 1]³ start 34 to 65 ρ^-3 times (volume), 46 to 85 ρ^-2 times (faces)") {
+    // By the phase: both ends of the ranges are met, or the factor would not vary as the curve does.
+    double least_in_volume = INFINITY;
+    double most_in_volume = 0;
+    double least_on_faces = INFINITY;
+    double most_on_faces = 0;
+    for (double radius = 0.05; radius < 0.2; radius *= 1.01) {
+      const double in_volume =
+          single_rebuilds(cube_workload(1, 1e9, 0.001, 2), radius, SampleOrder::lebesgue) * std::pow(radius, 3);
+      const double on_faces =
+          single_rebuilds(cube_workload(1, 1e9, 0.001, 2, 2), radius, SampleOrder::lebesgue) * std::pow(radius, 2);
+      least_in_volume = std::min(least_in_volume, in_volume);
+      most_in_volume = std::max(most_in_volume, in_volume);
+      least_on_faces = std::min(least_on_faces, on_faces);
+      most_on_faces = std::max(most_on_faces, on_faces);
     }
+    CHECK(least_in_volume == Approx(34).epsilon(0.02));
+    CHECK(most_in_volume == Approx(65).epsilon(0.02));
+    CHECK(least_on_faces == Approx(46).epsilon(0.02));
+    CHECK(most_on_faces == Approx(85).epsilon(0.02));
   }
 
   TEST_CASE("unsorted in a cube, all samples but those in the ball start it anew") {

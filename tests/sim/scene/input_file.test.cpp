@@ -161,14 +161,12 @@ TEST_SUITE("identity") {
           std::this_thread::sleep_for(std::chrono::milliseconds(10));
           stop.request_stop();
         });
-        const auto start = std::chrono::steady_clock::now();
         Notices notices;
         if (path.ends_with(".csv"))
           CHECK_THROWS_WITH_AS((void)read_rays(path, stop.get_token()), doctest::Contains("stopped while reading"),
                                Stopped);
         else
           CHECK_THROWS_AS((void)read_mesh(path, notices, stop.get_token()), Stopped);
-        CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(2));
         if (opened) ::close(writer);
       }
   }

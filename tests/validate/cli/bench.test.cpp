@@ -59,7 +59,6 @@ TEST_SUITE("end to end") {
     CHECK(finished.code == 3);
     CHECK(finished.err.empty());
     CHECK(finished.json().at("stopped") == true);
-    CHECK(finished.seconds < 5);
   }
 
   TEST_CASE("bench refuses what it cannot run, and says why") {

@@ -10,8 +10,8 @@ TEST_SUITE("end to end") {
     for (const Technique technique : all_techniques) {
       CAPTURE(name(technique));
       const std::string options = "--technique " + std::string(name(technique)) + " --threads ";
-      const Written one = run_and_read(words("run @cornell --rays 5000"), options + "1");
-      const Written two = run_and_read(words("run @cornell --rays 5000"), options + "2");
+      const Written one = run_and_read(words("run @cornell --rays 3000"), options + "1");
+      const Written two = run_and_read(words("run @cornell --rays 3000"), options + "2");
       CHECK(one == two);
       CHECK(without_times(one.json) == without_times(two.json));
       CHECK(one.json.at("provenance").at("threads") == 1);
@@ -19,7 +19,7 @@ TEST_SUITE("end to end") {
     }
     for (const std::string line :
          {"choose @cornell --rays 1000", "scene @cornell --rays 5000", "scene @uniform --samples 5000 --rays 5000",
-          "model @cornell --rays 5000", "validate --samples 500 --rays 1000"}) {
+          "model @cornell --rays 5000", "validate --samples 100 --rays 320"}) {
       CAPTURE(line);
       const Finished one = detp(line + " --format json --threads 1");
       const Finished two = detp(line + " --format json --threads 2");
@@ -29,7 +29,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("the same seed gives the same bytes, another seed other hits") {
-    for (const std::string problem : {"run @cornell --rays 5000", "run @uniform --samples 2000 --rays 2000",
+    for (const std::string problem : {"run @cornell --rays 3000", "run @uniform --samples 2000 --rays 2000",
                                       "run --samples 2000 --rays 2000 --disc-radius 0.1 --scene-side 2"}) {
       CAPTURE(problem);
       const Written first = run_and_read(words(problem), "--seed 3");

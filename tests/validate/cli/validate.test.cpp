@@ -72,7 +72,6 @@ TEST_SUITE("end to end") {
     CHECK(finished.err.empty());
     CHECK(finished.json().at("stopped") == true);
     CHECK(finished.json().at("claims").is_array());
-    CHECK(finished.seconds < 5);
   }
 }
 
