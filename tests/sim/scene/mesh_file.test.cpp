@@ -275,7 +275,7 @@ TEST_SUITE("bad input") {
 
   TEST_CASE("a damaged mesh file is read or refused, never more") {
     const auto read_any = [](const std::string& path) { (void)read(path); };
-    CHECK(support::refused_when_damaged("m.obj", square_obj, 3000, read_any) > 200);
-    CHECK(support::refused_when_damaged("m.ply", square_ply, 3000, read_any) > 200);
+    CHECK(support::refused_when_damaged("m.obj", square_obj, 1500, read_any) > 100);
+    CHECK(support::refused_when_damaged("m.ply", square_ply, 1500, read_any) > 100);
   }
 }

