@@ -83,7 +83,7 @@ double cgroup_limit(const std::string& own_groups, const std::string& root) {
     const std::size_t first = line.find(':');
     const std::size_t second = first == std::string::npos ? first : line.find(':', first + 1);
     if (second == std::string::npos) continue;
-    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    const std::string controllers = fmt::format(",{},", line.substr(first + 1, second - first - 1));
     const std::filesystem::path group = line.substr(second + 1);
     if (controllers == ",,") least = std::min(least, least_limit(root, group, "memory.max"));
     if (controllers.find(",memory,") != std::string::npos)
