@@ -33,6 +33,12 @@ using CurveCell = std::array<std::uint32_t, 3>;
   return cell;
 }
 
+/// Bytes that putting so many points in order takes at its peak: copies of their places, entries that are sorted from
+/// one array to another and back.
+[[nodiscard]] inline double sorting_bytes(std::size_t points) {
+  return (sizeof(glm::dvec3) + 2 * sizeof(KeyedIndex)) * static_cast<double>(points);
+}
+
 /// Indices of the points by rising code(point, their bounding box), of 48 bits; points of the same code keep their
 /// order. At most 2³² - 1 points. Throws Stopped if a stop was requested.
 template <class Code>

@@ -127,7 +127,7 @@ double parse_bytes(std::string_view text) {
 }
 
 double grown_bytes(std::size_t count, std::size_t element) {
-  return static_cast<double>(std::bit_ceil(count)) * static_cast<double>(element);
+  return count == 0 ? 0 : static_cast<double>(std::bit_ceil(count)) * static_cast<double>(element);
 }
 
 void require_memory(std::string_view what, double bytes) {

@@ -36,7 +36,9 @@ inline constexpr std::size_t tests_a_unit = 16;
 
 /// What one thread has of its own.
 struct Worker {
-  explicit Worker(std::stop_token stop = {}) : check(std::move(stop), "searching") {}
+  /// Lists are expected to take so many floats.
+  explicit Worker(std::stop_token stop = {}, std::size_t floats = 0)
+      : lists(floats), check(std::move(stop), "searching") {}
 
   ListArena lists;
   std::vector<Pair> pairs;

@@ -46,7 +46,7 @@ void search_all(const Problem& problem, const RunOptions& options, Outcome& outc
   on_threads(thread_count(options.threads), [&] {
     const DiscTree discs = discs_in_order(problem, frame, std::move(order), options.stop);
     tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(options.stop); });
-    Gathering gathering(problem, discs, options);
+    Gathering gathering(problem, discs, options, outcome);
     for_each_block(problem, frame, options.stop, [&](const Block& rays) {
       const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());
       tbb::parallel_for(std::size_t{0}, (discs.discs.size() - 1) / chunk + 1, [&](std::size_t i) {
@@ -57,7 +57,7 @@ void search_all(const Problem& problem, const RunOptions& options, Outcome& outc
       });
       gathering.end(rays, workers);
     });
-    gathering.give(workers, outcome);
+    gathering.give(workers);
   });
 }
 

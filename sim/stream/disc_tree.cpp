@@ -1,23 +1,29 @@
 #include "disc_tree.hpp"
 
+#include <fmt/format.h>
 #include <hwy/cache_control.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_invoke.h>
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <cmath>
+#include <memory>
+#include <numbers>
+#include <stdexcept>
 
 #include "curve_sort.hpp"
 #include "detp/sim/stop_check.hpp"
+#include "detp/sim/technique/techniques.hpp"
 
 namespace detp::sim::stream {
 namespace {
 
 struct FloatBox {
-  float low[3]{2, 2, 2};
-  float high[3]{-2, -2, -2};
+  float low[3];
+  float high[3];
 
   void include(const FloatBox& box) {
     for (int axis = 0; axis < 3; ++axis) {
@@ -35,6 +41,8 @@ struct FloatBox {
   }
 };
 
+constexpr FloatBox nothing{{2, 2, 2}, {-2, -2, -2}};
+
 FloatBox box_of(const FloatDisc& disc) {
   FloatBox box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,14 +59,13 @@ FloatBox box_of(const FloatDisc& disc) {
 constexpr float cull_cost = 1.6F;  ///< one test of a ray against a box, with its share of the list that is made
 constexpr float list_cost = 1.0F;  ///< each ray that is listed
 
-/// A node of the binary tree: children left and right, or a leaf.
+/// A node of the binary tree: a leaf, or followed by its left child.
 struct Binary {
   FloatBox box;
   std::uint32_t first;
   std::uint32_t count;
-  std::uint32_t left = 0;
-  std::uint32_t right = 0;
-  float cost = 0;  ///< expected, times the area
+  std::uint32_t right;  ///< number of the right child; 0: a leaf
+  float cost;           ///< expected, times the area
   [[nodiscard]] bool leaf() const { return right == 0; }
 };
 
@@ -66,8 +73,11 @@ static_assert(sizeof(Binary) == binary_node_bytes);
 
 class Builder {
  public:
-  Builder(const std::vector<CurvePlace>& places, DiscTree& tree, int fan_out, int leaf, const std::stop_token& stop)
-      : places_(places),
+  Builder(const Problem& problem, const Frame& frame, const std::vector<CurvePlace>& places, DiscTree& tree,
+          int fan_out, int leaf, const std::stop_token& stop)
+      : problem_(problem),
+        places_(places),
+        sphere_area_(2 * std::numbers::pi * std::pow(problem.enclosing.radius * frame.scale, 2)),
         stop_(stop),
         widening_(stop, doing),
         tree_(tree),
@@ -75,86 +85,68 @@ class Builder {
         leaf_(static_cast<std::uint32_t>(leaf)) {}
 
   void build() {
-    binary_ = split_in_parallel(0, static_cast<std::uint32_t>(tree_.discs.size()));
-    tree_.binary_nodes = binary_.size();
-    tree_.nodes.reserve(binary_.size());
+    const auto discs = static_cast<std::uint32_t>(tree_.discs.size());
+    // Room for the most nodes that there can be: pages are touched only as far as nodes are written.
+    binary_ = std::make_unique_for_overwrite<Binary[]>(2 * std::size_t{discs});
+    split_in_parallel(0, discs, 0);
+    tree_.binary_nodes = written_;
+    tree_.nodes.reserve(written_);
     tree_.nodes.emplace_back();
-    widen(0, 0);
+    widen(0, 0, 0);
   }
 
  private:
-  using Nodes = std::vector<Binary>;
-
-  /// The binary tree over a run of discs, its root first. Its shape does not depend on threads.
-  Nodes split_in_parallel(std::uint32_t first, std::uint32_t count) const {
+  /// Writes the binary tree over a run of discs, its root at that number, its other nodes at the 2 count - 2 that
+  /// follow. Its shape does not depend on threads.
+  void split_in_parallel(std::uint32_t first, std::uint32_t count, std::uint32_t number) {
     constexpr std::uint32_t least = 1U << 15;  // discs that are worth a task
-    Nodes nodes;
     StopCheck check(stop_, doing);
     check.after(2 * std::min(count, least));
     check.now();
     if (count < least) {
-      nodes.reserve(2 * (count / std::max(1U, leaf_ / 2)) + 1);
-      split(first, count, nodes);
-      return nodes;
+      written_ += split(first, count, number) - number;
+      require_memory_for("the tree of boxes", building_bytes(tree_.discs.size(), static_cast<double>(written_), 0),
+                         problem_);
+      return;
     }
     const std::uint32_t middle = boundary(first, count);
-    Nodes left;
-    Nodes right;
-    tbb::parallel_invoke([&] { left = split_in_parallel(first, middle - first); },
-                         [&] { right = split_in_parallel(middle, first + count - middle); });
-    nodes.reserve(1 + left.size() + right.size());
-    nodes.push_back({.box = {}, .first = first, .count = count});
-    const std::uint32_t first_left = append(left, nodes, check);
-    join(nodes, 0, first_left, append(right, nodes, check));
-    return nodes;
+    const std::uint32_t right = number + 2 * (middle - first);
+    tbb::parallel_invoke([&] { split_in_parallel(first, middle - first, number + 1); },
+                         [&] { split_in_parallel(middle, first + count - middle, right); });
+    binary_[number] = {.box = nothing, .first = first, .count = count, .right = 0, .cost = 0};
+    join(number, right);
+    ++written_;
   }
 
-  /// Appends a tree; the number of its root there.
-  static std::uint32_t append(const Nodes& tree, Nodes& nodes, StopCheck& check) {
-    const auto offset = static_cast<std::uint32_t>(nodes.size());
-    for_each_checked(std::span(tree), check, [&](Binary node) {
-      if (!node.leaf()) {
-        node.left += offset;
-        node.right += offset;
-      }
-      nodes.push_back(node);
-    });
-    return offset;
-  }
-
-  /// Appends the tree over a run of discs; the number of its root.
-  std::uint32_t split(std::uint32_t first, std::uint32_t count, Nodes& nodes) const {
-    const auto number = static_cast<std::uint32_t>(nodes.size());
-    nodes.push_back({.box = {}, .first = first, .count = count});
+  /// Writes the tree over a run of discs from that number on; the number after its last.
+  std::uint32_t split(std::uint32_t first, std::uint32_t count, std::uint32_t number) {
+    binary_[number] = {.box = nothing, .first = first, .count = count, .right = 0, .cost = 0};
     if (count <= leaf_) {
-      make_leaf(nodes[number]);
-      return number;
+      make_leaf(binary_[number]);
+      return number + 1;
     }
     const std::uint32_t middle = boundary(first, count);
-    const std::uint32_t left = split(first, middle - first, nodes);
-    const std::uint32_t right = split(middle, first + count - middle, nodes);
-    join(nodes, number, left, right);
-    return number;
+    const std::uint32_t right = split(first, middle - first, number + 1);
+    const std::uint32_t end = split(middle, first + count - middle, right);
+    join(number, right);
+    return binary_[number].leaf() ? number + 1 : end;
   }
 
   /// Makes a node of its children, or a leaf that drops them, where that costs less.
-  static void join(Nodes& nodes, std::uint32_t number, std::uint32_t left, std::uint32_t right) {
-    Binary& node = nodes[number];
-    node.box = nodes[left].box;
-    node.box.include(nodes[right].box);
+  void join(std::uint32_t number, std::uint32_t right_number) {
+    Binary& node = binary_[number];
+    const Binary& left = binary_[number + 1];
+    const Binary& right = binary_[right_number];
+    node.box = left.box;
+    node.box.include(right.box);
     const float area = node.box.area();
-    const float children = nodes[left].box.area() + nodes[right].box.area();
+    const float children = left.box.area() + right.box.area();
     // Joined into wide nodes, about every other split costs nothing.
-    const float inner = cull_cost * area + 0.5F * list_cost * children + nodes[left].cost + nodes[right].cost;
+    const float inner = cull_cost * area + 0.5F * list_cost * children + left.cost + right.cost;
     const float as_leaf = static_cast<float>(node.count) * area;
-    if (as_leaf <= inner && node.count <= most_in_a_leaf) {
-      node.cost = as_leaf;
-      nodes.resize(number + 1);
-    } else {
-      node.left = left;
-      node.right = right;
-      node.cost = inner;
-    }
+    const bool drop = as_leaf <= inner && node.count <= most_in_a_leaf;
+    node.cost = drop ? as_leaf : inner;
+    node.right = drop ? 0 : right_number;
   }
 
   void make_leaf(Binary& node) const {
@@ -174,29 +166,36 @@ class Builder {
     return static_cast<std::uint32_t>(found - places_.begin());
   }
 
-  /// Writes the node at that place, and its descendants.
-  void widen(std::uint32_t number, std::size_t place) {
+  /// Writes the node at that place, and its descendants. `around` is the room for lists that are made before its own.
+  void widen(std::uint32_t number, std::size_t place, double around) {
     const Binary& node = binary_[number];
     widening_.after(1);
     if (node.leaf()) {
       write(node, place, node.first, node.count, true);
       return;
     }
-    std::vector<std::uint32_t> children{node.left, node.right};
+    std::vector<std::uint32_t> children{number + 1, node.right};
     while (children.size() < fan_out_) {
       const auto largest = std::max_element(children.begin(), children.end(), [&](std::uint32_t x, std::uint32_t y) {
         return inner_area(x) < inner_area(y);
       });
       if (inner_area(*largest) < 0) break;
-      const Binary& opened = binary_[*largest];
-      *largest = opened.left;
-      children.insert(largest + 1, opened.right);
+      const std::uint32_t right = binary_[*largest].right;
+      ++*largest;
+      children.insert(largest + 1, right);
     }
     const std::size_t first = tree_.nodes.size();
     tree_.nodes.resize(first + children.size());
     write(node, place, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(children.size()), false);
-    for (std::size_t i = 0; i < children.size(); ++i) widen(children[i], first + i);
+    if (number == 0)
+      for (const std::uint32_t child : children) tree_.lists.first = std::max(tree_.lists.first, share(child));
+    const double room = number == 0 ? tree_.lists.first : around + share(number);
+    tree_.lists.all = std::max(tree_.lists.all, room);
+    for (std::size_t i = 0; i < children.size(); ++i) widen(children[i], first + i, room);
   }
+
+  /// Of lines through S₀, those through a node's box.
+  double share(std::uint32_t number) const { return std::min(1.0, binary_[number].box.area() / sphere_area_); }
 
   float inner_area(std::uint32_t number) const { return binary_[number].leaf() ? -1.0F : binary_[number].box.area(); }
 
@@ -214,13 +213,16 @@ class Builder {
   static constexpr std::uint32_t most_in_a_leaf = 64;
   static constexpr const char* doing = "building the tree of boxes";
 
+  const Problem& problem_;
   const std::vector<CurvePlace>& places_;
+  double sphere_area_;  ///< half of it
   const std::stop_token& stop_;
   StopCheck widening_;
   DiscTree& tree_;
   std::size_t fan_out_;
   std::uint32_t leaf_;
-  Nodes binary_;
+  std::unique_ptr<Binary[]> binary_;
+  std::atomic<std::size_t> written_ = 0;
 };
 
 FloatDisc to_float(const Disc& disc, const Frame& frame) {
@@ -263,14 +265,22 @@ DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<
   return tree;
 }
 
+double building_bytes(std::size_t discs, double binary_nodes, double nodes) {
+  constexpr double in_order = sizeof(FloatDisc) + sizeof(std::uint32_t) + sizeof(CurvePlace);
+  return in_order * static_cast<double>(discs) + binary_node_bytes * binary_nodes + sizeof(TreeNode) * nodes;
+}
+
 DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf,
                         const std::stop_token& stop) {
+  if (problem.discs.size() >= std::size_t{1} << 31)
+    throw std::length_error(
+        fmt::format("{} discs are too many for a tree of boxes; the most is 2147483647", problem.discs.size()));
   const std::vector<CurvePlace> places = sort_along_curve(problem.discs, stop);
   std::vector<std::uint32_t> order;
   order.reserve(places.size());
   for (const CurvePlace place : places) order.push_back(place_index(place));
   DiscTree tree = discs_in_order(problem, frame, std::move(order), stop);
-  Builder(places, tree, fan_out, leaf, stop).build();
+  Builder(problem, frame, places, tree, fan_out, leaf, stop).build();
   return tree;
 }
 

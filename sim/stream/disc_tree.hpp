@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "frame.hpp"
+#include "ray_list.hpp"
 
 /// A tree of boxes over the discs, for lists of rays to be culled down.
 namespace detp::sim::stream {
@@ -31,9 +32,13 @@ struct DiscTree {
   std::vector<FloatDisc> discs;      ///< in the order of the leaves
   std::vector<std::uint32_t> order;  ///< their numbers in the problem
   std::size_t binary_nodes = 0;      ///< of the binary tree that it was made of
+  ListRoom lists;                    ///< of lines that meet a box with a probability of its surface over that of S₀
 };
 
-inline constexpr double binary_node_bytes = 44;
+inline constexpr double binary_node_bytes = 40;
+
+/// Predicted bytes while the tree is built, at their peak: sorted discs, nodes of the binary tree and of the wide one.
+[[nodiscard]] double building_bytes(std::size_t discs, double binary_nodes, double nodes);
 
 /// Places of the tree's order, one after another.
 struct DiscRun {
@@ -52,7 +57,8 @@ struct DiscRun {
 /// F(child)/F(node). (Runs of equal length along the curve, as nodes, take 1.7 to 2.3 times the tests: their boxes
 /// bridge the curve's jumps.)
 ///
-/// Throws Stopped if a stop was requested.
+/// Throws Stopped if a stop was requested, and std::length_error, naming the bytes, before it would take more than the
+/// memory budget, or for 2³¹ or more discs.
 [[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf,
                                       const std::stop_token& stop = {});
 

@@ -35,10 +35,15 @@ class RepeatedSums {
   std::vector<double> sums_{0};
 };
 
+template <class Element>
+double bytes_of(const std::vector<Element>& array) {
+  return static_cast<double>(array.size()) * sizeof(Element);
+}
+
 }  // namespace
 
-Gathering::Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options)
-    : problem_(problem), tree_(tree), options_(options), hits_(tree.discs.size()) {
+Gathering::Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome)
+    : problem_(problem), tree_(tree), options_(options), outcome_(outcome), hits_(tree.discs.size()) {
   if (options.totals != nullptr) need_totals();
 }
 
@@ -83,8 +88,17 @@ void Gathering::end_wholly(const Block& block, std::uint64_t tests) {
   constexpr std::uint64_t tests_for_each_disc = 4096;
   rays_ = block.first() + block.size();
   if (rays_ == problem_.rays.size() || tests - tests_when_kept_ < tests_for_each_disc * tree_.discs.size()) return;
-  keep();
   tests_when_kept_ = tests;
+  if (room_to_keep()) keep();
+}
+
+/// Counts the copy as memory that the run takes. Without room for it, a stopped run knows less.
+bool Gathering::room_to_keep() {
+  const double copy = bytes_of(hits_) + bytes_of(totals_);
+  const double more = copy - bytes_of(kept_.counts) - bytes_of(kept_.totals);
+  if (!fits_memory(outcome_.bytes + more, problem_)) return false;
+  outcome_.bytes += more;
+  return true;
 }
 
 void Gathering::end_partly(const Block& block) {
@@ -102,7 +116,12 @@ std::uint64_t Gathering::hits() const {
 void Gathering::keep() {
   const std::uint64_t found = hits();
   batches_.add(rays_ - kept_.rays, found - kept_.hits);
-  kept_ = {rays_, found, totals_, hits_, counted_power_, found_};
+  kept_.rays = rays_;
+  kept_.hits = found;
+  kept_.totals = totals_;
+  kept_.counts = hits_;
+  kept_.counted_power = counted_power_;
+  kept_.in_totals = found_;
 }
 
 void Gathering::go_back() {
@@ -114,39 +133,39 @@ void Gathering::go_back() {
   found_ = kept_.in_totals;
 }
 
-void Gathering::mark_done(std::span<const DiscRun> skipped, Outcome& outcome) const {
-  outcome.done_discs.assign(tree_.order.size(), true);
+void Gathering::mark_done(std::span<const DiscRun> skipped) const {
+  outcome_.done_discs.assign(tree_.order.size(), true);
   for (const DiscRun& run : skipped)
     for (std::uint32_t place = run.first; place < run.first + run.count; ++place)
-      outcome.done_discs[tree_.order[place]] = false;
-  keep_done_discs(outcome);
+      outcome_.done_discs[tree_.order[place]] = false;
+  keep_done_discs(outcome_);
 }
 
-void Gathering::finish_outcome(std::span<const DiscRun> skipped, Outcome& outcome) {
+void Gathering::finish_outcome(std::span<const DiscRun> skipped) {
   if (partial_ && !by_discs_) go_back();
-  totals_.empty() && counted_power_ ? give_counted(outcome) : give_totals(outcome);
-  if (!options_.count) outcome.counts = {};
-  outcome.counts.hits = outcome.total_hits;
-  outcome.progress = {rays_, problem_.rays.size()};
-  outcome.stopped = rays_ < problem_.rays.size() || !sort_pairs(outcome.pairs, options_.stop);
-  if (outcome.stopped) outcome.pairs.clear();
-  if (rays_ > kept_.rays) batches_.add(rays_ - kept_.rays, outcome.total_hits - kept_.hits);
-  outcome.batches = batches_;
-  if (by_discs_) mark_done(skipped, outcome);
+  totals_.empty() && counted_power_ ? give_counted() : give_totals();
+  if (!options_.count) outcome_.counts = {};
+  outcome_.counts.hits = outcome_.total_hits;
+  outcome_.progress = {rays_, problem_.rays.size()};
+  outcome_.stopped = rays_ < problem_.rays.size() || !sort_pairs(outcome_.pairs, options_.stop);
+  if (outcome_.stopped) outcome_.pairs.clear();
+  if (rays_ > kept_.rays) batches_.add(rays_ - kept_.rays, outcome_.total_hits - kept_.hits);
+  outcome_.batches = batches_;
+  if (by_discs_) mark_done(skipped);
 }
 
 /// Of rays that all carry the same power, and no others before them: no totals are needed.
-void Gathering::give_counted(Outcome& outcome) const {
-  outcome.hits.resize(hits_.size());
-  outcome.irradiance.resize(hits_.size());
+void Gathering::give_counted() const {
+  outcome_.hits.resize(hits_.size());
+  outcome_.irradiance.resize(hits_.size());
   std::atomic<std::uint64_t> found = 0;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hits_.size(), 1U << 14),
-                    [&](const auto& range) { found += give_counted(range.begin(), range.end(), outcome); });
-  outcome.total_hits = found;
+                    [&](const auto& range) { found += give_counted(range.begin(), range.end()); });
+  outcome_.total_hits = found;
 }
 
 /// The same of the discs at some places; the number of their hits.
-std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last, Outcome& outcome) const {
+std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last) const {
   constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
   RepeatedSums sums(*counted_power_);
   std::uint64_t found = 0;
@@ -154,30 +173,37 @@ std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last, Outco
     if (place + ahead < hits_.size()) {
       const std::uint32_t later = tree_.order[place + ahead];
       hwy::Prefetch(&problem_.discs[later].radius);
-      hwy::Prefetch(&outcome.hits[later]);
-      hwy::Prefetch(&outcome.irradiance[later]);
+      hwy::Prefetch(&outcome_.hits[later]);
+      hwy::Prefetch(&outcome_.irradiance[later]);
     }
     const auto& [x, y, z] = hits_[place];
     if ((x | y | z) == 0) continue;  // with few rays most
     const std::uint32_t disc = tree_.order[place];
     const DiscTotals totals{.hits = std::uint64_t{x} + y + z,
                             .power = {sums.add(0, x), sums.add(0, y), sums.add(0, z)}};
-    outcome.hits[disc] = totals.hits;
-    outcome.irradiance[disc] = irradiance(totals, problem_.discs[disc]);
+    outcome_.hits[disc] = totals.hits;
+    outcome_.irradiance[disc] = irradiance(totals, problem_.discs[disc]);
     found += totals.hits;
   }
   return found;
 }
 
-void Gathering::give_totals(Outcome& outcome) {
+void Gathering::give_totals() {
   add_up();
-  Totals in_order(totals_.size());
-  for (std::size_t place = 0; place < totals_.size(); ++place) in_order[tree_.order[place]] = totals_[place];
-  outcome.total_hits = found_;
-  if (options_.totals != nullptr)
-    *options_.totals = std::move(in_order);
-  else
-    finish(in_order, problem_.discs, outcome);
+  outcome_.total_hits = found_;
+  if (options_.totals != nullptr) {
+    options_.totals->resize(totals_.size());
+    for (std::size_t place = 0; place < totals_.size(); ++place)
+      (*options_.totals)[tree_.order[place]] = totals_[place];
+    return;
+  }
+  outcome_.hits.resize(totals_.size());
+  outcome_.irradiance.resize(totals_.size());
+  for (std::size_t place = 0; place < totals_.size(); ++place) {
+    const std::uint32_t disc = tree_.order[place];
+    outcome_.hits[disc] = totals_[place].hits;
+    outcome_.irradiance[disc] = irradiance(totals_[place], problem_.discs[disc]);
+  }
 }
 
 }  // namespace detp::sim::stream

@@ -4,6 +4,8 @@
 #include <optional>
 
 #include "block_search.hpp"
+#include "detp/sim/memory.hpp"
+#include "detp/sim/technique/techniques.hpp"
 #include "ray_blocks.hpp"
 
 namespace detp::sim::stream {
@@ -17,8 +19,8 @@ namespace detp::sim::stream {
 /// after an earlier block, of which a copy is kept now and then; or, of a single block, the discs searched.
 class Gathering {
  public:
-  /// Borrows all three. Goes on with the options' totals, if there are any.
-  Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options);
+  /// Borrows all four. Goes on with the options' totals, if there are any.
+  Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome);
 
   /// What the search of a block of such rays needs.
   [[nodiscard]] BlockSearch begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits);
@@ -37,17 +39,16 @@ class Gathering {
 
   /// Fills in the outcome: hits, irradiance, pairs, and what the workers counted.
   template <class Workers>
-  void give(Workers& workers, Outcome& outcome) {
+  void give(Workers& workers) {
     std::vector<DiscRun> skipped;
     for (Worker& worker : workers) {
       skipped.insert(skipped.end(), worker.skipped.begin(), worker.skipped.end());
-      if (rays_ == problem_.rays.size())
-        outcome.pairs.insert(outcome.pairs.end(), worker.pairs.begin(), worker.pairs.end());
       for (const auto term : {&Counts<std::uint64_t>::sphere_tests, &Counts<std::uint64_t>::disc_tests,
                               &Counts<std::uint64_t>::copies, &Counts<std::uint64_t>::rebuilds})
-        outcome.counts.*term += worker.counts.*term;
+        outcome_.counts.*term += worker.counts.*term;
     }
-    finish_outcome(skipped, outcome);
+    if (options_.pairs && rays_ == problem_.rays.size()) take_pairs(workers);
+    finish_outcome(skipped);
   }
 
  private:
@@ -61,22 +62,42 @@ class Gathering {
     std::uint64_t in_totals = 0;
   };
 
+  /// Gives back each worker's when they are copied.
+  template <class Workers>
+  void take_pairs(Workers& workers) {
+    std::size_t count = 0;
+    double bytes = 0;  // while they grew
+    for (const Worker& worker : workers) {
+      count += worker.pairs.size();
+      bytes += grown_bytes(worker.pairs.size(), sizeof(Pair));
+    }
+    outcome_.bytes += std::max(bytes, 2.0 * sizeof(Pair) * static_cast<double>(count));
+    require_memory_for("the pairs", outcome_.bytes, problem_);
+    outcome_.pairs.reserve(count);
+    for (Worker& worker : workers) {
+      outcome_.pairs.insert(outcome_.pairs.end(), worker.pairs.begin(), worker.pairs.end());
+      worker.pairs = {};
+    }
+  }
+
   void end_wholly(const Block& block, std::uint64_t tests);
   void end_partly(const Block& block);
+  [[nodiscard]] bool room_to_keep();
   void keep();
   [[nodiscard]] std::uint64_t hits() const;
   void go_back();
-  void mark_done(std::span<const DiscRun> skipped, Outcome& outcome) const;
-  void finish_outcome(std::span<const DiscRun> skipped, Outcome& outcome);
+  void mark_done(std::span<const DiscRun> skipped) const;
+  void finish_outcome(std::span<const DiscRun> skipped);
   void need_totals();
   void add_up();
-  void give_counted(Outcome& outcome) const;
-  std::uint64_t give_counted(std::size_t first, std::size_t last, Outcome& outcome) const;
-  void give_totals(Outcome& outcome);
+  void give_counted() const;
+  [[nodiscard]] std::uint64_t give_counted(std::size_t first, std::size_t last) const;
+  void give_totals();
 
   const Problem& problem_;
   const DiscTree& tree_;
   const RunOptions& options_;
+  Outcome& outcome_;
   Totals totals_;                        ///< empty as long as hits have only been counted
   std::vector<ClassCounts> hits_;        ///< not yet in the totals
   std::optional<double> counted_power_;  ///< what each of those carries; nothing if their powers are in the totals

@@ -8,6 +8,7 @@
 
 #include "detp/sim/predicates.hpp"
 #include "detp/sim/stream/block_search.hpp"
+#include "detp/sim/technique/sort_pairs.hpp"
 #include "kernels-inl.hpp"
 
 /// Lists of rays against the discs of a leaf: which hit, exactly, and what becomes of them.
@@ -70,7 +71,7 @@ HWY_INLINE void keep_hits(const BlockSearch& block, Mask hit, const std::uint32_
   for (std::size_t i = 0; i < count; ++i) totals.power[k] += first[found[i] & ~falling].power;
   if (!block.pairs) return;
   for (std::size_t i = 0; i < count; ++i)
-    worker.pairs.push_back({block.first_ray + (found[i] & ~falling), block.tree.order[place]});
+    add_pair(worker.pairs, {block.first_ray + (found[i] & ~falling), block.tree.order[place]});
 }
 
 template <bool segments, bool front_facing, int k>

@@ -17,7 +17,8 @@ void Block::load(const Problem& problem, const Frame& frame, std::size_t first, 
   if (first >= problem.rays.size()) return;
   const auto rays = problem.rays.subspan(first, std::min(size, problem.rays.size() - first));
   arena_.release({});
-  for (RayList& list : lists_) list = arena_.take(rays.size(), true);
+  capacity_ = std::max(capacity_, rays.size());
+  for (RayList& list : lists_) list = arena_.take(capacity_, true);
   size_ = rays.size();
   traits_ = load_rays(rays, frame, lists_);
 }

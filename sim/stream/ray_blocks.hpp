@@ -31,6 +31,7 @@ class Block {
   RayTraits traits_;
   std::size_t first_ = 0;
   std::size_t size_ = 0;
+  std::size_t capacity_ = 0;  ///< of its lists: the same for a smaller block, so that no other pages are touched
 };
 
 /// Calls search(block) for one block after another, until all have been or the stop is asked for. The next one is

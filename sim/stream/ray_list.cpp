@@ -36,7 +36,7 @@ float* ListArena::take_floats(std::size_t count) {
     used_ = 0;
   }
   if (chunk_ == chunks_.size()) {
-    const std::size_t size = std::max(count, least << std::min<std::size_t>(chunk_, 10));
+    const std::size_t size = std::max({count, least << std::min<std::size_t>(chunk_, 10), chunk_ == 0 ? expected_ : 0});
     bytes_ += static_cast<double>(size) * sizeof(float);
     require_memory("a thread's lists of rays", bytes_);
     Chunk chunk{std::unique_ptr<std::byte[]>(new std::byte[(size + line) * sizeof(float)]), nullptr, size};

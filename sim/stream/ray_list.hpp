@@ -34,6 +34,13 @@ inline constexpr std::uint32_t falling = 1U << 31;
   return {count, from(list.a), from(list.b), from(list.p), from(list.q), from(list.id), from(list.from), from(list.to)};
 }
 
+/// What lists inside one another are expected to take, over the list of all rays. Each has room for all rays of the one
+/// around it.
+struct ListRoom {
+  double first = 0;  ///< the outermost, touched only as far as it is filled
+  double all = 0;    ///< that one, and the whole of the others
+};
+
 /// One list for each class.
 using RayLists = std::array<RayList, classes>;
 
@@ -43,6 +50,9 @@ using RayLists = std::array<RayList, classes>;
 /// before it takes more than the memory budget.
 class ListArena {
  public:
+  /// Lists that take so many floats altogether will lie in one chunk.
+  explicit ListArena(std::size_t expected = 0) : expected_(expected) {}
+
   /// Room for `capacity` rays.
   [[nodiscard]] RayList take(std::size_t capacity, bool segments);
 
@@ -71,6 +81,7 @@ class ListArena {
     float* start;  ///< aligned to a cache line
     std::size_t size;
   };
+  std::size_t expected_;
   std::vector<Chunk> chunks_;
   std::size_t chunk_ = 0;
   std::size_t used_ = 0;

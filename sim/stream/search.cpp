@@ -46,22 +46,22 @@ void search_boxes(const Problem& problem, const SphereTreeParameters& parameters
                   Outcome& outcome) {
   const SearchSize size = size_of(problem, options);
   constexpr std::string_view what = "the tree of boxes and its lists of rays";
-  const double most = most_nodes(problem.discs.size(), parameters.leaf);
-  require_memory_for(what, boxes_bytes(size, parameters.fan_out, most), problem);
+  const TreeSize expected = expected_tree(problem.discs.size(), parameters);
+  require_memory_for(what, boxes_bytes(size, parameters.fan_out, expected), problem);
   Stopwatch watch;
   const Frame frame(problem);
   on_threads(thread_count(options.threads), [&] {
     const DiscTree tree = make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf, options.stop);
     outcome.seconds.build = watch.lap();
-    const auto nodes = static_cast<double>(tree.binary_nodes);
-    need_memory(what, boxes_bytes(size, parameters.fan_out, nodes), problem, outcome);
-    Workers workers([&] { return Worker(options.stop); });
-    Gathering gathering(problem, tree, options);
+    const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
+    need_memory(what, boxes_bytes(size, parameters.fan_out, made), problem, outcome);
+    Workers workers([&] { return Worker(options.stop, list_floats(size, tree.lists)); });
+    Gathering gathering(problem, tree, options, outcome);
     for_each_block(problem, frame, options.stop, [&](const Block& block) {
       divide(gathering.begin(frame, block.first(), block.traits()), tree.nodes.front(), block.lists(), workers);
       gathering.end(block, workers);
     });
-    gathering.give(workers, outcome);
+    gathering.give(workers);
   });
   if (options.count) outcome.counts.sorted = problem.discs.size();
   outcome.seconds.search = watch.lap();

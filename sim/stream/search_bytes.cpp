@@ -1,8 +1,8 @@
 #include <algorithm>
+#include <cmath>
 
 #include "block_search.hpp"
-#include "curve_sort.hpp"
-#include "detp/sim/radix_sort.hpp"
+#include "detp/sim/curve.hpp"
 #include "detp/sim/threads.hpp"
 #include "ray_blocks.hpp"
 #include "search.hpp"
@@ -10,26 +10,36 @@
 namespace detp::sim::stream {
 namespace {
 
-constexpr double bytes_a_ray = 7 * sizeof(float);
-
 double rays_in_block(const SearchSize& size) {
   return static_cast<double>(std::min(block_size(size.discs), size.rays));
 }
 
-/// The block that is searched, and the one that is loaded meanwhile.
+/// The block that is searched, and the one that is loaded meanwhile, both with their rays' ends.
 double block_bytes(const SearchSize& size) {
+  constexpr double bytes_a_ray = 7 * sizeof(float);
   return bytes_a_ray * static_cast<double>(std::min(2 * block_size(size.discs), size.rays));
 }
 
-/// A disc in order, its counts, its sums twice (in this order, then in the problem's), its share of the outcome; of
-/// several blocks the copy that is kept for a stopped run.
-double bytes_a_disc(const SearchSize& size) {
-  constexpr double in_order = sizeof(FloatDisc) + sizeof(std::uint32_t);
+/// Of a ray in a list inside the block's.
+double floats_a_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
+
+/// One thread's lists inside one another. A last, smaller block's come to lie where those of the others were not
+/// filled.
+double list_bytes(const SearchSize& size, const ListRoom& lists) {
+  const auto last = static_cast<double>(size.rays % block_size(size.discs));
+  const double rays = rays_in_block(size);
+  const double unfilled = std::max(0.0, 1 - lists.first) * rays;
+  const double beside = last < rays ? std::min(unfilled, (1 + lists.all) * last) : 0;
+  return sizeof(float) * floats_a_ray(size) * (rays * lists.all + beside);
+}
+
+/// While rays are searched, and when they have been: blocks then make room for the outcome.
+double searching_bytes(const SearchSize& size, double tree, double lists) {
   constexpr double outcome = sizeof(std::uint64_t) + sizeof(double);
-  const double kept =
-      size.rays > block_size(size.discs) ? sizeof(ClassCounts) + (size.sums ? sizeof(DiscTotals) : 0) : 0;
-  return in_order + sizeof(ClassCounts) + (size.sums ? 2 * sizeof(DiscTotals) : 0) + (size.own_totals ? outcome : 0) +
-         kept;
+  const double a_disc =
+      sizeof(FloatDisc) + sizeof(std::uint32_t) + sizeof(ClassCounts) + (size.sums ? sizeof(DiscTotals) : 0);
+  const auto discs = static_cast<double>(size.discs);
+  return a_disc * discs + tree + lists + std::max(block_bytes(size), size.own_totals ? outcome * discs : 0);
 }
 
 }  // namespace
@@ -38,34 +48,32 @@ SearchSize size_of(const Problem& problem, const RunOptions& options) {
   return {.discs = problem.discs.size(),
           .rays = problem.rays.size(),
           .threads = options.threads,
+          .segments = problem.segments,
           .sums = !problem.one_power || options.pairs || problem.front_facing || options.totals != nullptr,
           .own_totals = options.totals == nullptr};
 }
 
-double all_bytes(const SearchSize& size) {
-  return bytes_a_disc(size) * static_cast<double>(size.discs) + block_bytes(size);
+std::size_t list_floats(const SearchSize& size, const ListRoom& lists) {
+  return static_cast<std::size_t>(floats_a_ray(size) * rays_in_block(size) * (1 + lists.all));
 }
 
-double walk_bytes(const SearchSize& size, double nested) {
-  constexpr double sorting = sizeof(glm::dvec3) + 2 * sizeof(KeyedIndex) + sizeof(std::uint32_t);
-  const auto discs = static_cast<double>(size.discs);
-  constexpr double kept = sizeof(KeyedIndex);  // of sorting, by the heap
-  return std::max(sorting * discs, kept * discs + all_bytes(size) + bytes_a_ray * rays_in_block(size) * nested);
+double all_bytes(const SearchSize& size) { return searching_bytes(size, 0, 0); }
+
+double walk_bytes(const SearchSize& size, const ListRoom& lists) {
+  return std::max(sorting_bytes(size.discs), searching_bytes(size, 0, list_bytes(size, lists)));
 }
 
-double boxes_bytes(const SearchSize& size, int fan_out, double nodes) {
-  constexpr double in_order = sizeof(FloatDisc) + sizeof(std::uint32_t) + sizeof(CurvePlace);
-  constexpr double nested = 0.75;  // measured: rays in a thread's lists, over the outermost
-  const double work = rays_in_block(size) * fan_out;
-  const double workers = work < static_cast<double>(least_work) ? 1 : thread_count(size.threads);
-  const auto discs = static_cast<double>(size.discs);
-  // Halves of the tree are copied into one, and hold nodes at first that do not pay: measured, 3.5 times its nodes.
-  const double building = in_order * discs + 4 * binary_node_bytes * nodes;
-  const double searching = bytes_a_disc(size) * discs + sizeof(TreeNode) * nodes + block_bytes(size) +
-                           bytes_a_ray * rays_in_block(size) * nested * (1 + workers);
-  return std::max(building, searching);
+double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree) {
+  const bool alone = rays_in_block(size) * fan_out < static_cast<double>(least_work);
+  const double lists = (alone ? 1 : thread_count(size.threads)) * list_bytes(size, tree.lists);
+  return std::max(building_bytes(size.discs, tree.binary_nodes, tree.nodes),
+                  searching_bytes(size, sizeof(TreeNode) * tree.nodes, lists));
 }
 
-double most_nodes(std::size_t discs, int leaf) { return std::min(2.0, 4.0 / leaf) * static_cast<double>(discs); }
+TreeSize expected_tree(std::size_t discs, const SphereTreeParameters& parameters) {
+  const double nodes = std::min(2.0, 4.0 / parameters.leaf) * static_cast<double>(discs);
+  const double share = std::pow(parameters.fan_out, -2.0 / 3);  // of a part's surface in the whole's
+  return {.binary_nodes = nodes, .nodes = nodes, .lists = {share, share + share / (1 - share)}};
+}
 
 }  // namespace detp::sim::stream

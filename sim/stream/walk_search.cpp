@@ -84,13 +84,14 @@ void add(const std::vector<SphereCounts>& events, std::vector<SphereCounts>& sum
 }  // namespace
 
 void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const MakeWalk& make_walk,
-                 const RunOptions& options, Outcome& outcome) {
+                 const ListRoom& room, const RunOptions& options, Outcome& outcome) {
   const Frame frame(problem);
-  std::array workers{Worker(options.stop), Worker(options.stop), Worker(options.stop)};
+  const std::size_t floats = list_floats(size_of(problem, options), room);
+  std::array workers{Worker(options.stop, floats), Worker(options.stop, floats), Worker(options.stop, floats)};
   std::array<std::vector<SphereCounts>, classes> events;
   on_threads(thread_count(options.threads), [&] {
     const DiscTree discs = discs_in_order(problem, frame, std::move(order), options.stop);
-    Gathering gathering(problem, discs, options);
+    Gathering gathering(problem, discs, options, outcome);
     for_each_block(problem, frame, options.stop, [&](const Block& rays) {
       const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());
       tbb::parallel_for(0, classes, [&](int k) {
@@ -100,7 +101,7 @@ void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const
       });
       gathering.end(rays, workers);
     });
-    gathering.give(workers, outcome);
+    gathering.give(workers);
   });
   if (!options.count) return;
   for (const std::vector<SphereCounts>& of_class : events) add(of_class, outcome.spheres);

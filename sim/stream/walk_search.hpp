@@ -5,6 +5,7 @@
 
 #include "detp/sim/technique/list_walk.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "ray_list.hpp"
 
 namespace detp::sim::stream {
 
@@ -16,8 +17,8 @@ using MakeWalk = std::function<std::unique_ptr<ListWalk>()>;
 ///
 /// Each class of rays is a walk of its own, block after block: as many threads as classes are of use. Counts are those
 /// of one walk over all rays, but for rays that pass a sphere by less than the margin, and segments that end before
-/// they reach one (kernels-inl.hpp).
+/// they reach one (kernels-inl.hpp). `room` is what their lists are expected to take.
 void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const MakeWalk& make_walk,
-                 const RunOptions& options, Outcome& outcome);
+                 const ListRoom& room, const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim::stream

@@ -18,7 +18,7 @@ void run_cell_spheres(const Problem& problem, const CellSpheresParameters& param
   const std::size_t sorted = order.size();
   if (!plain) {
     const auto make_walk = [&] { return std::make_unique<CellWalk>(problem.discs, parameters.depth); };
-    stream::search_walk(problem, std::move(order), make_walk, options, outcome);
+    stream::search_walk(problem, std::move(order), make_walk, lists_of(problem, parameters).room(), options, outcome);
   } else {
     CellWalk walk(problem.discs, parameters.depth);
     search_along(walk, problem, order, options, outcome);

@@ -122,11 +122,12 @@ class Grid {
     std::uint32_t disc;
   };
 
-  /// Two arrays of cells, and so many placements, which become references.
+  /// The cells, and so many placements; then the cells twice, and placements with the references that they become.
   [[nodiscard]] double building_bytes(std::size_t placements) const {
     constexpr double each = sizeof(Placement) + sizeof(std::uint32_t);
-    return 2.0 * static_cast<double>(starts_.size()) * sizeof(starts_[0]) +
-           std::max(grown_bytes(placements, sizeof(Placement)), each * static_cast<double>(placements));
+    const double cells = static_cast<double>(starts_.size()) * sizeof(starts_[0]);
+    return std::max(cells + grown_bytes(placements, sizeof(Placement)),
+                    2 * cells + each * static_cast<double>(placements));
   }
 
   /// Finds each disc's cells, and lists the discs cell by cell.

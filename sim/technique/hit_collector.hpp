@@ -47,7 +47,7 @@ class HitCollector {
     ++sums.hits;
     sums.power[dominant_axis(kept.direction)] += kept.power;
     ++kept_;
-    if (keep_pairs_) pairs_.push_back({ray, disc});
+    if (keep_pairs_) add_pair(pairs_, {ray, disc});
   }
 
   [[nodiscard]] std::uint64_t kept() const { return kept_; }
@@ -57,6 +57,7 @@ class HitCollector {
   void give(std::uint64_t rays, Outcome& outcome) && {
     outcome.progress = {rays, problem_.rays.size()};
     outcome.stopped = rays < problem_.rays.size() || !sort_pairs(pairs_, stop_);
+    outcome.bytes += grown_bytes(pairs_.size(), sizeof(Pair));
     if (!outcome.stopped) outcome.pairs = std::move(pairs_);
     outcome.total_hits = kept_;
     outcome.counts.hits = kept_;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+
 #include "detp/sim/stop_check.hpp"
 #include "detp/sim/threads.hpp"
 #include "disc_index.hpp"
@@ -74,13 +76,14 @@ void trace_all(const Index& index, const Problem& problem, const RunOptions& opt
   }
 }
 
-/// Checks that the index, the mailboxes of its search, the sums and the outcome fit the memory. What building it took
-/// the heap may keep.
+/// Checks that the index fits the memory, while it is built and beside the mailboxes of its search, the sums and the
+/// outcome.
 inline void need_index_memory(std::string_view what, const IndexSize& index, const Problem& problem,
                               const RunOptions& options, Outcome& outcome) {
   const double mailboxes = thread_count(options.threads) * static_cast<double>(sizeof(std::uint32_t)) *
                            static_cast<double>(problem.discs.size());
-  need_memory(what, index.building_bytes + mailboxes + found_bytes(problem, options), problem, outcome);
+  const double searching = static_cast<double>(index.bytes) + mailboxes + found_bytes(problem, options);
+  need_memory(what, std::max(index.building_bytes, searching), problem, outcome);
 }
 
 /// Traces every ray through an index.

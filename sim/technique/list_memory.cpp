@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detp/sim/radix_sort.hpp"
+#include "detp/sim/curve.hpp"
 #include "detp/sim/stream/ray_list.hpp"
 #include "detp/sim/stream/search.hpp"
 #include "hit_collector.hpp"
@@ -14,10 +14,14 @@
 namespace detp::sim {
 namespace {
 
-constexpr double sorting_a_disc = sizeof(glm::dvec3) + 2 * sizeof(KeyedIndex) + sizeof(std::uint32_t);
-
-/// How much larger a level's largest list is than the mean.
-constexpr double room = 1.4;
+/// Of a plain search of lists, which inside the outermost hold so many times its rays: the discs' order, their totals
+/// and outcome (or a copy of another's totals), the lists.
+double listing_bytes(const Problem& problem, const RunOptions& options, double nested) {
+  const auto discs = static_cast<double>(problem.discs.size());
+  const double kept = options.totals == nullptr ? 0 : sizeof(DiscTotals) * discs;
+  return sizeof(std::uint32_t) * discs + found_bytes(problem, options) + kept +
+         sizeof(ListedRay) * (1 + nested) * static_cast<double>(problem.rays.size());
+}
 
 /// What is kept of a level beside its rays, of three walks (one a class of rays).
 constexpr double bytes_a_level =
@@ -29,7 +33,8 @@ constexpr double bytes_a_level =
 NestedLists lists_of(const Problem& problem, const SphereCacheParameters& parameters) {
   const double levels = SphereWalk::levels(problem, parameters);
   const double share = parameters.ratio * parameters.ratio;
-  return {levels, room * share * (1 - std::pow(share, levels)) / (1 - share)};
+  if (levels < 1) return {};
+  return {levels, share * (1 - std::pow(share, levels)) / (1 - share), share, std::pow(share, levels)};
 }
 
 NestedLists lists_of(const Problem& problem, const CellSpheresParameters& parameters) {
@@ -44,29 +49,34 @@ NestedLists lists_of(const Problem& problem, const CellSpheresParameters& parame
   NestedLists lists{parameters.depth + 1.0};
   for (int level = 1; level <= parameters.depth; ++level) {
     const double radius = std::ldexp(side, -level) * std::sqrt(0.75) + largest;
-    lists.rays += room * std::min(1.0, std::pow(radius / problem.enclosing.radius, 2));
+    lists.last = std::min(1.0, std::pow(radius / problem.enclosing.radius, 2));
+    if (level == 1) lists.first = lists.last;
+    lists.rays += lists.last;
   }
   return lists;
 }
 
 double walk_bytes(const Problem& problem, const RunOptions& options, const NestedLists& lists, bool plain) {
   const double levels = bytes_a_level * lists.levels;
-  if (!plain) return levels + stream::walk_bytes(stream::size_of(problem, options), lists.rays);
-  const auto discs = static_cast<double>(problem.discs.size());
-  const auto rays = static_cast<double>(problem.rays.size());
-  const double searching =
-      sizeof(std::uint32_t) * discs + found_bytes(problem, options) + sizeof(ListedRay) * (1 + lists.rays) * rays;
-  return levels + std::max(sorting_a_disc * discs, searching);
+  if (!plain) return levels + stream::walk_bytes(stream::size_of(problem, options), lists.room());
+  return levels + std::max(sorting_bytes(problem.discs.size()), listing_bytes(problem, options, lists.rays));
 }
 
-double sphere_tree_bytes(const Problem& problem, const RunOptions& options, const SphereTreeParameters& parameters) {
+double building_bytes(const Problem& problem, const SphereTreeParameters& parameters) {
   constexpr double node = sizeof(Sphere) + sizeof(Box);
-  constexpr double nested = 5;  // measured: rays in the lists inside the outermost, over its own
   const auto discs = static_cast<double>(problem.discs.size());
-  const auto rays = static_cast<double>(problem.rays.size());
-  const double above = (1.0 / parameters.leaf) * (1 + 1.0 / (parameters.fan_out - 1));  // nodes a disc
-  const double building = sorting_a_disc + node + (node + sizeof(Sphere)) * above;
-  return building * discs + found_bytes(problem, options) + sizeof(ListedRay) * (1 + nested) * rays;
+  return std::max(sorting_bytes(problem.discs.size()),
+                  (sizeof(std::uint32_t) + node * (1 + 1.0 / parameters.leaf)) * discs);
+}
+
+double searching_bytes(const Problem& problem, const RunOptions& options, const SphereTree& tree) {
+  double lists = 0;
+  for (const std::vector<Sphere>& level : tree.levels) {
+    double largest = 0;
+    for (const Sphere& sphere : level) largest = std::max(largest, sphere.radius);
+    lists += std::min(1.0, std::pow(largest / problem.enclosing.radius, 2));
+  }
+  return static_cast<double>(tree.nodes()) * sizeof(Sphere) + listing_bytes(problem, options, lists);
 }
 
 }  // namespace detp::sim

@@ -1,18 +1,26 @@
 #pragma once
 
+#include "detp/sim/stream/ray_list.hpp"
+#include "sphere_tree.hpp"
 #include "technique.hpp"
 
 /// Predicted memory of techniques that cull lists of rays, beside rays, discs and pairs.
+///
+/// How many rays a list holds is random. Predicted is what lines need, isotropic and uniform through all of S₀: a
+/// list's share of them is that of its sphere's surface. Rays that crowd into one place need more.
 namespace detp::sim {
 
 /// The nested lists of a walk: one a level.
 struct NestedLists {
   double levels = 0;
-  double rays = 0;  ///< rays in all lists inside the outermost, as a share of its own
+  double rays = 0;   ///< rays in all lists inside the outermost, as a share of its own
+  double first = 0;  ///< the outermost's of these
+  double last = 0;   ///< the innermost's
+
+  [[nodiscard]] stream::ListRoom room() const { return {first, first + rays - last}; }
 };
 
-/// Those of a sphere cache; of a ray field through all of S₀, a list's share of the rays is that of its sphere's
-/// surface.
+/// Those of a sphere cache.
 [[nodiscard]] NestedLists lists_of(const Problem& problem, const SphereCacheParameters& parameters);
 
 /// Those of cell spheres, likewise.
@@ -22,8 +30,10 @@ struct NestedLists {
 [[nodiscard]] double walk_bytes(const Problem& problem, const RunOptions& options, const NestedLists& lists,
                                 bool plain);
 
-/// Bytes of a tree of spheres, which is always searched plainly.
-[[nodiscard]] double sphere_tree_bytes(const Problem& problem, const RunOptions& options,
-                                       const SphereTreeParameters& parameters);
+/// Bytes while a tree of spheres is built, sorting before it included.
+[[nodiscard]] double building_bytes(const Problem& problem, const SphereTreeParameters& parameters);
+
+/// Bytes while it is searched, which is always done plainly.
+[[nodiscard]] double searching_bytes(const Problem& problem, const RunOptions& options, const SphereTree& tree);
 
 }  // namespace detp::sim

@@ -24,8 +24,7 @@ class Octree {
     return {.nodes = tree_.nodes.size(),
             .references = tree_.references.size(),
             .placements = tree_.placements,
-            .bytes = tree_.nodes.size() * sizeof(OctreeNode) + tree_.references.size() * sizeof(std::uint32_t) +
-                     linked_.size() * sizeof(LinkedNode),
+            .bytes = tree_bytes() + linked_.size() * sizeof(LinkedNode),
             .building_bytes = linking_bytes()};
   }
 
@@ -61,10 +60,15 @@ class Octree {
       for_each_child(node, box, [&](std::uint32_t child, const Box& part) { show(child, part, level + 1, visit); });
   }
 
-  /// Bytes while nodes are linked, each with the number of the one that it was made of; and what the heap keeps of
-  /// building.
+  /// Bytes while the tree is built, or its nodes are linked, each with the number of the one that it was made of.
   [[nodiscard]] double linking_bytes() const {
-    return tree_.building_bytes + static_cast<double>(linked_.size()) * (sizeof(LinkedNode) + sizeof(no_node));
+    return std::max(tree_.building_bytes,
+                    static_cast<double>(tree_bytes()) +
+                        static_cast<double>(linked_.size()) * (sizeof(LinkedNode) + sizeof(no_node)));
+  }
+
+  [[nodiscard]] std::size_t tree_bytes() const {
+    return tree_.nodes.size() * sizeof(OctreeNode) + tree_.references.size() * sizeof(std::uint32_t);
   }
 
   /// From the root towards that place among the leaves: tests the discs of the leaf there, or finds the octant that was

@@ -116,7 +116,7 @@ class PhotonMap {
       double power = 0;
       for (const std::uint32_t ray : rays) {
         power += problem_.rays[ray].power;
-        if (options.pairs) outcome.pairs.push_back({ray, disc});
+        if (options.pairs) add_pair(outcome.pairs, {ray, disc});
       }
       outcome.hits[disc] = rays.size();
       outcome.total_hits += rays.size();
@@ -130,6 +130,7 @@ class PhotonMap {
   /// After that many of the discs.
   void finish(std::uint32_t done, const RunOptions& options, Outcome& outcome) const {
     outcome.counts.hits = outcome.total_hits;
+    outcome.bytes += grown_bytes(outcome.pairs.size(), sizeof(Pair));
     outcome.progress = {problem_.rays.size(), problem_.rays.size()};
     outcome.stopped = done < problem_.discs.size() || !sort_pairs(outcome.pairs, options.stop);
     if (outcome.stopped) outcome.pairs.clear();
@@ -159,6 +160,17 @@ class PhotonMap {
   Tree tree_{3, cloud_};
 };
 
+/// Photons, their numbers in the order of nanoflann's tree, its nodes, and the outcome. Leaves hold up to 10 photons:
+/// cells halved until they do hold 5 to 6 on average where photons fall evenly, fewer where they crowd.
+double map_bytes(const Problem& problem) {
+  constexpr double in_a_leaf = 5.5;
+  constexpr double node = sizeof(Tree::Node);
+  const auto photons = static_cast<double>(
+      std::count_if(problem.rays.begin(), problem.rays.end(), [](const Ray& ray) { return !ray.is_line(); }));
+  return photons * (sizeof(Photon) + sizeof(std::uint32_t) + 2 * node / in_a_leaf) +
+         static_cast<double>(problem.discs.size()) * (sizeof(std::uint64_t) + sizeof(double));
+}
+
 }  // namespace
 
 void run_photon_map(const Problem& problem, const PhotonMapParameters& parameters, const RunOptions& options,
@@ -166,11 +178,7 @@ void run_photon_map(const Problem& problem, const PhotonMapParameters& parameter
   if (options.totals != nullptr)
     throw std::invalid_argument("photon-map needs all rays at once: the nearest of each block are not those of all");
   Stopwatch watch;
-  constexpr double node = 40 / 8.0;  // of nanoflann's tree, whose leaves hold 5 to 10 photons
-  need_memory("the photon map",
-              static_cast<double>(problem.rays.size()) * (1.5 * sizeof(Photon) + sizeof(std::uint32_t) + node) +
-                  static_cast<double>(problem.discs.size()) * (sizeof(std::uint64_t) + sizeof(double)),
-              problem, outcome);
+  need_memory("the photon map", map_bytes(problem), problem, outcome);
   const PhotonMap map(problem, parameters.nearest, options.stop);
   outcome.seconds.build = watch.lap();
   map.estimate(options, outcome);

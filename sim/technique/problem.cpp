@@ -101,6 +101,7 @@ double take_rays(Problem& problem, std::span<const Ray> rays, int threads, std::
     checked = check_rays(rays, problem.enclosing.centre, problem.most_power, first, StopCheck(stop, checking));
   });
   problem.one_power = checked.one_power;
+  problem.segments = checked.segments;
   problem.own_rays = std::move(checked.unit);
   problem.rays = problem.own_rays ? std::span<const Ray>(*problem.own_rays) : rays;
   return checked.farthest;

@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <vector>
 
+#include "detp/sim/memory.hpp"
 #include "detp/sim/stop_check.hpp"
 #include "technique.hpp"
 
 namespace detp::sim {
+
+/// Appends a pair. Throws std::length_error before the array grows beyond the memory.
+inline void add_pair(std::vector<Pair>& pairs, const Pair& pair) {
+  if (pairs.size() == pairs.capacity()) require_memory("the pairs", grown_bytes(pairs.size() + 1, sizeof(Pair)));
+  pairs.push_back(pair);
+}
 
 /// Sorts by ray, then disc; false where a stop request ended it: the order is then any.
 [[nodiscard]] inline bool sort_pairs(std::vector<Pair>& pairs, const std::stop_token& stop) {

@@ -87,6 +87,7 @@ struct Glance {
   double farthest2 = 0;  ///< square of the distance of the farthest origin
   double least_power = unbounded;
   double most_power = 0;
+  double least_length = unbounded;
   bool sound = true;
 };
 
@@ -101,13 +102,15 @@ Glance look_at(std::span<const Ray> rays, const glm::dvec3& centre, double most_
           glance.farthest2 = std::max(glance.farthest2, glm::dot(away, away));
           glance.least_power = std::min(glance.least_power, ray.power);
           glance.most_power = std::max(glance.most_power, ray.power);
+          glance.least_length = std::min(glance.least_length, ray.length);
         });
         check.now();
         return glance;
       },
       [](const Glance& a, const Glance& b) {
         return Glance{std::max(a.farthest2, b.farthest2), std::min(a.least_power, b.least_power),
-                      std::max(a.most_power, b.most_power), a.sound && b.sound};
+                      std::max(a.most_power, b.most_power), std::min(a.least_length, b.least_length),
+                      a.sound && b.sound};
       });
 }
 
@@ -151,7 +154,7 @@ std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Di
 CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, std::uint64_t first,
                        const StopCheck& check) {
   const Glance seen = look_at(rays, centre, most_power, check);
-  CheckedRays checked{std::sqrt(seen.farthest2), seen.least_power == seen.most_power};
+  CheckedRays checked{std::sqrt(seen.farthest2), seen.least_power == seen.most_power, seen.least_length < unbounded};
   if (!seen.sound) checked.unit = normalised_if_needed(rays, most_power, first, check);
   return checked;
 }

@@ -26,6 +26,7 @@ void require_sound(std::span<const Disc> discs, StopCheck& check);
 struct CheckedRays {
   double farthest = 0;                                ///< distance of the farthest origin from the centre
   bool one_power = false;                             ///< all carry the same power
+  bool segments = false;                              ///< one of them ends
   std::shared_ptr<const std::vector<Ray>> unit = {};  ///< copies with unit directions; null if all were unit to 1e-12
 };
 

@@ -23,7 +23,7 @@ void search(const Problem& problem, const SphereCacheParameters& parameters, Sph
     search_along(walk, problem, order, options, outcome);
   } else {
     const auto make_walk = [&] { return std::make_unique<SphereWalk>(problem, parameters, serving); };
-    stream::search_walk(problem, std::move(order), make_walk, options, outcome);
+    stream::search_walk(problem, std::move(order), make_walk, lists_of(problem, parameters).room(), options, outcome);
   }
   if (options.count) outcome.counts.sorted = sorted;
   outcome.seconds.search = watch.lap();

@@ -184,12 +184,13 @@ void run_sphere_tree(const Problem& problem, const SphereTreeParameters& paramet
     stream::search_boxes(problem, parameters, options, outcome);
     return;
   }
-  need_memory("a tree of spheres and lists of rays", sphere_tree_bytes(problem, options, parameters), problem, outcome);
+  need_memory("a tree of spheres", building_bytes(problem, parameters), problem, outcome);
   Stopwatch watch;
   const std::vector<std::uint32_t> order = along_curve(problem.discs, SampleOrder::lebesgue, options.stop);
   outcome.seconds.order = watch.lap();
   const SphereTree tree = make_sphere_tree(problem.discs, order, parameters, options.stop);
   outcome.seconds.build = watch.lap();
+  need_memory("a tree of spheres and lists of rays", searching_bytes(problem, options, tree), problem, outcome);
   options.count ? Search<true>(problem, parameters, tree, order, options).run(outcome)
                 : Search<false>(problem, parameters, tree, order, options).run(outcome);
   outcome.seconds.search = watch.lap();

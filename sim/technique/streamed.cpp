@@ -93,7 +93,10 @@ class Stream {
     } else {
       part = run(problem_, candidate_, run_);
     }
-    streamed_.bytes = std::max(streamed_.bytes, own_bytes_ + part.bytes);
+    const std::size_t pairs = streamed_.outcome.pairs.size() + part.pairs.size();
+    const double bytes = own_bytes_ + part.bytes + grown_bytes(pairs, sizeof(Pair));
+    if (pairs > 0) require_memory("the pairs", bytes);
+    streamed_.bytes = std::max(streamed_.bytes, bytes);
     add(std::move(part), static_cast<std::uint32_t>(first), count);
   }
 

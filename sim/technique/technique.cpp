@@ -11,6 +11,17 @@
 #include "techniques.hpp"
 
 namespace detp::sim {
+namespace {
+
+/// Of pages not wholly used, small arrays, threads' stacks.
+constexpr double small_bytes = 0x1p19;
+
+double given_bytes(const Problem& problem) {
+  return static_cast<double>(problem.rays.size()) * sizeof(Ray) +
+         static_cast<double>(problem.discs.size()) * sizeof(Disc);
+}
+
+}  // namespace
 
 void check_options(const RunOptions& options, const Problem& problem) {
   if (problem.discs.empty() || !(problem.slack > 0 && problem.slack < unbounded))
@@ -21,14 +32,15 @@ void check_options(const RunOptions& options, const Problem& problem) {
                                             options.totals->size(), problem.discs.size()));
 }
 
+bool fits_memory(double bytes, const Problem& problem) { return given_bytes(problem) + bytes <= memory_budget(); }
+
 void require_memory_for(std::string_view what, double bytes, const Problem& problem) {
-  const double given =
-      static_cast<double>(problem.rays.size()) * sizeof(Ray) + static_cast<double>(problem.discs.size()) * sizeof(Disc);
   require_memory(fmt::format("{} rays, {} discs, and {}", problem.rays.size(), problem.discs.size(), what),
-                 given + bytes);
+                 given_bytes(problem) + bytes);
 }
 
 void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome) {
+  bytes += small_bytes;
   require_memory_for(what, bytes, problem);
   outcome.bytes = std::max(outcome.bytes, bytes);
 }

@@ -25,6 +25,7 @@ struct Problem {
   double farthest = 0;        ///< no ray's origin is farther from the centre of S₀
   double most_power = 0;      ///< no ray carries more, so that no sum and no irradiance overflows
   bool one_power = false;     ///< all rays carry the same power
+  bool segments = false;      ///< one of the rays ends
   /// What `rays` or `discs` name where directions or normals had to be normalised; null otherwise.
   std::shared_ptr<const std::vector<Ray>> own_rays = {};
   std::shared_ptr<const std::vector<Disc>> own_discs = {};
@@ -109,7 +110,9 @@ struct Outcome {
   Counts<std::uint64_t> counts;       ///< all zero unless asked for (`hits` always holds total_hits)
   std::vector<SphereCounts> spheres;  ///< S₁ … S_k of a sphere cache; empty unless counting
   std::vector<Pair> pairs;            ///< sorted by ray, then disc; empty unless asked for, and of a stopped run
-  double bytes = 0;  ///< predicted memory at its peak, rays, discs and pairs left out; checked before it was taken
+  /// Predicted memory at its peak, beside rays and discs, checked before it was taken; what the heap keeps of arrays
+  /// that were freed is left out.
+  double bytes = 0;
   Phases seconds;
   bool stopped = false;  ///< a stop request ended the run: hits and irradiance are partial
   /// How far the run came. In rays: hits and irradiance are those of the first `done` rays, none of whose hits is

@@ -25,10 +25,13 @@ class Stopwatch {
 /// Throws std::invalid_argument for options that no technique can run with.
 void check_options(const RunOptions& options, const Problem& problem);
 
-/// Throws std::length_error where so many bytes would not fit the memory beside the problem's rays and discs.
+/// Whether so many bytes fit the memory beside the problem's rays and discs.
+[[nodiscard]] bool fits_memory(double bytes, const Problem& problem);
+
+/// Throws std::length_error where they do not.
 void require_memory_for(std::string_view what, double bytes, const Problem& problem);
 
-/// The same, and enters into the outcome that the run takes so many bytes.
+/// The same, and enters into the outcome that the run takes so many bytes, and half a MiB for all that is small.
 void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome);
 
 /// Bytes of a run's own totals, hits and irradiance; none where its totals are another's.
