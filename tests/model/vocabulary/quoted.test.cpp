@@ -6,9 +6,9 @@ using namespace detp;
 
 TEST_SUITE("known answer") {
   TEST_CASE("plain text, also beyond ASCII, is quoted as it is") {
-    CHECK(quoted("") == "\"\"");
-    CHECK(quoted("1.5e3 x\\y") == "\"1.5e3 x\\y\"");
-    CHECK(quoted("r₀ = 1 µm, 𝛼") == "\"r₀ = 1 µm, 𝛼\"");
+    CHECK(detp::quoted("") == "\"\"");
+    CHECK(detp::quoted("1.5e3 x\\y") == "\"1.5e3 x\\y\"");
+    CHECK(detp::quoted("r₀ = 1 µm, 𝛼") == "\"r₀ = 1 µm, 𝛼\"");
   }
 
   TEST_CASE("control characters, invalid UTF-8 and marks of writing direction are escaped byte by byte") {
@@ -26,8 +26,8 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("a quote has at most 60 characters, escapes included") {
-    CHECK(quoted(std::string(60, 'x')) == '"' + std::string(60, 'x') + '"');
-    CHECK(quoted(std::string(20'000'000, '7')) == '"' + std::string(60, '7') + "...\"");
+    CHECK(detp::quoted(std::string(60, 'x')) == '"' + std::string(60, 'x') + '"');
+    CHECK(detp::quoted(std::string(20'000'000, '7')) == '"' + std::string(60, '7') + "...\"");
     CHECK(shortened(std::string(99, '\1')).size() == 60 + 3);
     std::string alphas;
     for (int i = 0; i < 60; ++i) alphas += "α";
