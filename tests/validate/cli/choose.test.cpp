@@ -73,7 +73,8 @@ TEST_SUITE("end to end") {
       const Json model = result_of("model " + workload + " --technique sphere-tree");
       CHECK(run.at("parameters") == parameters);
       CHECK(model.at("parameters") == parameters);
-      for (const Json& candidate : result_of("choose " + workload + " --rigor estimate").at("candidates")) {
+      const Json choice = result_of("choose " + workload + " --rigor estimate");
+      for (const Json& candidate : choice.at("candidates")) {
         if (candidate.at("technique") != "sphere-tree") continue;
         CHECK(candidate.at("parameters") == parameters);
         CHECK(candidate.at("predicted") == model.at("counts"));
@@ -107,7 +108,8 @@ TEST_SUITE("end to end") {
   TEST_CASE("choose and model mark predictions that are extrapolated, and tell why") {
     const std::string few = "--samples 50 --rays 1000 --disc-radius 0.01 --scene-side 2";
     const Json reasons{"samples 50 below 1000"};
-    for (const Json& candidate : result_of("choose " + few).at("candidates")) {
+    const Json choice = result_of("choose " + few);
+    for (const Json& candidate : choice.at("candidates")) {
       const bool exact = candidate.at("technique") == "brute-force";
       CHECK(candidate.at("extrapolated") == !exact);
       CHECK(candidate.at("extrapolated_because").empty() == exact);

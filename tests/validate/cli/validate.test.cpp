@@ -24,7 +24,8 @@ TEST_SUITE("end to end") {
     CHECK(finished.json().at("warnings").empty());
     CHECK(finished.code == (refuted ? 1 : 0));
     CHECK(refuted);
-    for (const Json& candidate : result_of("choose" + scene).at("candidates")) {
+    const Json choice = result_of("choose" + scene);
+    for (const Json& candidate : choice.at("candidates")) {
       const std::string technique = candidate.at("technique");
       CHECK(by_id.at("choice." + technique + ".disc-tests.corrected").at("predicted") ==
             candidate.at("predicted").at("disc_tests"));
