@@ -14,13 +14,13 @@
 #include <utility>
 #include <vector>
 
-/// What the project uses of oneTBB, on std::thread. ThreadSanitizer sees how std::thread orders work; it cannot see that
-/// of oneTBB, whose library is not instrumented, and reports races where there are none. For the preset `thread` only:
-/// every loop starts threads of its own.
+/// What the project uses of oneTBB, on std::thread. ThreadSanitizer sees how std::thread orders work; it cannot see
+/// that of oneTBB, whose library is not instrumented, and reports races where there are none. For the preset `thread`
+/// only: every loop starts threads of its own.
 namespace tbb {
 namespace detail {
 
-inline std::atomic<int> limit = 4;       ///< of global_control
+inline std::atomic<int> limit = 4;        ///< of global_control
 inline thread_local int concurrency = 0;  ///< of the arena; 0: none but the limit
 inline thread_local int depth = 0;        ///< of loops inside loops: the inner ones run alone
 
@@ -125,10 +125,9 @@ class enumerable_thread_specific {
  public:
   enumerable_thread_specific() : make_([] { return T(); }) {}
   template <class Make>
-    requires std::is_invocable_v<const Make&>
+  requires std::is_invocable_v<const Make&>
   explicit enumerable_thread_specific(const Make& make) : make_(make) {}
-  explicit enumerable_thread_specific(const T& exemplar)
-    requires std::is_copy_constructible_v<T>
+  explicit enumerable_thread_specific(const T& exemplar) requires std::is_copy_constructible_v<T>
       : make_([exemplar] { return exemplar; }) {}
 
   T& local() {
