@@ -54,7 +54,7 @@ void check_rank(int runs, std::uint64_t seed) {
     if (now_and_then(0.5)) w = cube_workload(w.rays, w.samples, w.disc_radius, side, now_and_then(0.5) ? 2 : 3);
     if (now_and_then(0.2)) w.sample_extent = random.log_uniform(1e-270, 1e270);
     if (now_and_then(0.2)) w.path_length = random.log_uniform(1e-300, 1e300);
-    if (w.sphere_radius > 1e90) continue;
+    if (w.sphere_radius < 1e-90 || w.sphere_radius > 1e90) continue;
     const auto cost = [&] { return now_and_then(0.2) ? 0 : now_and_then(0.1) ? 1e200 : random.log_uniform(1e-12, 1); };
     const UnitCosts some{cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost()};
     CAPTURE(run);
