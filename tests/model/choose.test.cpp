@@ -235,5 +235,8 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("… and so it is on ten thousand of them") { check_rank(10'000, 72); }
+  TEST_CASE(
+      "rank answers ten thousand workloads and costs from all their ranges, all is finite, and the work is bounded") {
+    check_rank(10'000, 72);
+  }
 }
