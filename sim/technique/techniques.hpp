@@ -1,26 +1,13 @@
 #pragma once
 
-#include <chrono>
 #include <string_view>
-#include <utility>
 
+#include "detp/sim/stopwatch.hpp"
 #include "technique.hpp"
 
 /// The techniques behind `run`. Each fills in an outcome; its parameters have been checked. One that is stopped before
 /// it searches (while it sorts or builds) throws Stopped.
 namespace detp::sim {
-
-/// Seconds since it was made or last read.
-class Stopwatch {
- public:
-  [[nodiscard]] double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Throws std::invalid_argument for options that no technique can run with.
 void check_options(const RunOptions& options, const Problem& problem);
