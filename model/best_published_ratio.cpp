@@ -30,7 +30,7 @@ class ConvexPart {
  public:
   ConvexPart(const Workload& workload, const UnitCosts& costs, std::int64_t spheres, std::int64_t sparse)
       : samples_(workload.samples),
-        test_(costs.sphere_test * workload.rays),
+        test_(costs.cull_test * workload.rays),
         disc_(costs.disc_test * workload.rays * workload.samples),
         spheres_(spheres),
         sparse_(std::min(sparse, spheres)) {}
@@ -121,7 +121,7 @@ class Search {
 
   void found(std::int64_t spheres, double x, double bound) {
     const double ratio = std::exp(x);
-    const double time = rebuild_time(workload_, {ratio}, spheres, costs_.sphere_test) +
+    const double time = rebuild_time(workload_, {ratio}, spheres, costs_.cull_test) +
                         intersect_time(workload_, {ratio}, spheres, costs_.disc_test);
     bound_ = best_.spheres == 0 ? bound : std::min(bound_, bound);
     if (best_.spheres == 0 || time < best_.time) best_ = {ratio, spheres, time, 0};
@@ -152,8 +152,8 @@ std::int64_t best_stop(const Workload& workload, const UnitCosts& costs, RadiusR
   check(costs);
   const std::int64_t last = sphere_count(Form::published, ratio, {workload.disc_radius}, {workload.sphere_radius});
   const double q = ratio.value;
-  const double share = costs.disc_test / costs.sphere_test * (1 - q) * (1 + q);  // u (1 - Q²)/t
-  if (last == 0 || costs.sphere_test == 0 || share > 1) return last;
+  const double share = costs.disc_test / costs.cull_test * (1 - q) * (1 + q);  // u (1 - Q²)/t
+  if (last == 0 || costs.cull_test == 0 || share > 1) return last;
   const double paying = std::ceil(std::log(share * workload.samples) / (-3 * std::log(q))) - 1;
   return paying < static_cast<double>(last) ? static_cast<std::int64_t>(std::max(paying, 1.0)) : last;
 }

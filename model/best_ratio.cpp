@@ -21,6 +21,9 @@ class Times {
   Times(const Workload& workload, const UnitCosts& costs) : workload_(workload), costs_(costs) {
     check(workload);
     check(costs);
+    const double blocks = blocks_of(workload.rays, workload.samples);
+    costs_.cull *= blocks;
+    costs_.visit *= blocks;
   }
 
   /// Spheres whose counts were evaluated so far.
@@ -29,14 +32,16 @@ class Times {
   /// T with no sphere; any Q will do.
   [[nodiscard]] BestRatio without_spheres() const {
     const Candidate none{Technique::sphere_cache, SphereCacheParameters{published_ratio, 0}};
-    return {published_ratio, 0, price(predict(workload_, none), costs_).total()};
+    return {published_ratio, 0, price(predict(workload_, none, Engine::plain), costs_).total()};
   }
 
   /// T with k spheres.
   [[nodiscard]] double at(double ratio, std::int64_t k) const {
     if (k > summed_one_by_one) {
       looked_at_ += summed_one_by_one;
-      return price(predict(workload_, {Technique::sphere_cache, SphereCacheParameters{ratio, k}}), costs_).total();
+      return price(predict(workload_, {Technique::sphere_cache, SphereCacheParameters{ratio, k}}, Engine::plain),
+                   costs_)
+          .total();
     }
     double time = 0;
     pass(ratio, k, [&](std::int64_t, double with_discs, double) {
@@ -64,16 +69,16 @@ class Times {
   /// Calls visit(i, T with i spheres, the same without testing discs) until it returns false.
   template <class Visit>
   void pass(double ratio, std::int64_t last, const Visit& visit) const {
-    double spheres = costs_.sort * workload_.samples;
+    double spheres = (costs_.sort + costs_.visit) * workload_.samples;
     for_each_level(workload_, {ratio, last, SampleOrder::lebesgue}, [&](const SphereLevel& level) {
       ++looked_at_;
-      spheres += level.rebuilds * (level.tests * costs_.sphere_test + level.listed * costs_.copy + costs_.rebuild);
+      spheres += level.rebuilds * (level.tests * costs_.cull_test + level.listed * costs_.listed + costs_.cull);
       return visit(level.i, spheres + workload_.samples * level.served * costs_.disc_test, spheres);
     });
   }
 
   const Workload& workload_;
-  const UnitCosts& costs_;
+  UnitCosts costs_;  ///< lists are made, and discs visited, for each block of rays
   mutable std::int64_t looked_at_ = 0;
 };
 

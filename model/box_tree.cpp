@@ -85,7 +85,6 @@ class Sums {
 
 constexpr double most_in_a_leaf = 64;  // of sim/stream, where splitting does not pay
 constexpr double most_distances = 0x1p6;
-constexpr double rays_in_a_block = 0x1p17;  // of sim/stream, for which each node is tested
 
 /// Σ P of the nodes, from the sums over so many bodies; by their mean, whose volume is no overflow yet.
 double crossed(const Workload& workload, const Sums& sums, Term area, Term volume, double side, double bodies) {
@@ -96,26 +95,28 @@ double crossed(const Workload& workload, const Sums& sums, Term area, Term volum
 
 }  // namespace
 
-bool is_tabulated(const SphereTreeParameters& tree) {
-  return tree.bounds == Bounds::boxes && tree.fan_out == box_tree_fan_out &&
+bool is_tabulated(const BoxTreeParameters& tree) {
+  return tree.fan_out == box_tree_fan_out &&
          std::find(box_tree_leaves.begin(), box_tree_leaves.end(), tree.leaf) != box_tree_leaves.end();
 }
 
-Counts<double> box_tree_counts(const Workload& workload, const SphereTreeParameters& parameters) {
+Counts<double> box_tree_counts(const Workload& workload, const BoxTreeParameters& parameters) {
   check(workload);
-  check(Candidate{Technique::sphere_tree, parameters});
+  check(Candidate{Technique::box_tree, parameters});
   if (!is_tabulated(parameters))
     throw std::invalid_argument(
-        fmt::format("the closed form of a tree of boxes is for fan-out {} and {} samples a leaf, that of a tree of "
-                    "spheres for any (got {})",
-                    box_tree_fan_out, fmt::join(box_tree_leaves, ", "), describe(parameters)));
+        fmt::format("the closed form of a tree of boxes is for fan-out {} and {} samples a leaf "
+                    "(got {})",
+                    box_tree_fan_out, fmt::join(box_tree_leaves, ", "), describe({Technique::box_tree, parameters})));
   const double rays = workload.rays;
   const double samples = workload.samples;
-  Counts<double> counts{.sorted = samples, .hits = expected_hits(workload)};
+  Counts<double> counts{
+      .references = samples, .placements = samples, .sorted = samples, .hits = expected_hits(workload)};
   // One leaf, or discs that fill S₀, whose boxes keep no ray out and so are as few as may be.
   if (samples <= parameters.leaf || workload.disc_radius >= workload.sphere_radius) {
     counts.disc_tests = rays * samples;
-    counts.sphere_tests = counts.copies = samples > most_in_a_leaf ? rays * samples / most_in_a_leaf : 0;
+    counts.visits = samples;
+    counts.cull_tests = counts.listed = samples > most_in_a_leaf ? rays * samples / most_in_a_leaf : 0;
     return counts;
   }
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
@@ -125,11 +126,11 @@ Counts<double> box_tree_counts(const Workload& workload, const SphereTreeParamet
   const double side = distance * std::pow(samples / std::pow(6, 3 - dimension), 1 / dimension);
   const Sums sums(parameters.leaf, samples, workload.disc_radius / distance, dimension);
   const double tests = parameters.fan_out + crossed(workload, sums, inner_area, inner_volume, side, sums[nodes]);
-  counts.sphere_tests = rays * tests;
-  counts.copies = rays * crossed(workload, sums, area, volume, side, sums[nodes]);
+  counts.cull_tests = rays * tests;
+  counts.listed = rays * crossed(workload, sums, area, volume, side, sums[nodes]);
   counts.disc_tests = rays * std::min(samples, crossed(workload, sums, leaf_area, leaf_volume, side, samples));
-  const double blocks = std::ceil(rays / rays_in_a_block);
-  counts.rebuilds = -blocks * sums[nodes] * std::expm1(-rays / blocks * tests / sums[nodes]);
+  counts.culls = -sums[nodes] * std::expm1(-rays * tests / sums[nodes]);
+  counts.visits = -samples * std::expm1(-counts.disc_tests / samples);
   return counts;
 }
 

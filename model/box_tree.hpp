@@ -29,9 +29,9 @@ inline constexpr int box_tree_fan_out = 4;
 inline constexpr std::array box_tree_leaves{8, 16, 64};
 
 /// Whether the table is of this tree, so that box_tree_counts knows it.
-[[nodiscard]] bool is_tabulated(const SphereTreeParameters& tree);
+[[nodiscard]] bool is_tabulated(const BoxTreeParameters& tree);
 
-/// Expected counts of the tree. `rebuilds` are tests of a node that any ray takes part in, by blocks of 2¹⁷ rays.
+/// Expected counts of the tree. `culls` are tests of a node that any ray takes part in.
 ///
 /// Source     our derivation, and the table.
 /// Valid      fan-out 4, leaf 8, 16 or 64; samples uniform over a volume or over surfaces, discs turned isotropically;
@@ -45,9 +45,9 @@ inline constexpr std::array box_tree_leaves{8, 16, 64};
 ///              tests boxes   2.0, 4.8, 5.7 %     2.0, 4.1, 6.2 %     2.6, 8.1, 15.7 %
 ///              rays listed   3.5, 10.6, 11.3 %   3.8, 9.8, 11.3 %    3.3, 14.0, 21.7 %
 ///              tests discs   8.9, 21.8, 23.3 %   6.1, 13.4, 14.5 %   5.5, 13.1, 16.1 %
-///            `rebuilds` by 3 … 10 % in the median and 73 % at worst: too many where there are fewer rays than nodes.
+///            `culls` by 3 … 10 % in the median and 73 % at worst: too many where there are fewer rays than nodes.
 ///            In scenes see README.md.
 /// Throws     std::invalid_argument for a workload out of range, and for any other tree.
-[[nodiscard]] Counts<double> box_tree_counts(const Workload& workload, const SphereTreeParameters& parameters);
+[[nodiscard]] Counts<double> box_tree_counts(const Workload& workload, const BoxTreeParameters& parameters);
 
 }  // namespace detp::model

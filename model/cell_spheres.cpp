@@ -109,14 +109,14 @@ double rays_in_cell_sphere(const Workload& workload, int level) {
 Counts<double> cell_sphere_counts(const Workload& workload, const CellSpheresParameters& parameters) {
   check(workload);
   check(Candidate{Technique::cell_spheres, parameters});
-  Counts<double> counts{.sorted = workload.samples, .hits = expected_hits(workload)};
+  Counts<double> counts{.visits = workload.samples, .sorted = workload.samples, .hits = expected_hits(workload)};
   double around = workload.rays;
   for (int level = 1; level <= parameters.depth; ++level) {
     const double spheres = occupied_cell_spheres(workload, level);
     const double rays = rays_in_cell_sphere(workload, level);
-    counts.rebuilds += spheres;
-    counts.sphere_tests += spheres * around;
-    counts.copies += spheres * rays;
+    counts.culls += spheres;
+    counts.cull_tests += spheres * around;
+    counts.listed += spheres * rays;
     around = rays;
   }
   counts.disc_tests = workload.samples * around;

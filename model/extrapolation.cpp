@@ -6,28 +6,11 @@
 #include <cmath>
 #include <string_view>
 
+#include "registry.hpp"
 #include "sphere_count.hpp"
 
 namespace detp::model {
 namespace {
-
-/// Collects the inputs that lie outside.
-class Reasons {
- public:
-  /// An end of the range, reached but for rounding, is inside.
-  void range(std::string_view what, double value, double least, double most) {
-    constexpr double rounding = 1e-9;
-    if (value < least * (1 - rounding)) add(fmt::format("{} {:.4g} below {:.4g}", what, value, least));
-    if (value > most * (1 + rounding)) add(fmt::format("{} {:.4g} above {:.4g}", what, value, most));
-  }
-
-  void add(std::string reason) { reasons_.push_back(std::move(reason)); }
-
-  [[nodiscard]] std::vector<std::string> take() && { return std::move(reasons_); }
-
- private:
-  std::vector<std::string> reasons_;
-};
 
 /// The samples of a file's scene fill their box less evenly than samples of a cube, whose own box is a little smaller.
 constexpr double about_equal = 0.1;
@@ -55,7 +38,24 @@ void uncounted_scene(const Workload& workload, Reasons& reasons) {
     reasons.add(fmt::format("r0 {:.4g}, not {:.4g} around the cube of the samples", workload.sphere_radius, around));
 }
 
-void uncounted_cache(const Workload& workload, const SphereCacheParameters& cache, Reasons& reasons) {
+void range_of_samples(const Workload& workload, Reasons& reasons) {
+  reasons.range("samples", workload.samples, 1e3, 1e7);
+  reasons.range("d over r0", workload.disc_radius / workload.sphere_radius, 1e-4, 0.2);
+}
+
+}  // namespace
+
+void Reasons::range(std::string_view what, double value, double least, double most) {
+  constexpr double rounding = 1e-9;
+  if (value < least * (1 - rounding)) add(fmt::format("{} {:.4g} below {:.4g}", what, value, least));
+  if (value > most * (1 + rounding)) add(fmt::format("{} {:.4g} above {:.4g}", what, value, most));
+}
+
+void uncounted_cache(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+  const auto& cache = std::get<SphereCacheParameters>(parameters);
+  if (cache.spheres == 0) return;  // brute force
+  uncounted_scene(workload, reasons);
+  range_of_samples(workload, reasons);
   reasons.range("Q", cache.ratio, 0.3, 0.9);
   const auto count = [&](Form form) {
     return sphere_count(form, {cache.ratio}, {workload.disc_radius}, {workload.sphere_radius});
@@ -65,41 +65,45 @@ void uncounted_cache(const Workload& workload, const SphereCacheParameters& cach
   if (cache.order == SampleOrder::none) reasons.add("samples in no order: only sorted ones were counted");
 }
 
-void uncounted_tree(const Workload& workload, const SphereTreeParameters& tree, Reasons& reasons) {
-  if (tree.bounds == Bounds::spheres) {
-    reasons.range("samples", workload.samples, 1e3, 1e7);
-    reasons.range("d over r0", workload.disc_radius / workload.sphere_radius, 1e-4, 0.2);
-    reasons.range("fan-out", tree.fan_out, 4, 8);
-    reasons.range("leaf", tree.leaf, 4, 16);
-    return;
-  }
+void uncounted_cells(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+  uncounted_scene(workload, reasons);
+  range_of_samples(workload, reasons);
+  reasons.range("depth", std::get<CellSpheresParameters>(parameters).depth, 1, 6);
+}
+
+void uncounted_sphere_tree(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+  const auto& tree = std::get<SphereTreeParameters>(parameters);
+  uncounted_scene(workload, reasons);
+  range_of_samples(workload, reasons);
+  reasons.range("fan-out", tree.fan_out, 4, 8);
+  reasons.range("leaf", tree.leaf, 4, 16);
+}
+
+void uncounted_box_tree(const Workload& workload, const Parameters&, Reasons& reasons) {
+  uncounted_scene(workload, reasons);
   reasons.range("samples", workload.samples, 0x1p10, 0x1p20);
   reasons.range("d over sample distance", workload.disc_radius / sample_distance(workload), 0x1p-4, 0x1p3);
   reasons.range("d over the scene's side", workload.disc_radius / scene_side(workload), 0, 0.16);
 }
 
-}  // namespace
+void uncounted_octree(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+  uncounted_scene(workload, reasons);
+  range_of_samples(workload, reasons);
+  reasons.range("depth", std::get<OctreeParameters>(parameters).depth, 1, 7);
+}
+
+void uncounted_grid(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+  uncounted_scene(workload, reasons);
+  range_of_samples(workload, reasons);
+  reasons.range("cells a side", std::get<GridParameters>(parameters).cells, 2, 128);
+}
 
 std::vector<std::string> extrapolations(const Workload& workload, const Candidate& candidate) {
   check(workload);
   check(candidate);
   Reasons reasons;
-  const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters);
-  if (candidate.technique == Technique::brute_force || (cache != nullptr && cache->spheres == 0)) return {};
-  uncounted_scene(workload, reasons);
-  if (const auto* tree = std::get_if<SphereTreeParameters>(&candidate.parameters)) {
-    uncounted_tree(workload, *tree, reasons);
-    return std::move(reasons).take();
-  }
-  reasons.range("samples", workload.samples, 1e3, 1e7);
-  reasons.range("d over r0", workload.disc_radius / workload.sphere_radius, 1e-4, 0.2);
-  if (cache != nullptr) uncounted_cache(workload, *cache, reasons);
-  if (const auto* cells = std::get_if<CellSpheresParameters>(&candidate.parameters))
-    reasons.range("depth", cells->depth, 1, 6);
-  if (const auto* octree = std::get_if<OctreeParameters>(&candidate.parameters))
-    reasons.range("depth", octree->depth, 1, 7);
-  if (const auto* grid = std::get_if<GridParameters>(&candidate.parameters))
-    reasons.range("cells a side", grid->cells, 2, 128);
+  if (const auto uncounted = model_of(candidate.technique).uncounted)
+    uncounted(workload, candidate.parameters, reasons);
   return std::move(reasons).take();
 }
 

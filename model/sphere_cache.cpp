@@ -140,7 +140,8 @@ void for_each_level(const Workload& workload, const SphereCacheParameters& param
 
 Counts<double> sphere_cache_counts(const Workload& workload, const SphereCacheParameters& parameters) {
   Walk walk(workload, parameters);
-  Counts<double> counts{.sorted = parameters.order == SampleOrder::none ? 0 : workload.samples,
+  Counts<double> counts{.visits = workload.samples,
+                        .sorted = parameters.order == SampleOrder::none ? 0 : workload.samples,
                         .hits = expected_hits(workload)};
   const double vanishing = 2 * std::log(parameters.ratio);  // lists of spheres too small to see: ∝ r_i²
   double tests = 0;
@@ -155,9 +156,9 @@ Counts<double> sphere_cache_counts(const Workload& workload, const SphereCachePa
       const SphereLevel& sphere = walk.to(i += step, step);
       const double added_tests = sphere.rebuilds * sphere.tests;
       const double added_copies = sphere.rebuilds * sphere.listed;
-      counts.sphere_tests += sum_of_terms(tests, added_tests, spheres, vanishing);
-      counts.rebuilds += sum_of_terms(rebuilds, sphere.rebuilds, spheres, vanishing);
-      counts.copies += sum_of_terms(copies, added_copies, spheres, vanishing);
+      counts.cull_tests += sum_of_terms(tests, added_tests, spheres, vanishing);
+      counts.culls += sum_of_terms(rebuilds, sphere.rebuilds, spheres, vanishing);
+      counts.listed += sum_of_terms(copies, added_copies, spheres, vanishing);
       tests = added_tests;
       copies = added_copies;
       rebuilds = sphere.rebuilds;

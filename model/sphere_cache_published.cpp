@@ -83,9 +83,10 @@ Counts<double> counts(const Workload& workload, RadiusRatio ratio, std::int64_t 
   const long double log_q = std::log(static_cast<long double>(ratio.value));
   const long double sparse = sparse_spheres(workload.samples, ratio, k);
   const long double rare = sparse > 0 ? std::exp(-3 * log_q) * geometric_sum(-3 * log_q, sparse) : 0;
-  return {.sphere_tests = rebuild_time(workload, ratio, k, 1),
+  return {.cull_tests = rebuild_time(workload, ratio, k, 1),
+          .culls = static_cast<double>(rare + workload.samples * (k - sparse)),
+          .visits = workload.samples,
           .disc_tests = intersect_time(workload, ratio, k, 1),
-          .rebuilds = static_cast<double>(rare + workload.samples * (k - sparse)),
           .sorted = workload.samples,
           .hits = expected_hits(workload)};
 }

@@ -101,6 +101,7 @@ double crossed(const Workload& workload, double run, double r) {
   const double around_run = radius(workload, alone, mean_square, run, 0);
   const double inside = around_all > 0 ? std::min(1.0, around_run / around_all) : 1;
   const double offset = std::sqrt(mean_square_distance(workload) * (1 - inside));
+  if (r >= workload.sphere_radius + offset) return 1;  // it holds S₀
   const double ratio = r / workload.sphere_radius;
   return std::min(1.0, ratio * ratio * both_hit_share(workload.sphere_radius, r, offset));
 }
@@ -110,7 +111,8 @@ TreeLevel level_of(const Workload& workload, const SphereTreeParameters& paramet
   const double square = radius(workload, parameters, mean_square, run, level);
   // Near the root all spheres are alike, and the tables' last digit must not make their mean the larger.
   const double mean = std::sqrt(std::min(square, radius(workload, parameters, square_of_mean, run, level)));
-  const double r = std::max(d, std::sqrt(square + 2 * d * mean + d * d));  // the square of d may be 0
+  const long double moment = square + d * (2.0L * mean + d);  // in doubles the square of d may be 0, or overflow
+  const double r = std::max(d, static_cast<double>(std::sqrt(moment)));
   return {.nodes = std::ceil(workload.samples / run),
           .samples = run,
           .mean_radius = mean + d,
@@ -123,8 +125,6 @@ TreeLevel level_of(const Workload& workload, const SphereTreeParameters& paramet
 std::vector<TreeLevel> sphere_tree_levels(const Workload& workload, const SphereTreeParameters& parameters) {
   check(workload);
   check(Candidate{Technique::sphere_tree, parameters});
-  if (parameters.bounds != Bounds::spheres)
-    throw std::invalid_argument("there are closed forms of sphere trees with spheres only, not with boxes");
   std::vector<TreeLevel> levels;
   double run = std::min<double>(parameters.leaf, workload.samples);
   // Samples have no extent of their own: spheres around leaves of one are spheres around samples alone.
@@ -142,11 +142,12 @@ Counts<double> sphere_tree_counts(const Workload& workload, const SphereTreePara
   Counts<double> counts{.sorted = workload.samples, .hits = expected_hits(workload)};
   double around = workload.rays;
   for (const TreeLevel& level : sphere_tree_levels(workload, parameters)) {
-    counts.rebuilds += level.nodes;
-    counts.sphere_tests += level.nodes * around;
-    counts.copies += workload.samples / level.samples * level.rays;
+    counts.culls += level.nodes * -std::expm1(-around);  // those whose parent's list holds a ray
+    counts.cull_tests += level.nodes * around;
+    counts.listed += workload.samples / level.samples * level.rays;
     around = level.rays;
   }
+  counts.visits = workload.samples * -std::expm1(-around);
   counts.disc_tests = workload.samples * around;
   return counts;
 }

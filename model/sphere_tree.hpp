@@ -49,8 +49,8 @@ struct TreeLevel {
 
 /// The levels from the root down to the leaves.
 ///
-/// Valid      Bounds::spheres; samples uniform over a volume or surfaces that fill their box; 1 <= n_P <= 1e18.
-/// Errors     std::invalid_argument for a workload or parameters out of range, and for boxes.
+/// Valid      samples uniform over a volume or surfaces that fill their box; 1 <= n_P <= 1e18.
+/// Errors     std::invalid_argument for a workload or parameters out of range.
 /// Accuracy   see sphere_tree_counts.
 [[nodiscard]] std::vector<TreeLevel> sphere_tree_levels(const Workload& workload,
                                                         const SphereTreeParameters& parameters);

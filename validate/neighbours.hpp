@@ -10,9 +10,9 @@ namespace detp::validate {
 /// The exact techniques, with default parameters, that are not among these.
 [[nodiscard]] std::vector<Candidate> techniques_left_out(const std::vector<Candidate>& candidates);
 
-/// The same technique with parameters a step away, all within their ranges: one level of depth; 0.7 and 1.4 times the
-/// cells; other Q and one sphere more or less; trees of boxes with 4 and 8 children, leaves of 8, 16, 64; the other
-/// quality of a bvh; leaves of a BSP tree four times as large or small.
+/// The same technique with parameters a step away, all within their ranges: one level of depth or one sphere
+/// more or less; Q 15 % larger or smaller; twice or half the fan-out; leaves four times as large or small; other
+/// numbers 1.4 times; another choice where there is nothing else to change.
 [[nodiscard]] std::vector<Candidate> neighbours(const Candidate& candidate);
 
 }  // namespace detp::validate

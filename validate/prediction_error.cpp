@@ -16,21 +16,18 @@ PredictionError prediction_error(const model::Ranked& predicted, const Counts<st
                         .unit_costs = counted_seconds / seconds,
                         .worst = {}};
   double most = -1;
-  for_each_term(predicted.counts, [&](std::string_view term, double value) {
+  for (const auto& [name, term] : count_terms<double>) {
+    const double expected = predicted.counts.*term;
     Counts<double> difference;
-    double of_found = 0;
-    for_each_term(found, [&](std::string_view name, double count) { of_found = name == term ? count : of_found; });
-    for_each_term(difference, [&](std::string_view name, double& count) {
-      if (name == term) count = std::abs(value - of_found);
-    });
+    difference.*term = std::abs(expected - found.*term);
     const double weight = price(difference, costs, technique).total();
-    if (!(weight > most)) return;
+    if (!(weight > most)) continue;
     most = weight;
-    error.worst = term;
-    error.worst_ratio = value == of_found ? 1
-                        : of_found > 0    ? value / of_found
-                                          : std::numeric_limits<double>::infinity();
-  });
+    error.worst = name;
+    error.worst_ratio = expected == found.*term ? 1
+                        : found.*term > 0       ? expected / found.*term
+                                                : std::numeric_limits<double>::infinity();
+  }
   return error;
 }
 

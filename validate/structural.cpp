@@ -4,9 +4,7 @@
 
 #include <stdexcept>
 
-#include "structural_hierarchy.hpp"
-#include "structural_index.hpp"
-#include "structural_walk.hpp"
+#include "structural_registry.hpp"
 
 namespace detp::validate {
 namespace {
@@ -25,22 +23,6 @@ class RaylessProblem {
   sim::Problem problem_;
 };
 
-Counts<double> cache_counts(const sim::Problem& problem, double rays, const SphereCacheParameters& parameters,
-                            const std::stop_token& stop) {
-  if (parameters.order != SampleOrder::lebesgue)
-    throw std::invalid_argument(fmt::format(
-        "the sphere cache has a structural tier along the Lebesgue curve only (got order {})", name(parameters.order)));
-  const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, parameters, stop);
-  Counts<double> counts{.sphere_tests = rays * walk.sphere_tests,
-                        .disc_tests = rays * walk.disc_tests,
-                        .sorted = static_cast<double>(problem.discs.size())};
-  for (const ExpectedSphere& sphere : walk.spheres) {
-    counts.rebuilds += sphere.rebuilds;
-    counts.copies += rays * sphere.listed;
-  }
-  return counts;
-}
-
 double expected_hits(const sim::Problem& problem, double rays) {
   const double outer = problem.enclosing.radius;
   double hits = 0;
@@ -48,40 +30,29 @@ double expected_hits(const sim::Problem& problem, double rays) {
   return rays * hits;
 }
 
-Counts<double> technique_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
-                                const std::stop_token& stop) {
-  switch (candidate.technique) {
-    case Technique::brute_force:
-      return {.disc_tests = rays * static_cast<double>(problem.discs.size())};
-    case Technique::sphere_cache:
-      return cache_counts(problem, rays, std::get<SphereCacheParameters>(candidate.parameters), stop);
-    case Technique::cell_spheres:
-    case Technique::sphere_tree:
-      return structural_hierarchy_counts(problem, rays, candidate, stop);
-    case Technique::octree:
-    case Technique::grid:
-    case Technique::bsp:
-      return structural_index_counts(problem, rays, candidate, stop);
-    case Technique::sphere_cache_published:
-      throw std::invalid_argument("sphere-cache-published has no structural tier: its walk loses rays");
-    case Technique::bvh:
-    case Technique::photon_map:
-      throw std::invalid_argument(
-          fmt::format("{} has no structural tier; it can only be run", name(candidate.technique)));
-  }
-  throw std::logic_error("a technique without a structural tier");
-}
-
 }  // namespace
 
-Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Candidate& candidate,
+Counts<double> structural_brute_force(const sim::Problem& problem, double rays, const Parameters&,
+                                      const std::stop_token&) {
+  const auto discs = static_cast<double>(problem.discs.size());
+  return {.visits = discs * blocks_of(rays, static_cast<double>(problem.discs.size())), .disc_tests = rays * discs};
+}
+
+Counts<double> structural_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
                                  const std::stop_token& stop, bool front_facing) {
   require_count("number of rays", rays, 1, 1e18);
   check(candidate);
-  const RaylessProblem problem(discs);
-  Counts<double> counts = technique_counts(problem.get(), rays, candidate, stop);
-  counts.hits = (front_facing ? 0.5 : 1) * expected_hits(problem.get(), rays);
+  const StructuralTier& tier = structural_tier(candidate.technique);
+  if (tier.counts == nullptr)
+    throw std::invalid_argument(fmt::format("{} has no structural tier: {}", name(candidate.technique), tier.why_none));
+  Counts<double> counts = tier.counts(problem, rays, candidate.parameters, stop);
+  counts.hits = (front_facing ? 0.5 : 1) * expected_hits(problem, rays);
   return counts;
+}
+
+Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Candidate& candidate,
+                                 const std::stop_token& stop, bool front_facing) {
+  return structural_counts(RaylessProblem(discs).get(), rays, candidate, stop, front_facing);
 }
 
 }  // namespace detp::validate

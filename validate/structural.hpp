@@ -5,6 +5,7 @@
 
 #include "detp/model/vocabulary.hpp"
 #include "detp/sim/geometry.hpp"
+#include "detp/sim/technique/technique.hpp"
 
 namespace detp::validate {
 
@@ -33,5 +34,9 @@ namespace detp::validate {
 [[nodiscard]] Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays,
                                                const Candidate& candidate, const std::stop_token& stop = {},
                                                bool front_facing = false);
+
+/// The same of the discs of a problem, whose rays do not matter.
+[[nodiscard]] Counts<double> structural_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
+                                               const std::stop_token& stop = {}, bool front_facing = false);
 
 }  // namespace detp::validate

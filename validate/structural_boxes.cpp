@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "detp/sim/stop_check.hpp"
-#include "detp/sim/stream/ray_blocks.hpp"
 
 namespace detp::validate {
 namespace {
@@ -84,13 +83,12 @@ double BoxCrossing::operator()(const TreeNode& box) const {
   return std::min(1.0, share * share_through(outer_, centre, half, lines));
 }
 
-BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters,
+BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const BoxTreeParameters& parameters,
                               const std::stop_token& stop) {
   const sim::stream::Frame frame(problem);
-  const sim::stream::DiscTree tree =
-      sim::stream::make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf, stop);
+  const sim::stream::DiscTree tree = sim::stream::make_disc_tree(problem, frame, parameters, {.stop = stop});
   const BoxCrossing crossing(problem.enclosing.radius * frame.scale, frame.margin);
-  const double blocks = std::ceil(rays / static_cast<double>(sim::stream::block_size(problem.discs.size())));
+  const double blocks = blocks_of(rays, static_cast<double>(problem.discs.size()));
   BoxTreeCounts counts;
   sim::StopCheck check(stop, "counting boxes");
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -99,13 +97,14 @@ BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const Sp
     check.after(pool_size);  // lines at most
     if (i > 0) counts.listed += listed;
     const auto count = static_cast<double>(node.count);
+    // A node's children are tested, and a leaf's discs visited, if its list holds any ray of the block.
+    const double none = listed < 1 ? std::exp(rays / blocks * std::log1p(-listed)) : 0;
     if (node.leaf) {
       counts.discs += listed * count;
+      counts.visits += blocks * count * (1 - none);
       continue;
     }
     counts.tests += listed * count;
-    // A node's children are tested if its list holds any ray of the block.
-    const double none = listed < 1 ? std::exp(rays / blocks * std::log1p(-listed)) : 0;
     counts.culls += blocks * count * (1 - none);
   }
   return counts;

@@ -38,16 +38,17 @@ class BoxCrossing {
   double margin_;
 };
 
-/// Sums over the nodes of a tree of boxes but the root, which every ray is in.
+/// Sums over the nodes of a tree of boxes except the root, which every ray is in.
 struct BoxTreeCounts {
   double tests = 0;   ///< tests against boxes, per ray: Σ P(parent)
   double listed = 0;  ///< rays listed, per ray: Σ P(node)
   double discs = 0;   ///< tests against discs, per ray: Σ_leaves P(leaf) discs(leaf)
-  double culls = 0;   ///< nodes tested at all, by all rays, in blocks of stream::block_size
+  double culls = 0;   ///< nodes tested at all, by all rays, in blocks of rays_in_block
+  double visits = 0;  ///< discs tested at all, likewise
 };
 
 /// What `rays` isotropic lines do in the tree of boxes over the discs. As boxes are nested, so are the lists.
 [[nodiscard]] BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays,
-                                            const SphereTreeParameters& parameters, const std::stop_token& stop = {});
+                                            const BoxTreeParameters& parameters, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

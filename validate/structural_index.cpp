@@ -1,4 +1,4 @@
-#include "structural_index.hpp"
+#include "structural_registry.hpp"
 
 #include <fmt/format.h>
 
@@ -14,6 +14,24 @@
 #include "detp/sim/stop_check.hpp"
 #include "detp/sim/technique/disc_index.hpp"
 
+/// What a built index of discs says of its own search, before any ray.
+///
+/// Expected counts of an octree, a grid or a BSP tree on isotropic lines through S₀:
+///
+///     nodes or steps = n_R Σ P(node)        disc_tests = n_R Σ_leaves P(leaf) references(leaf)
+///     P(node) = F(node)/(4π r₀²) × share of the lines through the node that also cross S₀
+///
+///   where  F   surface area of the node, or of the part of a grid's cell inside the grid's box
+///
+/// The share is 1 for a node inside S₀. For one that pokes out it is integrated over a few lines of a fixed pool laid
+/// through the node: the more lines, the larger the node. References and placements are exact.
+///
+/// Source     eq (3), summed over the structure: the surface-area heuristic.
+/// Valid      lines of the measure μ_ℓ through S₀; discs of any radii.
+/// Throws     std::invalid_argument for a technique without an index, and for an octree whose nodes are not visited
+/// once
+///            each (restart, neighbour links); as sim::run does for parameters out of range and
+///            for an index that would not fit the memory.
 namespace detp::validate {
 namespace {
 
@@ -95,36 +113,51 @@ class Crossing {
   std::size_t lines_ = 0;
 };
 
-}  // namespace
-
-Counts<double> structural_index_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
-                                       const std::stop_token& stop) {
+/// Counts of an index whose nodes `inspect(visit)` shows.
+template <class Inspect>
+Counts<double> index_counts(const sim::Problem& problem, double rays, double Counts<double>::*visited,
+                            const std::stop_token& stop, const Inspect& inspect) {
   sim::StopCheck check(stop, "counting cells");
   Crossing crossing(problem.enclosing);
   double visits = 0;
   double tests = 0;
-  const auto visit = [&](const sim::IndexNode& node) {
+  const sim::IndexSize size = inspect([&](const sim::IndexNode& node) {
     const double chance = crossing(node.box);
     check.after(crossing.lines() + 1);
     visits += chance;
     tests += chance * static_cast<double>(node.references);
-  };
-  const auto* octree = std::get_if<OctreeParameters>(&candidate.parameters);
-  const auto* grid = std::get_if<GridParameters>(&candidate.parameters);
-  const auto* bsp = std::get_if<BspParameters>(&candidate.parameters);
-  if (octree == nullptr && grid == nullptr && bsp == nullptr)
-    throw std::invalid_argument("an index of discs is an octree, a grid or a BSP tree (got another technique)");
-  if (octree != nullptr && octree->traversal != Traversal::top_down && octree->traversal != Traversal::front_to_back)
+  });
+  Counts<double> counts{.disc_tests = rays * tests,
+                        .references = static_cast<double>(size.references),
+                        .placements = static_cast<double>(size.placements)};
+  counts.*visited = rays * visits;
+  return counts;
+}
+
+}  // namespace
+
+Counts<double> structural_octree(const sim::Problem& problem, double rays, const Parameters& parameters,
+                                 const std::stop_token& stop) {
+  const auto& own = std::get<OctreeParameters>(parameters);
+  if (own.traversal != Traversal::top_down && own.traversal != Traversal::front_to_back)
     throw std::invalid_argument(fmt::format(
-        "the structural tier knows an octree top-down or front-to-back only (got {})", name(octree->traversal)));
-  const sim::IndexSize size = octree != nullptr ? inspect_octree(problem, *octree, {}, visit, stop)
-                              : grid != nullptr ? inspect_grid(problem, *grid, {}, visit, stop)
-                                                : inspect_bsp(problem, *bsp, visit, stop);
-  return {.disc_tests = rays * tests,
-          .steps = grid != nullptr ? rays * visits : 0,
-          .nodes = grid == nullptr ? rays * visits : 0,
-          .references = static_cast<double>(size.references),
-          .placements = static_cast<double>(size.placements)};
+        "the structural tier knows an octree top-down or front-to-back only (got {})", name(own.traversal)));
+  return index_counts(problem, rays, &Counts<double>::nodes, stop,
+                      [&](const auto& visit) { return inspect_octree(problem, own, {}, visit, stop); });
+}
+
+Counts<double> structural_grid(const sim::Problem& problem, double rays, const Parameters& parameters,
+                               const std::stop_token& stop) {
+  const auto& own = std::get<GridParameters>(parameters);
+  return index_counts(problem, rays, &Counts<double>::steps, stop,
+                      [&](const auto& visit) { return inspect_grid(problem, own, {}, visit, stop); });
+}
+
+Counts<double> structural_bsp(const sim::Problem& problem, double rays, const Parameters& parameters,
+                              const std::stop_token& stop) {
+  const auto& own = std::get<BspParameters>(parameters);
+  return index_counts(problem, rays, &Counts<double>::nodes, stop,
+                      [&](const auto& visit) { return inspect_bsp(problem, own, visit, stop); });
 }
 
 }  // namespace detp::validate

@@ -1,11 +1,15 @@
 #include "structural_walk.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "detp/sim/lebesgue.hpp"
 #include "detp/sim/line_field.hpp"
 #include "detp/sim/stop_check.hpp"
+#include "structural_registry.hpp"
 
 namespace detp::validate {
 namespace {
@@ -56,7 +60,7 @@ class Walk {
   }
 
   [[nodiscard]] ExpectedWalk finish() && {
-    for (const ExpectedSphere& sphere : expected_.spheres) expected_.sphere_tests += sphere.tests;
+    for (const ExpectedSphere& sphere : expected_.spheres) expected_.cull_tests += sphere.tests;
     return std::move(expected_);
   }
 
@@ -111,6 +115,26 @@ ExpectedWalk structural_walk(std::span<const sim::Disc> discs, const sim::Sphere
   Walk walk(enclosing, parameters, smallest, stop);
   for (const std::uint32_t i : sim::lebesgue_order(centres, stop)) walk.visit(discs[i]);
   return std::move(walk).finish();
+}
+
+Counts<double> structural_sphere_cache(const sim::Problem& problem, double rays, const Parameters& parameters,
+                                       const std::stop_token& stop) {
+  const auto& own = std::get<SphereCacheParameters>(parameters);
+  if (own.order != SampleOrder::lebesgue)
+    throw std::invalid_argument(
+        fmt::format("the sphere cache has a structural tier along the Morton (lebesgue) curve only (got order {})",
+                    name(own.order)));
+  const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, own, stop);
+  const auto discs = static_cast<double>(problem.discs.size());
+  Counts<double> counts{
+      .cull_tests = rays * walk.cull_tests, .visits = discs, .disc_tests = rays * walk.disc_tests, .sorted = discs};
+  const double blocks = blocks_of(rays, static_cast<double>(problem.discs.size()));
+  counts.visits *= blocks;
+  for (const ExpectedSphere& sphere : walk.spheres) {
+    counts.culls += blocks * sphere.rebuilds;
+    counts.listed += rays * sphere.listed;
+  }
+  return counts;
 }
 
 }  // namespace detp::validate

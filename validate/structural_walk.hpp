@@ -21,7 +21,7 @@ struct ExpectedSphere {
 
 struct ExpectedWalk {
   std::vector<ExpectedSphere> spheres;  ///< S₁ … S_k
-  double sphere_tests = 0;              ///< T_R for t = 1, per ray
+  double cull_tests = 0;                ///< T_R for t = 1, per ray
   double disc_tests = 0;                ///< T_I for u = 1, per ray
 };
 

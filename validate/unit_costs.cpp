@@ -29,11 +29,14 @@ Eigen::VectorXd non_negative_fit(const Eigen::MatrixXd& a) {
   return x;
 }
 
-/// Seconds per unit of one term that alone makes up a phase: Σ seconds / Σ counts.
-double simple_rate(std::span<const TimedRun> runs, double TimedRun::*seconds, double Counts<double>::*term) {
+/// Seconds per unit of one term that alone makes up a phase, of techniques that search ray by ray or of the others:
+/// Σ seconds / Σ counts.
+double simple_rate(std::span<const TimedRun> runs, bool ray_by_ray, double TimedRun::*seconds,
+                   double Counts<double>::*term) {
   double time = 0;
   double count = 0;
   for (const TimedRun& run : runs) {
+    if (record_of(run.technique).ray_by_ray != ray_by_ray) continue;
     time += run.counts.*term > 0 ? run.*seconds : 0;
     count += run.counts.*term;
   }
@@ -43,15 +46,16 @@ double simple_rate(std::span<const TimedRun> runs, double TimedRun::*seconds, do
 }  // namespace
 
 UnitCosts built_in_unit_costs() {
-  return {.sphere_test = 5.3e-10,
+  return {.cull_test = 5.3e-10,
           .disc_test = 1.6e-10,
           .index_test = 5.8e-9,
           .step = 1.5e-8,
           .node = 4.9e-8,
-          .copy = 0,  // a part of the test: the fit cannot tell them apart
+          .listed = 0,  // a part of the test: the fit cannot tell them apart
           .placement = 1.1e-7,
-          .sort = 2.2e-8,
-          .rebuild = 9.0e-8};
+          .leaf = 1.1e-8,
+          .sort = 1.1e-8,
+          .cull = 9.0e-8};
 }
 
 UnitCosts fit_unit_costs(std::span<const TimedRun> runs) {
@@ -61,21 +65,22 @@ UnitCosts fit_unit_costs(std::span<const TimedRun> runs) {
   for (Eigen::Index row = 0; row < a.rows(); ++row) {
     const TimedRun& run = runs[static_cast<std::size_t>(row)];
     const Counts<double>& counts = run.counts;
-    const bool index = searches_an_index(run.technique);
-    a.row(row) << counts.sphere_tests, index ? 0 : counts.disc_tests, index ? counts.disc_tests : 0, counts.steps,
-        counts.nodes, counts.copies, counts.rebuilds;
+    const bool index = record_of(run.technique).ray_by_ray;
+    a.row(row) << counts.cull_tests, index ? 0 : counts.disc_tests, index ? counts.disc_tests : 0, counts.steps,
+        counts.nodes, counts.listed, counts.culls;
     a.row(row) /= run.search;
   }
   const Eigen::VectorXd x = non_negative_fit(a);
-  return {.sphere_test = x[0],
+  return {.cull_test = x[0],
           .disc_test = x[1],
           .index_test = x[2],
           .step = x[3],
           .node = x[4],
-          .copy = x[5],
-          .placement = simple_rate(runs, &TimedRun::build, &Counts<double>::placements),
-          .sort = simple_rate(runs, &TimedRun::order, &Counts<double>::sorted),
-          .rebuild = x[6]};
+          .listed = x[5],
+          .placement = simple_rate(runs, true, &TimedRun::build, &Counts<double>::placements),
+          .leaf = simple_rate(runs, false, &TimedRun::build, &Counts<double>::placements),
+          .sort = simple_rate(runs, false, &TimedRun::order, &Counts<double>::sorted),
+          .cull = x[6]};
 }
 
 }  // namespace detp::validate

@@ -1,7 +1,9 @@
 #include "technique.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "checks.hpp"
@@ -9,155 +11,83 @@
 namespace detp {
 namespace {
 
-template <class... F>
-struct Overload : F... {
-  using F::operator()...;
-};
-template <class... F>
-Overload(F...) -> Overload<F...>;  // clang 14 does not deduce aggregates
+std::string text_of(const ParameterValue& value) {
+  return std::visit([](const auto& shown) { return fmt::format("{}", shown); }, value);
+}
 
-std::string_view words_for(SampleOrder order) {
-  if (order == SampleOrder::lebesgue) return "";
-  return order == SampleOrder::none ? ", unsorted" : ", Hilbert order";
+void require_in_range(const Parameter& parameter, const ParameterValue& value) {
+  if (const auto* real = std::get_if<double>(&value)) return require_ratio(parameter.what, *real);
+  if (const auto* whole = std::get_if<std::int64_t>(&value))
+    return require_count(parameter.what, static_cast<double>(*whole), parameter.least, parameter.most);
+  const auto& names = parameter.choices;
+  const auto choice = std::get<std::string_view>(value);
+  if (std::find(names.begin(), names.end(), choice) == names.end())
+    throw std::invalid_argument(
+        fmt::format("{} must be one of {} (got {})", parameter.what, fmt::join(names, ", "), choice));
 }
 
 }  // namespace
 
-std::string_view name(Technique technique) {
-  switch (technique) {
-    case Technique::brute_force:
-      return "brute-force";
-    case Technique::sphere_cache:
-      return "sphere-cache";
-    case Technique::sphere_cache_published:
-      return "sphere-cache-published";
-    case Technique::cell_spheres:
-      return "cell-spheres";
-    case Technique::sphere_tree:
-      return "sphere-tree";
-    case Technique::octree:
-      return "octree";
-    case Technique::grid:
-      return "grid";
-    case Technique::bvh:
-      return "bvh";
-    case Technique::photon_map:
-      return "photon-map";
-    case Technique::bsp:
-      return "bsp";
-  }
-  throw std::logic_error("a technique without a name");
-}
-
 std::optional<Technique> technique_named(std::string_view wanted) {
-  for (const auto technique : all_techniques)
-    if (name(technique) == wanted) return technique;
+  for (const TechniqueRecord& record : technique_records)
+    if (record.name == wanted) return record.technique;
   return std::nullopt;
 }
 
-std::string_view name(SampleOrder order) {
-  switch (order) {
-    case SampleOrder::lebesgue:
-      return "lebesgue";
-    case SampleOrder::hilbert:
-      return "hilbert";
-    case SampleOrder::none:
-      return "none";
+const Parameter* find_parameter(Technique technique, std::string_view wanted) {
+  for (const Parameter& parameter : record_of(technique).parameters)
+    if (parameter.name == wanted) return &parameter;
+  return nullptr;
+}
+
+void set_parameter(Candidate& candidate, std::string_view wanted, const ParameterValue& value) {
+  const Parameter* parameter = find_parameter(candidate.technique, wanted);
+  if (parameter == nullptr)
+    throw std::invalid_argument(fmt::format("{} is no parameter of {}", wanted, name(candidate.technique)));
+  if (parameter->small.index() != value.index())
+    throw std::invalid_argument(fmt::format("{} cannot be {}", parameter->what, text_of(value)));
+  require_in_range(*parameter, value);
+  parameter->set(candidate.parameters, value);
+}
+
+std::string describe(const Candidate& candidate) {
+  const TechniqueRecord& record = record_of(candidate.technique);
+  std::string text;
+  for (const Parameter& parameter : record.parameters) {
+    const ParameterValue value = parameter.get(candidate.parameters);
+    if (!parameter.choices.empty() && record.parameters.size() > 1 && value == parameter.get(record.defaults)) continue;
+    if (!text.empty()) text += ", ";
+    if (const auto* real = std::get_if<double>(&value))
+      text += fmt::format("{} {:.4g}", parameter.symbol, *real);
+    else
+      text += fmt::format("{} {}", parameter.symbol, text_of(value));
   }
-  throw std::logic_error("an order without a name");
-}
-
-std::optional<SampleOrder> order_named(std::string_view wanted) {
-  for (const auto order : {SampleOrder::lebesgue, SampleOrder::hilbert, SampleOrder::none})
-    if (name(order) == wanted) return order;
-  return std::nullopt;
-}
-
-std::string_view name(BuildQuality quality) { return quality == BuildQuality::low ? "low" : "medium"; }
-
-std::optional<BuildQuality> quality_named(std::string_view wanted) {
-  for (const auto quality : {BuildQuality::low, BuildQuality::medium})
-    if (name(quality) == wanted) return quality;
-  return std::nullopt;
-}
-
-std::string_view name(Bounds bounds) { return bounds == Bounds::spheres ? "spheres" : "boxes"; }
-
-std::optional<Bounds> bounds_named(std::string_view wanted) {
-  for (const auto bounds : {Bounds::spheres, Bounds::boxes})
-    if (name(bounds) == wanted) return bounds;
-  return std::nullopt;
-}
-
-std::string describe(const Parameters& parameters) {
-  return std::visit(Overload{[](const BruteForceParameters&) { return std::string{}; },
-                             [](const SphereCacheParameters& p) {
-                               if (p.spheres == 0) return fmt::format("no sphere{}", words_for(p.order));
-                               return fmt::format("Q {:.4g}, k {}{}", p.ratio, p.spheres, words_for(p.order));
-                             },
-                             [](const CellSpheresParameters& p) { return fmt::format("depth {}", p.depth); },
-                             [](const SphereTreeParameters& p) {
-                               return fmt::format("{} a node, {} a leaf{}", p.fan_out, p.leaf,
-                                                  p.bounds == Bounds::boxes ? ", boxes" : "");
-                             },
-                             [](const OctreeParameters& p) {
-                               return fmt::format("depth {}{}{}", p.depth,
-                                                  p.traversal == Traversal::top_down ? "" : ", ",
-                                                  p.traversal == Traversal::top_down ? "" : name(p.traversal));
-                             },
-                             [](const GridParameters& p) { return fmt::format("{} cells a side", p.cells); },
-                             [](const BspParameters& p) { return fmt::format("depth {}, {} a leaf", p.depth, p.leaf); },
-                             [](const BvhParameters& p) { return fmt::format("{} quality", name(p.quality)); },
-                             [](const PhotonMapParameters& p) { return fmt::format("{} nearest photons", p.nearest); }},
-                    parameters);
+  return text;
 }
 
 void check(const Candidate& candidate) {
-  const auto want = [&]<class P>(const P*) {
-    if (!std::holds_alternative<P>(candidate.parameters))
-      throw std::invalid_argument(fmt::format("the parameters are not those of {}", name(candidate.technique)));
-    return std::get<P>(candidate.parameters);
+  const TechniqueRecord& record = record_of(candidate.technique);
+  if (candidate.parameters.index() != record.defaults.index())
+    throw std::invalid_argument(fmt::format("the parameters are not those of {}", record.name));
+  for (const Parameter& parameter : record.parameters) require_in_range(parameter, parameter.get(candidate.parameters));
+}
+
+std::vector<Candidate> small_variants(Technique technique) {
+  const TechniqueRecord& record = record_of(technique);
+  Candidate small = default_candidate(technique);
+  for (const Parameter& parameter : record.parameters) parameter.set(small.parameters, parameter.small);
+  std::vector<Candidate> variants{small};
+  const auto add = [&](const Parameter& parameter, const ParameterValue& value) {
+    Candidate variant = small;
+    parameter.set(variant.parameters, value);
+    if (std::find(variants.begin(), variants.end(), variant) == variants.end()) variants.push_back(variant);
   };
-  switch (candidate.technique) {
-    case Technique::brute_force:
-      want(static_cast<const BruteForceParameters*>(nullptr));
-      break;
-    case Technique::sphere_cache:
-    case Technique::sphere_cache_published: {
-      const auto p = want(static_cast<const SphereCacheParameters*>(nullptr));
-      require_ratio("radius ratio Q", p.ratio);
-      require_count("number of spheres", static_cast<double>(p.spheres), 0, 9e18);
-      break;
-    }
-    case Technique::cell_spheres:
-      require_count("depth", want(static_cast<const CellSpheresParameters*>(nullptr)).depth, 0, 16);
-      break;
-    case Technique::sphere_tree: {
-      const auto p = want(static_cast<const SphereTreeParameters*>(nullptr));
-      require_count("fan-out", p.fan_out, 2, 1048576);
-      require_count("samples in a leaf", p.leaf, 1, 1048576);
-      break;
-    }
-    case Technique::octree:
-      require_count("depth", want(static_cast<const OctreeParameters*>(nullptr)).depth, 0, 20);
-      break;
-    case Technique::grid:
-      require_count("cells a side", want(static_cast<const GridParameters*>(nullptr)).cells, 1, 1048576);
-      break;
-    case Technique::bvh:
-      want(static_cast<const BvhParameters*>(nullptr));
-      break;
-    case Technique::photon_map:
-      require_count("number of nearest photons", want(static_cast<const PhotonMapParameters*>(nullptr)).nearest, 3,
-                    1e9);
-      break;
-    case Technique::bsp: {
-      const auto p = want(static_cast<const BspParameters*>(nullptr));
-      require_count("depth", p.depth, 0, 64);
-      require_count("discs in a leaf", p.leaf, 1, 1048576);
-      break;
-    }
+  for (const Parameter& parameter : record.parameters) {
+    if (std::holds_alternative<std::int64_t>(parameter.small))
+      add(parameter, static_cast<std::int64_t>(parameter.least));
+    for (const std::string_view choice : parameter.choices) add(parameter, choice);
   }
+  return variants;
 }
 
 }  // namespace detp

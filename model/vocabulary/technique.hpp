@@ -1,16 +1,15 @@
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
-#include <variant>
+#include <vector>
 
-#include "index_variant.hpp"
+#include "parameters.hpp"
 
-/// The techniques and their parameters. A new one is one line in each list here, one file in model, one in
-/// sim/technique.
+/// The techniques: one record each. A new one is a record here, a line in each registry (model, sim, validate) and a
+/// file in sim/technique.
 namespace detp {
 
 enum class Technique {
@@ -19,6 +18,7 @@ enum class Technique {
   sphere_cache_published,
   cell_spheres,
   sphere_tree,
+  box_tree,
   octree,
   grid,
   bsp,
@@ -26,126 +26,118 @@ enum class Technique {
   photon_map
 };
 
-inline constexpr std::array all_techniques{
-    Technique::brute_force,  Technique::sphere_cache, Technique::sphere_cache_published,
-    Technique::cell_spheres, Technique::sphere_tree,  Technique::octree,
-    Technique::grid,         Technique::bsp,          Technique::bvh,
-    Technique::photon_map};
+using Parameter = ParameterRecord<Parameters>;
 
-/// Whether it finds every hit: all but the published sphere cache, which loses some, and the photon map, which looks
-/// for none.
-[[nodiscard]] constexpr bool finds_all_hits(Technique technique) {
-  return technique != Technique::sphere_cache_published && technique != Technique::photon_map;
+namespace records {
+
+template <auto member>
+[[nodiscard]] constexpr Parameter number(std::string_view name, std::string_view what, double least, double most,
+                                         ParameterValue small, std::string_view help) {
+  using Access = ParameterAccess<Parameters, member>;
+  return {name, name, what, help, least, most, small, {}, Access::get, Access::set};
 }
 
-/// Whether the closed forms predict its counts, so that it can be chosen without being run. They know nothing of
-/// trees whose shape depends on the samples themselves (bsp, bvh), and what a photon map does is counted otherwise.
-[[nodiscard]] constexpr bool has_closed_form(Technique technique) {
-  return technique != Technique::bsp && technique != Technique::bvh && technique != Technique::photon_map;
+template <auto member, Choice E>
+[[nodiscard]] constexpr Parameter choice(std::string_view name, E small, std::string_view help) {
+  using Access = ParameterAccess<Parameters, member>;
+  return {name, name, name, help, 0, 0, detp::name(small), choice_names<E>, Access::get, Access::set};
 }
 
-/// Whether it looks rays up in an index of the discs, one after another, rather than testing lists of rays.
-[[nodiscard]] constexpr bool searches_an_index(Technique technique) {
-  return technique == Technique::octree || technique == Technique::grid || technique == Technique::bsp;
+[[nodiscard]] constexpr Parameter shown_as(std::string_view symbol, Parameter parameter) {
+  parameter.symbol = symbol;
+  return parameter;
 }
 
-/// The name on the command line and in files: "sphere-cache".
-[[nodiscard]] std::string_view name(Technique technique);
+using std::int64_t;
+inline constexpr double most_parts = 1048576;
+
+inline constexpr std::array sphere_cache{
+    shown_as("Q", number<&SphereCacheParameters::ratio>("ratio", "radius ratio Q", 0, 1, 0.65,
+                                                        "radius of a sphere over that of the next larger one")),
+    shown_as("k", number<&SphereCacheParameters::spheres>("spheres", "number of spheres", 0, 9e18, int64_t{8},
+                                                          "k, the innermost sphere")),
+    choice<&SphereCacheParameters::order>("order", SampleOrder::lebesgue, "order in which samples are visited")};
+
+inline constexpr std::array cell_spheres{
+    number<&CellSpheresParameters::depth>("depth", "depth", 0, 16, int64_t{3}, "levels of cells with spheres")};
+
+inline constexpr std::array sphere_tree{
+    number<&SphereTreeParameters::fan_out>("fan-out", "fan-out", 2, most_parts, int64_t{4}, "children of a node"),
+    number<&SphereTreeParameters::leaf>("leaf", "number of samples in a leaf", 1, most_parts, int64_t{2},
+                                        "samples in a leaf")};
+
+inline constexpr std::array box_tree{
+    number<&BoxTreeParameters::fan_out>("fan-out", "fan-out", 2, most_parts, int64_t{2}, "most children of a node"),
+    number<&BoxTreeParameters::leaf>("leaf", "number of samples in a leaf", 1, most_parts, int64_t{1},
+                                     "most samples in a leaf")};
+
+inline constexpr std::array octree{
+    number<&OctreeParameters::depth>("depth", "depth", 0, 20, int64_t{3}, "levels of an octree"),
+    choice<&OctreeParameters::traversal>("traversal", Traversal::top_down, "how rays go through an octree")};
+
+inline constexpr std::array grid{number<&GridParameters::cells>("cells", "number of cells a side", 1, most_parts,
+                                                                int64_t{7}, "cells along the longest side")};
+
+inline constexpr std::array bsp{
+    number<&BspParameters::depth>("depth", "depth", 0, 64, int64_t{12}, "most levels of a BSP tree"),
+    number<&BspParameters::leaf>("leaf", "number of discs in a leaf", 1, most_parts, int64_t{1},
+                                 "discs in a leaf that is split no further")};
+
+inline constexpr std::array bvh{
+    choice<&BvhParameters::quality>("quality", BuildQuality::low, "how carefully a BVH is built")};
+
+inline constexpr std::array photon_map{number<&PhotonMapParameters::nearest>(
+    "nearest", "number of nearest photons", 3, 1e9, int64_t{3}, "photons that are looked for")};
+
+}  // namespace records
+
+/// All that is to be known of a technique without running it.
+struct TechniqueRecord {
+  Technique technique;
+  std::string_view name;  ///< on the command line and in files
+  std::span<const Parameter> parameters;
+  Parameters defaults;
+  bool exact = true;        ///< finds every hit
+  bool ray_by_ray = false;  ///< tests one ray and one disc at a time, rather than lists of rays
+  bool simd = false;        ///< has a simd engine
+};
+
+inline constexpr std::array technique_records{
+    TechniqueRecord{Technique::brute_force, "brute-force", {}, BruteForceParameters{}, true, false, true},
+    TechniqueRecord{Technique::sphere_cache, "sphere-cache", records::sphere_cache, SphereCacheParameters{}, true,
+                    false, true},
+    TechniqueRecord{Technique::sphere_cache_published, "sphere-cache-published", records::sphere_cache,
+                    SphereCacheParameters{}, false},
+    TechniqueRecord{Technique::cell_spheres, "cell-spheres", records::cell_spheres, CellSpheresParameters{}, true,
+                    false, true},
+    TechniqueRecord{Technique::sphere_tree, "sphere-tree", records::sphere_tree, SphereTreeParameters{}},
+    TechniqueRecord{Technique::box_tree, "box-tree", records::box_tree, BoxTreeParameters{}, true, false, true},
+    TechniqueRecord{Technique::octree, "octree", records::octree, OctreeParameters{}, true, true},
+    TechniqueRecord{Technique::grid, "grid", records::grid, GridParameters{}, true, true},
+    TechniqueRecord{Technique::bsp, "bsp", records::bsp, BspParameters{}, true, true},
+    TechniqueRecord{Technique::bvh, "bvh", records::bvh, BvhParameters{}, true, true},
+    TechniqueRecord{Technique::photon_map, "photon-map", records::photon_map, PhotonMapParameters{}, false, true}};
+
+[[nodiscard]] constexpr const TechniqueRecord& record_of(Technique technique) {
+  return technique_records[static_cast<std::size_t>(technique)];
+}
+
+/// Every technique, in the order of the records.
+inline constexpr auto all_techniques = [] {
+  std::array<Technique, technique_records.size()> all{};
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Technique>(i);
+  return all;
+}();
+static_assert([] {
+  for (const Technique technique : all_techniques)
+    if (record_of(technique).technique != technique) return false;
+  return true;
+}());
+
+[[nodiscard]] constexpr std::string_view name(Technique technique) { return record_of(technique).name; }
 
 /// The technique of that name, or nothing.
 [[nodiscard]] std::optional<Technique> technique_named(std::string_view name);
-
-/// The curve along which the sphere cache visits the samples.
-enum class SampleOrder {
-  lebesgue,  ///< Morton order, 16 bits a coordinate, X before Y before Z
-  hilbert,   ///< along the Hilbert curve through the same cells: each is the neighbour of the one before
-  none       ///< as given
-};
-
-[[nodiscard]] std::string_view name(SampleOrder order);
-[[nodiscard]] std::optional<SampleOrder> order_named(std::string_view name);
-
-/// Every disc against every ray.
-struct BruteForceParameters {
-  bool operator==(const BruteForceParameters&) const = default;
-};
-
-/// Nested spheres of radius r₀Qⁱ with their rays (sphere-cache, and sphere-cache-published).
-struct SphereCacheParameters {
-  double ratio = 0.65;                        ///< Q, in (0, 1)
-  std::int64_t spheres = 1;                   ///< k, the innermost sphere's index, 0 … 9e18; 0: no sphere, any Q
-  SampleOrder order = SampleOrder::lebesgue;  ///< in which the samples are visited
-  bool operator==(const SphereCacheParameters&) const = default;
-};
-
-/// Nested spheres, each around a cell of an octree, with their rays.
-struct CellSpheresParameters {
-  int depth = 4;  ///< levels of cells below the samples' cube, 0 … 16: the curve's bits
-  bool operator==(const CellSpheresParameters&) const = default;
-};
-
-/// What bounds the discs below a node of a sphere tree.
-enum class Bounds {
-  spheres,  ///< nested, over runs of equal length along the curve
-  boxes     ///< axis-aligned, over cells of the curve, joined as the surface-area heuristic advises
-};
-
-[[nodiscard]] std::string_view name(Bounds bounds);
-[[nodiscard]] std::optional<Bounds> bounds_named(std::string_view name);
-
-/// Nested spheres, or boxes, around neighbouring samples: rays are culled down the tree.
-struct SphereTreeParameters {
-  int fan_out = 8;  ///< nodes that make a parent, 2 … 1 048 576
-  int leaf = 4;     ///< samples in a leaf, the last one's may be fewer, 1 … 1 048 576
-  Bounds bounds = Bounds::spheres;
-  bool operator==(const SphereTreeParameters&) const = default;
-};
-
-/// Cube split into 8 at each of `depth` levels, empty nodes left out.
-struct OctreeParameters {
-  int depth = 6;  ///< levels below the root, 0 … 20
-  Traversal traversal = Traversal::top_down;
-  bool operator==(const OctreeParameters&) const = default;
-};
-
-/// Equal cubic cells.
-struct GridParameters {
-  int cells = 64;  ///< cells along the longest side, 1 … 1 048 576
-  bool operator==(const GridParameters&) const = default;
-};
-
-/// Box split in two by planes across its axes, down to leaves of few discs.
-struct BspParameters {
-  int depth = 32;  ///< most levels below the root, 0 … 64
-  int leaf = 64;   ///< a node of so many discs is split no further, 1 … 1 048 576
-  bool operator==(const BspParameters&) const = default;
-};
-
-/// How much time building a bounding volume hierarchy may take for the rays' sake.
-enum class BuildQuality {
-  low,    ///< along a Morton curve
-  medium  ///< by the surface area heuristic
-};
-
-[[nodiscard]] std::string_view name(BuildQuality quality);
-[[nodiscard]] std::optional<BuildQuality> quality_named(std::string_view name);
-
-/// Bounding volume hierarchy over the discs' boxes. (Embree's high quality builds the same tree as its medium one where
-/// there are no triangles.)
-struct BvhParameters {
-  BuildQuality quality = BuildQuality::low;
-  bool operator==(const BvhParameters&) const = default;
-};
-
-/// The nearest photons to each disc's centre.
-struct PhotonMapParameters {
-  int nearest = 50;  ///< k, photons looked for, 3 … 1 000 000 000, no more than there are
-  bool operator==(const PhotonMapParameters&) const = default;
-};
-
-using Parameters =
-    std::variant<BruteForceParameters, SphereCacheParameters, CellSpheresParameters, SphereTreeParameters,
-                 OctreeParameters, GridParameters, BspParameters, BvhParameters, PhotonMapParameters>;
 
 /// One technique with its parameters.
 struct Candidate {
@@ -154,10 +146,26 @@ struct Candidate {
   bool operator==(const Candidate&) const = default;
 };
 
-/// The parameters for a reader: "Q 0.607, k 9"; empty where there are none.
-[[nodiscard]] std::string describe(const Parameters& parameters);
+/// The technique with its default parameters.
+[[nodiscard]] constexpr Candidate default_candidate(Technique technique) {
+  return {technique, record_of(technique).defaults};
+}
+
+/// The technique's parameter of that name; null where it has none.
+[[nodiscard]] const Parameter* find_parameter(Technique technique, std::string_view name);
+
+/// Changes a parameter. Throws std::invalid_argument for a value out of range, or of another kind, or where the
+/// technique has no such parameter.
+void set_parameter(Candidate& candidate, std::string_view name, const ParameterValue& value);
+
+/// The parameters for a reader: "Q 0.607, k 9"; choices where they differ from the default. Empty where there are none.
+[[nodiscard]] std::string describe(const Candidate& candidate);
 
 /// Throws std::invalid_argument where a parameter is out of its range or not one of the technique's.
 void check(const Candidate& candidate);
+
+/// The technique with small parameters, and with each parameter at its least value and at each of its choices: those
+/// that tests run on few samples.
+[[nodiscard]] std::vector<Candidate> small_variants(Technique technique);
 
 }  // namespace detp

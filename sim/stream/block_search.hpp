@@ -43,6 +43,7 @@ struct Worker {
   ListArena lists;
   std::vector<Pair> pairs;
   Counts<std::uint64_t> counts;
+  Vectors vectors;
   StopCheck check;
   std::vector<DiscRun> skipped;  ///< discs not, or not wholly, searched in the last block, because of a stop request
 };

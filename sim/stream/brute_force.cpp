@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <numeric>
 
-#include "detp/sim/technique/techniques.hpp"
+#include "detp/sim/stopwatch.hpp"
+#include "detp/sim/technique/run_memory.hpp"
 #include "detp/sim/threads.hpp"
 #include "gathering.hpp"
 #include "list_search.hpp"
@@ -36,29 +37,54 @@ bool test_chunk(const BlockSearch& block, const RayLists& lists, const DiscRun& 
   return true;
 }
 
+class FloatBruteForce final : public Index {
+ public:
+  FloatBruteForce(const Problem& problem, const RunOptions& options) : frame_(problem) {
+    Stopwatch watch;
+    built_.bytes = all_bytes(size_of(problem, options));
+    require_memory_for(what, built_.bytes, problem);
+    std::vector<std::uint32_t> order(problem.discs.size());
+    std::iota(order.begin(), order.end(), 0U);
+    discs_ = discs_in_order(problem, frame_, std::move(order), options);
+    built_.seconds.build = watch.lap();
+  }
+
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    need_memory(what, all_bytes(size_of(problem, options)), problem, outcome);
+    on_threads(thread_count(options.threads), [&] {
+      tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(options.stop); });
+      Gathering gathering(problem, discs_, options, outcome);
+      for_each_block(problem, frame_, options.stop, [&](const Block& rays) {
+        test_block(gathering.begin(frame_, rays.first(), rays.traits()), rays, workers);
+        gathering.end(rays, workers);
+      });
+      gathering.give(workers);
+    });
+  }
+
+ private:
+  static constexpr const char* what = "the discs in floats and blocks of rays";
+
+  template <class Workers>
+  void test_block(const BlockSearch& block, const Block& rays, Workers& workers) const {
+    tbb::parallel_for(std::size_t{0}, (discs_.discs.size() - 1) / chunk + 1, [&](std::size_t i) {
+      const std::size_t count = std::min(chunk, discs_.discs.size() - i * chunk);
+      Worker& worker = workers.local();
+      const DiscRun run{static_cast<std::uint32_t>(i * chunk), static_cast<std::uint32_t>(count)};
+      if (!test_chunk(block, rays.lists(), run, worker)) return;
+      worker.counts.visits += count;
+      worker.counts.disc_tests += count * rays.size();
+    });
+  }
+
+  Frame frame_;
+  DiscTree discs_;
+};
+
 }  // namespace
 
-void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  need_memory("the discs in floats and blocks of rays", all_bytes(size_of(problem, options)), problem, outcome);
-  const Frame frame(problem);
-  std::vector<std::uint32_t> order(problem.discs.size());
-  std::iota(order.begin(), order.end(), 0U);
-  on_threads(thread_count(options.threads), [&] {
-    const DiscTree discs = discs_in_order(problem, frame, std::move(order), options.stop);
-    tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(options.stop); });
-    Gathering gathering(problem, discs, options, outcome);
-    for_each_block(problem, frame, options.stop, [&](const Block& rays) {
-      const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());
-      tbb::parallel_for(std::size_t{0}, (discs.discs.size() - 1) / chunk + 1, [&](std::size_t i) {
-        const std::size_t count = std::min(chunk, discs.discs.size() - i * chunk);
-        Worker& worker = workers.local();
-        const DiscRun run{static_cast<std::uint32_t>(i * chunk), static_cast<std::uint32_t>(count)};
-        if (test_chunk(block, rays.lists(), run, worker)) worker.counts.disc_tests += count * rays.size();
-      });
-      gathering.end(rays, workers);
-    });
-    gathering.give(workers);
-  });
+std::unique_ptr<Index> prepare_all(const Problem& problem, const RunOptions& options) {
+  return std::make_unique<FloatBruteForce>(problem, options);
 }
 
 }  // namespace detp::sim::stream

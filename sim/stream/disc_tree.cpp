@@ -16,7 +16,8 @@
 
 #include "curve_sort.hpp"
 #include "detp/sim/stop_check.hpp"
-#include "detp/sim/technique/techniques.hpp"
+#include "detp/sim/technique/run_memory.hpp"
+#include "detp/sim/threads.hpp"
 
 namespace detp::sim::stream {
 namespace {
@@ -74,15 +75,15 @@ static_assert(sizeof(Binary) == binary_node_bytes);
 class Builder {
  public:
   Builder(const Problem& problem, const Frame& frame, const std::vector<CurvePlace>& places, DiscTree& tree,
-          int fan_out, int leaf, const std::stop_token& stop)
+          const BoxTreeParameters& parameters, const std::stop_token& stop)
       : problem_(problem),
         places_(places),
         sphere_area_(2 * std::numbers::pi * std::pow(problem.enclosing.radius * frame.scale, 2)),
         stop_(stop),
         widening_(stop, doing),
         tree_(tree),
-        fan_out_(static_cast<std::size_t>(fan_out)),
-        leaf_(static_cast<std::uint32_t>(leaf)) {}
+        fan_out_(static_cast<std::size_t>(parameters.fan_out)),
+        leaf_(static_cast<std::uint32_t>(parameters.leaf)) {}
 
   void build() {
     const auto discs = static_cast<std::uint32_t>(tree_.discs.size());
@@ -247,8 +248,11 @@ DiscRun discs_below(const DiscTree& tree, const TreeNode& node) {
   return {first->first, last->first + last->count - first->first};
 }
 
-DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
-                        const std::stop_token& stop) {
+namespace {
+
+/// On the threads of the caller's arena.
+DiscTree put_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
+                      const std::stop_token& stop) {
   constexpr std::size_t grain = 4096;
   constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
   DiscTree tree;
@@ -265,22 +269,35 @@ DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<
   return tree;
 }
 
+}  // namespace
+
+DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
+                        const RunOptions& options) {
+  DiscTree tree;
+  on_threads(thread_count(options.threads),
+             [&] { tree = put_in_order(problem, frame, std::move(order), options.stop); });
+  return tree;
+}
+
 double building_bytes(std::size_t discs, double binary_nodes, double nodes) {
   constexpr double in_order = sizeof(FloatDisc) + sizeof(std::uint32_t) + sizeof(CurvePlace);
   return in_order * static_cast<double>(discs) + binary_node_bytes * binary_nodes + sizeof(TreeNode) * nodes;
 }
 
-DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf,
-                        const std::stop_token& stop) {
+DiscTree make_disc_tree(const Problem& problem, const Frame& frame, const BoxTreeParameters& parameters,
+                        const RunOptions& options) {
   if (problem.discs.size() >= std::size_t{1} << 31)
     throw std::length_error(
         fmt::format("{} discs are too many for a tree of boxes; the most is 2147483647", problem.discs.size()));
-  const std::vector<CurvePlace> places = sort_along_curve(problem.discs, stop);
-  std::vector<std::uint32_t> order;
-  order.reserve(places.size());
-  for (const CurvePlace place : places) order.push_back(place_index(place));
-  DiscTree tree = discs_in_order(problem, frame, std::move(order), stop);
-  Builder(problem, frame, places, tree, fan_out, leaf, stop).build();
+  DiscTree tree;
+  on_threads(thread_count(options.threads), [&] {
+    const std::vector<CurvePlace> places = sort_along_curve(problem.discs, options.stop);
+    std::vector<std::uint32_t> order;
+    order.reserve(places.size());
+    for (const CurvePlace place : places) order.push_back(place_index(place));
+    tree = put_in_order(problem, frame, std::move(order), options.stop);
+    Builder(problem, frame, places, tree, parameters, options.stop).build();
+  });
   return tree;
 }
 

@@ -59,11 +59,11 @@ struct DiscRun {
 ///
 /// Throws Stopped if a stop was requested, and std::length_error, naming the bytes, before it would take more than the
 /// memory budget, or for 2³¹ or more discs.
-[[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, int fan_out, int leaf,
-                                      const std::stop_token& stop = {});
+[[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, const BoxTreeParameters& parameters,
+                                      const RunOptions& options = {});
 
 /// The discs alone, in that order: a tree without nodes. Throws Stopped if a stop was requested.
 [[nodiscard]] DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
-                                      const std::stop_token& stop = {});
+                                      const RunOptions& options = {});
 
 }  // namespace detp::sim::stream

@@ -5,7 +5,7 @@
 
 #include "block_search.hpp"
 #include "detp/sim/memory.hpp"
-#include "detp/sim/technique/techniques.hpp"
+#include "detp/sim/technique/run_memory.hpp"
 #include "ray_blocks.hpp"
 
 namespace detp::sim::stream {
@@ -33,7 +33,7 @@ class Gathering {
         std::any_of(workers.begin(), workers.end(), [](const Worker& w) { return !w.skipped.empty(); });
     if (skipped) return end_partly(block);
     std::uint64_t tests = 0;
-    for (const Worker& worker : workers) tests += worker.counts.sphere_tests + worker.counts.disc_tests;
+    for (const Worker& worker : workers) tests += detp::tests(worker.counts);
     end_wholly(block, tests);
   }
 
@@ -43,9 +43,8 @@ class Gathering {
     std::vector<DiscRun> skipped;
     for (Worker& worker : workers) {
       skipped.insert(skipped.end(), worker.skipped.begin(), worker.skipped.end());
-      for (const auto term : {&Counts<std::uint64_t>::sphere_tests, &Counts<std::uint64_t>::disc_tests,
-                              &Counts<std::uint64_t>::copies, &Counts<std::uint64_t>::rebuilds})
-        outcome_.counts.*term += worker.counts.*term;
+      outcome_.counts += worker.counts;
+      outcome_.vectors += worker.vectors;
     }
     if (options_.pairs && rays_ == problem_.rays.size()) take_pairs(workers);
     finish_outcome(skipped);

@@ -25,6 +25,12 @@ using WordLanes = hn::CappedTag<std::uint32_t, padding>;
 using Floats = hn::Vec<FloatLanes>;
 using Mask = hn::Mask<FloatLanes>;
 
+/// How many vectors hold so many rays.
+HWY_INLINE std::size_t vectors_of(std::size_t rays) {
+  const FloatLanes lanes;
+  return (rays + hn::Lanes(lanes) - 1) / hn::Lanes(lanes);
+}
+
 /// The lanes from `first` on that are in the list.
 HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
   const FloatLanes lanes;

@@ -17,11 +17,12 @@ namespace detp::sim::stream {
 namespace HWY_NAMESPACE {
 
 /// Asks the canonical predicate about the lanes of a vector that floats could not decide; the lanes that hit.
-HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc, const std::uint32_t* ids,
-                                      Mask unsure) {
+HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc, const std::uint32_t* ids, Mask unsure,
+                                      Worker& worker) {
   const FloatLanes lanes;
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(lanes, unsure, bytes);
+  worker.counts.doubtful += hn::CountTrue(lanes, unsure);
   for (std::size_t i = 0; i < hn::Lanes(lanes); ++i) {
     if ((bytes[i / 8] >> i % 8 & 1) == 0) continue;
     const Ray& ray = block.problem.rays[block.first_ray + (ids[i] & ~falling)];
@@ -33,26 +34,27 @@ HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc
 
 /// Which of the rays hit the disc at that place.
 template <bool segments, bool front_facing, int k>
-HWY_INLINE Mask test(const BlockSearch& block, const RayVector<segments>& rays, Mask there, std::uint32_t place) {
+HWY_INLINE Mask test(const BlockSearch& block, const RayVector<segments>& rays, Mask there, std::uint32_t place,
+                     Worker& worker) {
   const FloatLanes lanes;
   const SpreadDisc<k> disc(block.tree.discs[place]);
   const Decision decision = decide<segments, front_facing>(rays, disc);
   const Mask unsure = hn::And(decision.unsure, there);
   const Mask sure = hn::And(decision.sure, there);
   if (HWY_LIKELY(hn::AllFalse(lanes, unsure))) return sure;
-  return hn::Or(sure, decide_again(block, block.problem.discs[block.tree.order[place]], rays.id, unsure));
+  return hn::Or(sure, decide_again(block, block.problem.discs[block.tree.order[place]], rays.id, unsure, worker));
 }
 
 /// Of rays that all carry the same power: hits need only be counted.
 template <bool segments, int k>
-HWY_INLINE void count_hits(const BlockSearch& block, const TreeNode& leaf, const RayList& rays) {
+HWY_INLINE void count_hits(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
   const FloatLanes lanes;
   for (std::size_t i = 0; i < rays.size; i += hn::Lanes(lanes)) {
     const RayVector<segments> vector(rays, i);
     const Mask there = in_list(i, rays.size);
     for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place)
-      block.hits[place][k] +=
-          static_cast<std::uint32_t>(hn::CountTrue(lanes, test<segments, false, k>(block, vector, there, place)));
+      block.hits[place][k] += static_cast<std::uint32_t>(
+          hn::CountTrue(lanes, test<segments, false, k>(block, vector, there, place, worker)));
   }
 }
 
@@ -81,14 +83,16 @@ HWY_INLINE void gather_hits(const BlockSearch& block, const TreeNode& leaf, cons
     const RayVector<segments> vector(rays, i);
     const Mask there = in_list(i, rays.size);
     for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place)
-      keep_hits(block, test<segments, front_facing, k>(block, vector, there, place), vector.id, place, k, worker);
+      keep_hits(block, test<segments, front_facing, k>(block, vector, there, place, worker), vector.id, place, k,
+                worker);
   }
 }
 
 template <bool segments, bool counting_only, int k>
 HWY_INLINE void test_class(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
+  worker.vectors.test += leaf.count * vectors_of(rays.size);
   if constexpr (counting_only)
-    count_hits<segments, k>(block, leaf, rays);
+    count_hits<segments, k>(block, leaf, rays, worker);
   else if (block.problem.front_facing)
     gather_hits<segments, true, k>(block, leaf, rays, worker);
   else
@@ -100,6 +104,7 @@ HWY_INLINE void test_leaf(const BlockSearch& block, const TreeNode& leaf, const 
   test_class<segments, counting_only, 0>(block, leaf, lists[0], worker);
   test_class<segments, counting_only, 1>(block, leaf, lists[1], worker);
   test_class<segments, counting_only, 2>(block, leaf, lists[2], worker);
+  worker.counts.visits += leaf.count;
   worker.counts.disc_tests += leaf.count * size(lists);
 }
 

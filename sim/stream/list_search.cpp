@@ -18,7 +18,9 @@ void cull_class(const BlockSearch& block, const FloatSphere& sphere, const RayLi
   block.segments ? cull_sphere<true, k>(around, sphere, inside) : cull_sphere<false, k>(around, sphere, inside);
 }
 
-void CullSphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside) {
+void CullSphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside,
+                Worker& worker) {
+  worker.vectors.cull += vectors_of(around.size);
   if (k == 0) return cull_class<0>(block, sphere, around, inside);
   if (k == 1) return cull_class<1>(block, sphere, around, inside);
   return cull_class<2>(block, sphere, around, inside);
@@ -52,8 +54,9 @@ namespace detp::sim::stream {
 HWY_EXPORT(CullSphere);
 HWY_EXPORT(TestDiscs);
 
-void cull_sphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside) {
-  HWY_DYNAMIC_DISPATCH(CullSphere)(block, k, sphere, around, inside);
+void cull_sphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside,
+                 Worker& worker) {
+  HWY_DYNAMIC_DISPATCH(CullSphere)(block, k, sphere, around, inside, worker);
 }
 
 void test_discs(const BlockSearch& block, int k, std::uint32_t first, std::uint32_t count, const RayList& rays,

@@ -1,15 +1,8 @@
 #include "ray_blocks.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace detp::sim::stream {
-
-std::size_t block_size(std::size_t discs) {
-  constexpr std::size_t least = std::size_t{1} << 15;
-  constexpr std::size_t most = std::size_t{1} << 17;
-  return std::clamp(std::bit_ceil(4 * discs), least, most);
-}
 
 void Block::load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size) {
   first_ = first;

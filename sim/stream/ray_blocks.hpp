@@ -9,11 +9,6 @@
 /// The rays, block by block.
 namespace detp::sim::stream {
 
-/// Rays in a block. Their lists (20 or 28 bytes a ray) should stay in the second-level cache while they are culled: 2¹⁵
-/// for few discs, where most culls are near the root. Each block visits the discs anew: up to 2¹⁷ for many of them.
-/// (2¹³ took 1.1 to 2 times as long, 2¹⁷ for some thousand discs 1.3 times.)
-[[nodiscard]] std::size_t block_size(std::size_t discs);
-
 /// A block of rays, loaded.
 class Block {
  public:
@@ -38,7 +33,7 @@ class Block {
 /// loaded meanwhile, if there is a thread for it.
 template <class Search>
 void for_each_block(const Problem& problem, const Frame& frame, const std::stop_token& stop, const Search& search) {
-  const std::size_t size = block_size(problem.discs.size());
+  const std::size_t size = rays_in_block(problem.discs.size());
   Block now;
   Block next;
   now.load(problem, frame, 0, size);

@@ -5,8 +5,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
-#include "curve_sort.hpp"
-#include "detp/sim/technique/techniques.hpp"
+#include "detp/sim/technique/run_memory.hpp"
 #include "detp/sim/threads.hpp"
 #include "gathering.hpp"
 #include "ray_blocks.hpp"
@@ -42,19 +41,12 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
 
 bool can_search(const Problem& problem) { return Frame(problem).slack <= 0.01; }
 
-void search_boxes(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
-                  Outcome& outcome) {
+void search_boxes(const Searched& searched, int fan_out, const RunOptions& options, Outcome& outcome) {
+  const auto& [problem, frame, tree] = searched;
   const SearchSize size = size_of(problem, options);
-  constexpr std::string_view what = "the tree of boxes and its lists of rays";
-  const TreeSize expected = expected_tree(problem.discs.size(), parameters);
-  require_memory_for(what, boxes_bytes(size, parameters.fan_out, expected), problem);
-  Stopwatch watch;
-  const Frame frame(problem);
+  const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
+  need_memory("the tree of boxes and its lists of rays", boxes_bytes(size, fan_out, made), problem, outcome);
   on_threads(thread_count(options.threads), [&] {
-    const DiscTree tree = make_disc_tree(problem, frame, parameters.fan_out, parameters.leaf, options.stop);
-    outcome.seconds.build = watch.lap();
-    const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
-    need_memory(what, boxes_bytes(size, parameters.fan_out, made), problem, outcome);
     Workers workers([&] { return Worker(options.stop, list_floats(size, tree.lists)); });
     Gathering gathering(problem, tree, options, outcome);
     for_each_block(problem, frame, options.stop, [&](const Block& block) {
@@ -63,8 +55,6 @@ void search_boxes(const Problem& problem, const SphereTreeParameters& parameters
     });
     gathering.give(workers);
   });
-  if (options.count) outcome.counts.sorted = problem.discs.size();
-  outcome.seconds.search = watch.lap();
 }
 
 }  // namespace detp::sim::stream

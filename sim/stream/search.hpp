@@ -1,6 +1,7 @@
 #pragma once
 
-#include "detp/sim/technique/technique.hpp"
+#include "detp/sim/technique/index.hpp"
+#include "disc_tree.hpp"
 #include "ray_list.hpp"
 
 /// Rays streamed, block by block, down a tree of boxes: all hits, by float kernels whose every doubtful decision is
@@ -32,7 +33,7 @@ struct TreeSize {
 
 /// That expected of so many discs: leaves are half full, and their parents halve the cells that they are in. Where
 /// discs crowd into a few cells there may be more nodes; make_disc_tree checks again while it writes them.
-[[nodiscard]] TreeSize expected_tree(std::size_t discs, const SphereTreeParameters& parameters);
+[[nodiscard]] TreeSize expected_tree(std::size_t discs, const BoxTreeParameters& parameters);
 
 /// Predicted bytes of a search at its peak, beside rays, discs, pairs and the copy kept for a stopped run (which are
 /// checked when they are taken): sorted discs and their tree, lists of rays, sums, outcome.
@@ -52,14 +53,18 @@ struct TreeSize {
 /// Floats of one thread's lists inside one another, touched or not.
 [[nodiscard]] std::size_t list_floats(const SearchSize& size, const ListRoom& lists);
 
-/// Tests every ray against every disc. (Of rays that pass S₀ that takes no test; they count as tested.)
-void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome);
+/// What is searched: the rays of a problem, by the discs in an order, or a tree of them.
+struct Searched {
+  const Problem& problem;
+  const Frame& frame;
+  const DiscTree& tree;
+};
 
-/// Finds the hits of all rays. Same bytes for any number of threads.
-///
-/// Counts: `rebuilds` are nodes that a list was culled for, `sphere_tests` tests of a ray against a box, `copies` rays
-/// listed.
-void search_boxes(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
-                  Outcome& outcome);
+/// The index of brute force: tests every ray against every disc. (Of rays that pass S₀ that takes no test; they count
+/// as tested.)
+[[nodiscard]] std::unique_ptr<Index> prepare_all(const Problem& problem, const RunOptions& options);
+
+/// Finds the hits of all rays, whose lists are culled down a tree of boxes. Same bytes for any number of threads.
+void search_boxes(const Searched& searched, int fan_out, const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim::stream

@@ -10,14 +10,14 @@
 namespace detp::sim::stream {
 namespace {
 
-double rays_in_block(const SearchSize& size) {
-  return static_cast<double>(std::min(block_size(size.discs), size.rays));
+double rays_at_once(const SearchSize& size) {
+  return static_cast<double>(std::min(rays_in_block(size.discs), size.rays));
 }
 
 /// The block that is searched, and the one that is loaded meanwhile, both with their rays' ends.
 double block_bytes(const SearchSize& size) {
   constexpr double bytes_a_ray = 7 * sizeof(float);
-  return bytes_a_ray * static_cast<double>(std::min(2 * block_size(size.discs), size.rays));
+  return bytes_a_ray * static_cast<double>(std::min(2 * rays_in_block(size.discs), size.rays));
 }
 
 /// Of a ray in a list inside the block's.
@@ -26,8 +26,8 @@ double floats_a_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
 /// One thread's lists inside one another. A last, smaller block's come to lie where those of the others were not
 /// filled.
 double list_bytes(const SearchSize& size, const ListRoom& lists) {
-  const auto last = static_cast<double>(size.rays % block_size(size.discs));
-  const double rays = rays_in_block(size);
+  const auto last = static_cast<double>(size.rays % rays_in_block(size.discs));
+  const double rays = rays_at_once(size);
   const double unfilled = std::max(0.0, 1 - lists.first) * rays;
   const double beside = last < rays ? std::min(unfilled, (1 + lists.all) * last) : 0;
   return sizeof(float) * floats_a_ray(size) * (rays * lists.all + beside);
@@ -54,7 +54,7 @@ SearchSize size_of(const Problem& problem, const RunOptions& options) {
 }
 
 std::size_t list_floats(const SearchSize& size, const ListRoom& lists) {
-  return static_cast<std::size_t>(floats_a_ray(size) * rays_in_block(size) * (1 + lists.all));
+  return static_cast<std::size_t>(floats_a_ray(size) * rays_at_once(size) * (1 + lists.all));
 }
 
 double all_bytes(const SearchSize& size) { return searching_bytes(size, 0, 0); }
@@ -64,13 +64,13 @@ double walk_bytes(const SearchSize& size, const ListRoom& lists) {
 }
 
 double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree) {
-  const bool alone = rays_in_block(size) * fan_out < static_cast<double>(least_work);
+  const bool alone = rays_at_once(size) * fan_out < static_cast<double>(least_work);
   const double lists = (alone ? 1 : thread_count(size.threads)) * list_bytes(size, tree.lists);
   return std::max(building_bytes(size.discs, tree.binary_nodes, tree.nodes),
                   searching_bytes(size, sizeof(TreeNode) * tree.nodes, lists));
 }
 
-TreeSize expected_tree(std::size_t discs, const SphereTreeParameters& parameters) {
+TreeSize expected_tree(std::size_t discs, const BoxTreeParameters& parameters) {
   const double nodes = std::min(2.0, 4.0 / parameters.leaf) * static_cast<double>(discs);
   const double share = std::pow(parameters.fan_out, -2.0 / 3);  // of a part's surface in the whole's
   return {.binary_nodes = nodes, .nodes = nodes, .lists = {share, share + share / (1 - share)}};

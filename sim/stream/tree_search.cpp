@@ -19,9 +19,10 @@ HWY_INLINE void cull(const BlockSearch& block, const TreeNode& node, const RayLi
   cull_box<segments, 0>(around[0], node, block.frame.margin, inside[0]);
   cull_box<segments, 1>(around[1], node, block.frame.margin, inside[1]);
   cull_box<segments, 2>(around[2], node, block.frame.margin, inside[2]);
-  worker.counts.sphere_tests += size(around);
-  worker.counts.copies += size(inside);
-  ++worker.counts.rebuilds;
+  worker.counts.cull_tests += size(around);
+  worker.counts.listed += size(inside);
+  ++worker.counts.culls;
+  for (const RayList& list : around) worker.vectors.cull += vectors_of(list.size);
 }
 
 /// Tests a leaf's discs, few enough at a time for the check between.

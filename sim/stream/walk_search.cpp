@@ -4,7 +4,6 @@
 
 #include <array>
 
-#include "detp/sim/technique/walk_search.hpp"
 #include "detp/sim/threads.hpp"
 #include "gathering.hpp"
 #include "list_search.hpp"
@@ -39,6 +38,7 @@ class ClassWalk {
       const RayList& rays = lists_[static_cast<std::size_t>(walk_.innermost())];
       if (worker_.check.requested_after(test_work(rays.size))) return skip_from(place);
       if (rays.size > 0) test_discs(block_, k_, place, 1, rays, worker_);
+      worker_.counts.visits += k_ == 0 ? 1 : 0;
       worker_.counts.disc_tests += rays.size;
     }
   }
@@ -55,7 +55,10 @@ class ClassWalk {
     marks_[level] = worker_.lists.mark();
     const RayList& around = lists_[level - 1];
     lists_[level] = worker_.lists.take(around.size, block_.segments);
-    cull_sphere(block_, k_, block_.frame(walk_.sphere(static_cast<int>(level))), around, lists_[level]);
+    cull_sphere(block_, k_, block_.frame(walk_.sphere(static_cast<int>(level))), around, lists_[level], worker_);
+    worker_.counts.culls += k_ == 0 ? 1 : 0;
+    worker_.counts.cull_tests += around.size;
+    worker_.counts.listed += lists_[level].size;
     SphereCounts& events = events_[level - 1];
     events.rebuilds += block_.first_ray == 0 && k_ == 0 ? 1 : 0;
     events.tests += around.size;
@@ -83,14 +86,13 @@ void add(const std::vector<SphereCounts>& events, std::vector<SphereCounts>& sum
 
 }  // namespace
 
-void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const MakeWalk& make_walk,
-                 const ListRoom& room, const RunOptions& options, Outcome& outcome) {
-  const Frame frame(problem);
+void search_walk(const Searched& searched, const MakeWalk& make_walk, const ListRoom& room, const RunOptions& options,
+                 Outcome& outcome) {
+  const auto& [problem, frame, discs] = searched;
   const std::size_t floats = list_floats(size_of(problem, options), room);
   std::array workers{Worker(options.stop, floats), Worker(options.stop, floats), Worker(options.stop, floats)};
   std::array<std::vector<SphereCounts>, classes> events;
   on_threads(thread_count(options.threads), [&] {
-    const DiscTree discs = discs_in_order(problem, frame, std::move(order), options.stop);
     Gathering gathering(problem, discs, options, outcome);
     for_each_block(problem, frame, options.stop, [&](const Block& rays) {
       const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());
@@ -105,7 +107,6 @@ void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const
   });
   if (!options.count) return;
   for (const std::vector<SphereCounts>& of_class : events) add(of_class, outcome.spheres);
-  add_spheres(outcome.spheres, outcome.counts);
 }
 
 }  // namespace detp::sim::stream

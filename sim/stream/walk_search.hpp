@@ -1,16 +1,9 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-
 #include "detp/sim/technique/list_walk.hpp"
-#include "detp/sim/technique/technique.hpp"
-#include "ray_list.hpp"
+#include "search.hpp"
 
 namespace detp::sim::stream {
-
-/// Makes a walk that has not yet met a disc.
-using MakeWalk = std::function<std::unique_ptr<ListWalk>()>;
 
 /// The float version of search_along (technique/walk_search.hpp): finds the hits of all rays with lists that follow the
 /// discs in that order. Same bytes for any number of threads.
@@ -18,7 +11,7 @@ using MakeWalk = std::function<std::unique_ptr<ListWalk>()>;
 /// Each class of rays is a walk of its own, block after block: as many threads as classes are of use. Counts are those
 /// of one walk over all rays, but for rays that pass a sphere by less than the margin, and segments that end before
 /// they reach one (kernels-inl.hpp). `room` is what their lists are expected to take.
-void search_walk(const Problem& problem, std::vector<std::uint32_t> order, const MakeWalk& make_walk,
-                 const ListRoom& room, const RunOptions& options, Outcome& outcome);
+void search_walk(const Searched& searched, const MakeWalk& make_walk, const ListRoom& room, const RunOptions& options,
+                 Outcome& outcome);
 
 }  // namespace detp::sim::stream

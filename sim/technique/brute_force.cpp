@@ -2,7 +2,8 @@
 #include "detp/sim/stream/search.hpp"
 #include "hit_collector.hpp"
 #include "ray_search.hpp"
-#include "techniques.hpp"
+#include "registry.hpp"
+#include "run_memory.hpp"
 
 namespace detp::sim {
 namespace {
@@ -33,26 +34,26 @@ class BruteForceSearch final : public RaySearch {
 };
 
 template <bool counting>
-void search(const Problem& problem, const RunOptions& options, Outcome& outcome) {
+void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome) {
   search_rays(
       problem, options, [&] { return std::make_unique<BruteForceSearch<counting>>(problem, options.stop); }, outcome);
 }
 
-void search(const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  options.count ? search<true>(problem, options, outcome) : search<false>(problem, options, outcome);
-}
+/// Every disc against every ray, in double. There is nothing to build.
+class PlainBruteForce final : public Index {
+ public:
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    need_memory("their sums", found_bytes(problem, options), problem, outcome);
+    options.count ? search_all<true>(problem, options, outcome) : search_all<false>(problem, options, outcome);
+    if (options.count) outcome.counts.visits = problem.discs.size();  // one list of all rays
+  }
+};
 
 }  // namespace
 
-void run_brute_force(const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  Stopwatch watch;
-  if (!options.plain && stream::can_search(problem)) {
-    stream::search_all(problem, options, outcome);
-  } else {
-    need_memory("their sums", found_bytes(problem, options), problem, outcome);
-    search(problem, options, outcome);
-  }
-  outcome.seconds.search = watch.lap();
+std::unique_ptr<Index> prepare_brute_force(const Problem& problem, const Parameters&, const RunOptions& options) {
+  if (options.engine == Engine::simd && stream::can_search(problem)) return stream::prepare_all(problem, options);
+  return std::make_unique<PlainBruteForce>();
 }
 
 }  // namespace detp::sim

@@ -1,15 +1,17 @@
 #include "bsp_nodes.hpp"
 #include "indexed_search.hpp"
 #include "ray_box.hpp"
-#include "techniques.hpp"
+#include "registry.hpp"
+#include "run_memory.hpp"
 
 namespace detp::sim {
 namespace {
 
+/// Rays go through the tree front to back, each with the stretch of it that is in the node. Empty leaves are kept.
 class Bsp {
  public:
   Bsp(const Problem& problem, const BspParameters& parameters, const std::stop_token& stop)
-      : problem_(problem), tree_(build_bsp(problem, parameters, stop)) {}
+      : slack_(problem.slack), tree_(build_bsp(problem, parameters, stop)) {}
 
   [[nodiscard]] IndexSize size() const {
     return {.nodes = tree_.nodes.size(),
@@ -22,9 +24,9 @@ class Bsp {
   void show(const VisitNode& visit) const { show(0, tree_.box, 0, visit); }
 
   template <class Search>
-  void trace(std::uint32_t ray, Search& search) const {
-    const ClippedRay clipped(problem_.rays[ray]);
-    const Stretch stretch = clipped.inside({tree_.box.low - problem_.slack, tree_.box.high + problem_.slack});
+  void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
+    const ClippedRay clipped(traced);
+    const Stretch stretch = clipped.inside({tree_.box.low - slack_, tree_.box.high + slack_});
     if (!stretch.empty()) enter(0, stretch, ray, clipped, search);
   }
 
@@ -47,8 +49,8 @@ class Bsp {
     if (node.leaf()) return search.test(ray, tree_.references_in(node));
     const double origin = clipped.origin[node.axis];
     const double inverse = clipped.inverse[node.axis];
-    const double end_of_low = node.plane + problem_.slack;
-    const double start_of_high = node.plane - problem_.slack;
+    const double end_of_low = node.plane + slack_;
+    const double start_of_high = node.plane - slack_;
     if (std::isinf(inverse)) {
       if (origin <= end_of_low) enter(node.first, stretch, ray, clipped, search);
       if (origin >= start_of_high) enter(node.first + 1, stretch, ray, clipped, search);
@@ -61,7 +63,7 @@ class Bsp {
     if (!far.empty()) enter(up ? node.first + 1 : node.first, far, ray, clipped, search);
   }
 
-  const Problem& problem_;
+  double slack_;
   BspNodes tree_;
 };
 
@@ -75,18 +77,9 @@ IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, c
   return tree.size();
 }
 
-std::unique_ptr<Prepared> prepare_bsp(const Problem& problem, const BspParameters& parameters,
-                                      const std::stop_token& stop) {
-  return std::make_unique<PreparedIndex<Bsp>>(problem, false, parameters, stop);
-}
-
-void run_bsp(const Problem& problem, const BspParameters& parameters, const RunOptions& options, Outcome& outcome) {
-  Stopwatch watch;
-  const Bsp tree(problem, parameters, options.stop);
-  outcome.seconds.build = watch.lap();
-  need_index_memory("the BSP tree", tree.size(), problem, options, outcome);
-  search_index(tree, problem, false, options, outcome);
-  outcome.seconds.search = watch.lap();
+std::unique_ptr<Index> prepare_bsp(const Problem& problem, const Parameters& parameters, const RunOptions& options) {
+  return std::make_unique<TracedIndex<Bsp>>("the BSP tree", problem, options, false,
+                                            std::get<BspParameters>(parameters));
 }
 
 }  // namespace detp::sim

@@ -3,7 +3,7 @@
 #include <functional>
 
 #include "detp/model/vocabulary/index_variant.hpp"
-#include "technique.hpp"
+#include "index.hpp"
 
 /// The indices of discs behind the techniques octree, grid and bsp: in their variants, and as they stand when built.
 namespace detp::sim {
@@ -41,12 +41,12 @@ IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters,
 IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, const VisitNode& visit,
                       const std::stop_token& stop = {});
 
-/// Runs a variant of the octree. All variants find the same hits.
-[[nodiscard]] Outcome search_octree(const Problem& problem, const OctreeParameters& parameters,
-                                    const IndexVariant& variant, const RunOptions& options = {});
+/// Prepares a variant of the octree. All variants find the same hits. Throws as prepare does.
+[[nodiscard]] std::unique_ptr<Index> index_octree(const Problem& problem, const OctreeParameters& parameters,
+                                                  const IndexVariant& variant, const RunOptions& options = {});
 
-/// Runs a variant of the grid; there is but one way to walk it.
-[[nodiscard]] Outcome search_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
-                                  const RunOptions& options = {});
+/// Prepares a variant of the grid; there is only one way to walk it.
+[[nodiscard]] std::unique_ptr<Index> index_grid(const Problem& problem, const GridParameters& parameters,
+                                                const IndexVariant& variant, const RunOptions& options = {});
 
 }  // namespace detp::sim

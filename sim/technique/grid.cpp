@@ -6,7 +6,8 @@
 #include "disc_box.hpp"
 #include "indexed_search.hpp"
 #include "ray_box.hpp"
-#include "techniques.hpp"
+#include "registry.hpp"
+#include "run_memory.hpp"
 
 namespace detp::sim {
 namespace {
@@ -17,7 +18,7 @@ using Cell = std::array<std::int64_t, 3>;
 class Grid {
  public:
   Grid(const Problem& problem, int cells, Insertion insertion, const std::stop_token& stop)
-      : problem_(problem), insertion_(insertion), box_(index_box(problem)) {
+      : slack_(problem.slack), insertion_(insertion), box_(index_box(problem)) {
     const glm::dvec3 size = box_.size();
     side_ = std::max({size.x, size.y, size.z}) / cells;
     double total = 1;
@@ -28,7 +29,7 @@ class Grid {
     }
     require_memory("the grid's cells", 2 * (total + 1) * sizeof(std::size_t));
     starts_.assign(static_cast<std::size_t>(total) + 1, 0);
-    fill(stop);
+    fill(problem.discs, stop);
   }
 
   [[nodiscard]] IndexSize size() const {
@@ -51,12 +52,12 @@ class Grid {
   /// Goes from cell to cell along the ray. The place of each plane is computed anew from its number, so that errors do
   /// not add up; a cell missed by rounding is no loss, for the discs near its faces are in the next cell too.
   template <class Search>
-  void trace(std::uint32_t ray, Search& search) const {
-    const ClippedRay clipped(problem_.rays[ray]);
-    const Box grown{box_.low - problem_.slack, box_.high + problem_.slack};
+  void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
+    const ClippedRay clipped(traced);
+    const Box grown{box_.low - slack_, box_.high + slack_};
     const Stretch stretch = clipped.inside(grown);
     if (stretch.empty()) return;
-    Cell cell = cell_of(clipped.origin + stretch.from * problem_.rays[ray].direction);
+    Cell cell = cell_of(clipped.origin + stretch.from * traced.direction);
     for (;;) {
       search.visit(&Counts<std::uint64_t>::steps);
       search.test(ray, references_in(index(cell)));
@@ -105,14 +106,14 @@ class Grid {
 
   template <class Visit>
   void for_each_overlapped_cell(const Disc& disc, StopCheck& check, const Visit& visit) const {
-    const Box reach = bounds(disc, problem_.slack);
+    const Box reach = bounds(disc, slack_);
     const Cell low = cell_of(reach.low);
     const Cell high = cell_of(reach.high);
     for (std::int64_t z = low[2]; z <= high[2]; ++z)
       for (std::int64_t y = low[1]; y <= high[1]; ++y)
         for (std::int64_t x = low[0]; x <= high[0]; ++x) {
           check.after(1);
-          if (low == high || insertion_ == Insertion::bounding_box || overlaps(disc, box_of({x, y, z}), problem_.slack))
+          if (low == high || insertion_ == Insertion::bounding_box || overlaps(disc, box_of({x, y, z}), slack_))
             visit(index({x, y, z}));
         }
   }
@@ -131,14 +132,12 @@ class Grid {
   }
 
   /// Finds each disc's cells, and lists the discs cell by cell.
-  void fill(const std::stop_token& stop) {
+  void fill(std::span<const Disc> discs, const std::stop_token& stop) {
     StopCheck check(stop, "building the grid");
     check.now();
     std::vector<Placement> placements;
-    for (std::uint32_t disc = 0; disc < problem_.discs.size(); ++disc) {
-      for_each_overlapped_cell(problem_.discs[disc], check, [&](std::size_t cell) {
-        placements.push_back({cell, disc});
-      });
+    for (std::uint32_t disc = 0; disc < discs.size(); ++disc) {
+      for_each_overlapped_cell(discs[disc], check, [&](std::size_t cell) { placements.push_back({cell, disc}); });
       require_memory("the grid", building_bytes(placements.size()));
     }
     for_each_checked(std::span(placements), check, [&](const Placement& placement) { ++starts_[placement.cell + 1]; });
@@ -150,7 +149,7 @@ class Grid {
                      [&](const Placement& placement) { references_[next[placement.cell]++] = placement.disc; });
   }
 
-  const Problem& problem_;
+  double slack_;
   Insertion insertion_;
   Box box_;
   double side_ = 0;
@@ -169,28 +168,15 @@ IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters,
   return grid.size();
 }
 
-Outcome search_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
-                    const RunOptions& options) {
+std::unique_ptr<Index> index_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
+                                  const RunOptions& options) {
   check({Technique::grid, parameters});
-  check_options(options, problem);
-  Outcome outcome;
-  Stopwatch watch;
-  const Grid grid(problem, parameters.cells, variant.insertion, options.stop);
-  outcome.seconds.build = watch.lap();
-  need_index_memory("the grid", grid.size(), problem, options, outcome);
-  search_index(grid, problem, variant.mailboxing, options, outcome);
-  outcome.seconds.search = watch.lap();
-  return outcome;
+  return std::make_unique<TracedIndex<Grid>>("the grid", problem, options, variant.mailboxing, parameters.cells,
+                                             variant.insertion);
 }
 
-std::unique_ptr<Prepared> prepare_grid(const Problem& problem, const GridParameters& parameters,
-                                       const std::stop_token& stop) {
-  const IndexVariant variant;
-  return std::make_unique<PreparedIndex<Grid>>(problem, variant.mailboxing, parameters.cells, variant.insertion, stop);
-}
-
-void run_grid(const Problem& problem, const GridParameters& parameters, const RunOptions& options, Outcome& outcome) {
-  outcome = search_grid(problem, parameters, {}, options);
+std::unique_ptr<Index> prepare_grid(const Problem& problem, const Parameters& parameters, const RunOptions& options) {
+  return index_grid(problem, std::get<GridParameters>(parameters), {}, options);
 }
 
 }  // namespace detp::sim

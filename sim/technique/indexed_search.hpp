@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "detp/sim/stop_check.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/threads.hpp"
 #include "disc_index.hpp"
 #include "hit_collector.hpp"
-#include "prepared.hpp"
+#include "index.hpp"
 #include "ray_search.hpp"
-#include "techniques.hpp"
+#include "run_memory.hpp"
 
 namespace detp::sim {
 
@@ -16,16 +17,16 @@ namespace detp::sim {
 /// several cells is kept once. Without mailboxes the disc is tested in each (what is tested again counts again, though
 /// the answer is known).
 ///
-/// An index offers trace(ray, search), which calls visit and test, and size().
-template <bool counting, bool mailboxing, class Index>
+/// An index offers trace(ray, number, search), which calls visit and test, and size().
+template <bool counting, bool mailboxing, class Cells>
 class IndexedSearch final : public RaySearch {
  public:
-  IndexedSearch(const Index& index, const Problem& problem, const std::stop_token& stop)
+  IndexedSearch(const Cells& index, const Problem& problem, const std::stop_token& stop)
       : index_(index), problem_(problem), check_(stop, "searching"), last_ray_(problem.discs.size(), 0) {}
 
   void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
     hits_ = &hits;
-    for (std::uint32_t ray = first; ray < last; ++ray) index_.trace(ray, *this);
+    for (std::uint32_t ray = first; ray < last; ++ray) index_.trace(problem_.rays[ray], ray, *this);
   }
 
   [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
@@ -56,7 +57,7 @@ class IndexedSearch final : public RaySearch {
     tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size() - known);
   }
 
-  const Index& index_;
+  const Cells& index_;
   const Problem& problem_;
   StopCheck check_;
   Tally<counting> tally_;
@@ -64,58 +65,52 @@ class IndexedSearch final : public RaySearch {
   std::vector<Pair>* hits_ = nullptr;
 };
 
-template <bool counting, bool mailboxing, class Index>
-void trace_all(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  search_rays(
-      problem, options,
-      [&] { return std::make_unique<IndexedSearch<counting, mailboxing, Index>>(index, problem, options.stop); },
-      outcome);
-  if constexpr (counting) {
-    outcome.counts.references += index.size().references;
-    outcome.counts.placements += index.size().placements;
-  }
-}
-
-/// Checks that the index fits the memory, while it is built and beside the mailboxes of its search, the sums and the
-/// outcome.
-inline void need_index_memory(std::string_view what, const IndexSize& index, const Problem& problem,
-                              const RunOptions& options, Outcome& outcome) {
-  const double mailboxes = thread_count(options.threads) * static_cast<double>(sizeof(std::uint32_t)) *
-                           static_cast<double>(problem.discs.size());
-  const double searching = static_cast<double>(index.bytes) + mailboxes + found_bytes(problem, options);
-  need_memory(what, std::max(index.building_bytes, searching), problem, outcome);
-}
-
-/// Traces every ray through an index.
-template <class Index>
-void search_index(const Index& index, const Problem& problem, bool mailboxing, const RunOptions& options,
-                  Outcome& outcome) {
-  if (mailboxing)
-    options.count ? trace_all<true, true>(index, problem, options, outcome)
-                  : trace_all<false, true>(index, problem, options, outcome);
-  else
-    options.count ? trace_all<true, false>(index, problem, options, outcome)
-                  : trace_all<false, false>(index, problem, options, outcome);
-}
-
-/// An index over the problem's discs, made of further arguments, and its search.
-template <class Index>
-class PreparedIndex final : public Prepared {
+/// An index of cells over discs, and its search. `Cells` is made of a problem's discs and further arguments.
+template <class Cells>
+class TracedIndex final : public Index {
  public:
   template <class... Arguments>
-  PreparedIndex(const Problem& problem, bool mailboxing, const Arguments&... arguments)
-      : problem_(problem), mailboxing_(mailboxing), index_(problem, arguments...) {}
-
-  void search(const RunOptions& options, Outcome& outcome) const override {
-    search_index(index_, problem_, mailboxing_, options, outcome);
+  TracedIndex(std::string_view what, const Problem& problem, const RunOptions& options, bool mailboxing,
+              const Arguments&... arguments)
+      : what_(what), mailboxing_(mailboxing), cells_(problem, arguments..., options.stop) {
+    built_.seconds.build = watch_.lap();
+    const IndexSize size = cells_.size();
+    built_.counts.references = size.references;
+    built_.counts.placements = size.placements;
+    built_.bytes = size.building_bytes;
+    require_memory_for(what, built_.bytes, problem);
   }
 
-  [[nodiscard]] std::size_t bytes() const override { return index_.size().bytes; }
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    need_memory(what_, searching_bytes(problem, options), problem, outcome);
+    if (mailboxing_)
+      options.count ? trace_all<true, true>(problem, options, outcome)
+                    : trace_all<false, true>(problem, options, outcome);
+    else
+      options.count ? trace_all<true, false>(problem, options, outcome)
+                    : trace_all<false, false>(problem, options, outcome);
+  }
 
  private:
-  const Problem& problem_;
+  /// The index, the mailboxes of its search, the sums and the outcome.
+  [[nodiscard]] double searching_bytes(const Problem& problem, const RunOptions& options) const {
+    const double mailboxes = thread_count(options.threads) * static_cast<double>(sizeof(std::uint32_t)) *
+                             static_cast<double>(problem.discs.size());
+    return static_cast<double>(cells_.size().bytes) + mailboxes + found_bytes(problem, options);
+  }
+
+  template <bool counting, bool mailboxing>
+  void trace_all(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
+    search_rays(
+        problem, options,
+        [&] { return std::make_unique<IndexedSearch<counting, mailboxing, Cells>>(cells_, problem, options.stop); },
+        outcome);
+  }
+
+  Stopwatch watch_;
+  std::string_view what_;
   bool mailboxing_;
-  Index index_;
+  Cells cells_;
 };
 
 /// The box around the discs' centres, grown by the largest radius: no disc pokes out.

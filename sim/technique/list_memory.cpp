@@ -8,27 +8,26 @@
 #include "detp/sim/stream/search.hpp"
 #include "hit_collector.hpp"
 #include "ray_list.hpp"
+#include "run_memory.hpp"
 #include "sphere_walk.hpp"
-#include "techniques.hpp"
 
 namespace detp::sim {
 namespace {
 
-/// Of a plain search of lists, which inside the outermost hold so many times its rays: the discs' order, their totals
-/// and outcome (or a copy of another's totals), the lists.
+/// What is kept of a level beside its rays: of three walks (one for each class of rays), and of the one that they are
+/// copies of.
+constexpr double bytes_a_level =
+    3 * (sizeof(Sphere) + sizeof(stream::RayList) + sizeof(stream::ListArena::Mark) + sizeof(SphereCounts)) +
+    sizeof(SphereCounts) + sizeof(Sphere);
+
+}  // namespace
+
 double listing_bytes(const Problem& problem, const RunOptions& options, double nested) {
   const auto discs = static_cast<double>(problem.discs.size());
   const double kept = options.totals == nullptr ? 0 : sizeof(DiscTotals) * discs;
   return sizeof(std::uint32_t) * discs + found_bytes(problem, options) + kept +
          sizeof(ListedRay) * (1 + nested) * static_cast<double>(problem.rays.size());
 }
-
-/// What is kept of a level beside its rays, of three walks (one a class of rays).
-constexpr double bytes_a_level =
-    3 * (sizeof(Sphere) + sizeof(stream::RayList) + sizeof(stream::ListArena::Mark) + sizeof(SphereCounts)) +
-    sizeof(SphereCounts);
-
-}  // namespace
 
 NestedLists lists_of(const Problem& problem, const SphereCacheParameters& parameters) {
   const double levels = SphereWalk::levels(problem, parameters);

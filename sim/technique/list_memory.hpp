@@ -30,6 +30,10 @@ struct NestedLists {
 [[nodiscard]] double walk_bytes(const Problem& problem, const RunOptions& options, const NestedLists& lists,
                                 bool plain);
 
+/// Bytes of a plain search of lists, which inside the outermost hold so many times its rays: the discs' order, their
+/// totals and outcome (or a copy of another's totals), the lists.
+[[nodiscard]] double listing_bytes(const Problem& problem, const RunOptions& options, double nested);
+
 /// Bytes while a tree of spheres is built, sorting before it included.
 [[nodiscard]] double building_bytes(const Problem& problem, const SphereTreeParameters& parameters);
 

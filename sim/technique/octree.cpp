@@ -4,7 +4,8 @@
 #include "octree_descent.hpp"
 #include "octree_links.hpp"
 #include "octree_walk.hpp"
-#include "techniques.hpp"
+#include "registry.hpp"
+#include "run_memory.hpp"
 
 namespace detp::sim {
 namespace {
@@ -13,7 +14,7 @@ class Octree {
  public:
   Octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
          const std::stop_token& stop)
-      : problem_(problem),
+      : slack_(problem.slack),
         traversal_(parameters.traversal),
         tree_(build_octree(problem, parameters.depth, variant.insertion, stop)),
         walk_(tree_.cube, tree_.depth) {
@@ -31,22 +32,22 @@ class Octree {
   void show(const VisitNode& visit) const { show(0, tree_.cube, 0, visit); }
 
   template <class Search>
-  void trace(std::uint32_t ray, Search& search) const {
-    const ClippedRay clipped(problem_.rays[ray]);
-    const Stretch stretch = clipped.inside({tree_.cube.low - problem_.slack, tree_.cube.high + problem_.slack});
+  void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
+    const ClippedRay clipped(traced);
+    const Stretch stretch = clipped.inside({tree_.cube.low - slack_, tree_.cube.high + slack_});
     if (stretch.empty()) return;
-    const OctreeDescent descent(tree_, clipped, problem_.slack);
+    const OctreeDescent descent(tree_, clipped, slack_);
     switch (traversal_) {
       case Traversal::top_down:
         return descent.all(ray, search);
       case Traversal::front_to_back:
         return descent.in_order(ray, search);
       case Traversal::restart:
-        return walk_.go(problem_.rays[ray], clipped, stretch,
+        return walk_.go(traced, clipped, stretch,
                         [&](const Leaf& place, int) { return from_root(place, ray, search); });
       case Traversal::neighbour_links: {
         std::uint32_t number = 0;
-        return walk_.go(problem_.rays[ray], clipped, stretch,
+        return walk_.go(traced, clipped, stretch,
                         [&](const Leaf& place, int face) { return along_link(number, place, face, ray, search); });
       }
     }
@@ -104,7 +105,7 @@ class Octree {
     return cube_around(place, std::int64_t{1} << (tree_.depth - leaf.level));
   }
 
-  const Problem& problem_;
+  double slack_;
   Traversal traversal_;
   OctreeNodes tree_;
   LeafWalk walk_;
@@ -121,29 +122,14 @@ IndexSize inspect_octree(const Problem& problem, const OctreeParameters& paramet
   return octree.size();
 }
 
-Outcome search_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
-                      const RunOptions& options) {
+std::unique_ptr<Index> index_octree(const Problem& problem, const OctreeParameters& parameters,
+                                    const IndexVariant& variant, const RunOptions& options) {
   check({Technique::octree, parameters});
-  check_options(options, problem);
-  Outcome outcome;
-  Stopwatch watch;
-  const Octree octree(problem, parameters, variant, options.stop);
-  outcome.seconds.build = watch.lap();
-  need_index_memory("the octree", octree.size(), problem, options, outcome);
-  search_index(octree, problem, variant.mailboxing, options, outcome);
-  outcome.seconds.search = watch.lap();
-  return outcome;
+  return std::make_unique<TracedIndex<Octree>>("the octree", problem, options, variant.mailboxing, parameters, variant);
 }
 
-std::unique_ptr<Prepared> prepare_octree(const Problem& problem, const OctreeParameters& parameters,
-                                         const std::stop_token& stop) {
-  const IndexVariant variant;
-  return std::make_unique<PreparedIndex<Octree>>(problem, variant.mailboxing, parameters, variant, stop);
-}
-
-void run_octree(const Problem& problem, const OctreeParameters& parameters, const RunOptions& options,
-                Outcome& outcome) {
-  outcome = search_octree(problem, parameters, {}, options);
+std::unique_ptr<Index> prepare_octree(const Problem& problem, const Parameters& parameters, const RunOptions& options) {
+  return index_octree(problem, std::get<OctreeParameters>(parameters), {}, options);
 }
 
 }  // namespace detp::sim

@@ -10,8 +10,10 @@
 
 #include "detp/sim/predicates.hpp"
 #include "detp/sim/stop_check.hpp"
+#include "detp/sim/stopwatch.hpp"
+#include "registry.hpp"
+#include "run_memory.hpp"
 #include "sort_pairs.hpp"
-#include "techniques.hpp"
 
 namespace detp::sim {
 namespace {
@@ -171,18 +173,41 @@ double map_bytes(const Problem& problem) {
          static_cast<double>(problem.discs.size()) * (sizeof(std::uint64_t) + sizeof(double));
 }
 
+/// Another estimator, for comparison: the irradiance at a disc's centre from the k nearest photons, wherever they came
+/// from. A photon is the end of a ray with a length; lines have none.
+///
+///     E = (power of the k - 1 nearest) / (π r_k²)        r_k: distance of the k-th nearest
+///
+/// Not k: that would be k/(k - 1) times too much where photons fall evenly (García, Ureña, Sbert, CGF 2012; its spread
+/// and bias: model/nearest_photons.hpp). The discs' radii and normals do not matter, except that with front_facing only
+/// photons count that arrive in front; a disc that fewer than k of them reach has irradiance 0.
+///
+/// Hits and pairs are the k - 1 photons used; counted are the photons stored (references) and these hits. On one
+/// thread.
+class PhotonMapIndex final : public Index {
+ public:
+  explicit PhotonMapIndex(int nearest) : nearest_(nearest) {}
+
+  /// Throws std::invalid_argument where no ray has a length, where there are fewer than k photons or k of them in the
+  /// very place of a disc's centre, and for totals to go on with, which nearest photons do not have.
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    if (options.totals != nullptr)
+      throw std::invalid_argument("photon-map needs all rays at once: the nearest of each block are not those of all");
+    need_memory("the photon map", map_bytes(problem), problem, outcome);
+    Stopwatch watch;
+    const PhotonMap map(problem, nearest_, options.stop);
+    outcome.seconds.build = watch.lap();
+    map.estimate(options, outcome);
+  }
+
+ private:
+  int nearest_;
+};
+
 }  // namespace
 
-void run_photon_map(const Problem& problem, const PhotonMapParameters& parameters, const RunOptions& options,
-                    Outcome& outcome) {
-  if (options.totals != nullptr)
-    throw std::invalid_argument("photon-map needs all rays at once: the nearest of each block are not those of all");
-  Stopwatch watch;
-  need_memory("the photon map", map_bytes(problem), problem, outcome);
-  const PhotonMap map(problem, parameters.nearest, options.stop);
-  outcome.seconds.build = watch.lap();
-  map.estimate(options, outcome);
-  outcome.seconds.search = watch.lap();
+std::unique_ptr<Index> prepare_photon_map(const Problem&, const Parameters& parameters, const RunOptions&) {
+  return std::make_unique<PhotonMapIndex>(std::get<PhotonMapParameters>(parameters).nearest);
 }
 
 }  // namespace detp::sim

@@ -1,46 +1,42 @@
 #include <fmt/format.h>
 
-#include "detp/sim/stream/search.hpp"
-#include "detp/sim/stream/walk_search.hpp"
-#include "list_memory.hpp"
+#include "registry.hpp"
 #include "sphere_walk.hpp"
-#include "techniques.hpp"
-#include "walk_search.hpp"
+#include "walk_index.hpp"
 
 namespace detp::sim {
 namespace {
 
-void search(const Problem& problem, const SphereCacheParameters& parameters, SphereWalk::Serving serving, bool plain,
-            const RunOptions& options, Outcome& outcome) {
-  need_memory(fmt::format("{} spheres and their lists of rays", SphereWalk::levels(problem, parameters)),
-              walk_bytes(problem, options, lists_of(problem, parameters), plain), problem, outcome);
-  Stopwatch watch;
-  std::vector<std::uint32_t> order = along_curve(problem.discs, parameters.order, options.stop);
-  outcome.seconds.order = watch.lap();
-  const std::size_t sorted = parameters.order == SampleOrder::none ? 0 : order.size();
-  if (plain) {
-    SphereWalk walk(problem, parameters, serving);
-    search_along(walk, problem, order, options, outcome);
-  } else {
-    const auto make_walk = [&] { return std::make_unique<SphereWalk>(problem, parameters, serving); };
-    stream::search_walk(problem, std::move(order), make_walk, lists_of(problem, parameters).room(), options, outcome);
-  }
-  if (options.count) outcome.counts.sorted = sorted;
-  outcome.seconds.search = watch.lap();
+WalkedSpheres spheres_of(const Problem& problem, const SphereCacheParameters& parameters, SphereWalk::Serving serving) {
+  const SphereWalk walk(problem, parameters, serving);
+  return {.order = parameters.order,
+          .make_walk = [walk] { return std::make_unique<SphereWalk>(walk); },
+          .lists = lists_of(problem, parameters),
+          .what = fmt::format("{} spheres and their lists of rays", SphereWalk::levels(problem, parameters))};
 }
 
 }  // namespace
 
-void run_sphere_cache(const Problem& problem, const SphereCacheParameters& parameters, const RunOptions& options,
-                      Outcome& outcome) {
-  const bool plain = options.plain || !stream::can_search(problem);
-  search(problem, parameters, SphereWalk::Serving::all_that_hold, plain, options, outcome);
+/// Nested spheres with their rays, walked from the outermost inwards: nothing is lost.
+///
+/// A sphere serves a disc if the disc lies in it and in every larger one. From the first that does not hold the disc,
+/// all are rebuilt around the disc's centre, each from the list of the one around it, as long as they hold the disc.
+std::unique_ptr<Index> prepare_sphere_cache(const Problem& problem, const Parameters& parameters,
+                                            const RunOptions& options) {
+  const auto& own = std::get<SphereCacheParameters>(parameters);
+  return prepare_walk(problem, spheres_of(problem, own, SphereWalk::Serving::all_that_hold), options);
 }
 
-/// Always plain: which hits it loses depends on every ray that a sphere lists, and floats list a few more.
-void run_sphere_cache_published(const Problem& problem, const SphereCacheParameters& parameters,
-                                const RunOptions& options, Outcome& outcome) {
-  search(problem, parameters, SphereWalk::Serving::innermost_that_holds, true, options, outcome);
+/// The paper's walk (section 2.2), kept for study: it asks from the innermost sphere outwards for the first that holds
+/// the disc. That sphere's list may lack rays, for it need not lie inside the larger ones: hits are lost.
+///
+/// Always in double: which hits it loses depends on every ray that a sphere lists, and floats list a few more.
+std::unique_ptr<Index> prepare_sphere_cache_published(const Problem& problem, const Parameters& parameters,
+                                                      const RunOptions& options) {
+  const auto& own = std::get<SphereCacheParameters>(parameters);
+  RunOptions plain = options;
+  plain.engine = Engine::plain;
+  return prepare_walk(problem, spheres_of(problem, own, SphereWalk::Serving::innermost_that_holds), plain);
 }
 
 }  // namespace detp::sim

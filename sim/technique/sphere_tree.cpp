@@ -1,12 +1,13 @@
 #include "sphere_tree.hpp"
+#include "detp/sim/stopwatch.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "detp/sim/stream/search.hpp"
 #include "list_memory.hpp"
 #include "ray_list.hpp"
-#include "techniques.hpp"
+#include "registry.hpp"
+#include "run_memory.hpp"
 
 namespace detp::sim {
 namespace {
@@ -98,8 +99,6 @@ class Search {
       place_ = order_.size();
     } catch (const Stopped&) {  // the disc or node under way is left out
     }
-    tally_.add(&Counts<std::uint64_t>::rebuilds, tree_.nodes());
-    tally_.add(&Counts<std::uint64_t>::sorted, order_.size());
     outcome.counts = tally_.counts();
     if (place_ < order_.size())
       std::move(collector_).give_discs(std::span(order_).first(place_), outcome);
@@ -112,8 +111,9 @@ class Search {
     RayList& inside = lists_[level];
     check_.after(1);
     cull(outer, tree_.levels[level][number], problem_.slack, inside, check_);
-    tally_.add(&Counts<std::uint64_t>::sphere_tests, outer.size());
-    tally_.add(&Counts<std::uint64_t>::copies, inside.size());
+    tally_.add(&Counts<std::uint64_t>::cull_tests, outer.size());
+    tally_.add(&Counts<std::uint64_t>::culls);
+    tally_.add(&Counts<std::uint64_t>::listed, inside.size());
     if (inside.empty()) {
       place_ = std::min(order_.size(), (number + 1) * discs_below(level));
       return;
@@ -138,6 +138,7 @@ class Search {
   void test_discs(std::size_t number, const RayList& inside) {
     const auto leaf = static_cast<std::size_t>(parameters_.leaf);
     const std::size_t end = std::min((number + 1) * leaf, order_.size());
+    tally_.add(&Counts<std::uint64_t>::visits, end - number * leaf);
     for (place_ = number * leaf; place_ < end; ++place_)
       test_disc(inside, problem_.discs[order_[place_]], order_[place_], collector_, tally_, check_);
   }
@@ -151,6 +152,33 @@ class Search {
   Tally<counting> tally_;
   std::vector<RayList> lists_;  ///< one a level: children are visited one after another
   std::size_t place_ = 0;       ///< the discs before it in the order are done
+};
+
+/// The list of rays is culled down the tree, depth first, and tested against the leaves' discs. One list a level.
+class SphereTreeIndex final : public Index {
+ public:
+  SphereTreeIndex(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options)
+      : parameters_(parameters) {
+    Stopwatch watch;
+    built_.bytes = building_bytes(problem, parameters);
+    require_memory_for("a tree of spheres", built_.bytes, problem);
+    order_ = along_curve(problem.discs, SampleOrder::lebesgue, options.stop);
+    built_.seconds.order = watch.lap();
+    tree_ = make_sphere_tree(problem.discs, order_, parameters, options.stop);
+    built_.seconds.build = watch.lap();
+    built_.counts.sorted = order_.size();
+  }
+
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    need_memory("a tree of spheres and lists of rays", searching_bytes(problem, options, tree_), problem, outcome);
+    options.count ? Search<true>(problem, parameters_, tree_, order_, options).run(outcome)
+                  : Search<false>(problem, parameters_, tree_, order_, options).run(outcome);
+  }
+
+ private:
+  SphereTreeParameters parameters_;
+  std::vector<std::uint32_t> order_;
+  SphereTree tree_;
 };
 
 }  // namespace
@@ -178,22 +206,9 @@ SphereTree make_sphere_tree(std::span<const Disc> discs, std::span<const std::ui
   }
 }
 
-void run_sphere_tree(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options,
-                     Outcome& outcome) {
-  if (parameters.bounds == Bounds::boxes && !options.plain && stream::can_search(problem)) {
-    stream::search_boxes(problem, parameters, options, outcome);
-    return;
-  }
-  need_memory("a tree of spheres", building_bytes(problem, parameters), problem, outcome);
-  Stopwatch watch;
-  const std::vector<std::uint32_t> order = along_curve(problem.discs, SampleOrder::lebesgue, options.stop);
-  outcome.seconds.order = watch.lap();
-  const SphereTree tree = make_sphere_tree(problem.discs, order, parameters, options.stop);
-  outcome.seconds.build = watch.lap();
-  need_memory("a tree of spheres and lists of rays", searching_bytes(problem, options, tree), problem, outcome);
-  options.count ? Search<true>(problem, parameters, tree, order, options).run(outcome)
-                : Search<false>(problem, parameters, tree, order, options).run(outcome);
-  outcome.seconds.search = watch.lap();
+std::unique_ptr<Index> prepare_sphere_tree(const Problem& problem, const Parameters& parameters,
+                                           const RunOptions& options) {
+  return std::make_unique<SphereTreeIndex>(problem, std::get<SphereTreeParameters>(parameters), options);
 }
 
 }  // namespace detp::sim

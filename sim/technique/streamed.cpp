@@ -8,9 +8,9 @@
 
 #include "detp/sim/memory.hpp"
 #include "detp/sim/stopped.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/threads.hpp"
-#include "prepared.hpp"
-#include "techniques.hpp"
+#include "index.hpp"
 
 namespace detp::sim {
 namespace {
@@ -24,18 +24,19 @@ class Stream {
     Stopwatch watch;
     problem_ = make_problem_without_rays(discs, source.farthest_from(enclosing_sphere(discs, run_.stop).centre),
                                          options.front_facing, run_.stop);
-    check_options(run_, problem_);
     streamed_.check_seconds = watch.lap();
     const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());
     streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, source.size()));
-    predict_bytes(0);
+    predict_bytes();
     try {
-      prepared_ = prepare(problem_, candidate_, run_);
+      index_ = prepare(problem_, candidate_, run_);
+      const Built& built = index_->built();
+      streamed_.outcome.seconds = built.seconds;
+      if (run_.count) streamed_.outcome.counts = built.counts;
+      streamed_.bytes = std::max(streamed_.bytes, own_bytes_ + built.bytes);
     } catch (const Stopped&) {
       streamed_.outcome.stopped = true;
     }
-    streamed_.outcome.seconds.build = watch.lap();
-    predict_bytes(prepared_ ? static_cast<double>(prepared_->bytes()) : 0);
     totals_.resize(discs.size());
     block_.resize(streamed_.block);
     run_.totals = &totals_;
@@ -67,13 +68,11 @@ class Stream {
           fmt::format("{} rays are too many for pairs; the most is {}", source_.size(), UINT32_MAX - 1));
   }
 
-  /// Predicted bytes beside what each block's run takes. Refuses what would not fit, before it is taken.
-  void predict_bytes(double index) {
-    const auto threads = static_cast<double>(prepared_ ? thread_count(run_.threads) : 0);
-    const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
-                              threads * sizeof(std::uint32_t);  // mailboxes
-    own_bytes_ = static_cast<double>(problem_.discs.size()) * for_a_disc +
-                 static_cast<double>(streamed_.block) * sizeof(Ray) + index;
+  /// Predicted bytes beside what each block's search takes. Refuses what would not fit, before it is taken.
+  void predict_bytes() {
+    constexpr double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double);
+    own_bytes_ =
+        static_cast<double>(problem_.discs.size()) * for_a_disc + static_cast<double>(streamed_.block) * sizeof(Ray);
     streamed_.bytes = std::max(streamed_.bytes, own_bytes_);
     require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs.size(), streamed_.block), own_bytes_);
   }
@@ -86,13 +85,7 @@ class Stream {
     streamed_.read_seconds += watch.lap();
     set_rays(problem_, rays, options_.run.threads, first);
     streamed_.check_seconds += watch.lap();
-    Outcome part;
-    if (prepared_) {
-      prepared_->search(run_, part);
-      part.seconds.search = watch.lap();
-    } else {
-      part = run(problem_, candidate_, run_);
-    }
+    Outcome part = sim::search(*index_, problem_, run_);
     const std::size_t pairs = streamed_.outcome.pairs.size() + part.pairs.size();
     const double bytes = own_bytes_ + part.bytes + grown_bytes(pairs, sizeof(Pair));
     if (pairs > 0) require_memory("the pairs", bytes);
@@ -102,14 +95,12 @@ class Stream {
 
   void add(Outcome part, std::uint32_t first, std::size_t rays) {
     Outcome& sum = streamed_.outcome;
-    if (prepared_) sum.counts.references = sum.counts.placements = 0;  // of the one index, told by each search
     sum.counts += part.counts;
+    sum.vectors += part.vectors;
     sum.total_hits += part.total_hits;
     sum.stopped = part.stopped;
     sum.progress.done += part.stopped ? part.progress.done : rays;
     sum.batches += part.batches;
-    sum.seconds.order += part.seconds.order;
-    sum.seconds.build += part.seconds.build;
     sum.seconds.search += part.seconds.search;
     add_spheres(part.spheres);
     sum.pairs.reserve(std::max(sum.pairs.capacity(), std::bit_ceil(sum.pairs.size() + part.pairs.size())));
@@ -131,7 +122,7 @@ class Stream {
   const StreamOptions& options_;
   RunOptions run_;
   Problem problem_;
-  std::unique_ptr<Prepared> prepared_;
+  std::unique_ptr<Index> index_;
   Totals totals_;
   std::vector<Ray> block_;
   double own_bytes_ = 0;

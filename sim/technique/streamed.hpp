@@ -30,13 +30,12 @@ struct Streamed {
 /// a grid (10⁶ discs) is the same for blocks of 2¹⁶ and of 10⁶ rays.
 [[nodiscard]] std::size_t default_block(std::size_t discs);
 
-/// What run gives, bit for bit (hits, irradiance, pairs), whatever the block. Indices over the discs are built once;
-/// techniques that sort discs and cull lists of rays do so for each block, which their counts and times show.
+/// What run gives, bit for bit (hits, irradiance, pairs), whatever the block. The index over the discs is built once.
 ///
 /// A stop request ends it while it makes rays, too; what is given is then what the first rays hit. Throws as
 /// make_problem and run do (but there may be more than 2³² rays, unless pairs are asked for), and std::length_error,
-/// naming the bytes, before it would take more than the memory budget. Of what is not foretold, pairs (8 bytes each)
-/// may be large, and lists of plain runs (72 bytes for each ray of each list).
+/// naming the bytes, before it would take more than the memory budget. Pairs (8 bytes each)
+/// are checked as they grow.
 [[nodiscard]] Streamed run_streamed(std::span<const Disc> discs, const RaySource& source, const Candidate& candidate,
                                     const StreamOptions& options = {});
 

@@ -2,26 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 
-#include "detp/sim/memory.hpp"
 #include "detp/sim/stop_check.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/threads.hpp"
-#include "techniques.hpp"
+#include "index.hpp"
 
 namespace detp::sim {
 namespace {
-
-/// Of pages not wholly used, small arrays, threads' stacks.
-constexpr double small_bytes = 0x1p19;
-
-double given_bytes(const Problem& problem) {
-  return static_cast<double>(problem.rays.size()) * sizeof(Ray) +
-         static_cast<double>(problem.discs.size()) * sizeof(Disc);
-}
-
-}  // namespace
 
 void check_options(const RunOptions& options, const Problem& problem) {
   if (problem.discs.empty() || !(problem.slack > 0 && problem.slack < unbounded))
@@ -32,23 +21,16 @@ void check_options(const RunOptions& options, const Problem& problem) {
                                             options.totals->size(), problem.discs.size()));
 }
 
-bool fits_memory(double bytes, const Problem& problem) { return given_bytes(problem) + bytes <= memory_budget(); }
-
-void require_memory_for(std::string_view what, double bytes, const Problem& problem) {
-  require_memory(fmt::format("{} rays, {} discs, and {}", problem.rays.size(), problem.discs.size(), what),
-                 given_bytes(problem) + bytes);
+/// The outcome of a run that was stopped before it searched.
+Outcome nothing(const Problem& problem, const RunOptions& options) {
+  Outcome outcome;
+  outcome.stopped = true;
+  outcome.progress.of = problem.rays.size();
+  if (options.totals == nullptr) finish(Totals(problem.discs.size()), problem.discs, outcome);
+  return outcome;
 }
 
-void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome) {
-  bytes += small_bytes;
-  require_memory_for(what, bytes, problem);
-  outcome.bytes = std::max(outcome.bytes, bytes);
-}
-
-double found_bytes(const Problem& problem, const RunOptions& options) {
-  constexpr double a_disc = sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double);
-  return options.totals != nullptr ? 0 : a_disc * static_cast<double>(problem.discs.size());
-}
+}  // namespace
 
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome) {
   outcome.hits.resize(discs.size());
@@ -71,64 +53,41 @@ void keep_done_discs(Outcome& outcome) {
   outcome.counts.hits = outcome.total_hits;
 }
 
-namespace {
-
-void run_technique(const Problem& problem, const Candidate& candidate, const RunOptions& options, Outcome& outcome) {
-  switch (candidate.technique) {
-    case Technique::brute_force:
-      run_brute_force(problem, options, outcome);
-      break;
-    case Technique::sphere_cache:
-      run_sphere_cache(problem, std::get<SphereCacheParameters>(candidate.parameters), options, outcome);
-      break;
-    case Technique::sphere_cache_published:
-      run_sphere_cache_published(problem, std::get<SphereCacheParameters>(candidate.parameters), options, outcome);
-      break;
-    case Technique::cell_spheres:
-      run_cell_spheres(problem, std::get<CellSpheresParameters>(candidate.parameters), options, outcome);
-      break;
-    case Technique::sphere_tree:
-      run_sphere_tree(problem, std::get<SphereTreeParameters>(candidate.parameters), options, outcome);
-      break;
-    case Technique::octree:
-      run_octree(problem, std::get<OctreeParameters>(candidate.parameters), options, outcome);
-      break;
-    case Technique::grid:
-      run_grid(problem, std::get<GridParameters>(candidate.parameters), options, outcome);
-      break;
-    case Technique::bsp:
-      run_bsp(problem, std::get<BspParameters>(candidate.parameters), options, outcome);
-      break;
-    case Technique::bvh:
-      run_bvh(problem, std::get<BvhParameters>(candidate.parameters), options, outcome);
-      break;
-    case Technique::photon_map:
-      run_photon_map(problem, std::get<PhotonMapParameters>(candidate.parameters), options, outcome);
-      break;
+Outcome search(const Index& index, const Problem& problem, const RunOptions& options) {
+  check_options(options, problem);
+  Outcome outcome;
+  Stopwatch watch;
+  try {
+    StopCheck(options.stop, "beginning").now();
+    index.search(problem, options, outcome);
+  } catch (const Stopped&) {  // before the search
+    const double bytes = outcome.bytes;
+    outcome = nothing(problem, options);
+    outcome.bytes = bytes;
   }
-}
-
-}  // namespace
-
-void give_nothing(const Problem& problem, const RunOptions& options, Outcome& outcome) {
-  const Phases seconds = outcome.seconds;
-  outcome = {};
-  outcome.seconds = seconds;
-  outcome.stopped = true;
-  outcome.progress.of = problem.rays.size();
-  if (options.totals == nullptr) finish(Totals(problem.discs.size()), problem.discs, outcome);
+  outcome.seconds.search = watch.lap() - outcome.seconds.build;
+  return outcome;
 }
 
 Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
   check(candidate);
   check_options(options, problem);
-  Outcome outcome;
+  Stopwatch watch;
+  std::unique_ptr<Index> index;
   try {
     StopCheck(options.stop, "beginning").now();
-    run_technique(problem, candidate, options, outcome);
-  } catch (const Stopped&) {  // before the search
-    give_nothing(problem, options, outcome);
+    index = prepare(problem, candidate, options);
+  } catch (const Stopped&) {
+    Outcome outcome = nothing(problem, options);
+    outcome.seconds.build = watch.lap();
+    return outcome;
   }
+  Outcome outcome = search(*index, problem, options);
+  const Built& built = index->built();
+  outcome.seconds.order += built.seconds.order;
+  outcome.seconds.build += built.seconds.build;
+  outcome.bytes = std::max(outcome.bytes, built.bytes);
+  if (options.count) outcome.counts += built.counts;
   return outcome;
 }
 

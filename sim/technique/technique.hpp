@@ -81,9 +81,9 @@ struct Phases {
 };
 
 struct RunOptions {
-  bool count = true;          ///< fill in Outcome::counts; a timing run turns it off and pays nothing for it
-  bool pairs = false;         ///< fill in Outcome::pairs
-  bool plain = false;         ///< in doubles, one ray and one disc at a time: the simple version, to compare with
+  bool count = true;   ///< fill in Outcome::counts; a timing run turns it off and pays nothing for it
+  bool pairs = false;  ///< fill in Outcome::pairs
+  Engine engine = Engine::simd;
   std::stop_token stop = {};  ///< checked in every phase, after at most StopCheck::most_work units of work
   /// 0: all cores; at most 4096. What is found and counted does not depend on it. Techniques that trace rays one by one
   /// use them all, those that cull lists of rays one.
@@ -91,6 +91,18 @@ struct RunOptions {
   /// Sums of rays before these: the run adds to them and leaves hits and irradiance to `finish`. If empty, it starts
   /// them. So blocks of rays run one after another give, bit for bit, what one run over all of them gives.
   Totals* totals = nullptr;
+};
+
+/// Vectors of lanes that the simd engine spent, full or not. They depend on the instruction set.
+struct Vectors {
+  std::uint64_t cull = 0;  ///< of rays tested against a sphere or box
+  std::uint64_t test = 0;  ///< of rays tested against a disc
+
+  Vectors& operator+=(const Vectors& more) {
+    cull += more.cull;
+    test += more.test;
+    return *this;
+  }
 };
 
 /// What happened to one sphere of the cache, counted.
@@ -108,6 +120,7 @@ struct Outcome {
   std::vector<double> irradiance;
   std::uint64_t total_hits = 0;
   Counts<std::uint64_t> counts;       ///< all zero unless asked for (`hits` always holds total_hits)
+  Vectors vectors;                    ///< of the simd engine
   std::vector<SphereCounts> spheres;  ///< S₁ … S_k of a sphere cache; empty unless counting
   std::vector<Pair> pairs;            ///< sorted by ray, then disc; empty unless asked for, and of a stopped run
   /// Predicted memory at its peak, beside rays and discs, checked before it was taken; what the heap keeps of arrays
@@ -123,9 +136,9 @@ struct Outcome {
   HitBatches batches;            ///< the hits of the rays done, batch by batch; empty where progress is in discs
 };
 
-/// Runs one technique. Throws std::invalid_argument for a problem that make_problem did not make, parameters out of
-/// range or not the technique's, a number of threads out of range or totals of other discs, and std::length_error,
-/// naming the bytes, where an index would not fit the memory.
+/// Runs one technique: prepares its index, and searches it once. Throws std::invalid_argument for a problem that
+/// make_problem did not make, parameters out of range or not the technique's, a number of threads out of range or
+/// totals of other discs, and std::length_error, naming the bytes, where an index would not fit the memory.
 [[nodiscard]] Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions& options = {});
 
 /// Fills in the outcome's hits and irradiance from totals, one for each disc.

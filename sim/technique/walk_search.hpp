@@ -9,14 +9,14 @@ namespace detp::sim {
 /// Adds up the spheres' counts.
 inline void add_spheres(const std::vector<SphereCounts>& spheres, Counts<std::uint64_t>& counts) {
   for (const SphereCounts& sphere : spheres) {
-    counts.sphere_tests += sphere.tests;
-    counts.copies += sphere.listed;
-    counts.rebuilds += sphere.rebuilds;
+    counts.cull_tests += sphere.tests;
+    counts.listed += sphere.listed;
+    counts.culls += sphere.rebuilds;
   }
 }
 
 /// The plain version of all techniques whose spheres follow the discs: tests each disc, in that order, against the
-/// innermost list, after building anew what the walk says.
+/// innermost list, after rebuilding what the walk says.
 template <bool counting>
 void search_along_counting(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,
                            const RunOptions& options, Outcome& outcome) {
@@ -41,6 +41,7 @@ void search_along_counting(ListWalk& walk, const Problem& problem, std::span<con
       }
     }
     check.after(1);
+    tally.add(&Counts<std::uint64_t>::visits);
     test_disc(lists[static_cast<std::size_t>(walk.innermost())], disc, d, collector, tally, check);
   };
   try {

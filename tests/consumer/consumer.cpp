@@ -10,7 +10,7 @@ int main() {
   const auto ranking = model::rank(validate::measure(problem), validate::built_in_unit_costs());
   const sim::Outcome outcome = sim::run(problem, ranking.front().candidate);
   const sim::Outcome expected = sim::run(problem, {Technique::brute_force, BruteForceParameters{}});
-  std::printf("%s: %llu hits\n", describe(ranking.front().candidate.parameters).c_str(),
+  std::printf("%s: %llu hits\n", describe(ranking.front().candidate).c_str(),
               static_cast<unsigned long long>(outcome.total_hits));
   return outcome.total_hits == expected.total_hits && outcome.total_hits > 0 ? 0 : 1;
 }

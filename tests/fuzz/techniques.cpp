@@ -24,8 +24,7 @@ bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
 }
 
 [[noreturn]] void report(const fuzz::SmallProblem& small, const Candidate& candidate, const char* how) {
-  fmt::print(stderr, "differs from the predicate: {} {} {}\n", name(candidate.technique),
-             describe(candidate.parameters), how);
+  fmt::print(stderr, "differs from the predicate: {} {} {}\n", name(candidate.technique), describe(candidate), how);
   for (const Disc& d : small.discs)
     fmt::print(stderr, "disc {} {} {}  {} {} {}  {}\n", d.centre.x, d.centre.y, d.centre.z, d.normal.x, d.normal.y,
                d.normal.z, d.radius);
@@ -47,13 +46,13 @@ void compare(const fuzz::SmallProblem& small, const Candidate& candidate, const 
 std::vector<Candidate> candidates(FuzzedDataProvider& bytes) {
   const auto number = [&](int least, int most) { return bytes.ConsumeIntegralInRange(least, most); };
   const auto order = bytes.PickValueInArray({SampleOrder::lebesgue, SampleOrder::hilbert, SampleOrder::none});
-  const auto traversal = all_traversals[static_cast<std::size_t>(number(0, 3)) % all_traversals.size()];
+  const auto traversal = static_cast<Traversal>(number(0, 3));
   std::vector<Candidate> list{
       {Technique::brute_force, BruteForceParameters{}},
       {Technique::sphere_cache, SphereCacheParameters{(number(0, 63) + 0.5) / 64, number(1, 40), order}},
       {Technique::cell_spheres, CellSpheresParameters{number(0, 16)}},
       {Technique::sphere_tree, SphereTreeParameters{number(2, 5), number(1, 4)}},
-      {Technique::sphere_tree, SphereTreeParameters{number(2, 5), number(1, 4), Bounds::boxes}},
+      {Technique::box_tree, BoxTreeParameters{number(2, 5), number(1, 4)}},
       {Technique::octree, OctreeParameters{number(0, 3), traversal}},
       {Technique::grid, GridParameters{number(1, 8)}},
       {Technique::bsp, BspParameters{number(0, 8), number(1, 3)}}};
@@ -64,7 +63,7 @@ std::vector<Candidate> candidates(FuzzedDataProvider& bytes) {
 
 bool has_two_engines(const Candidate& candidate) {
   return candidate.technique == Technique::brute_force || candidate.technique == Technique::sphere_cache ||
-         candidate.technique == Technique::cell_spheres || candidate.technique == Technique::sphere_tree;
+         candidate.technique == Technique::cell_spheres || candidate.technique == Technique::box_tree;
 }
 
 void compare_streamed(const fuzz::SmallProblem& small, const Candidate& candidate, std::size_t block,
@@ -86,7 +85,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     return -1;  // too far apart, or too small
   }
   const Candidate brute{Technique::brute_force, BruteForceParameters{}};
-  const Outcome truth = run(problem, brute, {.pairs = true, .plain = true});
+  const Outcome truth = run(problem, brute, {.pairs = true, .engine = Engine::plain});
   for (const double irradiance : truth.irradiance)
     if (!std::isfinite(irradiance)) report(small, brute, "irradiance is not finite");
   const std::vector<Candidate> list = candidates(bytes);
@@ -98,7 +97,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (const Candidate& candidate : list)
     for (const bool plain : {false, true})
       if (!plain || has_two_engines(candidate)) {
-        Outcome outcome = run(problem, candidate, {.count = count, .pairs = pairs, .plain = plain, .threads = threads});
+        Outcome outcome =
+            run(problem, candidate,
+                {.count = count, .pairs = pairs, .engine = plain ? Engine::plain : Engine::simd, .threads = threads});
         if (!pairs) outcome.pairs = truth.pairs;
         compare(small, candidate, plain ? "plain" : "simd", outcome, truth);
       }

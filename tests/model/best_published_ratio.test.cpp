@@ -31,12 +31,12 @@ std::vector<Question> questions(int number) {
   std::vector<Question> all;
   for (int i = 0; i < number; ++i)
     all.push_back({cube_workload(random.count(1e2, 1e8), random.count(1, 1e8), random.log_uniform(2e-4, 0.7), 2),
-                   {.sphere_test = random.log_uniform(1e-2, 10), .disc_test = random.log_uniform(1e-2, 10)}});
+                   {.cull_test = random.log_uniform(1e-2, 10), .disc_test = random.log_uniform(1e-2, 10)}});
   return all;
 }
 
 double time(const Question& question, double ratio, std::int64_t k) {
-  return published::rebuild_time(question.workload, {ratio}, k, question.costs.sphere_test) +
+  return published::rebuild_time(question.workload, {ratio}, k, question.costs.cull_test) +
          published::intersect_time(question.workload, {ratio}, k, question.costs.disc_test);
 }
 
@@ -108,7 +108,7 @@ TEST_SUITE("reference value") {
 TEST_SUITE("known answer") {
   TEST_CASE("where intersecting is all the time, k spheres as small as the piece allows are best") {
     const Workload w = cube_workload(1e6, 1e6, 0.05, 2);
-    const published::BestRatio best = published::best_ratio(w, {.sphere_test = 1e-9, .disc_test = 1});
+    const published::BestRatio best = published::best_ratio(w, {.cull_test = 1e-9, .disc_test = 1});
     CHECK(published::intersect_time(w, {best.ratio}, best.spheres, 1) == Approx(best.time).epsilon(1e-3));
   }
 

@@ -35,10 +35,10 @@ std::vector<Question> questions(int number, std::uint64_t seed) {
   for (int i = 0; i < number; ++i)
     all.push_back({cube_workload(random.count(1e2, 1e8), random.count(1e2, 1e8), random.log_uniform(2e-4, 0.5), 2,
                                  random.uniform(2, 3)),
-                   {.sphere_test = random.uniform(1, 5),
+                   {.cull_test = random.uniform(1, 5),
                     .disc_test = random.uniform(1, 10),
-                    .copy = random.uniform(0, 3),
-                    .rebuild = random.uniform(0, 100)}});
+                    .listed = random.uniform(0, 3),
+                    .cull = random.uniform(0, 100)}});
   return all;
 }
 
@@ -109,7 +109,7 @@ TEST_SUITE("reference value") {
   }
 
   TEST_CASE("control: a ratio 2 % off, with its own best stop, is slower") {
-    const Question question{typical, {.sphere_test = 1, .disc_test = 1, .copy = 1}};
+    const Question question{typical, {.cull_test = 1, .disc_test = 1, .listed = 1}};
     const BestRatio best = best_ratio_and_stop(typical, question.costs);
     for (const double off : {0.98, 1.02})
       CHECK(best_stop(typical, question.costs, {off * best.ratio}).time > best.time * (1 + 1e-6));
@@ -145,7 +145,7 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("the choice knows no unit of length, nor of time") {
-    const UnitCosts costs{.sphere_test = 3, .disc_test = 5, .copy = 2};
+    const UnitCosts costs{.cull_test = 3, .disc_test = 5, .listed = 2};
     const BestRatio best = best_ratio_and_stop(typical, costs);
     for (const double scale : {1e-9, 1e9}) {
       const BestRatio scaled = best_ratio_and_stop(cube_workload(1e6, 1e5, 0.01 * scale, 2 * scale), costs);
@@ -153,7 +153,7 @@ TEST_SUITE("identity") {
       CHECK(scaled.time == Approx(best.time).epsilon(1e-9));
     }
     const BestRatio slow =
-        best_ratio_and_stop(typical, {.sphere_test = 3e6, .disc_test = 5e6, .step = 0, .node = 0, .copy = 2e6});
+        best_ratio_and_stop(typical, {.cull_test = 3e6, .disc_test = 5e6, .step = 0, .node = 0, .listed = 2e6});
     CHECK(slow.spheres == best.spheres);
     CHECK(slow.time == Approx(1e6 * best.time).epsilon(1e-9));
   }
@@ -161,7 +161,7 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("known answer") {
   TEST_CASE("with many samples in a volume the best ratio is near 2/3, on surfaces near e^-1/2; and T is flat there") {
-    const UnitCosts costs{.sphere_test = 1, .disc_test = 1};
+    const UnitCosts costs{.cull_test = 1, .disc_test = 1};
     const BestRatio best = best_ratio_and_stop(cube_workload(1e6, 1e6, 0.01, 2), costs);
     CHECK(best.ratio > 0.45);
     CHECK(best.ratio < 0.75);

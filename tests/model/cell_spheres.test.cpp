@@ -44,9 +44,9 @@ TEST_SUITE("identity") {
   TEST_CASE("no level is plain testing; the sums are those of the levels") {
     const Counts<double> none = model::cell_sphere_counts(workload, {0});
     CHECK(none.disc_tests == workload.rays * workload.samples);
-    CHECK(none.sphere_tests == 0);
+    CHECK(none.cull_tests == 0);
     const Counts<double> one = model::cell_sphere_counts(workload, {1});
-    CHECK(one.sphere_tests == doctest::Approx(8 * workload.rays).epsilon(1e-12));
+    CHECK(one.cull_tests == doctest::Approx(8 * workload.rays).epsilon(1e-12));
     const double share = model::cell_sphere_radius(workload, 1) / workload.sphere_radius;
     CHECK(one.disc_tests == doctest::Approx(workload.samples * workload.rays * share * share).epsilon(1e-12));
   }

@@ -20,15 +20,15 @@ using doctest::Contains;
 namespace {
 
 const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
-const UnitCosts costs{.sphere_test = 2,
+const UnitCosts costs{.cull_test = 2,
                       .disc_test = 5,
                       .index_test = 5,
                       .step = 4,
                       .node = 6,
-                      .copy = 1,
+                      .listed = 1,
                       .placement = 30,
                       .sort = 50,
-                      .rebuild = 20};
+                      .cull = 20};
 
 bool same(const Ranked& a, const Ranked& b) {
   return a.candidate == b.candidate && a.counts == b.counts && a.time.total() == b.time.total();
@@ -77,7 +77,7 @@ TEST_SUITE("identity") {
       const Workload w = cube_workload(random.count(1, 1e8), random.count(1, 1e7), random.log_uniform(1e-3, 0.5), 2,
                                        random.uniform(2, 3));
       const auto ranking = rank(w, costs);
-      REQUIRE(ranking.size() == 6);
+      REQUIRE(ranking.size() == 7);
       for (std::size_t i = 0; i < ranking.size(); ++i) {
         const Ranked& ranked = ranking[i];
         CHECK(ranked.candidate.technique != Technique::sphere_cache_published);
@@ -120,16 +120,17 @@ TEST_SUITE("identity") {
       const double cells = best_of(Technique::cell_spheres, w, costs)->time.total();
       for (int depth = 0; depth <= 14; ++depth)
         CHECK(cells <= total(w, {Technique::cell_spheres, CellSpheresParameters{depth}}));
-      const double tree = total(w, {Technique::sphere_tree, best_sphere_tree(w, costs)});
+      const double tree = best_of(Technique::sphere_tree, w, costs)->time.total();
       for (const int fan_out : {2, 3, 4, 6, 8, 12, 16})
         for (const int leaf : {1, 4, 12, 64, 1024}) {
           const double time = total(w, {Technique::sphere_tree, SphereTreeParameters{fan_out, leaf}});
           CHECK(tree <= time);
-          CHECK(total(w, {Technique::sphere_tree, best_sphere_tree(w, costs, fan_out, std::nullopt)}) <= time);
-          CHECK(total(w, {Technique::sphere_tree, best_sphere_tree(w, costs, std::nullopt, leaf)}) <= time);
+          for (const Wish& wish : {Wish{{{"fan-out", std::int64_t{fan_out}}}}, Wish{{{"leaf", std::int64_t{leaf}}}}})
+            CHECK(total(w, *complete(Technique::sphere_tree, wish, w, costs)) <= time);
         }
     }
-    CHECK(best_sphere_tree(typical, costs, 5, 7) == SphereTreeParameters{5, 7});
+    CHECK(complete(Technique::sphere_tree, {{{"fan-out", std::int64_t{5}}, {"leaf", std::int64_t{7}}}}, typical,
+                   costs) == Candidate{Technique::sphere_tree, SphereTreeParameters{5, 7}});
   }
 
   TEST_CASE("after a stop request the ranking has what was tried by then: one at least, no more than without") {
@@ -194,14 +195,14 @@ TEST_SUITE("known answer") {
     const SearchLimits none{.most_references = 10};
     CHECK_FALSE(best_of(Technique::octree, typical, costs, none).has_value());
     CHECK_FALSE(best_of(Technique::grid, typical, costs, none).has_value());
-    CHECK(rank(typical, costs, none).size() == 4);
+    CHECK(rank(typical, costs, none).size() == 5);
   }
 
   TEST_CASE("discs as large as S0, or next to it, leave no sphere cache, and the others in the ranking") {
     for (const double disc : {0.99, 1.0, 3.0}) {
       const Workload w{.rays = 100, .samples = 100, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
       CHECK_FALSE(best_of(Technique::sphere_cache, w, costs).has_value());
-      CHECK(rank(w, costs).size() == 5);
+      CHECK(rank(w, costs).size() == 6);
     }
   }
 
@@ -212,7 +213,7 @@ TEST_SUITE("known answer") {
     CHECK((without_steps == Technique::sphere_cache || without_steps == Technique::cell_spheres ||
            without_steps == Technique::sphere_tree));
     UnitCosts dear_spheres = costs;
-    dear_spheres.sphere_test = 1e6;
+    dear_spheres.cull_test = 1e6;
     const Technique best = rank(typical, dear_spheres).front().candidate.technique;
     CHECK((best == Technique::grid || best == Technique::octree));
   }

@@ -85,7 +85,7 @@ TEST_SUITE("identity") {
       CHECK(counts.disc_tests == Approx(1e4 * cells.crossing * counts.references).epsilon(1e-14));
       CHECK(counts.steps == Approx(1e4 * cells.crossing * cells.count()).epsilon(1e-14));
       CHECK(counts.hits == expected_hits(in_cube));
-      CHECK(counts.nodes + counts.sphere_tests + counts.copies + counts.rebuilds + counts.sorted == 0);
+      CHECK(counts.nodes + counts.cull_tests + counts.listed + counts.culls + counts.sorted == 0);
     }
   }
 

@@ -18,7 +18,7 @@ namespace {
 
 const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
 const Candidate cache{Technique::sphere_cache, SphereCacheParameters{0.65, 8}};
-const Candidate boxes{Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}};
+const Candidate boxes{Technique::box_tree, BoxTreeParameters{4, 16}};
 const Candidate octree{Technique::octree, OctreeParameters{5}};
 
 bool names(const Workload& workload, const Candidate& candidate, const std::string& reason) {

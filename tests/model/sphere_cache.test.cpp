@@ -67,18 +67,18 @@ bool all_finite(const Counts<double>& counts) {
 Counts<double> summed(const Workload& w, const SphereCacheParameters& parameters) {
   Counts<double> sum;
   for (const SphereLevel& level : sphere_levels(w, parameters, parameters.spheres)) {
-    sum.sphere_tests += level.rebuilds * level.tests;
-    sum.rebuilds += level.rebuilds;
-    sum.copies += level.rebuilds * level.listed;
+    sum.cull_tests += level.rebuilds * level.tests;
+    sum.culls += level.rebuilds;
+    sum.listed += level.rebuilds * level.listed;
     sum.disc_tests = w.samples * level.listed;  // before the share by which lists that serve long are longer
   }
   return sum;
 }
 
 void check_close(const Counts<double>& counts, const Counts<double>& expected, double tolerance) {
-  CHECK(counts.sphere_tests == Approx(expected.sphere_tests).epsilon(tolerance));
-  CHECK(counts.rebuilds == Approx(expected.rebuilds).epsilon(tolerance));
-  CHECK(counts.copies == Approx(expected.copies).epsilon(tolerance));
+  CHECK(counts.cull_tests == Approx(expected.cull_tests).epsilon(tolerance));
+  CHECK(counts.culls == Approx(expected.culls).epsilon(tolerance));
+  CHECK(counts.listed == Approx(expected.listed).epsilon(tolerance));
   CHECK(counts.disc_tests >= expected.disc_tests * (1 - 1e-14));
   CHECK(counts.disc_tests <= 1.15 * expected.disc_tests);
 }
@@ -169,8 +169,8 @@ TEST_SUITE("identity") {
         static_cast<std::int64_t>(std::log(typical.disc_radius / typical.sphere_radius) / std::log(ratio));
     const Counts<double> held = sphere_cache_counts(typical, {ratio, holding});
     const double rays = typical.rays * std::pow(typical.disc_radius / typical.sphere_radius, 2);
-    CHECK(all.rebuilds - held.rebuilds == Approx(typical.samples * static_cast<double>(k - holding)).epsilon(1e-4));
-    CHECK(all.copies - held.copies ==
+    CHECK(all.culls - held.culls == Approx(typical.samples * static_cast<double>(k - holding)).epsilon(1e-4));
+    CHECK(all.listed - held.listed ==
           Approx(typical.samples * rays / (2 * 20.0 / static_cast<double>(k))).epsilon(0.01));
   }
 
@@ -179,8 +179,8 @@ TEST_SUITE("identity") {
       const Counts<double> none = sphere_cache_counts(typical, {ratio, 5, SampleOrder::none});
       const Counts<double> lebesgue = sphere_cache_counts(typical, {ratio, 5, SampleOrder::lebesgue});
       CHECK(none.sorted == 0);
-      CHECK(none.rebuilds > lebesgue.rebuilds);
-      CHECK(none.sphere_tests > lebesgue.sphere_tests);
+      CHECK(none.culls > lebesgue.culls);
+      CHECK(none.cull_tests > lebesgue.cull_tests);
     }
   }
 }
@@ -231,9 +231,9 @@ TEST_SUITE("known answer") {
     for (const auto order : {SampleOrder::lebesgue, SampleOrder::none}) {
       const Counts<double> counts = sphere_cache_counts(typical, {0.5, 0, order});
       CHECK(counts.disc_tests == typical.rays * typical.samples);
-      CHECK(counts.sphere_tests == 0);
-      CHECK(counts.copies == 0);
-      CHECK(counts.rebuilds == 0);
+      CHECK(counts.cull_tests == 0);
+      CHECK(counts.listed == 0);
+      CHECK(counts.culls == 0);
       CHECK(sphere_levels(typical, {0.5, 0, order}, 3).empty());
     }
   }

@@ -87,7 +87,7 @@ TEST_SUITE("reference value") {
       rebuild.see(t_rebuild, sums.rebuild_time);
       intersect.see(t_intersect, intersecting);
       total.see(t_rebuild + t_intersect, sums.rebuild_time + intersecting);
-      rebuilds.see(published::counts(w, {ratio}, k).rebuilds, sums.rebuilds);
+      rebuilds.see(published::counts(w, {ratio}, k).culls, sums.rebuilds);
       const Exact root = support::cube_root(w.samples);
       few.see(published::rebuild_time_few_samples(w, {ratio}, sphere_test),
               sphere_test * w.rays * (root - 1) / (q * q * (1 - q)));
@@ -113,7 +113,7 @@ TEST_SUITE("reference value") {
       const Sums sums = add_up(w, 1 - gap, k, 1);
       CHECK(relative_error(published::rebuild_time(w, {1 - gap}, k, 1), sums.rebuild_time) < 1e-14);
       CHECK(relative_error(published::intersect_time(w, {1 - gap}, k, 1), sums.rays * 7) < 1e-14);
-      CHECK(relative_error(published::counts(w, {1 - gap}, k).rebuilds, sums.rebuilds) < 1e-14);
+      CHECK(relative_error(published::counts(w, {1 - gap}, k).culls, sums.rebuilds) < 1e-14);
     }
   }
 
@@ -134,7 +134,7 @@ TEST_SUITE("known answer") {
     CHECK(published::rebuild_cost(1024, {0.5}, 3, 2) == doctest::Approx(128).epsilon(1e-15));
     // 8·1000 + 64·250 + 100·62.5
     CHECK(published::rebuild_time(some, {0.5}, 3, 1) == doctest::Approx(30250).epsilon(1e-14));
-    CHECK(published::counts(some, {0.5}, 3).rebuilds == doctest::Approx(172).epsilon(1e-14));
+    CHECK(published::counts(some, {0.5}, 3).culls == doctest::Approx(172).epsilon(1e-14));
   }
 
   TEST_CASE("without spheres, or without sorting, every disc meets every ray") {
@@ -146,7 +146,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("one sample needs each sphere once, and no time by the form for few samples") {
     Workload w = some;
     w.samples = 1;
-    CHECK(published::counts(w, {0.5}, 20).rebuilds == 20);
+    CHECK(published::counts(w, {0.5}, 20).culls == 20);
     CHECK(published::rebuild_time_few_samples(w, {0.5}, 1) == 0);
   }
 
@@ -164,7 +164,7 @@ TEST_SUITE("identity") {
       const auto [w, ratio] = support::random_workload(random);
       const std::int64_t k = random.whole(1, 50);
       const Counts<double> counts = published::counts(w, {ratio}, k);
-      CHECK(counts.sphere_tests == published::rebuild_time(w, {ratio}, k, 1));
+      CHECK(counts.cull_tests == published::rebuild_time(w, {ratio}, k, 1));
       CHECK(counts.disc_tests == published::intersect_time(w, {ratio}, k, 1));
       CHECK(counts.sorted == w.samples);
       CHECK(counts.hits == expected_hits(w));

@@ -50,8 +50,8 @@ TEST_SUITE("identity") {
       tests += level.nodes * around;
       around = level.rays;
     }
-    CHECK(counts.rebuilds == nodes);
-    CHECK(counts.sphere_tests == Approx(tests).epsilon(1e-12));
+    CHECK(counts.culls == nodes);
+    CHECK(counts.cull_tests == Approx(tests).epsilon(1e-12));
     CHECK(counts.disc_tests == in_volume.samples * around);
     CHECK(counts.sorted == in_volume.samples);
     CHECK(counts.hits == model::expected_hits(in_volume));

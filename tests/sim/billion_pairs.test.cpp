@@ -59,7 +59,7 @@ struct Tried {
 void compare(const HardScene& scene, bool front, Tried& tried) {
   const Problem problem = make_problem(scene.rays, scene.discs, front);
   const Outcome expected =
-      run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .plain = true});
+      run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
   tried.pairs += static_cast<double>(scene.rays.size()) * static_cast<double>(scene.discs.size());
   tried.hits += expected.total_hits;
   for (const Candidate& candidate : all_exact()) tried.add(run(problem, candidate, {.pairs = true}), expected);

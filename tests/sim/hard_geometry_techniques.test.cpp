@@ -19,7 +19,7 @@ namespace {
 
 /// Every pair decided by the canonical predicate.
 Outcome truth_of(const Problem& problem) {
-  return run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .plain = true});
+  return run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
 }
 
 const std::vector<Candidate>& exact_candidates() {

@@ -21,7 +21,7 @@ std::map<double, double> losses(Body body) {
   const Sphere outer = enclosing_sphere(discs);
   const auto rays = LineField(outer, 2).lines(0, 100'000);
   const Problem problem = make_problem(rays, discs);
-  const auto all = run(problem, {Technique::sphere_tree, SphereTreeParameters{8, 8, Bounds::boxes}}).total_hits;
+  const auto all = run(problem, {Technique::box_tree, BoxTreeParameters{8, 8}}).total_hits;
   std::map<double, double> lost;
   for (const double ratio : {0.5, 0.6, 0.65, 0.8}) {
     const auto spheres = static_cast<std::int64_t>(std::ceil(std::log(radius / outer.radius) / std::log(ratio)));

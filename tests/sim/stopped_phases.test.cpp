@@ -16,7 +16,7 @@
 #include "detp/sim/stream/curve_sort.hpp"
 #include "detp/sim/stream/disc_tree.hpp"
 #include "detp/sim/technique/disc_index.hpp"
-#include "detp/sim/technique/prepared.hpp"
+#include "detp/sim/technique/index.hpp"
 #include "detp/sim/technique/ray_list.hpp"
 #include "detp/sim/technique/sphere_tree.hpp"
 #include "detp/sim/uniform_discs.hpp"
@@ -131,7 +131,10 @@ TEST_SUITE("identity") {
   TEST_CASE("the work between two checks is bounded while any index is built, and a stop request ends it") {
     const std::uint64_t count = discs().size();
     const stream::Frame frame(problem());
-    check_phase({"tree of boxes", [&](const auto& stop) { use(stream::make_disc_tree(problem(), frame, 4, 16, stop)); },
+    check_phase({"tree of boxes",
+                 [&](const auto& stop) {
+                   use(stream::make_disc_tree(problem(), frame, {4, 16}, {.stop = stop}));
+                 },
                  8 * count});
     const auto order = along_curve(discs());
     check_phase({"tree of spheres",
@@ -143,7 +146,7 @@ TEST_SUITE("identity") {
          {Candidate{Technique::octree, OctreeParameters{4}},
           Candidate{Technique::octree, OctreeParameters{4, Traversal::neighbour_links}},
           Candidate{Technique::grid, GridParameters{60}}, Candidate{Technique::bsp, BspParameters{}}})
-      check_phase({std::string(name(candidate.technique)) + " " + describe(candidate.parameters),
+      check_phase({std::string(name(candidate.technique)) + " " + describe(candidate),
                    [&](const auto& stop) { use(prepare(problem(), candidate, {.stop = stop})); }, count});
   }
 

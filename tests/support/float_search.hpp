@@ -65,7 +65,7 @@ inline std::vector<std::uint64_t> hits_with_band(const Floats& floats, float tim
 inline std::vector<std::uint64_t> hits_in_boxes(const Floats& floats, float times) {
   sim::stream::Frame frame = floats.frame;
   frame.margin *= times;
-  const sim::stream::DiscTree tree = make_disc_tree(floats.problem, frame, 2, 1);
+  const sim::stream::DiscTree tree = make_disc_tree(floats.problem, frame, {2, 1});
   return count_hits(floats, frame, tree, [&](const auto& block, auto& worker) {
     search_below(block, tree.nodes.front(), floats.lists, worker);
   });
@@ -82,7 +82,7 @@ inline std::vector<std::uint64_t> hits_in_spheres(const Floats& floats, float ti
         const sim::stream::RayList& around = floats.lists[static_cast<std::size_t>(k)];
         const sim::stream::ArenaScope scope(worker.lists);
         sim::stream::RayList inside = worker.lists.take(around.size, true);
-        cull_sphere(block, k, sphere, around, inside);
+        cull_sphere(block, k, sphere, around, inside, worker);
         test_discs(block, k, place, 1, inside, worker);
       }
     }

@@ -70,7 +70,7 @@ inline KernelCase<float> as_listed(const sim::stream::RayList& list, std::size_t
 
 /// The leaf of a tree that holds the disc at each place of the problem.
 inline std::vector<sim::stream::TreeNode> boxes_of(const Floats& floats) {
-  const sim::stream::DiscTree tree = make_disc_tree(floats.problem, floats.frame, 2, 1);
+  const sim::stream::DiscTree tree = make_disc_tree(floats.problem, floats.frame, {2, 1});
   std::vector<sim::stream::TreeNode> boxes(tree.order.size());
   for (const sim::stream::TreeNode& node : tree.nodes)
     for (std::uint32_t i = 0; node.leaf && i < node.count; ++i) boxes[tree.order[node.first + i]] = node;

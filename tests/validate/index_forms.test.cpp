@@ -11,6 +11,7 @@
 #include "detp/sim/technique/indexed_search.hpp"
 #include "detp/sim/technique/ray_box.hpp"
 #include "detp/sim/uniform_discs.hpp"
+#include "support/indexed.hpp"
 
 // The closed forms of an index of discs against counts, in all its variants.
 
@@ -100,14 +101,14 @@ TEST_SUITE("statistical") {
         for (const bool mailboxing : {false, true}) {
           const IndexVariant variant{insertion, mailboxing};
           const OctreeParameters octree{chosen.depth, mailboxing ? Traversal::restart : Traversal::top_down};
-          const Counts<double> counted = as_expected(search_octree(problem, octree, variant).counts);
+          const Counts<double> counted = as_expected(support::search_octree(problem, octree, variant).counts);
           const Counts<double> expected = model::octree_counts(setting.workload, octree, variant);
           CAPTURE(mailboxing);
           CAPTURE((insertion == Insertion::exact));
           check_close("disc tests", per_line * expected.disc_tests, counted.disc_tests);
           check_close("nodes", per_line * expected.nodes, counted.nodes);
         }
-      const Counts<double> counted = as_expected(search_grid(problem, {1 << chosen.depth}, {}).counts);
+      const Counts<double> counted = as_expected(support::search_grid(problem, {1 << chosen.depth}, {}).counts);
       check_close("steps", per_line * model::grid_counts(setting.workload, {1 << chosen.depth}).steps, counted.steps);
     }
   }

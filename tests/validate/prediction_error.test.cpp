@@ -7,11 +7,11 @@ using namespace detp::validate;
 
 TEST_SUITE("known answer") {
   TEST_CASE("a predicted time is off by its counts times its unit costs; the count that costs most is named") {
-    const UnitCosts costs{.sphere_test = 2, .disc_test = 1};
+    const UnitCosts costs{.cull_test = 2, .disc_test = 1};
     model::Ranked predicted{
-        {Technique::sphere_cache, SphereCacheParameters{}}, {.sphere_tests = 10, .disc_tests = 100}, {}, {}};
+        {Technique::sphere_cache, SphereCacheParameters{}}, {.cull_tests = 10, .disc_tests = 100}, {}, {}};
     predicted.time = price(predicted.counts, costs, predicted.candidate.technique);  // 120
-    const PredictionError error = prediction_error(predicted, {.sphere_tests = 20, .disc_tests = 20}, 30, costs);
+    const PredictionError error = prediction_error(predicted, {.cull_tests = 20, .disc_tests = 20}, 30, costs);
     CHECK(error.seconds == doctest::Approx(4));
     CHECK(error.counts == doctest::Approx(2));
     CHECK(error.unit_costs == doctest::Approx(2));

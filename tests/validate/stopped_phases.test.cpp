@@ -54,10 +54,10 @@ TEST_SUITE("identity") {
          {Candidate{Technique::sphere_cache, SphereCacheParameters{0.6, 6}},
           Candidate{Technique::cell_spheres, CellSpheresParameters{4}},
           Candidate{Technique::sphere_tree, SphereTreeParameters{8, 4}},
-          Candidate{Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}},
-          Candidate{Technique::octree, OctreeParameters{4}}, Candidate{Technique::grid, GridParameters{30}}}) {
+          Candidate{Technique::box_tree, BoxTreeParameters{4, 16}}, Candidate{Technique::octree, OctreeParameters{4}},
+          Candidate{Technique::grid, GridParameters{30}}}) {
       CAPTURE(name(candidate.technique));
-      CAPTURE(describe(candidate.parameters));
+      CAPTURE(describe(candidate));
       const std::uint64_t work = work_of([&] { static_cast<void>(structural_counts(discs, 1e5, candidate)); });
       CHECK(work > discs.size());
       const StopAfterWork stop(work / 2);

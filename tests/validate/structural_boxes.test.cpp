@@ -80,7 +80,7 @@ TEST_SUITE("limit") {
   TEST_CASE("discs of a leaf are tested with every ray") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 10, 0.05, 3);
     const sim::Ray ray{};
-    const BoxTreeCounts counts = box_tree_counts(sim::make_problem({&ray, 1}, discs), 100, {4, 16, Bounds::boxes});
+    const BoxTreeCounts counts = box_tree_counts(sim::make_problem({&ray, 1}, discs), 100, {4, 16});
     CHECK(counts.discs == 10);
     CHECK(counts.tests == 0);
     CHECK(counts.culls == 0);
@@ -95,11 +95,10 @@ TEST_SUITE("known answer") {
         const auto discs =
             sim::uniform_discs(dimension == 2 ? sim::Body::cube_faces : sim::Body::cube, 1, 20'000, radius, 77);
         for (const int leaf : {8, 16, 64}) {
-          const Candidate candidate{Technique::sphere_tree, SphereTreeParameters{4, leaf, Bounds::boxes}};
+          const Candidate candidate{Technique::box_tree, BoxTreeParameters{4, leaf}};
           const Counts<double> structural = structural_counts(discs, 1e5, candidate);
           const Counts<double> closed = model::predict(cube_workload(1e5, 20'000, radius, 1, dimension), candidate);
-          for (const auto term :
-               {&Counts<double>::sphere_tests, &Counts<double>::copies, &Counts<double>::disc_tests}) {
+          for (const auto term : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests}) {
             CAPTURE(closed.*term / structural.*term);
             CHECK(std::abs(closed.*term / structural.*term - 1) < (leaf == 16 ? 0.05 : 0.15));
           }
@@ -121,15 +120,14 @@ TEST_SUITE("statistical") {
       request.disc_radius = Length{0.01, true};
       request.field = sim::Field::isotropic;
       const Job job = make_job(request);
-      for (const SphereTreeParameters& parameters :
-           {SphereTreeParameters{4, 16, Bounds::boxes}, {8, 4, Bounds::boxes}}) {
-        const Candidate candidate{Technique::sphere_tree, parameters};
+      for (const BoxTreeParameters& parameters : {BoxTreeParameters{4, 16}, {8, 4}}) {
+        const Candidate candidate{Technique::box_tree, parameters};
         const Counts<double> counted = as_expected(sim::run(job.problem(), candidate).counts);
         const Counts<double> expected = structural_counts(job.discs, rays, candidate);
         CAPTURE(scene);
-        CAPTURE(describe(candidate.parameters));
-        for (const auto term : {&Counts<double>::sphere_tests, &Counts<double>::copies, &Counts<double>::disc_tests,
-                                &Counts<double>::rebuilds}) {
+        CAPTURE(describe(candidate));
+        for (const auto term : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests,
+                                &Counts<double>::culls, &Counts<double>::visits}) {
           CAPTURE(expected.*term / counted.*term);
           CHECK(std::abs(expected.*term / counted.*term - 1) < 0.015);
           CHECK_MESSAGE(std::abs(1.03 * expected.*term / counted.*term - 1) > 0.015, "3 % off must show");

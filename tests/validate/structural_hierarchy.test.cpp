@@ -1,4 +1,4 @@
-#include "detp/validate/structural_hierarchy.hpp"
+#include "detp/validate/structural.hpp"
 
 #include <doctest/doctest.h>
 
@@ -37,7 +37,7 @@ std::array<double, 3> per_line(const std::vector<sim::Disc>& discs, const Candid
   const auto rays =
       sim::LineField(sim::enclosing_sphere(discs), 77).lines(lines * static_cast<std::size_t>(batch), lines);
   const auto counts = as_expected(sim::run(sim::make_problem(rays, discs), candidate).counts);
-  return {counts.sphere_tests / lines, counts.copies / lines, counts.disc_tests / lines};
+  return {counts.cull_tests / lines, counts.listed / lines, counts.disc_tests / lines};
 }
 
 }  // namespace
@@ -50,22 +50,22 @@ TEST_SUITE("identity") {
     Workload workload = cube_workload(1000, 4000, 0.02, 2);
     workload.sphere_radius = problem.enclosing.radius;
     const Candidate candidate{Technique::cell_spheres, CellSpheresParameters{2}};  // of 64 cells none is empty
-    const Counts<double> structural = structural_hierarchy_counts(problem, 1000, candidate);
+    const Counts<double> structural = structural_counts(problem, 1000, candidate);
     const Counts<double> closed = model::predict(workload, candidate);
-    CHECK(structural.rebuilds == 8 + 64);
-    CHECK(closed.rebuilds == doctest::Approx(8 + 64).epsilon(1e-9));
-    CHECK(structural.sphere_tests == doctest::Approx(closed.sphere_tests).epsilon(2e-3));
+    CHECK(structural.culls == 8 + 64);
+    CHECK(closed.culls == doctest::Approx(8 + 64).epsilon(1e-9));
+    CHECK(structural.cull_tests == doctest::Approx(closed.cull_tests).epsilon(2e-3));
     CHECK(structural.disc_tests == doctest::Approx(closed.disc_tests).epsilon(2e-3));
   }
 
-  TEST_CASE("what needs no ray is what was counted: spheres built and samples sorted") {
+  TEST_CASE("what needs no ray is what was counted: cells with spheres, and samples sorted") {
     const auto discs = samples(sim::Body::cube_faces, glm::dvec3{1});
     const sim::Ray ray{};
     const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
     for (const Candidate& candidate : candidates()) {
       const auto counted = as_expected(sim::run(problem, candidate).counts);
-      const Counts<double> expected = structural_hierarchy_counts(problem, 1, candidate);
-      CHECK(expected.rebuilds == counted.rebuilds);
+      const Counts<double> expected = structural_counts(problem, 1, candidate);
+      if (candidate.technique == Technique::cell_spheres) CHECK(expected.culls == counted.culls);
       CHECK(expected.sorted == counted.sorted);
     }
   }
@@ -81,14 +81,14 @@ TEST_SUITE("statistical") {
       const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
       for (const Candidate& candidate : candidates()) {
         CAPTURE(name(candidate.technique));
-        CAPTURE(describe(candidate.parameters));
-        const Counts<double> expected = structural_hierarchy_counts(problem, 1, candidate);
+        CAPTURE(describe(candidate));
+        const Counts<double> expected = structural_counts(problem, 1, candidate);
         std::array<std::vector<double>, 3> counted;
         for (int batch = 0; batch < batches; ++batch) {
           const auto values = per_line(discs, candidate, batch);
           for (std::size_t term = 0; term < 3; ++term) counted[term].push_back(values[term]);
         }
-        const std::array predicted{expected.sphere_tests, expected.copies, expected.disc_tests};
+        const std::array predicted{expected.cull_tests, expected.listed, expected.disc_tests};
         for (std::size_t term = 0; term < 3; ++term) {
           const Estimate observed = batch_means(counted[term]);
           CAPTURE(term);
@@ -104,16 +104,13 @@ TEST_SUITE("statistical") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("other techniques, and parameters out of range, are refused") {
+  TEST_CASE("parameters out of range are refused") {
     const auto discs = samples(sim::Body::cube, glm::dvec3{1});
     const sim::Ray ray{};
     const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
-    CHECK_THROWS_AS((void)structural_hierarchy_counts(problem, 1, {Technique::octree, OctreeParameters{3}}),
-                    std::invalid_argument);
-    CHECK_THROWS_WITH_AS(
-        (void)structural_hierarchy_counts(problem, 1, {Technique::cell_spheres, CellSpheresParameters{17}}),
-        doctest::Contains("depth"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)structural_hierarchy_counts(problem, 0, candidates()[0]), doctest::Contains("rays"),
+    CHECK_THROWS_WITH_AS((void)structural_counts(problem, 1, {Technique::cell_spheres, CellSpheresParameters{17}}),
+                         doctest::Contains("depth"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)structural_counts(problem, 0, candidates()[0]), doctest::Contains("rays"),
                          std::invalid_argument);
   }
 }

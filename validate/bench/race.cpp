@@ -92,7 +92,7 @@ std::string technique_of(const Competitor& competitor) {
 
 std::string parameters_of(const Competitor& competitor) {
   const auto* ours = std::get_if<Candidate>(&competitor);
-  return ours != nullptr ? describe(ours->parameters) : describe(std::get<EmbreeMode>(competitor));
+  return ours != nullptr ? describe(*ours) : describe(std::get<EmbreeMode>(competitor));
 }
 
 double Finish::median_seconds() const {

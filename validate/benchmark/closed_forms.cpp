@@ -46,7 +46,7 @@ void add_formulas() {
   add("sphere_count", [](double q) { return sphere_count(Form::corrected, {q}, {0.01}, {1.7}); });
   add("published::rays_in_sphere", [](double q) { return published::rays_in_sphere(1e6, {q}, 7); });
   add("published::rebuild_time", [](double q) { return published::rebuild_time(volume, {q}, 10, 1); });
-  add("published::counts", [](double q) { return published::counts(volume, {q}, 10).sphere_tests; });
+  add("published::counts", [](double q) { return published::counts(volume, {q}, 10).cull_tests; });
   add("both_hit_share", [](double q) { return both_hit_share(1, q, 0.5); });
   add("optimal_ratio", [](double q) { return optimal_ratio(2 + q); });
   add("optimal_ratio_with_copies", [](double q) { return optimal_ratio_with_copies(q); });
@@ -61,11 +61,9 @@ void add_formulas() {
 void add_sphere_cache() {
   for (const std::int64_t k : {1, 10, 100, 4096})
     add(("sphere_cache_counts, volume, k " + std::to_string(k)).c_str(), [k](double q) {
-      return sphere_cache_counts(volume, {q, k}).sphere_tests;
+      return sphere_cache_counts(volume, {q, k}).cull_tests;
     });
-  add("sphere_cache_counts, surface, k 10", [](double q) {
-    return sphere_cache_counts(surface, {q, 10}).sphere_tests;
-  });
+  add("sphere_cache_counts, surface, k 10", [](double q) { return sphere_cache_counts(surface, {q, 10}).cull_tests; });
 }
 
 void add_choices() {

@@ -56,7 +56,7 @@ std::vector<Technique> techniques_of(const BenchCommand& command) {
     CandidateOptions named;
     named.technique = text;
     const Technique technique = named.technique_or(Technique::brute_force);
-    if (!finds_all_hits(technique))
+    if (!record_of(technique).exact)
       throw std::invalid_argument(text + " does not find all hits; bench compares exact techniques only");
     techniques.push_back(technique);
   }
@@ -95,7 +95,7 @@ Json inputs_json(const BenchCommand& command, const validate::BenchSet& set, con
   for (const validate::BenchWorkload& workload : set.workloads)
     if (json["scenes"].empty() || json["scenes"].back() != workload.path) json["scenes"].push_back(workload.path);
   for (const Technique technique : all_techniques)
-    if (finds_all_hits(technique) &&
+    if (record_of(technique).exact &&
         (options.techniques.empty() ||
          std::find(options.techniques.begin(), options.techniques.end(), technique) != options.techniques.end()))
       json["techniques"].push_back(name(technique));

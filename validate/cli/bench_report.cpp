@@ -31,7 +31,7 @@ Json workload_json(const BenchEntry& entry) {
 }
 
 Json parameters_json(const validate::Competitor& competitor) {
-  if (const auto* ours = std::get_if<Candidate>(&competitor)) return to_json(ours->parameters);
+  if (const auto* ours = std::get_if<Candidate>(&competitor)) return to_json(*ours);
   const auto& mode = std::get<validate::EmbreeMode>(competitor);
   return {{"call", call_of(mode)}, {"quality", validate::name(mode.quality)}, {"coherent", mode.coherent}};
 }

@@ -40,7 +40,7 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs
                     name(answer.ranking.back().candidate.technique)));
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs);
   const auto all = std::count_if(all_techniques.begin(), all_techniques.end(),
-                                 [](Technique one) { return finds_all_hits(one) && has_closed_form(one); });
+                                 [](Technique one) { return record_of(one).exact && model::has_closed_form(one); });
   if (!stop.stop_requested() || std::ssize(answer.ranking) >= all) return std::nullopt;
   return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
 }

@@ -59,7 +59,7 @@ std::string why_not(const ChooseAnswer& answer, const Row& row) {
 }
 
 Json candidate_json(const ChooseAnswer& answer, const Row& row) {
-  Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate.parameters)}};
+  Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate)}};
   if (row.predicted != nullptr) {
     json["predicted"] = to_json(row.predicted->counts);
     json["predicted_seconds"] = row.predicted->time.total();
@@ -71,7 +71,7 @@ Json candidate_json(const ChooseAnswer& answer, const Row& row) {
 }
 
 Json choice_json(const Row& row) {
-  Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate.parameters)}};
+  Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate)}};
   if (row.predicted != nullptr) {
     json["predicted_seconds"] = row.predicted->time.total();
     json.update(extrapolated_json(row.predicted->extrapolated));
@@ -92,7 +92,7 @@ Json to_json(const ChooseAnswer& answer) {
             {"candidates", Json::array()},
             {"paper_rule",
              {{"technique", name(answer.paper.candidate.technique)},
-              {"parameters", to_json(answer.paper.candidate.parameters)},
+              {"parameters", to_json(answer.paper.candidate)},
               {"predicted_seconds", answer.paper.time.total()}}},
             {"effects", effects_json(answer.workload)},
             {"rigor", answer.rigor},
@@ -108,7 +108,7 @@ Json to_json(const ChooseAnswer& answer) {
 namespace {
 
 std::string row_text(const ChooseAnswer& answer, const Row& row) {
-  std::string text = fmt::format("{:14} {:26} ", name(row.candidate.technique), describe(row.candidate.parameters));
+  std::string text = fmt::format("{:14} {:26} ", name(row.candidate.technique), describe(row.candidate));
   text += row.predicted != nullptr
               ? fmt::format("{:>10.3g} {:>9.3g}{}", tests(row.predicted->counts), row.predicted->time.total(),
                             row.predicted->extrapolated.empty() ? ' ' : '~')
@@ -146,8 +146,7 @@ std::string margin(const ChooseAnswer& answer) {
 
 std::string choice_line(const ChooseAnswer& answer) {
   const Candidate& candidate = answer.ranking[0].candidate;
-  return fmt::format("choice    {} {}: {}\n", name(candidate.technique), describe(candidate.parameters),
-                     margin(answer));
+  return fmt::format("choice    {} {}: {}\n", name(candidate.technique), describe(candidate), margin(answer));
 }
 
 }  // namespace
@@ -163,7 +162,7 @@ std::string to_text(const ChooseAnswer& answer) {
   if (!answer.analysis || !answer.analysis->best) text += choice_line(answer);
   if (answer.analysis) text += measured_lines(answer);
   text += fmt::format("paper     its rule takes {} {}: predicted {:.3g} s\n", name(answer.paper.candidate.technique),
-                      describe(answer.paper.candidate.parameters), answer.paper.time.total());
+                      describe(answer.paper.candidate), answer.paper.time.total());
   text += fmt::format(
       "rigor     {}: {}, in {:.2g} ms; unit costs {}\n", answer.rigor,
       answer.rigor == "structural" ? "parameters by closed forms, counts by the structures built with them"

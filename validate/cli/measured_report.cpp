@@ -11,7 +11,7 @@ namespace detp::cli {
 namespace {
 
 std::string title_of(const Candidate& candidate) {
-  const std::string parameters = describe(candidate.parameters);
+  const std::string parameters = describe(candidate);
   return fmt::format("{}{}{}", name(candidate.technique), parameters.empty() ? "" : " ", parameters);
 }
 
@@ -43,7 +43,7 @@ std::string missed_line(const validate::Analysed& run, const UnitCosts& costs) {
 
 Json missed_json(const validate::Analysed& run, const UnitCosts& costs) {
   Json json{{"technique", name(run.candidate.technique)},
-            {"parameters", to_json(run.candidate.parameters)},
+            {"parameters", to_json(run.candidate)},
             {"predicted", run.predicted.has_value()}};
   json.update(missed_ratios(run, costs));
   return json;
@@ -111,12 +111,12 @@ void add_analysis(Json& json, const ChooseAnswer& answer) {
   const validate::Analysis& analysis = *answer.analysis;
   const model::Ranked& predicted = answer.ranking.front();
   json["predicted_choice"] = {{"technique", name(predicted.candidate.technique)},
-                              {"parameters", to_json(predicted.candidate.parameters)},
+                              {"parameters", to_json(predicted.candidate)},
                               {"predicted_seconds", predicted.time.total()}};
   if (analysis.best) {
     const validate::Analysed& best = analysis.candidates[*analysis.best];
     json["best_measured"] = {{"technique", name(best.candidate.technique)},
-                             {"parameters", to_json(best.candidate.parameters)},
+                             {"parameters", to_json(best.candidate)},
                              {"measured_seconds", *best.seconds},
                              {"measured_spread", best.spread}};
     json["missed"] = Json::array();

@@ -1,12 +1,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "answer_rows.hpp"
 #include "command.hpp"
 #include "detp/model/extrapolation.hpp"
-#include "detp/model/predict.hpp"
+#include "detp/model/registry.hpp"
 #include "extrapolated.hpp"
 #include "model_answer.hpp"
 #include "unit_cost_option.hpp"
@@ -25,37 +26,25 @@ struct ModelOptions {
   std::optional<std::int64_t> levels;
 };
 
-ModelAnswer brute_force_answer(const ModelQuestion& question) {
-  const Counts<double> counts = model::predict(question.workload, {Technique::brute_force, BruteForceParameters{}});
-  return {BruteForceParameters{},
-          {{"parameters", Json::object()},
-           {"form", name(question.form)},
-           {"total_time", price(counts, question.costs).total()},
-           {"counts", to_json(counts)}}};
+using Answer = ModelAnswer(const ModelQuestion& question);
+
+/// Techniques of whose parts the model says more than counts and times.
+const std::map<Technique, Answer*>& answers() {
+  static const std::map<Technique, Answer*> all{{Technique::sphere_cache, sphere_cache_answer},
+                                                {Technique::sphere_cache_published, sphere_cache_answer},
+                                                {Technique::cell_spheres, cell_spheres_answer},
+                                                {Technique::sphere_tree, sphere_tree_answer},
+                                                {Technique::octree, octree_answer},
+                                                {Technique::grid, grid_answer}};
+  return all;
 }
 
 ModelAnswer answer(const ModelQuestion& question) {
-  switch (question.technique) {
-    case Technique::brute_force:
-      return brute_force_answer(question);
-    case Technique::sphere_cache:
-    case Technique::sphere_cache_published:
-      return sphere_cache_answer(question);
-    case Technique::cell_spheres:
-      return cell_spheres_answer(question);
-    case Technique::sphere_tree:
-      return sphere_tree_answer(question);
-    case Technique::octree:
-      return octree_answer(question);
-    case Technique::grid:
-      return grid_answer(question);
-    case Technique::bsp:
-    case Technique::bvh:
-    case Technique::photon_map:
-      throw std::invalid_argument(fmt::format("there is no closed form of {}; try: detp run --technique {}",
-                                              name(question.technique), name(question.technique)));
-  }
-  throw std::logic_error("a technique without an answer");
+  if (!model::has_closed_form(question.technique))
+    throw std::invalid_argument(fmt::format("there is no closed form of {}; try: detp run --technique {}",
+                                            name(question.technique), name(question.technique)));
+  const auto found = answers().find(question.technique);
+  return found == answers().end() ? technique_answer(question) : found->second(question);
 }
 
 std::string level_table(const Json& levels) {
@@ -165,10 +154,11 @@ Measured measure(const ModelOptions& options, const CommonOptions& common, const
 AnswerRow answer_row(const ModelOptions& options, const Measured& measured, const UnitCosts& costs,
                      std::int64_t levels) {
   const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
-  options.candidate.refuse_foreign(technique);
+  (void)options.candidate.wish(technique);  // refuses foreign parameters
   const Form form = options.form == "published" ? Form::published : Form::corrected;
   AnswerRow row{measured.inputs, {{"technique", name(technique)}}, {}};
   row.inputs["form"] = options.form;
+  row.inputs["engine"] = name(options.candidate.engine);
   row.inputs["unit_costs"] = to_json(costs);
   row.inputs["levels"] = levels;
   ModelAnswer found = answer({measured.workload, technique, form, costs, levels, options.candidate});

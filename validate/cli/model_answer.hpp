@@ -25,7 +25,11 @@ struct ModelAnswer {
 
 [[nodiscard]] ModelAnswer sphere_cache_answer(const ModelQuestion& question);
 
-/// Levels left out are the best at the unit costs; so are fan-out and leaf.
+/// Any technique with a closed form: parameters, times by part, counts. Parameters left out are the best at the unit
+/// costs.
+[[nodiscard]] ModelAnswer technique_answer(const ModelQuestion& question);
+
+/// The same with the spheres of each level.
 [[nodiscard]] ModelAnswer cell_spheres_answer(const ModelQuestion& question);
 [[nodiscard]] ModelAnswer sphere_tree_answer(const ModelQuestion& question);
 

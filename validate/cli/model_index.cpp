@@ -45,11 +45,14 @@ Json corrected_index(const ModelQuestion& question, double parts, const Counts<d
 }  // namespace
 
 ModelAnswer octree_answer(const ModelQuestion& question) {
-  const int depth = question.options.depth.value_or(
-      model::published::octree_depth({question.workload.disc_radius}, scene_side(question.workload)));
-  const OctreeParameters parameters{depth, question.options.chosen_traversal()};
+  Candidate candidate{Technique::octree, OctreeParameters{model::published::octree_depth(
+                                             {question.workload.disc_radius}, scene_side(question.workload))}};
+  for (const auto& [name, value] : question.options.wish(Technique::octree).given)
+    set_parameter(candidate, name, value);
+  const auto parameters = std::get<OctreeParameters>(candidate.parameters);
+  const int depth = parameters.depth;
   const Counts<double> counts = model::octree_counts(question.workload, parameters);
-  Json json{{"parameters", to_json(Parameters{parameters})}, {"form", name(question.form)}, {"depth", depth}};
+  Json json{{"parameters", to_json(candidate)}, {"form", name(question.form)}, {"depth", depth}};
   json.update(question.form == Form::published ? published_octree(question, depth)
                                                : corrected_index(question, std::ldexp(1.0, depth), counts));
   return {parameters, std::move(json)};
@@ -64,9 +67,12 @@ void refuse_published(const ModelQuestion& question) {
 ModelAnswer grid_answer(const ModelQuestion& question) {
   refuse_published(question);
   const int depth = model::published::octree_depth({question.workload.disc_radius}, scene_side(question.workload));
-  const GridParameters parameters{question.options.cells.value_or(1 << std::min(depth, 20))};
+  const auto cells = question.options.given<std::int64_t>("cells").value_or(1 << std::min(depth, 20));
+  Candidate candidate{Technique::grid, GridParameters{}};
+  set_parameter(candidate, "cells", cells);
+  const auto parameters = std::get<GridParameters>(candidate.parameters);
   const Counts<double> counts = model::grid_counts(question.workload, parameters);
-  Json json{{"parameters", to_json(Parameters{parameters})}, {"form", name(question.form)}};
+  Json json{{"parameters", to_json(candidate)}, {"form", name(question.form)}};
   json.update(corrected_index(question, parameters.cells, counts));
   return {parameters, std::move(json)};
 }

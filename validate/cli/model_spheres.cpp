@@ -1,4 +1,7 @@
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <stdexcept>
 
 #include "detp/model/best_ratio.hpp"
 #include "detp/model/cell_spheres.hpp"
@@ -16,13 +19,14 @@ namespace {
 
 using model::Form;
 
+SampleOrder order_of(const ModelQuestion& question) {
+  const auto given = question.options.given<std::string_view>("order");
+  return given ? *choice_named<SampleOrder>(*given) : SampleOrder::lebesgue;
+}
+
 SphereCacheParameters cache_parameters(const ModelQuestion& question, double ratio, const SphereStops& stops) {
-  const CandidateOptions& options = question.options;
-  if (options.spheres) {
-    require_count("number of spheres", static_cast<double>(*options.spheres), 0, 9e18);
-    return {ratio, *options.spheres, options.sample_order()};
-  }
-  return {ratio, options.stop == SphereStop::best ? stops.best : stops.max, options.sample_order()};
+  const std::int64_t otherwise = question.options.stop == SphereStop::best ? stops.best : stops.max;
+  return {ratio, question.options.given<std::int64_t>("spheres").value_or(otherwise), order_of(question)};
 }
 
 Json published_levels(const ModelQuestion& question, const SphereCacheParameters& parameters) {
@@ -35,7 +39,7 @@ Json published_levels(const ModelQuestion& question, const SphereCacheParameters
          {"rays", model::published::rays_in_sphere(question.workload.rays, {parameters.ratio}, i)},
          {"rebuilds", sorted ? model::published::rebuilds({parameters.ratio}, i) : question.workload.samples},
          {"rebuild_cost",
-          model::published::rebuild_cost(question.workload.rays, {parameters.ratio}, i, question.costs.sphere_test)}});
+          model::published::rebuild_cost(question.workload.rays, {parameters.ratio}, i, question.costs.cull_test)}});
   return levels;
 }
 
@@ -46,14 +50,14 @@ Json published_cache(const ModelQuestion& question, const SphereCacheParameters&
     return json;
   }
   const double rebuild = model::published::rebuild_time(question.workload, {parameters.ratio}, parameters.spheres,
-                                                        question.costs.sphere_test);
+                                                        question.costs.cull_test);
   const double intersect = model::published::intersect_time(question.workload, {parameters.ratio}, parameters.spheres,
                                                             question.costs.disc_test);
   json["rebuild_time"] = rebuild;
   json["intersect_time"] = intersect;
   json["total_time"] = rebuild + intersect;
   json["rebuild_time_few_samples"] =
-      model::published::rebuild_time_few_samples(question.workload, {parameters.ratio}, question.costs.sphere_test);
+      model::published::rebuild_time_few_samples(question.workload, {parameters.ratio}, question.costs.cull_test);
   json["counts"] = to_json(model::published::counts(question.workload, {parameters.ratio}, parameters.spheres));
   return json;
 }
@@ -67,14 +71,14 @@ Json corrected_levels(const ModelQuestion& question, const SphereCacheParameters
                       {"rays", level.rays},
                       {"listed", level.listed},
                       {"rebuilds", level.rebuilds},
-                      {"rebuild_cost", question.costs.sphere_test * level.tests}});
+                      {"rebuild_cost", question.costs.cull_test * level.tests}});
   return levels;
 }
 
 Json corrected_cache(const ModelQuestion& question, const SphereCacheParameters& parameters) {
   const Candidate candidate = parameters.spheres == 0 ? Candidate{Technique::brute_force, BruteForceParameters{}}
                                                       : Candidate{Technique::sphere_cache, parameters};
-  const Counts<double> counts = model::predict(question.workload, candidate);
+  const Counts<double> counts = model::predict(question.workload, candidate, question.options.engine);
   const CostBreakdown time = price(counts, question.costs);
   return {{"spheres", corrected_levels(question, parameters)},
           {"rebuild_time", time.rebuild},
@@ -87,16 +91,19 @@ Json corrected_cache(const ModelQuestion& question, const SphereCacheParameters&
 
 /// Parameters, time by part and counts, after the levels.
 ModelAnswer with_spheres(const ModelQuestion& question, const Parameters& parameters, Json levels) {
-  const Counts<double> counts = model::predict(question.workload, {question.technique, parameters});
-  const CostBreakdown time = price(counts, question.costs);
+  const Candidate candidate{question.technique, parameters};
+  const Counts<double> counts = model::predict(question.workload, candidate, question.options.engine);
+  const CostBreakdown time = price(counts, question.costs, question.technique);
   return {parameters,
-          {{"parameters", to_json(parameters)},
+          {{"parameters", to_json(candidate)},
            {"form", name(question.form)},
            {"spheres", std::move(levels)},
            {"rebuild_time", time.rebuild},
            {"intersect_time", time.intersect},
            {"copy_time", time.copy},
            {"order_time", time.order},
+           {"build_time", time.build},
+           {"traverse_time", time.traverse},
            {"total_time", time.total()},
            {"counts", to_json(counts)}}};
 }
@@ -104,11 +111,11 @@ ModelAnswer with_spheres(const ModelQuestion& question, const Parameters& parame
 }  // namespace
 
 ModelAnswer sphere_cache_answer(const ModelQuestion& question) {
-  model::require_rebuild_law(question.options.sample_order());
-  const double ratio = question.options.ratio.value_or(model::published_ratio);
+  model::require_rebuild_law(order_of(question));
+  const double ratio = question.options.given<double>("ratio").value_or(model::published_ratio);
   const SphereStops stops = sphere_stops(question.workload, question.costs, question.form, {ratio});
   const SphereCacheParameters parameters = cache_parameters(question, ratio, stops);
-  Json json{{"parameters", to_json(Parameters{parameters})},
+  Json json{{"parameters", to_json(Candidate{question.technique, parameters})},
             {"form", name(question.form)},
             {"k", parameters.spheres},
             {"k_max", stops.max},
@@ -118,48 +125,48 @@ ModelAnswer sphere_cache_answer(const ModelQuestion& question) {
   return {parameters, std::move(json)};
 }
 
-ModelAnswer cell_spheres_answer(const ModelQuestion& question) {
+ModelAnswer technique_answer(const ModelQuestion& question) {
   refuse_published(question);
+  const auto candidate =
+      model::complete(question.technique, question.options.wish(question.technique), question.workload, question.costs);
+  if (!candidate)
+    throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(question.technique)));
+  return with_spheres(question, candidate->parameters, Json::array());
+}
+
+ModelAnswer cell_spheres_answer(const ModelQuestion& question) {
+  ModelAnswer answer = technique_answer(question);
+  const int depth = std::get<CellSpheresParameters>(answer.parameters).depth;
   const Workload& w = question.workload;
-  const auto best = [&] {
-    return std::get<CellSpheresParameters>(
-        model::best_of(Technique::cell_spheres, w, question.costs)->candidate.parameters);
-  };
-  const CellSpheresParameters parameters =
-      question.options.depth ? CellSpheresParameters{*question.options.depth} : best();
-  check(Candidate{Technique::cell_spheres, parameters});
-  Json levels = Json::array();
   double around = w.rays;
-  for (int i = 1; i <= std::min<std::int64_t>(question.levels, parameters.depth); ++i) {
+  for (int i = 1; i <= std::min<std::int64_t>(question.levels, depth); ++i) {
     const double rays = model::rays_in_cell_sphere(w, i);
-    levels.push_back({{"i", i},
-                      {"radius", model::cell_sphere_radius(w, i)},
-                      {"rays", rays},
-                      {"rebuilds", model::occupied_cell_spheres(w, i)},
-                      {"rebuild_cost", question.costs.sphere_test * around}});
+    answer.json["spheres"].push_back({{"i", i},
+                                      {"radius", model::cell_sphere_radius(w, i)},
+                                      {"rays", rays},
+                                      {"rebuilds", model::occupied_cell_spheres(w, i)},
+                                      {"rebuild_cost", question.costs.cull_test * around}});
     around = rays;
   }
-  return with_spheres(question, parameters, std::move(levels));
+  return answer;
 }
 
 ModelAnswer sphere_tree_answer(const ModelQuestion& question) {
-  refuse_published(question);
-  const SphereTreeParameters parameters =
-      model::best_tree(question.workload, question.costs, question.options.tree_wish());
-  if (parameters.bounds == Bounds::boxes) return with_spheres(question, parameters, Json::array());
-  Json levels = Json::array();
+  ModelAnswer answer = technique_answer(question);
+  Json& levels = answer.json["spheres"];
   double around = question.workload.rays;
-  for (const model::TreeLevel& level : model::sphere_tree_levels(question.workload, parameters)) {
+  for (const model::TreeLevel& level :
+       model::sphere_tree_levels(question.workload, std::get<SphereTreeParameters>(answer.parameters))) {
     if (static_cast<std::int64_t>(levels.size()) == question.levels) break;
     levels.push_back({{"i", levels.size()},
                       {"radius", level.rms_radius},
                       {"rays", level.rays},
                       {"rebuilds", level.nodes},
-                      {"rebuild_cost", question.costs.sphere_test * around},
+                      {"rebuild_cost", question.costs.cull_test * around},
                       {"samples", level.samples}});
     around = level.rays;
   }
-  return with_spheres(question, parameters, std::move(levels));
+  return answer;
 }
 
 }  // namespace detp::cli

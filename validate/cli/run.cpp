@@ -22,64 +22,24 @@ namespace {
 struct RunOptions {
   WorkloadOptions workload;
   CandidateOptions candidate;
-  std::string engine = "simd";
   int repeat = 0;
   std::optional<std::string> per_disc;
   std::optional<std::string> pairs;
 };
 
-SphereCacheParameters complete_cache(const CandidateOptions& options, const Workload& workload) {
-  const UnitCosts costs = validate::built_in_unit_costs();
-  if (options.ratio) require_ratio("radius ratio Q", *options.ratio);
-  if (options.spheres) require_count("number of spheres", static_cast<double>(*options.spheres), 0, 9e18);
-  if (options.ratio && options.spheres) return {*options.ratio, *options.spheres, options.sample_order()};
-  const model::BestRatio best = options.ratio     ? model::best_stop(workload, costs, {*options.ratio})
-                                : options.spheres ? model::best_ratio_for(workload, costs, *options.spheres)
-                                                  : model::best_ratio_and_stop(workload, costs);
-  const std::int64_t spheres = options.stop == SphereStop::max
-                                   ? sphere_stops(workload, costs, model::Form::corrected, {best.ratio}).max
-                                   : best.spheres;
-  return {best.ratio, spheres, options.sample_order()};
-}
-
-/// The depth that is best top-down serves for all traversals.
-OctreeParameters complete_octree(const CandidateOptions& options, const Workload& workload) {
-  const Traversal traversal = options.chosen_traversal();
-  if (options.depth) return {*options.depth, traversal};
-  const auto best = model::best_of(Technique::octree, workload, validate::built_in_unit_costs());
-  if (!best) throw std::length_error("octree would not fit in memory on this workload");
-  return {std::get<OctreeParameters>(best->candidate.parameters).depth, traversal};
-}
-
-/// There is no closed form to say which are best.
-BspParameters complete_bsp(const CandidateOptions& options) {
-  const BspParameters otherwise;
-  return {options.depth.value_or(otherwise.depth), options.leaf.value_or(otherwise.leaf)};
-}
-
 /// The technique asked for, or the one that the closed forms choose; parameters left out are the best by the same
 /// forms.
 Candidate complete(const CandidateOptions& options, const Workload& workload) {
   const UnitCosts costs = validate::built_in_unit_costs();
-  if (!options.technique) {
-    const Candidate chosen = model::rank(workload, costs).front().candidate;
-    options.refuse_foreign(chosen.technique);
-    return chosen;
-  }
-  const Technique technique = options.technique_or(Technique::brute_force);
-  options.refuse_foreign(technique);
-  if (technique == Technique::sphere_cache || technique == Technique::sphere_cache_published)
-    return {technique, complete_cache(options, workload)};
-  if (technique == Technique::cell_spheres && options.depth) return {technique, CellSpheresParameters{*options.depth}};
-  if (technique == Technique::sphere_tree) return {technique, model::best_tree(workload, costs, options.tree_wish())};
-  if (technique == Technique::octree) return {technique, complete_octree(options, workload)};
-  if (technique == Technique::bsp) return {technique, complete_bsp(options)};
-  if (technique == Technique::grid && options.cells) return {technique, GridParameters{*options.cells}};
-  if (technique == Technique::bvh) return {technique, options.bvh()};
-  if (technique == Technique::photon_map) return {technique, options.photon_map()};
-  const auto best = model::best_of(technique, workload, costs);
-  if (!best) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
-  return best->candidate;
+  const Technique technique = options.technique ? options.technique_or(Technique::brute_force)
+                                                : model::rank(workload, costs).front().candidate.technique;
+  const model::Wish wish = options.wish(technique);
+  auto candidate = model::complete(technique, wish, workload, costs);
+  if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
+  if (auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
+      cache != nullptr && options.stop == SphereStop::max)
+    cache->spheres = sphere_stops(workload, costs, model::Form::corrected, {cache->ratio}).max;
+  return *candidate;
 }
 
 void write_pairs(const std::string& path, const std::vector<sim::Pair>& pairs, const std::stop_token& stop) {
@@ -143,10 +103,11 @@ bool can_stream(CandidateOptions& options, std::size_t rows) {
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CommonOptions& common,
                   const std::stop_token& stop, const ProgressLine& progress) {
   RunAnswer answer{.candidate = complete(options.candidate, job.workload),
+                   .engine = options.candidate.engine,
                    .repeat = options.repeat,
                    .random_rays = !options.workload.request(common).ray_file};
-  const bool plain = options.engine == "plain";
-  sim::RunOptions run{.pairs = options.pairs.has_value(), .plain = plain, .stop = stop, .threads = common.threads};
+  const Engine engine = options.candidate.engine;
+  sim::RunOptions run{.pairs = options.pairs.has_value(), .engine = engine, .stop = stop, .threads = common.threads};
   answer.run = run_job(job, answer.candidate, run, progress);
   run.count = run.pairs = false;
   answer.timing =
@@ -177,7 +138,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   const auto answer = [&](const validate::Job& job) {
     const RunAnswer found = run_one(options, job, common, stop, progress);
     stopped = write_hits(options, found, common, stop);
-    inputs["engine"] = options.engine;
+    inputs["engine"] = name(options.candidate.engine);
     inputs["threads"] = sim::thread_count(common.threads);
     inputs["repeat"] = options.repeat;
     if (expected == 1) text = to_text(job, found);
@@ -202,9 +163,6 @@ Command run_command(CLI::App& program) {
   const auto options = std::make_shared<RunOptions>();
   options->workload.add_to(*app, Values::many);
   options->candidate.add_to(*app, Values::many, SphereStop::best);
-  options->candidate.lists.add_word(*app, "--engine", Values::many, options->engine, {"plain", "simd"},
-                                    "simd: float kernels with exact decisions; plain: in doubles, one ray and one disc "
-                                    "at a time; the hits are the same");
   add_number(*app, "--repeat", options->repeat, "time that many further runs, which do not count; the median is shown");
   app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");
   app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");

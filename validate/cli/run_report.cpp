@@ -33,10 +33,10 @@ double hits_per_disc(const sim::Outcome& outcome) {
 }
 
 /// Nothing where there is no closed form of the candidate.
-std::optional<Counts<double>> prediction(const Workload& workload, const Candidate& candidate) {
-  if (!has_closed_form(candidate.technique)) return {};
+std::optional<Counts<double>> prediction(const Workload& workload, const Candidate& candidate, Engine engine) {
+  if (!model::has_closed_form(candidate.technique)) return {};
   try {
-    return model::predict(workload, candidate);
+    return model::predict(workload, candidate, engine);
   } catch (const std::invalid_argument&) {  // of these parameters: another order, tree or traversal
     return {};
   }
@@ -88,14 +88,14 @@ std::string hits_text(const RunAnswer& answer) {
 
 Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
-  Json json{{"technique", name(answer.candidate.technique)}, {"parameters", to_json(answer.candidate.parameters)}};
+  Json json{{"technique", name(answer.candidate.technique)}, {"parameters", to_json(answer.candidate)}};
   add_stops(job.workload, answer.candidate, json);
   json.update(outcome.stopped ? hits_so_far(answer)
                               : Json{{"hits", outcome.total_hits},
                                      {"hits_per_disc", hits_per_disc(outcome)},
                                      {"mean_irradiance", mean_irradiance(outcome)}});
   json["counts"] = to_json(outcome.counts);
-  if (const auto predicted = prediction(job.workload, answer.candidate)) {
+  if (const auto predicted = prediction(job.workload, answer.candidate, answer.engine)) {
     json["predicted"] = to_json(*predicted);
     json["predicted_seconds"] = price(*predicted, validate::built_in_unit_costs(), answer.candidate.technique).total();
   }
@@ -152,7 +152,7 @@ Columns run_columns() {
 TextColumns run_text_columns() {
   return {{"scene", "field", "ray_file", "front_facing", "rays", "samples", "disc_radius", "engine", "technique",
            "parameters"},
-          {"hits", "sphere_tests", "predicted_sphere_tests", "disc_tests", "predicted_disc_tests", "seconds",
+          {"hits", "cull_tests", "predicted_sphere_tests", "disc_tests", "predicted_disc_tests", "seconds",
            "predicted_seconds"}};
 }
 
@@ -160,7 +160,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   const Timing& timing = answer.timing;
   std::string text = describe(job);
-  text += fmt::format("technique {} {}\n", name(answer.candidate.technique), describe(answer.candidate.parameters));
+  text += fmt::format("technique {} {}\n", name(answer.candidate.technique), describe(answer.candidate));
   text += fmt::format("hits      {}\n", hits_text(answer));
   text += fmt::format(
       "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before\n",

@@ -10,6 +10,7 @@ namespace detp::cli {
 /// What one run found, and how long it took.
 struct RunAnswer {
   Candidate candidate = {};
+  Engine engine = Engine::simd;
   TimedRun run = {};
   Timing timing = {};
   int repeat = 0;            ///< timed runs asked for

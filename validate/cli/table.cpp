@@ -102,8 +102,15 @@ const Columns& workload_columns() {
 }
 
 const Columns& candidate_columns() {
-  static const Columns columns{"technique", "parameters", "ratio", "spheres", "order",   "depth",  "traversal",
-                               "cells",     "fan_out",    "leaf",  "bounds",  "quality", "nearest"};
+  static const Columns columns = [] {
+    Columns all{"technique", "parameters"};
+    for (const Technique technique : all_techniques) {
+      const Json parameters = to_json(default_candidate(technique));
+      for (const auto& [parameter, value] : parameters.items())
+        if (std::find(all.begin(), all.end(), parameter) == all.end()) all.push_back(parameter);
+    }
+    return all;
+  }();
   return columns;
 }
 
@@ -130,14 +137,14 @@ Json workload_cells(const Json& inputs) {
 }
 
 Json candidate_cells(const Candidate& candidate) {
-  Json cells{{"technique", name(candidate.technique)}, {"parameters", describe(candidate.parameters)}};
-  cells.update(to_json(candidate.parameters));
+  Json cells{{"technique", name(candidate.technique)}, {"parameters", describe(candidate)}};
+  cells.update(to_json(candidate));
   return cells;
 }
 
 Json count_cells(const Json& counts) {
   Json cells = counts;
-  cells["tests"] = counts["sphere_tests"].get<double>() + counts["disc_tests"].get<double>();
+  cells["tests"] = counts["cull_tests"].get<double>() + counts["disc_tests"].get<double>();
   return cells;
 }
 

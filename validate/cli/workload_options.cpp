@@ -11,6 +11,8 @@
 namespace detp::cli {
 namespace {
 
+constexpr std::string_view spheres_option = "spheres";
+
 std::string known_techniques() {
   std::string list;
   for (const Technique technique : all_techniques)
@@ -18,11 +20,25 @@ std::string known_techniques() {
   return list;
 }
 
-std::string known_traversals() {
-  std::string list;
-  for (const Traversal traversal : all_traversals)
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", name(traversal));
-  return list;
+/// A parameter that several techniques have, as one option: what it is for each of them.
+struct SharedParameter {
+  const Parameter* parameter;
+  std::string help;
+};
+
+/// All parameters by their names, in the order of the techniques.
+std::vector<SharedParameter> shared_parameters() {
+  std::vector<SharedParameter> all;
+  for (const TechniqueRecord& record : technique_records)
+    for (const Parameter& parameter : record.parameters) {
+      const auto same = std::find_if(all.begin(), all.end(),
+                                     [&](const SharedParameter& one) { return one.parameter->name == parameter.name; });
+      if (same == all.end())
+        all.push_back({&parameter, std::string(parameter.help)});
+      else if (same->help.find(parameter.help) == std::string::npos)
+        same->help += fmt::format("; {}", parameter.help);
+    }
+  return all;
 }
 
 /// 100000 as "100 000".
@@ -76,35 +92,42 @@ void CandidateOptions::add_to(CLI::App& command, Values values, SphereStop defau
   using enum ValueLists::Kind;
   lists.add(
       command, "--technique", values, words, [this](const std::string& text) { technique = text; }, known_techniques());
-  lists.add(command, "--ratio", values, ratio, "Q of a sphere cache, between 0 and 1");
+  for (const auto& [parameter, about] : shared_parameters()) {
+    std::string help = about;
+    if (!parameter->choices.empty()) help += fmt::format(": {}", fmt::join(parameter->choices, ", "));
+    if (parameter->name == spheres_option)
+      help += fmt::format(", as a number; max: the form's own; best: the fastest by the model; default: {}",
+                          default_stop == SphereStop::max ? "max" : "best");
+    lists.add(
+        command, fmt::format("--{}", parameter->name), values, parameter->choices.empty() ? numbers : words,
+        [this, one = parameter](const std::string& text) { set(*one, text); }, help);
+  }
   lists.add(
-      command, "--spheres", values, numbers, [this](const std::string& text) { set_spheres(text); },
-      fmt::format("k of a sphere cache: its innermost sphere, as a number; max: the form's own; best: the fastest by "
-                  "the model; default: {}",
-                  default_stop == SphereStop::max ? "max" : "best"));
-  lists.add_word(command, "--order", values, order, {"lebesgue", "hilbert", "none"}, "lebesgue, hilbert or none");
-  lists.add(command, "--depth", values, depth, "levels of an octree, of a BSP tree at most, or of cells with spheres");
-  lists.add(
-      command, "--traversal", values, words, [this](const std::string& text) { traversal = text; },
-      "how rays go through an octree: " + known_traversals());
-  lists.add(command, "--cells", values, cells, "cells of a grid along its longest side");
-  lists.add(command, "--fan-out", values, fan_out, "children of a sphere tree's nodes, at least 2");
-  lists.add(command, "--leaf", values, leaf, "most samples in a leaf of a sphere tree or BSP tree");
-  lists.add_word(command, "--quality", values, quality, {"low", "medium"}, "of building a bvh: low or medium");
-  lists.add(command, "--nearest", values, nearest, "photons that a photon-map looks for, at least 3");
-  lists.add_word(command, "--bounds", values, bounds, {"spheres", "boxes"},
-                 "what bounds a sphere tree's nodes: spheres or boxes");
+      command, "--engine", values, words,
+      [this](const std::string& text) {
+        engine = *choice_named<Engine>(one_of("--engine", text, {"plain", "simd"}));
+      },
+      "simd: vectors of floats, with exact decisions; plain: in double, one ray and one disc at a time; the hits are "
+      "the same; default: simd");
 }
 
-void CandidateOptions::set_spheres(const std::string& text) {
-  spheres.reset();
-  stop.reset();
-  if (text == "max")
-    stop = SphereStop::max;
-  else if (text == "best")
-    stop = SphereStop::best;
-  else
-    spheres = parse_whole("--spheres", text);
+void CandidateOptions::set(const Parameter& parameter, const std::string& text) {
+  const std::string option = fmt::format("--{}", parameter.name);
+  given_.erase(parameter.name);
+  if (parameter.name == spheres_option) {
+    stop.reset();
+    if (text == "max") stop = SphereStop::max;
+    if (text == "best") stop = SphereStop::best;
+    if (stop) return;
+  }
+  if (!parameter.choices.empty()) {
+    const std::string word = one_of(option, text, {parameter.choices.begin(), parameter.choices.end()});
+    given_[parameter.name] = *std::find(parameter.choices.begin(), parameter.choices.end(), word);
+  } else if (std::holds_alternative<double>(parameter.small)) {
+    given_[parameter.name] = parse_number(option, text);
+  } else {
+    given_[parameter.name] = parse_whole(option, text);
+  }
 }
 
 Technique CandidateOptions::technique_or(Technique otherwise) const {
@@ -116,61 +139,27 @@ Technique CandidateOptions::technique_or(Technique otherwise) const {
   return *found;
 }
 
-SampleOrder CandidateOptions::sample_order() const { return *order_named(order); }
-
-BvhParameters CandidateOptions::bvh() const {
-  return quality ? BvhParameters{*quality_named(*quality)} : BvhParameters{};
-}
-
-PhotonMapParameters CandidateOptions::photon_map() const {
-  return nearest ? PhotonMapParameters{*nearest} : PhotonMapParameters{};
-}
-
-model::TreeWish CandidateOptions::tree_wish() const {
-  return {bounds ? bounds_named(*bounds) : std::nullopt, fan_out, leaf};
-}
-
-Traversal CandidateOptions::chosen_traversal() const {
-  if (!traversal) return Traversal::top_down;
-  const auto found = traversal_named(*traversal);
-  if (!found)
-    throw std::invalid_argument(
-        fmt::format("there is no traversal {}; there are {}", detp::quoted(*traversal), known_traversals()));
-  return *found;
-}
-
-void CandidateOptions::refuse_foreign(Technique chosen) const {
-  const bool cache = chosen == Technique::sphere_cache || chosen == Technique::sphere_cache_published;
-  const auto refuse = [&](const char* option) {
-    throw std::invalid_argument(fmt::format("{} is no parameter of {}", option, detp::name(chosen)));
+model::Wish CandidateOptions::wish(Technique chosen) const {
+  const auto require_known = [&](std::string_view parameter) {
+    if (find_parameter(chosen, parameter) == nullptr)
+      throw std::invalid_argument(fmt::format("--{} is no parameter of {}", parameter, detp::name(chosen)));
   };
-  if (ratio && !cache) refuse("--ratio");
-  if ((spheres || stop) && !cache) refuse("--spheres");
-  if (order != "lebesgue" && !cache) refuse("--order");
-  const bool deep = chosen == Technique::octree || chosen == Technique::cell_spheres || chosen == Technique::bsp;
-  if (depth && !deep) refuse("--depth");
-  if (traversal && chosen != Technique::octree) refuse("--traversal");
-  if (cells && chosen != Technique::grid) refuse("--cells");
-  if (fan_out && chosen != Technique::sphere_tree) refuse("--fan-out");
-  if (leaf && chosen != Technique::sphere_tree && chosen != Technique::bsp) refuse("--leaf");
-  if (quality && chosen != Technique::bvh) refuse("--quality");
-  if (nearest && chosen != Technique::photon_map) refuse("--nearest");
-  if (bounds && chosen != Technique::sphere_tree) refuse("--bounds");
+  model::Wish wish;
+  for (const auto& [parameter, value] : given_) {
+    require_known(parameter);
+    wish.given.emplace_back(parameter, value);
+  }
+  if (stop) require_known(spheres_option);
+  return wish;
 }
 
-Json to_json(const Parameters& parameters) {
+Json to_json(const Candidate& candidate) {
   Json json = Json::object();
-  if (const auto* cache = std::get_if<SphereCacheParameters>(&parameters))
-    json = {{"ratio", cache->ratio}, {"spheres", cache->spheres}, {"order", detp::name(cache->order)}};
-  if (const auto* cells = std::get_if<CellSpheresParameters>(&parameters)) json = {{"depth", cells->depth}};
-  if (const auto* tree = std::get_if<SphereTreeParameters>(&parameters))
-    json = {{"fan_out", tree->fan_out}, {"leaf", tree->leaf}, {"bounds", detp::name(tree->bounds)}};
-  if (const auto* octree = std::get_if<OctreeParameters>(&parameters))
-    json = {{"depth", octree->depth}, {"traversal", detp::name(octree->traversal)}};
-  if (const auto* grid = std::get_if<GridParameters>(&parameters)) json = {{"cells", grid->cells}};
-  if (const auto* bvh = std::get_if<BvhParameters>(&parameters)) json = {{"quality", detp::name(bvh->quality)}};
-  if (const auto* map = std::get_if<PhotonMapParameters>(&parameters)) json = {{"nearest", map->nearest}};
-  if (const auto* bsp = std::get_if<BspParameters>(&parameters)) json = {{"depth", bsp->depth}, {"leaf", bsp->leaf}};
+  for (const Parameter& parameter : record_of(candidate.technique).parameters) {
+    std::string key(parameter.name);
+    std::replace(key.begin(), key.end(), '-', '_');
+    std::visit([&](const auto& value) { json[key] = value; }, parameter.get(candidate.parameters));
+  }
   return json;
 }
 

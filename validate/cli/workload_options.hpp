@@ -1,5 +1,7 @@
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 
 #include "command.hpp"
@@ -44,43 +46,33 @@ class CandidateOptions {
 
   ValueLists lists;  ///< of the options that may have many values
   std::optional<std::string> technique;
-  std::optional<double> ratio;
-  std::optional<std::int64_t> spheres;
   std::optional<SphereStop> stop;  ///< instead of the number of spheres
-  std::string order = "lebesgue";
-  std::optional<int> depth;
-  std::optional<std::string> traversal;
-  std::optional<int> cells;
-  std::optional<int> fan_out;
-  std::optional<int> leaf;
-  std::optional<std::string> quality;
-  std::optional<int> nearest;
-  std::optional<std::string> bounds;
+  Engine engine = Engine::simd;
 
   /// The technique of that name, or `otherwise`. Throws std::invalid_argument for an unknown one, naming the known.
   [[nodiscard]] Technique technique_or(Technique otherwise) const;
-  [[nodiscard]] SampleOrder sample_order() const;
-  [[nodiscard]] BvhParameters bvh() const;
-  [[nodiscard]] PhotonMapParameters photon_map() const;
 
-  /// The traversal of that name, or the octree's own. Throws std::invalid_argument for an unknown one, naming the
-  /// known.
-  [[nodiscard]] Traversal chosen_traversal() const;
+  /// What is given of the technique's parameters. Throws std::invalid_argument for a parameter that it does not have.
+  [[nodiscard]] model::Wish wish(Technique technique) const;
 
-  /// What is given of a sphere tree.
-  [[nodiscard]] model::TreeWish tree_wish() const;
-
-  /// Throws std::invalid_argument for a parameter given that the technique does not have.
-  void refuse_foreign(Technique technique) const;
+  /// The value of a parameter of that type, if it is given.
+  template <class T>
+  [[nodiscard]] std::optional<T> given(std::string_view parameter) const {
+    const auto found = given_.find(parameter);
+    return found == given_.end() ? std::nullopt : std::optional(std::get<T>(found->second));
+  }
 
  private:
-  void set_spheres(const std::string& text);
+  void set(const Parameter& parameter, const std::string& text);
+
+  std::map<std::string_view, ParameterValue> given_;
 };
 
 /// "isotropic" or "photons".
 [[nodiscard]] std::string_view name(sim::Field field);
 
-[[nodiscard]] Json to_json(const Parameters& parameters);
+/// The parameters under their names, with underscores.
+[[nodiscard]] Json to_json(const Candidate& candidate);
 [[nodiscard]] Json to_json(const Workload& workload);
 
 /// Resolved inputs of a workload given in numbers alone.

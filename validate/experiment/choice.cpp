@@ -35,7 +35,7 @@ std::vector<std::vector<sim::Ray>> deal(const std::vector<sim::Ray>& rays) {
 
 /// Takes each ray by itself, so that a sample of the rays needs that share of the tests.
 bool searches_ray_by_ray(Technique technique) {
-  return technique == Technique::brute_force || searches_an_index(technique);
+  return technique == Technique::brute_force || record_of(technique).ray_by_ray;
 }
 
 struct Batch {
@@ -70,35 +70,29 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
   return counted;
 }
 
-double term_of(const Counts<double>& counts, std::string_view wanted) {
-  double found = 0;
-  for_each_term(counts, [&](std::string_view term, double value) { found = term == wanted ? value : found; });
-  return found;
-}
-
 /// Whether the count depends on how many rays there are, and adds up over parts of them.
-bool adds_up_over_rays(std::string_view term) { return term != "rebuilds" && term != "placements"; }
+bool adds_up_over_rays(std::string_view term) { return term != "culls" && term != "visits" && term != "placements"; }
 
 /// Of all the question's rays. The standard error is that between the batches, and no smaller than that of so many
 /// independent events; infinite where there is a single ray.
-Estimate observed(const Counted& counted, std::string_view term, double predicted, double question_rays) {
-  const double all = term_of(counted.all.counts, term);
-  if (!adds_up_over_rays(term)) return {all, 0};
+Estimate observed(const Counted& counted, const CountTerm<double>& term, double predicted, double question_rays) {
+  const double all = counted.all.counts.*term.term;
+  if (!adds_up_over_rays(term.name)) return {all, 0};
   const double scale = question_rays / counted.all.rays;
   Estimate estimate{scale * all, std::numeric_limits<double>::infinity()};
   if (counted.batches.size() < 2) return estimate;
   std::vector<double> parts;
-  for (const Batch& batch : counted.batches) parts.push_back(question_rays / batch.rays * term_of(batch.counts, term));
+  for (const Batch& batch : counted.batches) parts.push_back(question_rays / batch.rays * batch.counts.*term.term);
   estimate.standard_error = std::max(batch_means(parts).standard_error, std::sqrt(scale * predicted));
   return estimate;
 }
 
 /// What choose prices, and the hits.
-bool is_claimed(std::string_view term, Technique technique) {
-  if (term == "sorted") return false;  // the number of discs, which is given
+bool is_claimed(const CountTerm<double>& term, Technique technique) {
+  if (term.name == "sorted") return false;  // the number of discs, which is given
   Counts<double> one;
-  for_each_term(one, [&](std::string_view name, double& value) { value = name == term ? 1 : 0; });
-  return term == "hits" || price(one, built_in_unit_costs(), technique).total() > 0;
+  one.*term.term = 1;
+  return term.name == "hits" || price(one, built_in_unit_costs(), technique).total() > 0;
 }
 
 std::string with_dashes(std::string_view text) {
@@ -112,14 +106,16 @@ std::vector<Finding> candidate_findings(const Experiment& experiment, const mode
   const auto counted = count(experiment, ranked);
   if (!counted) return {};
   const std::string_view technique = name(ranked.candidate.technique);
-  const std::string parameters = describe(ranked.candidate.parameters);
+  const std::string parameters = describe(ranked.candidate);
   const std::string candidate = fmt::format("{}{}{}", technique, parameters.empty() ? "" : " ", parameters);
   const double rays = static_cast<double>(experiment.choice->rays.size());
   std::vector<Finding> findings;
-  for_each_term(ranked.counts, [&](std::string_view term, double predicted) {
-    if (!is_claimed(term, ranked.candidate.technique)) return;
-    const Estimate found = observed(*counted, term, predicted, rays);
-    if (predicted == 0 && found.mean == 0) return;
+  for (const CountTerm<double>& count_term : count_terms<double>) {
+    const std::string_view term = count_term.name;
+    const double predicted = ranked.counts.*count_term.term;
+    if (!is_claimed(count_term, ranked.candidate.technique)) continue;
+    const Estimate found = observed(*counted, count_term, predicted, rays);
+    if (predicted == 0 && found.mean == 0) continue;
     findings.push_back({.id = fmt::format("choice.{}.{}", technique, with_dashes(term)),
                         .quantity = fmt::format("{} of {}, as choose predicts them", with_dashes(term), candidate),
                         .technique = std::string(technique),
@@ -129,7 +125,7 @@ std::vector<Finding> candidate_findings(const Experiment& experiment, const mode
                         .batches = adds_up_over_rays(term) ? std::max(2, static_cast<int>(counted->batches.size())) : 0,
                         .tolerance = tolerance,
                         .lines = static_cast<std::uint64_t>(counted->all.rays)});
-  });
+  }
   for (Finding& finding : findings) finding.seconds = clock.seconds();
   return findings;
 }

@@ -62,7 +62,7 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
              const Experiment& experiment) {
   const SphereCacheParameters parameters = parameters_for(workload, ratios[q]);
   const sim::Outcome run =
-      sim::run(problem, {Technique::sphere_cache, parameters}, {.plain = true, .stop = experiment.stop});
+      sim::run(problem, {Technique::sphere_cache, parameters}, {.engine = Engine::plain, .stop = experiment.stop});
   if (run.stopped) return;
   const auto rays = static_cast<double>(problem.rays.size());
   const auto levels = model::sphere_levels(workload, parameters, parameters.spheres);
@@ -74,19 +74,19 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
                                            return i < run.spheres.size() ? static_cast<double>(run.spheres[i].rebuilds)
                                                                          : 0;
                                          }),
-                       std::log(static_cast<double>(run.counts.sphere_tests) / rays),
+                       std::log(static_cast<double>(run.counts.cull_tests) / rays),
                        std::log(static_cast<double>(run.counts.disc_tests) / rays)};
   const Counts<double> corrected = model::predict(workload, {Technique::sphere_cache, parameters});
   result.corrected[q] = {mean_log_rebuilds(levels, [&](std::size_t i) { return levels[i].rebuilds; }),
-                         std::log(corrected.sphere_tests / workload.rays),
+                         std::log(corrected.cull_tests / workload.rays),
                          std::log(corrected.disc_tests / workload.rays)};
   const std::int64_t k =
       model::sphere_count(Form::published, {ratios[q]}, {workload.disc_radius}, {workload.sphere_radius});
   const Counts<double> published = model::published::counts(workload, {ratios[q]}, k);
-  result.published[q] = {mean_log_rebuilds(levels, of_published), std::log(published.sphere_tests / workload.rays),
+  result.published[q] = {mean_log_rebuilds(levels, of_published), std::log(published.cull_tests / workload.rays),
                          std::log(published.disc_tests / workload.rays)};
   const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, parameters, experiment.stop);
-  result.time_ratio[q] = static_cast<double>(run.counts.sphere_tests) / rays / walk.sphere_tests;
+  result.time_ratio[q] = static_cast<double>(run.counts.cull_tests) / rays / walk.cull_tests;
 }
 
 /// The workload with S₀ as it is around this set of samples.
@@ -137,8 +137,9 @@ Finding count_finding(const Experiment& experiment) {
   const auto ray = sim::LineField(sim::enclosing_sphere(discs), experiment.seed).lines(0, 1);
   const sim::Problem problem = sim::make_problem(ray, discs);
   const Workload workload = workload_of(experiment, problem);
-  const sim::Outcome run = sim::run(
-      problem, {Technique::sphere_cache, SphereCacheParameters{model::published_ratio, 10'000}}, {.plain = true});
+  const sim::Outcome run =
+      sim::run(problem, {Technique::sphere_cache, SphereCacheParameters{model::published_ratio, 10'000}},
+               {.engine = Engine::plain});
   const auto k = [&](Form form) {
     return static_cast<double>(
         model::sphere_count(form, {model::published_ratio}, {workload.disc_radius}, {workload.sphere_radius}));

@@ -7,7 +7,7 @@
 #include "detp/model/predict.hpp"
 #include "detp/sim/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/structural_hierarchy.hpp"
+#include "detp/validate/structural.hpp"
 #include "experiments.hpp"
 #include "samples.hpp"
 
@@ -51,11 +51,11 @@ Subject sphere_tree() {
 
 /// Mean logarithms over the candidates: of sphere and of disc tests per ray.
 struct Logs {
-  double sphere_tests = 0;
+  double cull_tests = 0;
   double disc_tests = 0;
 
   void add(const Counts<double>& counts, double rays, std::size_t candidates) {
-    sphere_tests += std::log(counts.sphere_tests / rays) / static_cast<double>(candidates);
+    cull_tests += std::log(counts.cull_tests / rays) / static_cast<double>(candidates);
     disc_tests += std::log(counts.disc_tests / rays) / static_cast<double>(candidates);
   }
 };
@@ -81,11 +81,12 @@ SetResult run_set(const Experiment& experiment, const Subject& subject, std::siz
   const auto count = static_cast<double>(lines);
   const std::size_t all = subject.candidates.size();
   for (const Candidate& candidate : subject.candidates) {
-    const sim::Outcome outcome = sim::run(problem, candidate, {.plain = true, .stop = experiment.stop});
+    const sim::Outcome outcome = sim::run(problem, candidate, {.engine = Engine::plain, .stop = experiment.stop});
     if (outcome.stopped) return {};
     result.counted.add(as_expected(outcome.counts), count, all);
-    result.closed.add(model::predict(workload_of(experiment, problem), candidate), experiment.workload.rays, all);
-    result.structural.add(structural_hierarchy_counts(problem, count, candidate, experiment.stop), count, all);
+    result.closed.add(model::predict(workload_of(experiment, problem), candidate, Engine::plain),
+                      experiment.workload.rays, all);
+    result.structural.add(structural_counts(problem, count, candidate, experiment.stop), count, all);
   }
   return result;
 }
@@ -138,9 +139,9 @@ std::vector<Finding> sphere_hierarchy_findings(const Experiment& experiment) {
     const auto sets = for_each_batch(experiment, [&](int set) { return run_set(experiment, subject, lines, set); });
     if (experiment.stop.stop_requested()) return {};
     std::vector<Finding> found;
-    found.push_back(closed_finding(subject, sets, &Logs::sphere_tests, "sphere"));
+    found.push_back(closed_finding(subject, sets, &Logs::cull_tests, "sphere"));
     found.push_back(closed_finding(subject, sets, &Logs::disc_tests, "disc"));
-    found.push_back(structural_finding(subject, sets, &Logs::sphere_tests, "sphere"));
+    found.push_back(structural_finding(subject, sets, &Logs::cull_tests, "sphere"));
     found.push_back(structural_finding(subject, sets, &Logs::disc_tests, "disc"));
     for (Finding& finding : found) {
       finding.technique = subject.id;

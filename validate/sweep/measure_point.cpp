@@ -39,7 +39,7 @@ class Rows {
     row_.samples = point.samples;
     row_.disc_share = point.disc_share;
     row_.technique = name(candidate.technique);
-    row_.parameters = describe(candidate.parameters);
+    row_.parameters = describe(candidate);
   }
 
   void add(std::string_view quantity, std::int64_t sphere, std::string_view tier, double predicted,
@@ -77,7 +77,7 @@ Estimate allow_for_few(Estimate estimate, double events) {
 }
 
 bool depends_on_lines(std::string_view term) {
-  return term != "rebuilds" && term != "references" && term != "placements";
+  return term != "culls" && term != "visits" && term != "references" && term != "placements";
 }
 
 /// Every count of the whole run.
@@ -136,7 +136,7 @@ std::vector<Deviation> compare(const SweepPoint& point, const Workload& workload
   Rows rows(point, candidate);
   if (const auto published = published_counts(workload, candidate))
     compare_counts(rows, "published", *published, observed.counts);
-  compare_counts(rows, "corrected", model::predict(workload, candidate), observed.counts);
+  compare_counts(rows, "corrected", model::predict(workload, candidate, Engine::plain), observed.counts);
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters))
     compare_spheres(rows, workload, *cache, observed);
   return std::move(rows).give();
@@ -151,7 +151,7 @@ bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidat
   const sim::Problem problem = sim::make_problem(lines, discs);
   all.sphere_radius += problem.enclosing.radius / point.sets;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
-    const sim::Outcome outcome = sim::run(problem, candidates[i], {.plain = true, .stop = stop});
+    const sim::Outcome outcome = sim::run(problem, candidates[i], {.engine = Engine::plain, .stop = stop});
     if (outcome.stopped) return false;
     all.of_candidates[i].counts.push_back(as_expected(outcome.counts));
     all.of_candidates[i].spheres.push_back(outcome.spheres);

@@ -94,7 +94,7 @@ std::vector<Candidate> sweep_candidates(const SweepPoint& point) {
   for (const auto& others : {indices(point), hierarchies(point)})
     candidates.insert(candidates.end(), others.begin(), others.end());
   std::erase_if(candidates, [&](const Candidate& candidate) {
-    const Counts<double> counts = model::predict(point.workload(), candidate);
+    const Counts<double> counts = model::predict(point.workload(), candidate, Engine::plain);
     return tests(counts) + counts.nodes + counts.steps > most_tests;
   });
   return candidates;

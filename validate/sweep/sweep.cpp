@@ -24,7 +24,8 @@ std::uint64_t fingerprint(std::span<const SweepPoint> points) {
          {double(point.dimension), point.samples, point.disc_share, double(point.sets), double(point.lines)})
       mix(part);
     for (const Candidate& candidate : sweep_candidates(point))
-      for_each_term(model::predict(point.workload(), candidate), [&](std::string_view, double value) { mix(value); });
+      for_each_term(model::predict(point.workload(), candidate, Engine::plain),
+                    [&](std::string_view, double value) { mix(value); });
   }
   return hash;
 }

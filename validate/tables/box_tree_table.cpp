@@ -44,7 +44,7 @@ Terms sums_of(const std::vector<sim::Disc>& discs, int leaf) {
   const sim::Ray ray{};
   const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
   const sim::stream::Frame frame(problem);
-  const auto tree = sim::stream::make_disc_tree(problem, frame, model::box_tree_fan_out, leaf);
+  const auto tree = sim::stream::make_disc_tree(problem, frame, {model::box_tree_fan_out, leaf});
   const double outer = problem.enclosing.radius;
   const validate::BoxCrossing crossing(outer * frame.scale, frame.margin);
   Terms sums{};
@@ -91,9 +91,9 @@ void print_dimension(int leaf, int dimension) {
 
 /// Deviations from the structural counts, per term: median, 95th percentile, worst.
 void check_other_samples(int leaf) {
-  constexpr std::array terms{&Counts<double>::sphere_tests, &Counts<double>::copies, &Counts<double>::disc_tests,
-                             &Counts<double>::rebuilds};
-  const SphereTreeParameters parameters{model::box_tree_fan_out, leaf, Bounds::boxes};
+  constexpr std::array terms{&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests,
+                             &Counts<double>::culls};
+  const BoxTreeParameters parameters{model::box_tree_fan_out, leaf};
   std::array<std::vector<double>, terms.size()> deviations;
   for (std::uint64_t trial = 0; trial < 100; ++trial) {
     const auto number = sim::uniform4(seed, sim::Stream::tests, trial);
@@ -106,7 +106,7 @@ void check_other_samples(int leaf) {
     const Workload workload =
         cube_workload(std::round(rays), static_cast<double>(samples), discs.front().radius, 1, dimension);
     const auto expected = model::box_tree_counts(workload, parameters);
-    const auto structural = validate::structural_counts(discs, std::round(rays), {Technique::sphere_tree, parameters});
+    const auto structural = validate::structural_counts(discs, std::round(rays), {Technique::box_tree, parameters});
     for (std::size_t term = 0; term < terms.size(); ++term)
       deviations[term].push_back(std::abs(expected.*terms[term] / structural.*terms[term] - 1));
   }

@@ -32,7 +32,7 @@ std::vector<Candidate> candidates(double radius, double outer, double pairs) {
                         ratio, std::max<std::int64_t>(
                                    1, model::sphere_count(model::Form::corrected, {ratio}, {radius}, {outer}) - 1)}});
   for (const int depth : {4, 5}) list.push_back({Technique::cell_spheres, CellSpheresParameters{depth}});
-  list.push_back({Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}});
+  list.push_back({Technique::box_tree, BoxTreeParameters{4, 16}});
   for (const int depth : {4, 5, 6, 7}) list.push_back({Technique::octree, OctreeParameters{depth}});
   for (const int cells : {16, 40, 100}) list.push_back({Technique::grid, GridParameters{cells}});
   return list;
@@ -62,8 +62,6 @@ validate::TimedRun time(const sim::Problem& problem, const Candidate& candidate)
   if (counted.seconds.total() > longest) return best;
   for (int repeat = 0; repeat < 3; ++repeat) {
     sim::Phases phases = run_alone(problem, candidate);
-    // A tree is built in the course of sorting: what it takes is of its samples, not of placements.
-    if (candidate.technique == Technique::sphere_tree) phases.order += std::exchange(phases.build, 0.0);
     if (repeat > 0 && phases.total() >= best.order + best.build + best.search) continue;
     best.order = phases.order;
     best.build = phases.build;
@@ -90,20 +88,15 @@ int main(int arguments, char**) {
             if (const auto run = time(problem, candidate); run.search > 0) runs.push_back(run);
         }
   const UnitCosts costs = validate::fit_unit_costs(runs);
-  fmt::print(
-      ".sphere_test = {:.2g}, .disc_test = {:.2g}, .index_test = {:.2g}, .step = {:.2g}, .node = {:.2g}, .copy = "
-      "{:.2g}, .placement = "
-      "{:.2g}, "
-      ".sort = {:.2g}, .rebuild = {:.2g}\n",
-      costs.sphere_test, costs.disc_test, costs.index_test, costs.step, costs.node, costs.copy, costs.placement,
-      costs.sort, costs.rebuild);
+  for (const UnitCostTerm& term : unit_cost_terms)
+    fmt::print("{} {:.2g}  {}\n", term.symbol, costs.*term.cost, term.meaning);
   std::vector<double> errors;
   if (arguments > 1)
     for (const auto& run : runs)
       fmt::print("{:12} order {:.2e} build {:.2e} search {:.2e} predicted {:.2e} | {} {} {} {} {} {} {} {}\n",
                  name(run.technique), run.order, run.build, run.search, price(run.counts, costs, run.technique).total(),
-                 run.counts.sphere_tests, run.counts.disc_tests, run.counts.copies, run.counts.rebuilds,
-                 run.counts.steps, run.counts.nodes, run.counts.sorted, run.counts.placements);
+                 run.counts.cull_tests, run.counts.disc_tests, run.counts.listed, run.counts.culls, run.counts.steps,
+                 run.counts.nodes, run.counts.sorted, run.counts.placements);
   for (const auto& run : runs)
     errors.push_back(std::abs(std::log(price(run.counts, costs, run.technique).total() / total(run))));
   std::sort(errors.begin(), errors.end());

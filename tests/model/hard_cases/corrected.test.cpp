@@ -31,7 +31,7 @@ std::vector<Candidate> draw_candidates(Draw& draw) {
 
 std::string describe(const Workload& w, const Candidate& candidate) {
   return fmt::format("{} {}: n_R {:g}, n_P {:g}, d {:a}, r0 {:a}, box {:a} {:a} {:a}, D {:a}",
-                     name(candidate.technique), detp::describe(candidate.parameters), w.rays, w.samples, w.disc_radius,
+                     name(candidate.technique), detp::describe(candidate), w.rays, w.samples, w.disc_radius,
                      w.sphere_radius, w.box[0], w.box[1], w.box[2], w.dimension);
 }
 

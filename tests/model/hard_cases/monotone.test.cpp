@@ -50,8 +50,8 @@ void see_cache(Draw& draw, Ledger& ledger) {
   order("T_R grows with k", published::rebuild_time(w, {q}, i, 1), published::rebuild_time(w, {q}, i + 1, 1));
   order("T_R grows with k", published::rebuild_time(w, {q}, i, 1), published::rebuild_time(w, {q}, more_i, 1));
   order("T_R grows with n_P", published::rebuild_time(w, {q}, i, 1), published::rebuild_time(more_w, {q}, i, 1));
-  order("rebuilds grow with k", published::counts(w, {q}, i).rebuilds, published::counts(w, {q}, more_i).rebuilds);
-  order("rebuilds grow with n_P", published::counts(w, {q}, i).rebuilds, published::counts(more_w, {q}, i).rebuilds);
+  order("rebuilds grow with k", published::counts(w, {q}, i).culls, published::counts(w, {q}, more_i).culls);
+  order("rebuilds grow with n_P", published::counts(w, {q}, i).culls, published::counts(more_w, {q}, i).culls);
   order("T_I falls with k", published::intersect_time(w, {q}, more_i, 1), published::intersect_time(w, {q}, i, 1));
   order("T_R for few grows with n_P", published::rebuild_time_few_samples(w, {q}, 1),
         published::rebuild_time_few_samples(more_w, {q}, 1));

@@ -73,9 +73,9 @@ void see(const Case& c, Ledger& ledger) {
              inputs);
   ledger.see("T_I, published", published::intersect_time(w, {ratio}, k, time), time * disc_tests, inputs);
   const Counts<double> counts = published::counts(w, {ratio}, k);
-  ledger.see("sphere tests, published", counts.sphere_tests, w.rays * sums.tests_per_ray, inputs);
+  ledger.see("sphere tests, published", counts.cull_tests, w.rays * sums.tests_per_ray, inputs);
   ledger.see("disc tests, published", counts.disc_tests, disc_tests, inputs);
-  ledger.see("rebuilds, published", counts.rebuilds, sums.rebuilds, inputs);
+  ledger.see("rebuilds, published", counts.culls, sums.rebuilds, inputs);
   ledger.see("T_R for few samples, published", published::rebuild_time_few_samples(w, {ratio}, time),
              Exact{time} * w.rays * (support::cube_root(w.samples) - 1) / (q * q * (1 - q)), inputs);
   ledger.see("T unsorted, published", published::unsorted_time(w, time), Exact{time} * w.rays * w.samples, inputs);

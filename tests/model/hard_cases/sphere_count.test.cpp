@@ -102,7 +102,7 @@ TEST_SUITE("known answer") {
     for (const double share : {1.0, 1 + 0x1p-52, 7.0}) {
       const Workload w{
           .rays = 1e6, .samples = 1e6, .disc_radius = share, .sphere_radius = 1, .box = {1e-3, 1e-3, 1e-3}};
-      const UnitCosts costs{.sphere_test = 1, .disc_test = 1, .step = 1, .node = 1, .placement = 1};
+      const UnitCosts costs{.cull_test = 1, .disc_test = 1, .step = 1, .node = 1, .placement = 1};
       CHECK(!model::best_of(Technique::sphere_cache, w, costs));
       CHECK(model::rank(w, costs).front().candidate.technique == Technique::brute_force);
     }

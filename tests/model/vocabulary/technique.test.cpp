@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -11,40 +12,6 @@
 
 using namespace detp;
 using doctest::Contains;
-
-namespace {
-
-const std::vector<Parameters> one_of_each{BruteForceParameters{}, SphereCacheParameters{}, OctreeParameters{},
-                                          GridParameters{},       CellSpheresParameters{}, SphereTreeParameters{},
-                                          BvhParameters{},        PhotonMapParameters{},   BspParameters{}};
-
-/// Where a technique's own parameters are in one_of_each.
-std::size_t kind(Technique technique) {
-  switch (technique) {
-    case Technique::brute_force:
-      return 0;
-    case Technique::sphere_cache:
-    case Technique::sphere_cache_published:
-      return 1;
-    case Technique::octree:
-      return 2;
-    case Technique::grid:
-      return 3;
-    case Technique::cell_spheres:
-      return 4;
-    case Technique::sphere_tree:
-      return 5;
-    case Technique::bvh:
-      return 6;
-    case Technique::photon_map:
-      return 7;
-    case Technique::bsp:
-      return 8;
-  }
-  return one_of_each.size();
-}
-
-}  // namespace
 
 TEST_SUITE("identity") {
   TEST_CASE("a technique is found by its name, which no other has") {
@@ -56,10 +23,46 @@ TEST_SUITE("identity") {
     CHECK(names.size() == all_techniques.size());
   }
 
-  TEST_CASE("an order is found by its name") {
+  TEST_CASE("a choice is found by its name") {
     for (const auto order : {SampleOrder::lebesgue, SampleOrder::hilbert, SampleOrder::none})
-      CHECK(order_named(name(order)) == order);
-    for (const auto quality : {BuildQuality::low, BuildQuality::medium}) CHECK(quality_named(name(quality)) == quality);
+      CHECK(choice_named<SampleOrder>(name(order)) == order);
+    for (const auto quality : {BuildQuality::low, BuildQuality::medium})
+      CHECK(choice_named<BuildQuality>(name(quality)) == quality);
+    for (const auto traversal :
+         {Traversal::top_down, Traversal::front_to_back, Traversal::restart, Traversal::neighbour_links})
+      CHECK(choice_named<Traversal>(name(traversal)) == traversal);
+  }
+
+  TEST_CASE("a parameter that was set is read back, by its name; its default and small value are in range") {
+    for (const TechniqueRecord& record : technique_records) {
+      Candidate candidate = default_candidate(record.technique);
+      CHECK_NOTHROW(check(candidate));
+      for (const Parameter& parameter : record.parameters) {
+        CAPTURE(parameter.name);
+        set_parameter(candidate, parameter.name, parameter.small);
+        CHECK(parameter.get(candidate.parameters) == parameter.small);
+        CHECK(find_parameter(record.technique, parameter.name) == &parameter);
+        CHECK_FALSE(parameter.help.empty());
+      }
+      CHECK_NOTHROW(check(candidate));
+    }
+  }
+
+  TEST_CASE("small variants: each choice, each number at its least, none twice, all in range") {
+    for (const TechniqueRecord& record : technique_records) {
+      const std::vector<Candidate> variants = small_variants(record.technique);
+      for (std::size_t i = 0; i < variants.size(); ++i) {
+        CHECK_NOTHROW(check(variants[i]));
+        for (std::size_t j = 0; j < i; ++j) CHECK_FALSE(variants[i] == variants[j]);
+      }
+      for (const Parameter& parameter : record.parameters)
+        for (const std::string_view choice : parameter.choices)
+          CHECK(std::any_of(variants.begin(), variants.end(), [&](const Candidate& variant) {
+            return parameter.get(variant.parameters) == ParameterValue{choice};
+          }));
+    }
+    CHECK(small_variants(Technique::octree).size() == 5);
+    CHECK(small_variants(Technique::brute_force).size() == 1);
   }
 }
 
@@ -74,6 +77,7 @@ TEST_SUITE("known answer") {
     CHECK(name(Technique::grid) == "grid");
     CHECK(name(Technique::bvh) == "bvh");
     CHECK(name(Technique::photon_map) == "photon-map");
+    CHECK(name(Technique::box_tree) == "box-tree");
     CHECK(name(BuildQuality::low) == "low");
     CHECK(name(BuildQuality::medium) == "medium");
     CHECK(name(Technique::bsp) == "bsp");
@@ -82,21 +86,24 @@ TEST_SUITE("known answer") {
     CHECK(name(SampleOrder::none) == "none");
   }
 
-  TEST_CASE("parameters are told in a few words") {
-    CHECK(describe(BruteForceParameters{}).empty());
-    CHECK(describe(SphereCacheParameters{0.607, 9}) == "Q 0.607, k 9");
-    CHECK(describe(SphereCacheParameters{0.607, 9, SampleOrder::none}) == "Q 0.607, k 9, unsorted");
-    CHECK(describe(SphereCacheParameters{0.607, 9, SampleOrder::hilbert}) == "Q 0.607, k 9, Hilbert order");
-    CHECK(describe(SphereCacheParameters{0.607, 0}) == "no sphere");
-    CHECK(describe(SphereCacheParameters{0.607, 0, SampleOrder::none}) == "no sphere, unsorted");
-    CHECK(describe(CellSpheresParameters{5}) == "depth 5");
-    CHECK(describe(SphereTreeParameters{8, 12}) == "8 a node, 12 a leaf");
-    CHECK(describe(OctreeParameters{7}) == "depth 7");
-    CHECK(describe(OctreeParameters{7, Traversal::neighbour_links}) == "depth 7, neighbour-links");
-    CHECK(describe(BspParameters{20, 6}) == "depth 20, 6 a leaf");
-    CHECK(describe(GridParameters{100}) == "100 cells a side");
-    CHECK(describe(BvhParameters{BuildQuality::low}) == "low quality");
-    CHECK(describe(PhotonMapParameters{20}) == "20 nearest photons");
+  TEST_CASE("parameters are described in a few words") {
+    const auto words = [](Technique technique, const Parameters& parameters) {
+      return describe({technique, parameters});
+    };
+    CHECK(describe(Candidate{}).empty());
+    CHECK(words(Technique::sphere_cache, SphereCacheParameters{0.607, 9}) == "Q 0.607, k 9");
+    CHECK(words(Technique::sphere_cache, SphereCacheParameters{0.607, 9, SampleOrder::none}) ==
+          "Q 0.607, k 9, order none");
+    CHECK(words(Technique::cell_spheres, CellSpheresParameters{5}) == "depth 5");
+    CHECK(words(Technique::sphere_tree, SphereTreeParameters{8, 12}) == "fan-out 8, leaf 12");
+    CHECK(words(Technique::box_tree, BoxTreeParameters{4, 64}) == "fan-out 4, leaf 64");
+    CHECK(words(Technique::octree, OctreeParameters{7}) == "depth 7");
+    CHECK(words(Technique::octree, OctreeParameters{7, Traversal::neighbour_links}) ==
+          "depth 7, traversal neighbour-links");
+    CHECK(words(Technique::bsp, BspParameters{20, 6}) == "depth 20, leaf 6");
+    CHECK(words(Technique::grid, GridParameters{100}) == "cells 100");
+    CHECK(words(Technique::bvh, BvhParameters{BuildQuality::low}) == "quality low");
+    CHECK(words(Technique::photon_map, PhotonMapParameters{20}) == "nearest 20");
   }
 
   TEST_CASE("parameters in range pass, ends included") {
@@ -121,20 +128,36 @@ TEST_SUITE("bad input") {
   TEST_CASE("a name that none has names none") {
     for (const char* bad : {"", "Octree", "octree ", "sphere", "sphere_cache", "all"}) {
       CHECK_FALSE(technique_named(bad).has_value());
-      CHECK_FALSE(order_named(bad).has_value());
-      CHECK_FALSE(quality_named(bad).has_value());
+      CHECK_FALSE(choice_named<SampleOrder>(bad).has_value());
+      CHECK_FALSE(choice_named<BuildQuality>(bad).has_value());
     }
   }
 
   TEST_CASE("parameters of another technique are refused") {
-    for (const Technique technique : all_techniques)
-      for (std::size_t i = 0; i < one_of_each.size(); ++i) {
-        const Candidate candidate{technique, one_of_each[i]};
-        if (i == kind(technique))
+    for (const TechniqueRecord& record : technique_records)
+      for (const TechniqueRecord& other : technique_records) {
+        const Candidate candidate{record.technique, other.defaults};
+        if (other.defaults.index() == record.defaults.index())
           CHECK_NOTHROW(check(candidate));
         else
-          CHECK_THROWS_WITH_AS(check(candidate), Contains(std::string(name(technique)).c_str()), std::invalid_argument);
+          CHECK_THROWS_WITH_AS(check(candidate), Contains(std::string(record.name).c_str()), std::invalid_argument);
       }
+  }
+
+  TEST_CASE("a parameter cannot be set that the technique does not have, nor to a value out of range") {
+    Candidate grid = default_candidate(Technique::grid);
+    CHECK_THROWS_WITH_AS(set_parameter(grid, "depth", std::int64_t{3}), Contains("depth is no parameter of grid"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(set_parameter(grid, "cells", std::int64_t{0}), Contains("cells a side"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(set_parameter(grid, "cells", std::int64_t{1} << 40), Contains("cells a side"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(set_parameter(grid, "cells", 0.5), Contains("cells a side"), std::invalid_argument);
+    Candidate octree = default_candidate(Technique::octree);
+    CHECK_THROWS_WITH_AS(set_parameter(octree, "traversal", std::string_view{"sideways"}),
+                         Contains("top-down, front-to-back"), std::invalid_argument);
+    CHECK(grid == default_candidate(Technique::grid));
+    CHECK(octree == default_candidate(Technique::octree));
   }
 
   TEST_CASE("parameters out of range are refused by name") {

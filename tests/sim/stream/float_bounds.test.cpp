@@ -96,7 +96,7 @@ std::uint64_t wrong_if(const std::vector<Kind>& some, const Find& find, float ti
     const HardScene scene = scene_of(kind, 7, 40, 8000);
     const Problem problem = make_problem(scene.rays, scene.discs);
     const Outcome expected =
-        run(problem, {detp::Technique::brute_force, detp::BruteForceParameters{}}, {.plain = true});
+        run(problem, {detp::Technique::brute_force, detp::BruteForceParameters{}}, {.engine = detp::Engine::plain});
     sum += differences(find(Floats(problem), times), expected.hits);
   }
   return sum;

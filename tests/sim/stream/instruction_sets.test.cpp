@@ -36,7 +36,7 @@ HardScene mixed_scene(bool equal_powers) {
 
 void check_same_bytes(const Problem& problem, const Outcome& expected) {
   for (const Candidate& candidate : float_candidates()) {
-    CAPTURE(describe(candidate.parameters));
+    CAPTURE(describe(candidate));
     CAPTURE(name(candidate.technique));
     for (const bool pairs : {true, false}) {
       const Outcome outcome = run(problem, candidate, {.pairs = pairs});
@@ -50,7 +50,7 @@ void check_same_bytes(const Problem& problem, const Outcome& expected) {
 /// By every instruction set that the machine has.
 void check_same_bytes_by_all(const Problem& problem) {
   const Outcome expected =
-      run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .plain = true});
+      run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
   CHECK(expected.total_hits > 500);
   for (const std::int64_t target : compiled_instruction_sets()) {
     if (!machine_has(target)) continue;

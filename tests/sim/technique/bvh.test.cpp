@@ -38,7 +38,7 @@ std::vector<Ray> rays_from(const std::vector<Disc>& discs, double far) {
 std::uint64_t check_agrees(const std::vector<Disc>& discs, double far) {
   const auto rays = rays_from(discs, far);
   const Problem problem = make_problem(rays, discs);
-  const Outcome expected = run(problem, brute, {.pairs = true, .plain = true});
+  const Outcome expected = run(problem, brute, {.pairs = true, .engine = Engine::plain});
   CHECK(run(problem, bvh, {.pairs = true}).pairs == expected.pairs);
   return expected.total_hits;
 }

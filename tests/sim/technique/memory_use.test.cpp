@@ -151,9 +151,9 @@ std::vector<Case> cases() {
                                    {Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
                                    {Technique::sphere_cache, SphereCacheParameters{0.9, 40}},
                                    {Technique::cell_spheres, CellSpheresParameters{5}},
-                                   {Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}},
-                                   {Technique::sphere_tree, SphereTreeParameters{2, 1, Bounds::boxes}},
-                                   {Technique::sphere_tree, SphereTreeParameters{4, 64, Bounds::boxes}},
+                                   {Technique::box_tree, BoxTreeParameters{4, 16}},
+                                   {Technique::box_tree, BoxTreeParameters{2, 1}},
+                                   {Technique::box_tree, BoxTreeParameters{4, 64}},
                                    {Technique::sphere_tree, SphereTreeParameters{8, 4}},
                                    {Technique::octree, OctreeParameters{5}},
                                    {Technique::octree, OctreeParameters{6, Traversal::neighbour_links}},
@@ -163,7 +163,7 @@ std::vector<Case> cases() {
                                    {Technique::bvh, BvhParameters{BuildQuality::low}},
                                    {Technique::bvh, BvhParameters{BuildQuality::medium}}};
   RunOptions pairs{.count = false, .pairs = true, .threads = 2};
-  RunOptions plain{.count = false, .plain = true, .threads = 2};
+  RunOptions plain{.count = false, .engine = Engine::plain, .threads = 2};
   std::vector<Case> list;
   for (const Candidate& candidate : all) {
     const bool brute = candidate.technique == Technique::brute_force;
@@ -199,7 +199,7 @@ TEST_SUITE("memory") {
     for (const Case& each : cases()) {
       const Measured measured = measure_apart(each);
       const std::string what =
-          std::string(name(each.candidate.technique)) + " " + describe(each.candidate.parameters) + ", " + each.given;
+          std::string(name(each.candidate.technique)) + " " + describe(each.candidate) + ", " + each.given;
       std::printf("%-75s predicted %6.1f MiB, used %6.1f, %.2f%s\n", what.c_str(), measured.predicted / mebi,
                   measured.peak / mebi, measured.predicted / measured.peak,
                   measured.predicted < measured.peak || measured.predicted > 1.3 * measured.peak ? " !" : "");

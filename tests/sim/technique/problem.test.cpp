@@ -24,7 +24,7 @@ namespace {
 constexpr double denormal = std::numeric_limits<double>::denorm_min();
 const Candidate brute{Technique::brute_force, BruteForceParameters{}};
 
-Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .plain = true}); }
+Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .engine = Engine::plain}); }
 
 /// All exact techniques, in floats and plainly, against the predicate.
 void check_all_agree(const Problem& problem) {
@@ -32,9 +32,9 @@ void check_all_agree(const Problem& problem) {
   for (const Candidate& candidate : support::exact_candidates())
     for (const bool plain : {false, true}) {
       CAPTURE(name(candidate.technique));
-      CAPTURE(describe(candidate.parameters));
+      CAPTURE(describe(candidate));
       CAPTURE(plain);
-      const Outcome outcome = run(problem, candidate, {.pairs = true, .plain = plain});
+      const Outcome outcome = run(problem, candidate, {.pairs = true, .engine = plain ? Engine::plain : Engine::simd});
       CHECK(outcome.pairs == expected.pairs);
       CHECK(outcome.irradiance == expected.irradiance);
     }

@@ -60,12 +60,12 @@ TEST_SUITE("identity") {
   TEST_CASE("hits, irradiance, pairs and counts are the same bytes on 1, 2 and 3 threads") {
     const Problem problem = make_problem(rays(), discs());
     const Candidate brute{Technique::brute_force, BruteForceParameters{}};
-    const Outcome expected = run(problem, brute, {.pairs = true, .plain = true});
+    const Outcome expected = run(problem, brute, {.pairs = true, .engine = Engine::plain});
     for (const Candidate& candidate : {brute,
                                        {Technique::sphere_cache, SphereCacheParameters{0.6, 5}},
                                        {Technique::cell_spheres, CellSpheresParameters{3}},
                                        {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                       {Technique::sphere_tree, SphereTreeParameters{8, 4, Bounds::boxes}},
+                                       {Technique::box_tree, BoxTreeParameters{8, 4}},
                                        {Technique::octree, OctreeParameters{4}},
                                        {Technique::grid, GridParameters{12}},
                                        {Technique::bvh, BvhParameters{}}}) {

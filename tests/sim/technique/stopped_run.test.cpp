@@ -22,19 +22,20 @@ std::vector<Ray> lines(std::size_t count) { return LineField(enclosing_sphere(di
 
 struct Way {
   Candidate candidate;
-  bool plain = false;
+  Engine engine = Engine::simd;
 };
 
 const std::vector<Way>& ways() {
   static const std::vector<Way> all{{{Technique::brute_force, BruteForceParameters{}}},
-                                    {{Technique::brute_force, BruteForceParameters{}}, true},
+                                    {{Technique::brute_force, BruteForceParameters{}}, Engine::plain},
                                     {{Technique::sphere_cache, SphereCacheParameters{0.6, 6}}},
-                                    {{Technique::sphere_cache, SphereCacheParameters{0.6, 6}}, true},
+                                    {{Technique::sphere_cache, SphereCacheParameters{0.6, 6}}, Engine::plain},
                                     {{Technique::cell_spheres, CellSpheresParameters{3}}},
-                                    {{Technique::cell_spheres, CellSpheresParameters{3}}, true},
+                                    {{Technique::cell_spheres, CellSpheresParameters{3}}, Engine::plain},
                                     {{Technique::sphere_tree, SphereTreeParameters{8, 4}}},
-                                    {{Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}}},
-                                    {{Technique::sphere_tree, SphereTreeParameters{1 << 20, 1 << 20, Bounds::boxes}}},
+                                    {{Technique::box_tree, BoxTreeParameters{4, 16}}},
+                                    {{Technique::box_tree, BoxTreeParameters{4, 16}}, Engine::plain},
+                                    {{Technique::box_tree, BoxTreeParameters{1 << 20, 1 << 20}}},
                                     {{Technique::octree, OctreeParameters{3}}},
                                     {{Technique::octree, OctreeParameters{0}}},
                                     {{Technique::octree, OctreeParameters{3, Traversal::neighbour_links}}},
@@ -45,11 +46,11 @@ const std::vector<Way>& ways() {
 }
 
 Outcome run_way(const Way& way, std::span<const Ray> rays, const std::stop_token& stop, bool pairs = false) {
-  return run(make_problem(rays, discs()), way.candidate, {.pairs = pairs, .plain = way.plain, .stop = stop});
+  return run(make_problem(rays, discs()), way.candidate, {.pairs = pairs, .engine = way.engine, .stop = stop});
 }
 
 Outcome truth(std::span<const Ray> rays) {
-  return run(make_problem(rays, discs()), {Technique::sphere_tree, SphereTreeParameters{4, 16, Bounds::boxes}});
+  return run(make_problem(rays, discs()), {Technique::box_tree, BoxTreeParameters{4, 16}});
 }
 
 /// What a stopped outcome says is right: of the first rays, or of the discs marked.
@@ -93,9 +94,9 @@ TEST_SUITE("known answer") {
     for (const std::size_t count : {6000U, 70'000U}) {  // one block of rays, and several
       const std::vector<Ray> rays = lines(count);
       for (const Way& way : ways()) {
-        if (way.plain && count > 10'000) continue;
+        if (way.engine == Engine::plain && count > 10'000) continue;
         CAPTURE(name(way.candidate.technique));
-        CAPTURE(describe(way.candidate.parameters));
+        CAPTURE(describe(way.candidate));
         CAPTURE(count);
         std::uint64_t total = 0;
         {
@@ -150,9 +151,9 @@ TEST_SUITE("known answer") {
   TEST_CASE("a stream that is stopped anywhere is right about the rays it says are done") {
     const std::vector<Ray> rays = lines(40'000);
     for (const Way& way : ways()) {
-      if (way.plain) continue;
+      if (way.engine == Engine::plain) continue;
       CAPTURE(name(way.candidate.technique));
-      CAPTURE(describe(way.candidate.parameters));
+      CAPTURE(describe(way.candidate));
       for (const std::uint64_t at : {1, 20, 100}) {
         std::stop_source source;
         const LoggedWork logged([&](std::uint64_t done) {
@@ -191,13 +192,13 @@ TEST_SUITE("identity") {
   TEST_CASE("the work between two checks of a run is bounded, and all tests are among it") {
     const std::vector<Ray> rays = lines(70'000);
     for (const Way& way : ways()) {
-      if (way.plain) continue;
+      if (way.engine == Engine::plain) continue;
       CAPTURE(name(way.candidate.technique));
-      CAPTURE(describe(way.candidate.parameters));
+      CAPTURE(describe(way.candidate));
       const LoggedWork logged;
       const Outcome outcome = run_way(way, rays, {});
       CHECK(logged.bounded());
-      const std::uint64_t tests = outcome.counts.disc_tests + outcome.counts.sphere_tests;
+      const std::uint64_t tests = outcome.counts.disc_tests + outcome.counts.cull_tests;
       CHECK(logged.total() + 10 * StopCheck::most_work > tests / 17);  // of lists 16 are a unit
     }
   }

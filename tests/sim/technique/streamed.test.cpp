@@ -37,7 +37,7 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
                                         {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
                                         {Technique::cell_spheres, CellSpheresParameters{2}},
                                         {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                        {Technique::sphere_tree, SphereTreeParameters{4, 4, Bounds::boxes}},
+                                        {Technique::box_tree, BoxTreeParameters{4, 4}},
                                         {Technique::octree, OctreeParameters{2}},
                                         {Technique::bvh, BvhParameters{}},
                                         {Technique::octree, OctreeParameters{3, Traversal::neighbour_links}},
@@ -62,7 +62,7 @@ TEST_SUITE("identity") {
   TEST_CASE("a stream in blocks of 1, 7 and 1000 rays gives the bytes of one plain run over rays in memory") {
     for (const bool front : {false, true}) {
       const Problem problem = make_problem(rays(), discs(), front);
-      const Outcome expected = run(problem, candidates[0], {.pairs = true, .plain = true});
+      const Outcome expected = run(problem, candidates[0], {.pairs = true, .engine = Engine::plain});
       CHECK(expected.total_hits > 250);
       for (const Candidate& candidate : candidates) {
         CAPTURE(name(candidate.technique));

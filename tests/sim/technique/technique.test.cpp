@@ -36,9 +36,9 @@ const std::vector<Candidate>& exact_candidates() {
       {Technique::cell_spheres, CellSpheresParameters{16}},
       {Technique::sphere_tree, SphereTreeParameters{8, 4}},
       {Technique::sphere_tree, SphereTreeParameters{2, 1}},
-      {Technique::sphere_tree, SphereTreeParameters{8, 8, Bounds::boxes}},
-      {Technique::sphere_tree, SphereTreeParameters{2, 1, Bounds::boxes}},
-      {Technique::sphere_tree, SphereTreeParameters{3, 1'000'000, Bounds::boxes}},
+      {Technique::box_tree, BoxTreeParameters{8, 8}},
+      {Technique::box_tree, BoxTreeParameters{2, 1}},
+      {Technique::box_tree, BoxTreeParameters{3, 1'000'000}},
       {Technique::sphere_tree, SphereTreeParameters{7, 1'000'000}},
       {Technique::octree, OctreeParameters{0}},
       {Technique::octree, OctreeParameters{3}},
@@ -78,14 +78,14 @@ std::vector<Ray> mixed_rays(std::size_t count, double side, std::uint64_t seed) 
 }
 
 /// Every pair decided by the canonical predicate, in double.
-Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .plain = true}); }
+Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .engine = Engine::plain}); }
 
 /// All exact techniques against that, pair by pair and to the last bit of irradiance.
 void check_all_agree(const Problem& problem, std::uint64_t least_hits) {
   const Outcome expected = truth_of(problem);
   CHECK(expected.total_hits >= least_hits);
   for (const Candidate& candidate : exact_candidates()) {
-    CAPTURE(describe(candidate.parameters));
+    CAPTURE(describe(candidate));
     CAPTURE(name(candidate.technique));
     const Outcome outcome = run(problem, candidate, {.pairs = true});
     CHECK(outcome.pairs == expected.pairs);
@@ -177,7 +177,7 @@ TEST_SUITE("identity") {
     CHECK(expected.total_hits > 500);
     for (const Candidate& candidate : support::float_candidates()) {
       CAPTURE(name(candidate.technique));
-      const Outcome outcome = run(problem, candidate, {.pairs = true, .plain = true});
+      const Outcome outcome = run(problem, candidate, {.pairs = true, .engine = Engine::plain});
       CHECK(outcome.pairs == expected.pairs);
       CHECK(outcome.irradiance == expected.irradiance);
     }
@@ -219,18 +219,18 @@ TEST_SUITE("known answer") {
     CHECK(cache.counts.sorted == 700);
     std::uint64_t tests = 0;
     for (const SphereCounts& sphere : cache.spheres) tests += sphere.tests;
-    CHECK(cache.counts.sphere_tests == tests);
+    CHECK(cache.counts.cull_tests == tests);
     const Outcome shallow = run(problem, {Technique::cell_spheres, CellSpheresParameters{1}});
-    CHECK(shallow.counts.rebuilds == 8);
-    CHECK(shallow.counts.sphere_tests == 8 * 900);
-    CHECK(shallow.counts.copies <= 8 * 900);
+    CHECK(shallow.counts.culls == 8);
+    CHECK(shallow.counts.cull_tests == 8 * 900);
+    CHECK(shallow.counts.listed <= 8 * 900);
     CHECK(shallow.counts.sorted == 700);
     const Outcome leaf = run(problem, {Technique::sphere_tree, SphereTreeParameters{8, 700}});
-    CHECK(leaf.counts.rebuilds == 1);
-    CHECK(leaf.counts.sphere_tests == 900);
-    CHECK(leaf.counts.disc_tests == 700 * leaf.counts.copies);
+    CHECK(leaf.counts.culls == 1);
+    CHECK(leaf.counts.cull_tests == 900);
+    CHECK(leaf.counts.disc_tests == 700 * leaf.counts.listed);
     const Outcome tree = run(problem, {Technique::sphere_tree, SphereTreeParameters{8, 10}});
-    CHECK(tree.counts.rebuilds == 70 + 9 + 2 + 1);
+    CHECK(tree.counts.culls == 70 + 9 + 2 + 1);
     CHECK(tree.counts.sorted == 700);
     const Outcome grid = run(problem, {Technique::grid, GridParameters{1}});
     CHECK(grid.counts.references == 700);
@@ -250,11 +250,11 @@ TEST_SUITE("known answer") {
     const Outcome truth = run(problem, brute, {.pairs = true});
     for (const Technique technique : {Technique::sphere_cache, Technique::sphere_cache_published})
       for (const bool plain : {false, true}) {
-        const Outcome outcome =
-            run(problem, {technique, SphereCacheParameters{0.65, 0}}, {.pairs = true, .plain = plain});
+        const Outcome outcome = run(problem, {technique, SphereCacheParameters{0.65, 0}},
+                                    {.pairs = true, .engine = plain ? Engine::plain : Engine::simd});
         CHECK(outcome.pairs == truth.pairs);
         CHECK(outcome.counts.disc_tests == 300 * 400);
-        CHECK(outcome.counts.sphere_tests == 0);
+        CHECK(outcome.counts.cull_tests == 0);
         CHECK(outcome.spheres.empty());
       }
   }

@@ -39,7 +39,7 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
                                         {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
                                         {Technique::cell_spheres, CellSpheresParameters{3}},
                                         {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                        {Technique::sphere_tree, SphereTreeParameters{8, 4, Bounds::boxes}},
+                                        {Technique::box_tree, BoxTreeParameters{8, 4}},
                                         {Technique::octree, OctreeParameters{3}},
                                         {Technique::grid, GridParameters{8}}};
 
@@ -70,7 +70,7 @@ TEST_SUITE("known answer") {
 
 TEST_SUITE("identity") {
   TEST_CASE("blocks of rays that continue one another's totals give the bits of one plain run over all") {
-    const Outcome whole = run(make_problem(rays(), discs()), candidates[0], {.plain = true});
+    const Outcome whole = run(make_problem(rays(), discs()), candidates[0], {.engine = Engine::plain});
     for (const Candidate& candidate : candidates) {
       CAPTURE(name(candidate.technique));
       Totals totals;

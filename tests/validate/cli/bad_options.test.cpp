@@ -38,7 +38,7 @@ TEST_SUITE("bad input") {
          {numbers + "--order hilbert", "Hilbert curve"},
          {numbers + "--technique octree --traversal neighbour-links", "no closed form"},
          {numbers + "--technique bsp", "no closed form of bsp"},
-         {uniform + "--technique octree --traversal sideways", "top-down, front-to-back, restart, neighbour-links"},
+         {uniform + "--technique octree --traversal sideways", "top-down,front-to-back,restart,neighbour-links"},
          {uniform + "--field sound", "isotropic,photons"},
          {"choose @uniform --rigor pilot", "'estimate'"},
          {uniform + "--technique", "--technique"}});

@@ -102,7 +102,7 @@ TEST_SUITE("end to end") {
     CHECK(text.out.starts_with("stopped   after "));
     CHECK(text.out.find("(stopped within ") != std::string::npos);
     const Finished csv = stopped_in_time(long_run + "--format csv", [](const Finished& one) {
-      return one.out.find("sphere_tests,") != std::string::npos;
+      return one.out.find("cull_tests,") != std::string::npos;
     });
     CHECK(csv.code == 3);
     CHECK(csv.out.substr(0, csv.out.find('\n')).ends_with(",stopped_after,stopped_of,stopped_unit"));

@@ -32,7 +32,7 @@ TEST_SUITE("end to end") {
     check_refused(
         {{"run @uniform --rays 1000 --samples 1000 --technique sphere-cache --ratio 0.999999999 "
           "--spheres 1000000000000 --memory-limit 2G",
-          "spheres and their lists of rays would take"},
+          "the spheres would take"},
          {"run @uniform --rays 1000 --samples 100000 --technique grid --memory-limit 11M", "more than the memory"},
          {"run @uniform --rays 1000 --samples 100000 --technique octree --depth 5 --memory-limit 11M", "GB"},
          {"run @uniform --rays 1000 --samples 100000 --technique bsp --memory-limit 11M", "GB"},

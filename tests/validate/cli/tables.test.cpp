@@ -72,7 +72,7 @@ TEST_SUITE("end to end") {
       for (const auto& [parameter, value] : candidate.at("parameters").items())
         CHECK(rows[i].at(parameter) == (value.is_string() ? value.get<std::string>() : rows[i].at(parameter)));
       CHECK(number(rows[i], "predicted_tests") ==
-            number(rows[i], "predicted_sphere_tests") + number(rows[i], "predicted_disc_tests"));
+            number(rows[i], "predicted_cull_tests") + number(rows[i], "predicted_disc_tests"));
     }
   }
 
@@ -245,16 +245,16 @@ TEST_SUITE("end to end") {
       for (const std::string same : {"scene", "rays", "samples", "disc_radius", "sphere_radius", "ratio", "k"})
         CHECK(rows[i].at(same) == published[i].at(same));
       CHECK(rows[i].at("hits") == rows[i < 3 ? 0 : 3].at("hits"));
-      CHECK(number(rows[i], "predicted_sphere_tests") == number(published[i], "rebuild_time"));
+      CHECK(number(rows[i], "predicted_cull_tests") == number(published[i], "rebuild_time"));
       CHECK(number(rows[i], "predicted_disc_tests") == number(published[i], "intersect_time"));
-      CHECK(number(rows[i], "tests") == number(rows[i], "sphere_tests") + number(rows[i], "disc_tests"));
-      CHECK(number(rows[i], "sphere_tests") == doctest::Approx(number(published[i], "rebuild_time")).epsilon(0.2));
+      CHECK(number(rows[i], "tests") == number(rows[i], "cull_tests") + number(rows[i], "disc_tests"));
+      CHECK(number(rows[i], "cull_tests") == doctest::Approx(number(published[i], "rebuild_time")).epsilon(0.2));
       const std::string ratio = rows[i].at("ratio");
       const Json own = result_of(
           "run @uniform --samples 2000 --rays 5000 --technique sphere-cache --spheres max "
           "--engine plain --disc-radius " +
           rows[i].at("disc_radius") + " --ratio " + ratio);
-      CHECK(rows[i].at("sphere_tests") == own.at("counts").at("sphere_tests").dump());
+      CHECK(rows[i].at("cull_tests") == own.at("counts").at("cull_tests").dump());
       CHECK(rows[i].at("hits") == own.at("hits").dump());
     }
   }
@@ -293,7 +293,7 @@ TEST_SUITE("end to end") {
     const Finished run = stopped_in_time(
         "run @uniform --samples 3000 --rays 3000 --technique brute-force --engine plain --disc-radius 0.001:1:0.001 "
         "--format csv",
-        [](const Finished& one) { return one.out.find("sphere_tests,") != std::string::npos; });
+        [](const Finished& one) { return one.out.find("cull_tests,") != std::string::npos; });
     CHECK(run.code == 3);
     const auto rows = csv_rows(run.out);
     CHECK(rows.size() < 1000);

@@ -67,14 +67,14 @@ TEST_SUITE("identity") {
           const Finding& finding = of(findings, ranked, term);
           CHECK(finding.predictions.at(0).value == predicted);
           CHECK(finding.technique == name(ranked.candidate.technique));
-          CHECK(finding.parameters == describe(ranked.candidate.parameters));
+          CHECK(finding.parameters == describe(ranked.candidate));
           CHECK(finding.observed.mean == doctest::Approx(counted).epsilon(1e-12));
         };
-        check("sphere-tests", ranked.counts.sphere_tests, counts.sphere_tests);
+        check("cull-tests", ranked.counts.cull_tests, counts.cull_tests);
         check("disc-tests", ranked.counts.disc_tests, counts.disc_tests);
         check("steps", ranked.counts.steps, counts.steps);
         check("nodes", ranked.counts.nodes, counts.nodes);
-        check("rebuilds", ranked.counts.rebuilds, counts.rebuilds);
+        check("culls", ranked.counts.culls, counts.culls);
         check("placements", ranked.counts.placements, counts.placements);
         check("hits", ranked.counts.hits, counts.hits);
       }
@@ -133,7 +133,7 @@ TEST_SUITE("known answer") {
     Experiment experiment = lines_in_a_cube();
     experiment.choice->rays.resize(1);
     for (const Claim& claim : judge_all(choice_findings(experiment)))
-      if (claim.id.find("rebuilds") == std::string::npos && claim.id.find("placements") == std::string::npos)
+      if (claim.id.find("culls") == std::string::npos && claim.id.find("placements") == std::string::npos)
         CHECK(claim.verdict == Verdict::undecided);
     std::stop_source source;
     source.request_stop();

@@ -86,7 +86,7 @@ TEST_SUITE("sweep") {
     };
     for (const std::string tier : {"published", "corrected"}) {
       CHECK(has("sphere-cache", "m_i", tier));
-      CHECK(has("sphere-cache", "sphere_tests", tier));
+      CHECK(has("sphere-cache", "cull_tests", tier));
       CHECK(has("octree", "disc_tests", tier));
     }
     CHECK(has("sphere-cache", "L_i", "corrected"));

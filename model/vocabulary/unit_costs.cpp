@@ -1,0 +1,18 @@
+#include "unit_costs.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace detp {
+
+void check(const UnitCosts& costs) {
+  // Counts go up to some 1e55 (n_R n_P k): no time overflows.
+  constexpr double dearest = 1e200;
+  for (const UnitCostTerm& term : unit_cost_terms)
+    if (const double cost = costs.*term.cost; !(cost >= 0 && cost <= dearest))
+      throw std::invalid_argument(
+          fmt::format("the time of {} ({}) must be from 0 to {} (got {})", term.meaning, term.symbol, dearest, cost));
+}
+
+}  // namespace detp

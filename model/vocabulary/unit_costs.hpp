@@ -1,0 +1,88 @@
+#pragma once
+
+#include <array>
+#include <string_view>
+
+#include "counts.hpp"
+#include "technique.hpp"
+
+/// Seconds from counts: what each counted operation takes on one machine.
+namespace detp {
+
+/// Time in seconds of each counted operation, on one machine. All from 0 to 1e200.
+///
+/// The paper has t, u and (implicitly) v; the others are what its formulas leave out (science erratum: sort, copies).
+/// Each belongs to a term and an engine: those of lists to the engine that tests whole lists, the others to the one
+/// that tests one ray and one disc at a time.
+struct UnitCosts {
+  double cull_test = 1;   ///< t: one ray of a list against a sphere or a box
+  double disc_test = 1;   ///< u: one ray of a list against a disc
+  double index_test = 1;  ///< w: one ray against a disc of the cell it is in, where rays are searched one by one
+  double step = 1;        ///< v: one step to a cell of a grid
+  double node = 1;        ///< n: one visit to a node of a tree
+  double listed = 0;      ///< c: putting one ray into a list, beside its test
+  double placement = 0;   ///< b: placing one disc in one cell or node while an index is built
+  double leaf = 0;        ///< p: placing one disc in a leaf of a tree that lists are culled down
+  double sort = 0;        ///< s: ordering one disc along the curve
+  double cull = 0;        ///< r: fixed cost of one list, beside its tests and rays
+  double visit = 0;       ///< l: fixed cost of one disc's visit to a list, beside its tests
+
+  bool operator==(const UnitCosts&) const = default;
+};
+
+/// A unit cost as results and the command line name it.
+struct UnitCostTerm {
+  std::string_view symbol;  ///< "t"
+  double UnitCosts::*cost;
+  std::string_view meaning;  ///< of what the time is
+};
+
+inline constexpr std::array unit_cost_terms{
+    UnitCostTerm{"t", &UnitCosts::cull_test, "testing a ray of a list against a sphere or a box"},
+    UnitCostTerm{"u", &UnitCosts::disc_test, "testing a ray of a list against a disc"},
+    UnitCostTerm{"w", &UnitCosts::index_test, "testing one ray against one disc of an index"},
+    UnitCostTerm{"v", &UnitCosts::step, "a ray's step to a cell of a grid"},
+    UnitCostTerm{"n", &UnitCosts::node, "a visit to a node of a tree"},
+    UnitCostTerm{"c", &UnitCosts::listed, "putting a ray into a list"},
+    UnitCostTerm{"b", &UnitCosts::placement, "placing a disc in a cell or node while an index is built"},
+    UnitCostTerm{"p", &UnitCosts::leaf, "placing a disc in a leaf of a tree that lists are culled down"},
+    UnitCostTerm{"s", &UnitCosts::sort, "sorting a disc along the curve"},
+    UnitCostTerm{"r", &UnitCosts::cull, "making a list, beside its tests and rays"},
+    UnitCostTerm{"l", &UnitCosts::visit, "a disc's visit to a list, beside its tests"},
+};
+
+/// Throws std::invalid_argument, naming the time, where one is negative, above 1e200 or no number.
+void check(const UnitCosts& costs);
+
+/// The time of a technique by part, in the unit of the UnitCosts it was made with.
+struct CostBreakdown {
+  double order = 0;      ///< sorting the samples
+  double build = 0;      ///< building an index
+  double rebuild = 0;    ///< T_R: tests of all lists, and their fixed cost
+  double copy = 0;       ///< rays put into lists
+  double traverse = 0;   ///< steps through an index
+  double intersect = 0;  ///< T_I: ray-disc tests, and discs' visits to lists
+
+  [[nodiscard]] constexpr double total() const { return order + build + rebuild + copy + traverse + intersect; }
+};
+
+/// Counts × unit costs, part by part, of a technique that tests lists of rays.
+[[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs) {
+  return {.order = counts.sorted * costs.sort,
+          .build = counts.placements * costs.leaf,
+          .rebuild = counts.cull_tests * costs.cull_test + counts.culls * costs.cull,
+          .copy = counts.listed * costs.listed,
+          .traverse = counts.steps * costs.step + counts.nodes * costs.node,
+          .intersect = counts.disc_tests * costs.disc_test + counts.visits * costs.visit};
+}
+
+/// The same of any technique: where rays are searched one by one, disc tests and placements cost what they do there.
+[[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, UnitCosts costs, Technique technique) {
+  if (record_of(technique).ray_by_ray) {
+    costs.disc_test = costs.index_test;
+    costs.leaf = costs.placement;
+  }
+  return price(counts, costs);
+}
+
+}  // namespace detp

@@ -1,0 +1,140 @@
+#include <deque>
+
+#include "detp/sim/stopwatch.hpp"
+#include "detp/sim/stream/search.hpp"
+#include "list_memory.hpp"
+#include "ray_box.hpp"
+#include "ray_list.hpp"
+#include "registry.hpp"
+#include "run_memory.hpp"
+
+namespace detp::sim {
+namespace {
+
+using stream::DiscTree;
+using stream::Frame;
+using stream::TreeNode;
+
+/// The box of a node in scene units, grown by what floats may misplace and by the slack.
+Box grown_box(const TreeNode& node, const Frame& frame) {
+  Box box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double half = static_cast<double>(node.half[axis]) + frame.margin;
+    box.low[axis] = frame.centre[axis] + (node.centre[axis] - half) / frame.scale;
+    box.high[axis] = frame.centre[axis] + (node.centre[axis] + half) / frame.scale;
+  }
+  return box;
+}
+
+/// Lists in `inside` those rays of `around` that meet the box.
+void cull(const RayList& around, const Box& box, RayList& inside, StopCheck& check) {
+  inside.clear();
+  inside.reserve(around.size());  // pages are touched only as far as it is filled
+  for_each_checked(std::span(around), check, [&](const ListedRay& listed) {
+    if (!ClippedRay(listed.ray).inside(box).empty()) inside.push_back(listed);
+  });
+}
+
+/// The same tree in double, one ray and one disc at a time.
+template <bool counting>
+class PlainSearch {
+ public:
+  PlainSearch(const stream::Searched& searched, const RunOptions& options)
+      : searched_(searched), check_(options.stop, "searching"), collector_(searched.problem, options) {}
+
+  void run(Outcome& outcome) && {
+    const std::vector<std::uint32_t>& order = searched_.tree.order;
+    collector_.take_discs();
+    try {
+      visit(searched_.tree.nodes.front(), 0, list_of(searched_.problem.rays));
+      done_ = order.size();
+    } catch (const Stopped&) {  // the disc or node under way is left out
+    }
+    outcome.counts = tally_.counts();
+    if (done_ < order.size())
+      std::move(collector_).give_discs(std::span(order).first(done_), outcome);
+    else
+      std::move(collector_).give(searched_.problem.rays.size(), outcome);
+  }
+
+ private:
+  void visit(const TreeNode& node, std::size_t level, const RayList& rays) {
+    if (node.leaf) return test_discs(node, rays);
+    if (lists_.size() == level) lists_.emplace_back();
+    RayList& inside = lists_[level];
+    for (std::uint32_t child = node.first; child < node.first + node.count; ++child) {
+      const TreeNode& next = searched_.tree.nodes[child];
+      check_.after(1);
+      cull(rays, grown_box(next, searched_.frame), inside, check_);
+      tally_.add(&Counts<std::uint64_t>::cull_tests, rays.size());
+      tally_.add(&Counts<std::uint64_t>::culls);
+      tally_.add(&Counts<std::uint64_t>::listed, inside.size());
+      if (inside.empty())
+        done_ = end_of(next);
+      else
+        visit(next, level + 1, inside);
+    }
+  }
+
+  /// Where the discs below a node end.
+  [[nodiscard]] std::size_t end_of(const TreeNode& node) const {
+    const stream::DiscRun run = discs_below(searched_.tree, node);
+    return std::size_t{run.first} + run.count;
+  }
+
+  void test_discs(const TreeNode& leaf, const RayList& rays) {
+    tally_.add(&Counts<std::uint64_t>::visits, leaf.count);
+    for (done_ = leaf.first; done_ < leaf.first + leaf.count; ++done_) {
+      const std::uint32_t disc = searched_.tree.order[done_];
+      test_disc(rays, searched_.problem.discs[disc], disc, collector_, tally_, check_);
+    }
+  }
+
+  const stream::Searched& searched_;
+  StopCheck check_;
+  HitCollector collector_;
+  Tally<counting> tally_;
+  std::deque<RayList> lists_;  ///< one for each level: children are visited one after another
+  std::size_t done_ = 0;       ///< the discs before it in the order
+};
+
+/// Lists of rays are culled down a tree of boxes to its leaves' discs.
+class BoxTreeIndex final : public Index {
+ public:
+  BoxTreeIndex(const Problem& problem, const BoxTreeParameters& parameters, const RunOptions& options)
+      : parameters_(parameters), simd_(options.engine == Engine::simd && stream::can_search(problem)), frame_(problem) {
+    Stopwatch watch;
+    const stream::TreeSize expected = stream::expected_tree(problem.discs.size(), parameters);
+    built_.bytes = stream::boxes_bytes(stream::size_of(problem, options), parameters.fan_out, expected);
+    require_memory_for("the tree of boxes and its lists of rays", built_.bytes, problem);
+    tree_ = stream::make_disc_tree(problem, frame_, parameters, options);
+    built_.bytes = stream::building_bytes(problem.discs.size(), static_cast<double>(tree_.binary_nodes),
+                                          static_cast<double>(tree_.nodes.size()));
+    built_.seconds.build = watch.lap();
+    built_.counts.sorted = built_.counts.placements = built_.counts.references = problem.discs.size();
+  }
+
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    const stream::Searched searched{problem, frame_, tree_};
+    if (simd_) return search_boxes(searched, parameters_.fan_out, options, outcome);
+    const double tree = built_.bytes + listing_bytes(problem, options, tree_.lists.all);
+    need_memory("the tree of boxes and its lists of rays", tree, problem, outcome);
+    options.count ? PlainSearch<true>(searched, options).run(outcome)
+                  : PlainSearch<false>(searched, options).run(outcome);
+  }
+
+ private:
+  BoxTreeParameters parameters_;
+  bool simd_;
+  Frame frame_;
+  DiscTree tree_;
+};
+
+}  // namespace
+
+std::unique_ptr<Index> prepare_box_tree(const Problem& problem, const Parameters& parameters,
+                                        const RunOptions& options) {
+  return std::make_unique<BoxTreeIndex>(problem, std::get<BoxTreeParameters>(parameters), options);
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,107 @@
+#include "detp/model/vocabulary/unit_costs.hpp"
+
+#include <doctest/doctest.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "support/not_a_length.hpp"
+
+using namespace detp;
+
+namespace {
+
+/// Primes, so that each sum shows which costs are in it.
+constexpr UnitCosts costs{.cull_test = 2,
+                          .disc_test = 3,
+                          .index_test = 5,
+                          .step = 7,
+                          .node = 11,
+                          .listed = 13,
+                          .placement = 17,
+                          .leaf = 19,
+                          .sort = 23,
+                          .cull = 29,
+                          .visit = 31};
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("each cost has a symbol of its own, and the costs are all there is") {
+    std::set<std::string_view> symbols;
+    for (const UnitCostTerm& term : unit_cost_terms) symbols.insert(term.symbol);
+    CHECK(symbols.size() == unit_cost_terms.size());
+    CHECK(sizeof(UnitCosts) == unit_cost_terms.size() * sizeof(double));
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("each part is priced by its own cost") {
+    CHECK(price({.sorted = 1}, costs).order == 23);
+    CHECK(price({.placements = 1}, costs).build == 19);
+    CHECK(price({.cull_tests = 1}, costs).rebuild == 2);
+    CHECK(price({.culls = 1}, costs).rebuild == 29);
+    CHECK(price({.listed = 1}, costs).copy == 13);
+    CHECK(price({.steps = 1}, costs).traverse == 7);
+    CHECK(price({.nodes = 1}, costs).traverse == 11);
+    CHECK(price({.disc_tests = 1}, costs).intersect == 3);
+    CHECK(price({.visits = 1}, costs).intersect == 31);
+    CHECK(price({.doubtful = 1, .references = 1, .hits = 1}, costs).total() == 0);
+  }
+
+  TEST_CASE("the total is the sum of the parts") {
+    const Counts<double> counts{.cull_tests = 1,
+                                .culls = 1,
+                                .listed = 1,
+                                .visits = 1,
+                                .disc_tests = 1,
+                                .steps = 1,
+                                .nodes = 1,
+                                .placements = 1,
+                                .sorted = 1};
+    const CostBreakdown time = price(counts, costs);
+    CHECK(time.total() == time.order + time.build + time.rebuild + time.copy + time.traverse + time.intersect);
+    CHECK(time.total() == 2 + 29 + 13 + 31 + 3 + 7 + 11 + 19 + 23);
+    CHECK(price({}, costs).total() == 0);
+  }
+
+  TEST_CASE("where rays are searched one by one, disc tests and placements have costs of their own") {
+    for (const TechniqueRecord& record : technique_records) {
+      const CostBreakdown time = price({.disc_tests = 10, .placements = 10}, costs, record.technique);
+      CHECK(time.intersect == (record.ray_by_ray ? 50 : 30));
+      CHECK(time.build == (record.ray_by_ray ? 170 : 190));
+    }
+    for (const Technique one_by_one : {Technique::octree, Technique::grid, Technique::bsp})
+      CHECK(record_of(one_by_one).ray_by_ray);
+    for (const Technique lists : {Technique::brute_force, Technique::sphere_cache, Technique::box_tree})
+      CHECK_FALSE(record_of(lists).ray_by_ray);
+  }
+
+  TEST_CASE("without measured costs, tests and steps cost one, all else nothing") {
+    CHECK(
+        price({.cull_tests = 1, .culls = 5, .listed = 5, .disc_tests = 10, .steps = 100, .nodes = 1000}, {}).total() ==
+        1111);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a time that is none is refused by its symbol; zero is one") {
+    std::vector<double> not_a_time(support::not_a_size.begin(), support::not_a_size.end());
+    not_a_time.push_back(1e201);  // times of counts up to 1e55 must not overflow
+    for (const double bad : not_a_time)
+      for (const UnitCostTerm& term : unit_cost_terms) {
+        UnitCosts wrong;
+        wrong.*term.cost = bad;
+        const std::string symbol = "(" + std::string(term.symbol) + ")";
+        CHECK_THROWS_WITH_AS(check(wrong), doctest::Contains(symbol.c_str()), std::invalid_argument);
+      }
+    for (const double good : {0.0, 1e200}) {
+      UnitCosts all;
+      for (const UnitCostTerm& term : unit_cost_terms) all.*term.cost = good;
+      CHECK_NOTHROW(check(all));
+    }
+  }
+}

@@ -1,0 +1,15 @@
+#include "detp/sim/technique/registry.hpp"
+
+#include <doctest/doctest.h>
+
+using namespace detp;
+
+TEST_SUITE("identity") {
+  TEST_CASE("every technique has an entry of its own, which prepares its search") {
+    for (const Technique technique : all_techniques) {
+      CAPTURE(name(technique));
+      CHECK(sim::search_of(technique).technique == technique);
+      CHECK((sim::search_of(technique).prepare != nullptr));
+    }
+  }
+}
