@@ -3,6 +3,11 @@
 #include <array>
 
 namespace detp::validate {
+
+// Beside the structures that they count.
+StructuralCounts structural_brute_force, structural_sphere_cache, structural_cell_spheres, structural_sphere_tree,
+    structural_box_tree, structural_octree, structural_grid, structural_bsp;
+
 namespace {
 
 constexpr std::string_view only_run = "it can only be run";

@@ -14,9 +14,6 @@ namespace detp::validate {
 using StructuralCounts = Counts<double>(const sim::Problem& problem, double rays, const Parameters& parameters,
                                         const std::stop_token& stop);
 
-StructuralCounts structural_brute_force, structural_sphere_cache, structural_cell_spheres, structural_sphere_tree,
-    structural_box_tree, structural_octree, structural_grid, structural_bsp;
-
 struct StructuralTier {
   Technique technique;
   StructuralCounts* counts = nullptr;

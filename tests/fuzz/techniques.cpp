@@ -41,29 +41,28 @@ void compare(const fuzz::SmallProblem& small, const Candidate& candidate, const 
   if (!same) report(small, candidate, how);
 }
 
+/// A small value of a parameter, of the bytes' choice.
+ParameterValue value_of(const Parameter& parameter, FuzzedDataProvider& bytes) {
+  if (!parameter.choices.empty())
+    return parameter.choices[bytes.ConsumeIntegralInRange<std::size_t>(0, parameter.choices.size() - 1)];
+  if (std::holds_alternative<double>(parameter.small)) return (bytes.ConsumeIntegralInRange(0, 63) + 0.5) / 64;
+  const auto least = static_cast<std::int64_t>(parameter.least);
+  return bytes.ConsumeIntegralInRange<std::int64_t>(least, least + std::get<std::int64_t>(parameter.small));
+}
+
 /// Every exact technique, with parameters of the bytes' choice. Embree takes a hundred times as long as the others for
 /// so few discs: it comes in one problem of eight.
 std::vector<Candidate> candidates(FuzzedDataProvider& bytes) {
-  const auto number = [&](int least, int most) { return bytes.ConsumeIntegralInRange(least, most); };
-  const auto order = bytes.PickValueInArray({SampleOrder::lebesgue, SampleOrder::hilbert, SampleOrder::none});
-  const auto traversal = static_cast<Traversal>(number(0, 3));
-  std::vector<Candidate> list{
-      {Technique::brute_force, BruteForceParameters{}},
-      {Technique::sphere_cache, SphereCacheParameters{(number(0, 63) + 0.5) / 64, number(1, 40), order}},
-      {Technique::cell_spheres, CellSpheresParameters{number(0, 16)}},
-      {Technique::sphere_tree, SphereTreeParameters{number(2, 5), number(1, 4)}},
-      {Technique::box_tree, BoxTreeParameters{number(2, 5), number(1, 4)}},
-      {Technique::octree, OctreeParameters{number(0, 3), traversal}},
-      {Technique::grid, GridParameters{number(1, 8)}},
-      {Technique::bsp, BspParameters{number(0, 8), number(1, 3)}}};
-  if (number(0, 7) == 0)
-    list.push_back({Technique::bvh, BvhParameters{bytes.ConsumeBool() ? BuildQuality::low : BuildQuality::medium}});
+  std::vector<Candidate> list;
+  for (const TechniqueRecord& record : technique_records) {
+    if (!record.exact) continue;
+    if (record.technique == Technique::bvh && bytes.ConsumeIntegralInRange(0, 7) != 0) continue;
+    Candidate candidate = default_candidate(record.technique);
+    for (const Parameter& parameter : record.parameters)
+      set_parameter(candidate, parameter.name, value_of(parameter, bytes));
+    list.push_back(candidate);
+  }
   return list;
-}
-
-bool has_two_engines(const Candidate& candidate) {
-  return candidate.technique == Technique::brute_force || candidate.technique == Technique::sphere_cache ||
-         candidate.technique == Technique::cell_spheres || candidate.technique == Technique::box_tree;
 }
 
 void compare_streamed(const fuzz::SmallProblem& small, const Candidate& candidate, std::size_t block,
@@ -96,7 +95,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   compare_streamed(small, in_blocks, bytes.ConsumeIntegralInRange<std::size_t>(1, 5), truth);
   for (const Candidate& candidate : list)
     for (const bool plain : {false, true})
-      if (!plain || has_two_engines(candidate)) {
+      if (!plain || record_of(candidate.technique).simd) {
         Outcome outcome =
             run(problem, candidate,
                 {.count = count, .pairs = pairs, .engine = plain ? Engine::plain : Engine::simd, .threads = threads});
