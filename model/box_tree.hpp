@@ -1,53 +1,60 @@
 #pragma once
 
-#include <array>
-
 #include "vocabulary.hpp"
 
-/// The sphere tree with boxes: lists of rays culled down a tree of boxes.
+/// The box tree: lists of rays culled down a tree of boxes.
 ///
 /// With P(node) the share of the rays that its cull lists,
 ///
 ///     tests of boxes = n_R Σ_inner P(node) children        listed = n_R Σ P(node)
 ///     disc tests     = n_R Σ_leaves P(node) discs          P of the root is 1
 ///
-/// which is exact once the tree is known (validate/structural_boxes.hpp). Where it splits is decided by the samples and
-/// the surface-area heuristic; so from numbers alone the sums are tabulated, of each the areas and volumes,
+/// which is exact once the tree is known (validate/structural_boxes.hpp). From numbers alone the builder's decisions
+/// are followed on the tree that is expected of random samples, level by level:
+///
+///   box_tree_cells.hpp      how many cells the curve has on each level, and how many samples they expect
+///   box_tree_boxes.hpp      the mean box around m discs in a cell
+///   box_tree_expected.hpp   which cells are nodes of the binary tree, and which nodes are leaves
+///   box_tree.cpp            which inner nodes are joined into wide ones
 ///
 ///     lines      P = F/(4π r₀²)                      segments   P = (V + ℓF/4)/V_box   (crossing_probability)
 ///
-///   where  F, V   surface of the convex body whose lines the cull lists (a box's, and some 9 % more), its volume
+///   where  F, V   surface of the convex body whose lines the cull lists (a box's, and some 9 % more), its volume;
+///                 means over the nodes of a level
 ///
-/// over a² or a³, a the side of the cube that has the samples' volume (D = 3) or their area on its faces (D = 2), by
-/// n_P and d over the distance between samples (extent / n_P)^(1/D). In between, logarithms are interpolated, as are
-/// those of D = 2 and D = 3. The table (box_tree_table.inc) is made by validate/tables/box_tree_table.cpp.
+/// A wide node joins an inner node with the f - 1 inner nodes around its top that have the largest boxes: here the
+/// least deep ones. Of the X inner nodes at most j levels below one, E[min(f - 1, X)] are joined, X taken as normal,
+/// its mean and variance those of a branching process: a half of an inner node is inner with the probability of its
+/// level.
+///
+/// For samples between D = 2 and D = 3 logarithms of the counts are interpolated.
 namespace detp::model {
 
-/// The trees that the table is of: of this fan-out, with a leaf of one of these. box_tree_rule.hpp says which one suits
-/// a workload.
-inline constexpr int box_tree_fan_out = 4;
-inline constexpr std::array box_tree_leaves{8, 16, 64};
+/// Beyond these, counts are those of this fan-out, and of a leaf so large with proportionally fewer samples.
+inline constexpr int box_tree_most_children = 16;
+inline constexpr int box_tree_largest_leaf = 256;
 
-/// Whether the table is of this tree, so that box_tree_counts knows it.
-[[nodiscard]] bool is_tabulated(const BoxTreeParameters& tree);
-
-/// Expected counts of the tree. `culls` are tests of a node that any ray takes part in.
+/// Expected counts of the tree, all rays in one list. `culls` are tests of a node that any ray takes part in, `visits`
+/// discs of leaves that any ray crosses.
 ///
-/// Source     our derivation, and the table.
-/// Valid      fan-out 4, leaf 8, 16 or 64; samples uniform over a volume or over surfaces, discs turned isotropically;
-///            n_P from two leaves to 2²⁰, d 2⁻⁴ … 2⁶ sample distances. Beyond more samples it goes on as the table
-///            ends, beyond the others it stays.
-/// Accuracy   against structural counts of 60 fresh sets of samples for each leaf, in a cube and on its faces, n_P 2¹⁰
-/// …
-///            2²⁰, d 2⁻¹⁰ … 2³ sample distances but 0.16 of the side at most; off in the median, at the 95th percentile
-///            and at worst:
-///              leaf          8                   16                  64
-///              tests boxes   2.0, 4.8, 5.7 %     2.0, 4.1, 6.2 %     2.6, 8.1, 15.7 %
-///              rays listed   3.5, 10.6, 11.3 %   3.8, 9.8, 11.3 %    3.3, 14.0, 21.7 %
-///              tests discs   8.9, 21.8, 23.3 %   6.1, 13.4, 14.5 %   5.5, 13.1, 16.1 %
-///            `culls` by 3 … 10 % in the median and 73 % at worst: too many where there are fewer rays than nodes.
-///            In scenes see README.md.
-/// Throws     std::invalid_argument for a workload out of range, and for any other tree.
+/// Source     our derivation.
+/// Valid      fan-out 2 … 16, leaf 1 … 256; samples uniform over a volume or over surfaces, discs turned isotropically.
+/// Accuracy   against structural counts of 400 fresh sets of samples in a cube and on its faces, random fan-out
+///            and leaf, n_P 2¹⁰ … 2²⁰, d 2⁻¹⁰ … 2³ sample distances but 0.16 of the side at most (seed 20261122 of
+///            validate/tables/box_tree_accuracy.cpp); off in the median, at the 95th percentile and at worst:
+///                            D = 2               D = 3
+///              tests boxes   3.1, 6.9, 8.8 %     0.3, 1.8, 2.7 %
+///              rays listed   2.2, 5.7, 6.6 %     0.4, 2.1, 3.1 %
+///              tests discs   2.1, 9.4, 35.9 %    0.7, 5.5, 19.5 %
+///              culls         1.6, 6.4, 8.6 %     0.6, 3.3, 7.6 %
+///            With small leaves and discs, few nodes test most discs, and one set of samples differs from the next.
+///            Against means over sets, disc tests are off by more than 12 % for two of the 400 trees, both with one
+///            sample a leaf and D = 2; for D = 3 by 9.7 % at worst.
+///            With n_P 2⁵ … 2¹⁰ sets differ more: of 200, off by 1.8, 3.0, 5.6, 3.5 % in the median against one set
+///            each; against means over sets at worst by 7.5, 13.1, 28.4, 16.6 %. In scenes see README.md.
+/// Limits     n_P <= leaf: one leaf, every ray tested with every disc.
+/// Costs      10 … 90 µs for D = 3, 30 … 190 µs for D = 2, the more the smaller the leaf; 4 ms once for a table.
+/// Throws     std::invalid_argument for a workload or parameters out of range.
 [[nodiscard]] Counts<double> box_tree_counts(const Workload& workload, const BoxTreeParameters& parameters);
 
 }  // namespace detp::model

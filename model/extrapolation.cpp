@@ -79,11 +79,14 @@ void uncounted_sphere_tree(const Workload& workload, const Parameters& parameter
   reasons.range("leaf", tree.leaf, 4, 16);
 }
 
-void uncounted_box_tree(const Workload& workload, const Parameters&, Reasons& reasons) {
+void uncounted_box_tree(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+  const auto& tree = std::get<BoxTreeParameters>(parameters);
   uncounted_scene(workload, reasons);
   reasons.range("samples", workload.samples, 0x1p10, 0x1p20);
-  reasons.range("d over sample distance", workload.disc_radius / sample_distance(workload), 0x1p-4, 0x1p3);
+  reasons.range("d over sample distance", workload.disc_radius / sample_distance(workload), 0x1p-10, 0x1p3);
   reasons.range("d over the scene's side", workload.disc_radius / scene_side(workload), 0, 0.16);
+  reasons.range("fan-out", tree.fan_out, 2, 16);
+  reasons.range("leaf", tree.leaf, 1, 256);
 }
 
 void uncounted_octree(const Workload& workload, const Parameters& parameters, Reasons& reasons) {

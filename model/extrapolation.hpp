@@ -16,7 +16,8 @@
 ///     sphere-cache (both)   Q 0.3 … 0.9, no more spheres than hold a disc, samples sorted
 ///     cell-spheres          depth 1 … 6
 ///     sphere-tree           fan-out 4 … 8, leaf 4 … 16
-///     box-tree              n_P 2¹⁰ … 2²⁰, d 2⁻⁴ … 2³ sample distances and up to 0.16 of the side
+///     box-tree              n_P 2¹⁰ … 2²⁰, d 2⁻¹⁰ … 2³ sample distances and up to 0.16 of the side; fan-out 2 … 16,
+///                           leaf 1 … 256
 ///     octree, grid          depth 1 … 7, 2 … 128 cells a side
 ///
 /// Brute force tests n_R n_P pairs whatever they are, and so does a sphere cache without spheres.

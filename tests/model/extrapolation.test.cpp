@@ -59,7 +59,7 @@ TEST_SUITE("known answer") {
     CHECK(names(with(&Workload::samples, 1e9), octree, "samples 1e+09 above 1e+07"));
     CHECK(names(with(&Workload::samples, 1e9), boxes, "samples 1e+09 above 1.049e+06"));
     CHECK(names(cube_workload(1e6, 1e5, 1e-5, 2), cache, "d over r0 5.773e-06 below 0.0001"));
-    CHECK(names(cube_workload(1e6, 1e3, 1e-5, 2), boxes, "d over sample distance 5e-05 below 0.0625"));
+    CHECK(names(cube_workload(1e6, 1e3, 1e-5, 2), boxes, "d over sample distance 5e-05 below 0.0009766"));
     CHECK(names(cube_workload(1e6, 1e6, 0.5, 2), boxes, "d over sample distance 25 above 8"));
     CHECK(names(cube_workload(1e6, 1e6, 0.5, 2), boxes, "d over the scene's side 0.25 above 0.16"));
     CHECK(names(with(&Workload::dimension, 2.5), octree, "dimension 2.5 between 2 and 3"));
@@ -78,6 +78,8 @@ TEST_SUITE("known answer") {
     CHECK(names(typical, {Technique::grid, GridParameters{500}}, "cells a side 500 above 128"));
     CHECK(names(typical, {Technique::sphere_tree, SphereTreeParameters{2, 64}}, "leaf 64 above 16"));
     CHECK(names(typical, {Technique::sphere_tree, SphereTreeParameters{2, 64}}, "fan-out 2 below 4"));
+    CHECK(names(typical, {Technique::box_tree, BoxTreeParameters{17, 64}}, "fan-out 17 above 16"));
+    CHECK(names(typical, {Technique::box_tree, BoxTreeParameters{4, 300}}, "leaf 300 above 256"));
   }
 
   TEST_CASE("pairs that are all tested are no extrapolation, whatever the scene") {

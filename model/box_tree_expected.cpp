@@ -1,0 +1,283 @@
+#include "box_tree_expected.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "box_tree_drops.hpp"
+
+namespace detp::model::box_tree {
+namespace {
+
+/// ln(n (n - 1) … (n - k + 1)/n^k).
+double log_falling(double n, double k) {
+  constexpr double many = 1e5;  // so that n! keeps its digits
+  if (n < many) return std::lgamma(n + 1) - std::lgamma(n - k + 1) - k * std::log(n);
+  return -k * (k - 1) / (2 * n) * (1 + (2 * k - 1) / (6 * n));
+}
+
+/// P(k) for k = 0 … last of a binomial distribution.
+void binomial(double trials, double share, int last, std::vector<double>& out) {
+  out.assign(static_cast<std::size_t>(last) + 1, 0);
+  if (share <= 0 || trials <= 0) {
+    out[0] = 1;
+    return;
+  }
+  if (share >= 1) {
+    if (trials <= last) out[static_cast<std::size_t>(trials)] = 1;
+    return;
+  }
+  const double mode = std::floor((trials + 1) * share);
+  const int start = static_cast<int>(std::min(mode, static_cast<double>(last)));
+  const double log_p = log_falling(trials, start) - std::lgamma(start + 1.0) + start * std::log(share * trials) +
+                       (trials - start) * std::log1p(-share);
+  const double odds = share / (1 - share);
+  out[start] = std::exp(log_p);
+  for (int k = start; k < last && k < trials && out[k] > 1e-14; ++k)
+    out[k + 1] = out[k] * ((trials - k) * odds / (k + 1));
+  for (int k = start; k > 0 && out[k] > 1e-14; --k) out[k - 1] = out[k] * (k / ((trials - k + 1) * odds));
+}
+
+/// a(m) of a kind of cells, times their number until it is complete; empty where all cells are nodes.
+using Alive = std::vector<double>;
+
+class Levels {
+ public:
+  Levels(int dimension, double samples, double radius, int leaf)
+      : kinds_(cell_kinds(dimension)),
+        samples_(samples),
+        radius_(radius),
+        leaf_(leaf),
+        most_(std::max(leaf, most_dropped)),
+        drops_(dimension, samples, radius, leaf),
+        alive_(kinds_.size()),
+        reached_(kinds_.size(), false),
+        nodes_(kinds_.size()) {
+    reached_[0] = true;
+  }
+
+  std::vector<LevelNodes> take() && {
+    double largest = 0;
+    std::size_t end = 0;
+    for (std::size_t number = 0; number < kinds_.size(); ++number) {
+      if (reached_[number]) {
+        visit(number);
+        const double count = nodes_[number].inner.count + nodes_[number].leaves.count;
+        largest = std::max(largest, count);
+        if (count > 1e-3 * largest) end = number + 1;
+        if (number > end + 5) break;
+      }
+    }
+    nodes_.resize(end);
+    return std::move(nodes_);
+  }
+
+ private:
+  /// More discs than these no cell of so many expected ones has, as far as is counted.
+  [[nodiscard]] int most_of(double expected) const {
+    return static_cast<int>(std::min<double>(most_, expected + deviations * std::sqrt(expected) + 10));
+  }
+
+  [[nodiscard]] bool all_inner(const CellKind& cell) const { return all_more_than(most_, samples_ * cell.share); }
+
+  void visit(std::size_t number) {
+    const CellKind& cell = kinds_[number];
+    LevelNodes& nodes = nodes_[number];
+    if (all_inner(cell)) {
+      nodes.inner.add(cell.cells, CellBoxes(cell, radius_)(samples_ * cell.share));
+    } else {
+      Alive& alive = alive_[number];
+      if (alive.empty())
+        alive.assign(static_cast<std::size_t>(most_) + 1, 1);
+      else
+        for (double& value : alive) value /= cell.cells;
+      count_nodes(cell, alive, nodes);
+    }
+    if (cell.child[0] == 0) return;
+    for (const std::size_t child : cell.child) reached_[child] = true;
+    goes_on(number);
+    pass_on(number, 0, cell.child[0] == cell.child[1] ? 2 : 1);
+    if (cell.child[0] != cell.child[1]) pass_on(number, 1, 1);
+  }
+
+  /// Of nodes with so many discs, those that are leaves.
+  [[nodiscard]] double leaf_share(const CellKind& cell, const Dropped* dropped, int discs) const {
+    if (discs <= leaf_) return 1;
+    if (dropped == nullptr || discs > most_dropped) return 0;
+    const double share = dropped->share[discs];
+    if (cell.touched[0] + cell.touched[1] + cell.touched[2] <= 1) return share;
+    // Where the cube's edges pass, halves differ: of nodes that are seldom dropped, more are (fitted).
+    const double kept = 1 - share;
+    return share * (1 + 0.75 * kept * kept * kept * kept * kept);
+  }
+
+  void count_nodes(const CellKind& cell, const Alive& alive, LevelNodes& nodes) {
+    const double expected = samples_ * cell.share;
+    const int last = most_of(expected);
+    binomial(samples_, cell.share, last, probability_);
+    const Dropped* dropped = drops_.of(cell);
+    const CellBoxes boxes(cell, radius_);
+    const Halves halves = halves_of(cell);
+    double above = 1 - probability_[0];
+    double discs_above = expected;
+    for (int first = 1; first <= last;) {
+      // Boxes of neighbouring numbers of discs are alike.
+      int end = first + std::max(1, first / 5);
+      if (first <= leaf_) end = std::min(end, leaf_ + 1);
+      end = std::min(end, last + 1);
+      double weight = 0;
+      double discs = 0;
+      double leaves = 0;
+      double leaf_boxes = 0;
+      for (int m = first; m < end; ++m) {
+        above -= probability_[m];
+        discs_above -= m * probability_[m];
+        const double present = probability_[m] * alive[m];
+        weight += present;
+        discs += m * present;
+        const double dropped_share = leaf_share(cell, dropped, m);
+        leaves += present * dropped_share;
+        leaf_boxes += present * dropped_share * (m > leaf_ && dropped != nullptr ? dropped->box[m] : 1);
+      }
+      if (weight * cell.cells > 1e-12) {
+        discs /= weight;
+        MeanBox box = boxes(discs);
+        const double split = discs > leaf_ ? split_share(cell, halves, discs, box) : 1;
+        add(nodes, cell.cells * weight * split, discs, box, leaves / weight, leaf_boxes / weight);
+      }
+      first = end;
+    }
+    if (above > 1e-9) nodes.inner.add(cell.cells * above, boxes(discs_above / above));
+  }
+
+  /// Boxes around the discs in either half.
+  using Halves = std::optional<std::array<CellBoxes, 2>>;
+
+  static constexpr double most_in_one_half = 10;  ///< discs; more are in both
+
+  [[nodiscard]] Halves halves_of(const CellKind& cell) const {
+    if (leaf_ >= most_in_one_half || cell.child[0] == 0) return {};
+    const CellBoxes first(kinds_[cell.child[0]], radius_);
+    if (cell.child[0] == cell.child[1]) return {{first, first}};
+    return {{first, CellBoxes(kinds_[cell.child[1]], radius_)}};
+  }
+
+  /// The share of cells with discs in both halves: others are no nodes, their half is. Makes the mean box theirs.
+  static double split_share(const CellKind& cell, const Halves& halves, double discs, MeanBox& box) {
+    if (!halves || discs > most_in_one_half) return 1;
+    double split = 1;
+    MeanBox rest = box;
+    for (std::size_t side = 0; side < 2; ++side) {
+      const double all = std::pow(cell.part[side], discs);
+      const MeanBox half = (*halves)[side](discs);
+      split -= all;
+      rest.surface -= all * half.surface;
+      rest.volume -= all * half.volume;
+    }
+    if (split < 1e-9) return 0;
+    box.surface = std::max(0.0, rest.surface / split);
+    box.volume = std::max(0.0, rest.volume / split);
+    return split;
+  }
+
+  /// Nodes of about so many discs, of which a share is leaves, with another share of the boxes.
+  static void add(LevelNodes& nodes, double cells, double discs, const MeanBox& box, double leaves, double leaf_boxes) {
+    const double in_leaves = leaf_boxes * cells;
+    nodes.leaves.count += leaves * cells;
+    nodes.leaves.surface += in_leaves * box.surface;
+    nodes.leaves.volume += in_leaves * box.volume;
+    nodes.discs.count += leaves * cells * discs;
+    nodes.discs.surface += in_leaves * discs * box.surface;
+    nodes.discs.volume += in_leaves * discs * box.volume;
+    nodes.inner.count += (1 - leaves) * cells;
+    nodes.inner.surface += (1 - leaf_boxes) * cells * box.surface;
+    nodes.inner.volume += (1 - leaf_boxes) * cells * box.volume;
+  }
+
+  /// Adds to a(m) of a child what this parent gives.
+  void pass_on(std::size_t number, int side, double times) {
+    const CellKind& parent = kinds_[number];
+    const CellKind& child = kinds_[parent.child[side]];
+    if (all_inner(child)) return;
+    Alive& sum = alive_[parent.child[side]];
+    if (sum.empty()) sum.assign(static_cast<std::size_t>(most_) + 1, 0);
+    const double cells = times * parent.cells;
+    const double expected = samples_ * child.share;
+    const double rest = 1 - child.share;
+    const double sibling = rest > 0 ? std::min(1.0, (parent.share - child.share) / rest) : 1;
+    // For as many discs as are expected, and moved for others: the sibling has the rest.
+    const int first = std::max(1, static_cast<int>(expected - deviations * std::sqrt(expected)));
+    const int last = most_of(expected);
+    const double others = std::floor(samples_ - expected);
+    binomial(others, sibling, most_of(others * sibling), probability_);
+    const Alive& alive = alive_[number];
+    convolve(static_cast<std::size_t>(first - 1), static_cast<std::size_t>(std::min(last, most_) + 1));
+    const double none = probability_[0];
+    for (int m = first; m <= last; ++m) {
+      const double at = std::clamp(m + (expected - m) * sibling, first - 1.0, last + 0.999);
+      const auto low = static_cast<std::size_t>(at);
+      double share = conditional_[low] + (at - static_cast<double>(low)) * (conditional_[low + 1] - conditional_[low]);
+      if (none > 0 && m > leaf_) share += none * ((alive.empty() ? 1 : alive[m]) - goes_on_[m]);
+      sum[m] += cells * std::clamp(share, 0.0, 1.0);
+    }
+  }
+
+  /// The share of a kind's cells that are inner nodes, by their discs.
+  void goes_on(std::size_t number) {
+    if (all_inner(kinds_[kinds_[number].child[0]]) && all_inner(kinds_[kinds_[number].child[1]])) return;
+    const Alive& alive = alive_[number];
+    const Dropped* dropped = drops_.of(kinds_[number]);
+    goes_on_.assign(2 * static_cast<std::size_t>(most_) + 3, 1);
+    for (int m = 0; m <= most_; ++m) {
+      goes_on_[m] = (1 - leaf_share(kinds_[number], dropped, m)) * (alive.empty() ? 1 : alive[m]);
+    }
+  }
+
+  /// Σ P(s) goes_on(m + s) for m = first … last.
+  void convolve(std::size_t first, std::size_t last) {
+    conditional_.assign(static_cast<std::size_t>(most_) + 2, 0);
+    double rest = 1;
+    if (leaf_ >= most_dropped) {  // all with more than a leaf
+      for (const double p : probability_) rest -= p;
+      double sum = std::max(0.0, rest);
+      std::size_t s = probability_.size();
+      for (std::size_t m = 0; m <= last; ++m) {
+        const std::size_t least = m > static_cast<std::size_t>(leaf_) ? 0 : static_cast<std::size_t>(leaf_) + 1 - m;
+        while (s > least) sum += probability_[--s];
+        conditional_[m] = sum;
+      }
+      return;
+    }
+    for (std::size_t s = 0; s < probability_.size(); ++s) {
+      const double p = probability_[s];
+      if (p < 1e-7) continue;
+      rest -= p;
+      const double* from = &goes_on_[s];
+      double* to = conditional_.data();
+      for (std::size_t m = first; m <= last; ++m) to[m] += p * from[m];
+    }
+    for (std::size_t m = first; m <= last; ++m) conditional_[m] += std::max(0.0, rest);
+  }
+
+  const std::vector<CellKind>& kinds_;
+  double samples_;
+  double radius_;
+  int leaf_;
+  int most_;
+  Drops drops_;
+  std::vector<Alive> alive_;
+  std::vector<bool> reached_;
+  std::vector<LevelNodes> nodes_;
+  std::vector<double> probability_;
+  std::vector<double> goes_on_;
+  std::vector<double> conditional_;
+};
+
+}  // namespace
+
+std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf) {
+  return Levels(dimension, samples, disc_radius, leaf).take();
+}
+
+}  // namespace detp::model::box_tree

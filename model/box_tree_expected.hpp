@@ -1,0 +1,47 @@
+#pragma once
+
+#include <vector>
+
+#include "box_tree_boxes.hpp"
+
+/// The binary tree that the tree of boxes is made of, on average over sets of samples.
+namespace detp::model::box_tree {
+
+/// Sums over bodies: their number, and of their boxes surface and volume (MeanBox).
+struct Sums {
+  double count = 0;
+  double surface = 0;
+  double volume = 0;
+
+  void add(double times, const MeanBox& box) {
+    count += times;
+    surface += times * box.surface;
+    volume += times * box.volume;
+  }
+};
+
+/// Expected nodes of the binary tree whose discs are those of a cell of one kind (none of its halves).
+struct LevelNodes {
+  Sums inner;
+  Sums leaves;
+  Sums discs;  ///< of the leaves: each with its leaf's box
+};
+
+/// For each of cell_kinds(dimension) as far as there are nodes: samples uniform in a cube of side 1 (3) or on its
+/// faces (2), discs of that radius.
+///
+/// A cell of m samples is a node if both its halves hold samples and no ancestor is a leaf. That probability is
+///
+///     a(m) = Σ_s P(s) a'(m + s) (1 - q'(m + s))
+///
+///   where  P(s)    binomial: of s samples in the other half of the parent
+///          a', q'  of the parent; q(m) the probability that a node is a leaf
+///
+/// A node is a leaf if m <= leaf, and for some of m <= 64 (box_tree_drops.hpp); where an edge of the cube passes the
+/// cell, q (1 + 0.75 (1 - q)⁵) for the q of faces: fitted, for the halves differ.
+///
+/// Source     our derivation.
+/// Valid      as box_tree.hpp says, which gives the accuracy.
+[[nodiscard]] std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf);
+
+}  // namespace detp::model::box_tree
