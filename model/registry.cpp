@@ -70,7 +70,7 @@ class Fastest {
     if (counts.references > limits_.most_references) return;
     const double time = price(counts, costs_, technique_).total();
     if (best_ && time >= least_) return;
-    best_ = parameters;
+    best_ = Parameters(parameters);
     least_ = time;
   }
 
@@ -80,7 +80,7 @@ class Fastest {
   const UnitCosts& costs_;
   Technique technique_;
   const SearchLimits& limits_;
-  std::optional<P> best_;
+  std::optional<Parameters> best_;
   double least_ = 0;
 };
 
