@@ -105,11 +105,11 @@ class BoxTreeIndex final : public Index {
       : parameters_(parameters), simd_(options.engine == Engine::simd && stream::can_search(problem)), frame_(problem) {
     Stopwatch watch;
     const stream::TreeSize expected = stream::expected_tree(problem.discs.size(), parameters);
-    built_.bytes = stream::boxes_bytes(stream::size_of(problem, options), parameters.fan_out, expected);
-    require_memory_for("the tree of boxes and its lists of rays", built_.bytes, problem);
+    checked_bytes(what, stream::boxes_bytes(stream::size_of(problem, options), parameters.fan_out, expected), problem);
     tree_ = stream::make_disc_tree(problem, frame_, parameters, options);
-    built_.bytes = stream::building_bytes(problem.discs.size(), static_cast<double>(tree_.binary_nodes),
-                                          static_cast<double>(tree_.nodes.size()));
+    const double built = stream::building_bytes(problem.discs.size(), static_cast<double>(tree_.binary_nodes),
+                                                static_cast<double>(tree_.nodes.size()));
+    built_.bytes = checked_bytes(what, built, problem);
     built_.seconds.build = watch.lap();
     built_.counts.sorted = built_.counts.placements = built_.counts.references = problem.discs.size();
   }
@@ -117,13 +117,16 @@ class BoxTreeIndex final : public Index {
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     const stream::Searched searched{problem, frame_, tree_};
     if (simd_) return search_boxes(searched, parameters_.fan_out, options, outcome);
-    const double tree = built_.bytes + listing_bytes(problem, options, tree_.lists.all);
-    need_memory("the tree of boxes and its lists of rays", tree, problem, outcome);
+    const double tree = sizeof(stream::FloatDisc) * static_cast<double>(tree_.discs.size()) +
+                        sizeof(TreeNode) * static_cast<double>(tree_.nodes.size());
+    need_memory(what, tree + listing_bytes(problem, options, tree_.lists.all), problem, outcome);
     options.count ? PlainSearch<true>(searched, options).run(outcome)
                   : PlainSearch<false>(searched, options).run(outcome);
   }
 
  private:
+  static constexpr const char* what = "the tree of boxes and its lists of rays";
+
   BoxTreeParameters parameters_;
   bool simd_;
   Frame frame_;

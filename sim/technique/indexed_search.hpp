@@ -77,8 +77,7 @@ class TracedIndex final : public Index {
     const IndexSize size = cells_.size();
     built_.counts.references = size.references;
     built_.counts.placements = size.placements;
-    built_.bytes = size.building_bytes;
-    require_memory_for(what, built_.bytes, problem);
+    built_.bytes = checked_bytes(what, size.building_bytes, problem);
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {

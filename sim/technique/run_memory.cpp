@@ -26,10 +26,14 @@ void require_memory_for(std::string_view what, double bytes, const Problem& prob
                  given_bytes(problem) + bytes);
 }
 
-void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome) {
+double checked_bytes(std::string_view what, double bytes, const Problem& problem) {
   bytes += small_bytes;
   require_memory_for(what, bytes, problem);
-  outcome.bytes = std::max(outcome.bytes, bytes);
+  return bytes;
+}
+
+void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome) {
+  outcome.bytes = std::max(outcome.bytes, checked_bytes(what, bytes, problem));
 }
 
 double found_bytes(const Problem& problem, const RunOptions& options) {

@@ -13,7 +13,10 @@ namespace detp::sim {
 /// Throws std::length_error where they do not.
 void require_memory_for(std::string_view what, double bytes, const Problem& problem);
 
-/// The same, and enters into the outcome that the run takes so many bytes, and half a MiB for all that is small.
+/// The same for so many bytes and half a MiB for all that is small; their sum.
+double checked_bytes(std::string_view what, double bytes, const Problem& problem);
+
+/// The same, and enters into the outcome that the run takes them.
 void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome);
 
 /// Bytes of a run's own totals, hits and irradiance; none where its totals are another's.

@@ -160,8 +160,7 @@ class SphereTreeIndex final : public Index {
   SphereTreeIndex(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options)
       : parameters_(parameters) {
     Stopwatch watch;
-    built_.bytes = building_bytes(problem, parameters);
-    require_memory_for("a tree of spheres", built_.bytes, problem);
+    built_.bytes = checked_bytes("a tree of spheres", building_bytes(problem, parameters), problem);
     order_ = along_curve(problem.discs, SampleOrder::lebesgue, options.stop);
     built_.seconds.order = watch.lap();
     tree_ = make_sphere_tree(problem.discs, order_, parameters, options.stop);

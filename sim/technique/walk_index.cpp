@@ -18,8 +18,7 @@ class PlainWalk final : public Index {
  public:
   PlainWalk(const Problem& problem, WalkedSpheres spheres, const RunOptions& options) : spheres_(std::move(spheres)) {
     Stopwatch watch;
-    built_.bytes = walk_bytes(problem, options, spheres_.lists, true);
-    require_memory_for(spheres_.what, built_.bytes, problem);
+    built_.bytes = checked_bytes(spheres_.what, walk_bytes(problem, options, spheres_.lists, true), problem);
     order_ = along_curve(problem.discs, spheres_.order, options.stop);
     built_.seconds.order = watch.lap();
     built_.counts.sorted = sorted_discs(spheres_, problem);
@@ -40,8 +39,7 @@ class FloatWalk final : public Index {
   FloatWalk(const Problem& problem, WalkedSpheres spheres, const RunOptions& options)
       : spheres_(std::move(spheres)), frame_(problem) {
     Stopwatch watch;
-    built_.bytes = walk_bytes(problem, options, spheres_.lists, false);
-    require_memory_for(spheres_.what, built_.bytes, problem);
+    built_.bytes = checked_bytes(spheres_.what, walk_bytes(problem, options, spheres_.lists, false), problem);
     std::vector<std::uint32_t> order = along_curve(problem.discs, spheres_.order, options.stop);
     built_.seconds.order = watch.lap();
     discs_ = stream::discs_in_order(problem, frame_, std::move(order), options);
