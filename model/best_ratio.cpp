@@ -1,9 +1,9 @@
 #include "best_ratio.hpp"
 
 #include <algorithm>
+#include <array>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <vector>
 
@@ -139,11 +139,11 @@ class Search {
 
   /// By how much, relatively, T may fall in a unit of ln(ln 1/Q): seen to suffice, not proved.
   static constexpr double steepness = 5;
-  static constexpr double narrowest = 1e-3;                ///< in ln(ln 1/Q): the knots of the tables are farther apart
+  static constexpr double narrowest = 2.5e-4;              ///< in ln(ln 1/Q)
   static constexpr double next_to = 1.0005;                ///< minima of T that near the best are narrowed down
   static constexpr std::int64_t evaluations_at_once = 60;  ///< of Brent's method
 
-  [[nodiscard]] double enough() const { return best_.spheres > 0 ? 1.5 * best_.time : HUGE_VAL; }
+  [[nodiscard]] double enough() const { return best_.spheres > 0 ? 1.2 * best_.time : HUGE_VAL; }
 
   void add(const BestRatio& point) {
     if (point.spheres == 0) return;
@@ -183,14 +183,32 @@ class Search {
     return stops;
   }
 
-  /// Brent's method, in a coordinate from -1 to 1: its tolerance is then 1e-8 of the width, at a kink too.
+  /// The least T with k spheres for Q from low to high: kinks may lie closer together than the points of the search,
+  /// and make several minima between them.
   void minimise(double low, double high, std::int64_t k) {
+    constexpr int parts = 16;
+    if (!(low < high) || (most_looked_at_ - times_.looked_at()) / k <= parts) return;
+    const auto ratio = [&](int i) { return low + (high - low) * i / parts; };
+    std::array<double, parts + 1> times{};
+    for (int i = 0; i <= parts; ++i) times[static_cast<std::size_t>(i)] = times_.at(ratio(i), k);
+    const double hope = 1 - steepness * (place_of(low) - place_of(high)) / parts / 2;
+    for (int i = 0; i <= parts; ++i) {
+      const int left = std::max(i - 1, 0);
+      const int right = std::min(i + 1, parts);
+      const double time = times[static_cast<std::size_t>(i)];
+      const double beside = std::min(times[static_cast<std::size_t>(left)], times[static_cast<std::size_t>(right)]);
+      if (time <= beside && time * hope < best_.time) follow(ratio(left), ratio(right), k);
+    }
+  }
+
+  /// Brent's method, in a coordinate from -1 to 1: its tolerance is then 4e-6 of the width, at a kink too.
+  void follow(double low, double high, std::int64_t k) {
     const std::int64_t evaluations_left = (most_looked_at_ - times_.looked_at()) / k - 1;
-    if (!(low < high) || evaluations_left < 2) return;
+    if (evaluations_left < 2) return;
     const auto ratio = [&](double place) { return low + (high - low) * (place + 1) / 2; };
     auto evaluations = static_cast<std::uintmax_t>(std::min(evaluations_at_once, evaluations_left));
-    const auto [place, time] = boost::math::tools::brent_find_minima(
-        [&](double y) { return times_.at(ratio(y), k); }, -1.0, 1.0, std::numeric_limits<double>::digits, evaluations);
+    const auto [place, time] = boost::math::tools::brent_find_minima([&](double y) { return times_.at(ratio(y), k); },
+                                                                     -1.0, 1.0, 19, evaluations);
     if (time < best_.time) best_ = {ratio(place), k, time};
   }
 

@@ -95,6 +95,16 @@ std::vector<double> above_grids(int many, std::uint64_t seed) {
 TEST_SUITE("reference value") {
   TEST_CASE("no ratio and stop of fine grids are faster by 1e-9") { CHECK(above_grids(4, 33).back() <= 1e-9); }
 
+  TEST_CASE("of two minima 1.5e-4 apart in ln ln 1/Q, with T within 3e-6 of each other, the lower one is found") {
+    const std::vector<Question> all = questions(50, 133);
+    const auto no_slower = [&](const Question& question, double ratio, std::int64_t k) {
+      const double found = best_ratio_and_stop(question.workload, question.costs).time;
+      CHECK(found <= time(question, ratio, k) * (1 + 1e-9));
+    };
+    no_slower(all[37], 0.7875453401, 6);
+    no_slower(all[46], 0.4799978847, 8);
+  }
+
   TEST_CASE("a good ratio is within 20 % of the best, and within 3 % of it in the median") {
     std::vector<double> above;
     for (const Question& question : questions(41, 36)) {
@@ -212,9 +222,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("no ratio and stop of fine grids are faster by 1e-9 on 48 of 50 more workloads, by 3e-6 on the other two") {
-    const std::vector<double> above = above_grids(50, 133);
-    CHECK(above[47] <= 1e-9);
-    CHECK(above[49] <= 3e-6);
+  TEST_CASE("no ratio and stop of fine grids are faster by 1e-9 on 50 more workloads") {
+    CHECK(above_grids(50, 133).back() <= 1e-9);
   }
 }
