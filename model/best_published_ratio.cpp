@@ -1,7 +1,10 @@
 #include "best_published_ratio.hpp"
 
 #include <algorithm>
+#include <boost/math/tools/roots.hpp>
 #include <cmath>
+#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "sphere_cache_published.hpp"
@@ -47,17 +50,14 @@ class ConvexPart {
     return jet;
   }
 
-  /// Where T is least on [low, high]: Newton's method on T', kept between ends of which T' tells the side.
+  /// Where T is least on [low, high], at the ends of which T' has different signs: Newton's method on T'.
   [[nodiscard]] double minimum(double low, double high) const {
-    double x = (low + high) / 2;
-    for (int step = 0; step < 60 && high - low > 1e-15; ++step) {
+    const auto slope = [&](double x) {
       const Jet jet = at(x);
-      (jet.slope > 0 ? high : low) = x;
-      const double newton = x - jet.slope / jet.curvature;
-      if (std::abs(newton - x) <= 1e-13 && newton >= low && newton <= high) return newton;
-      x = newton > low && newton < high ? newton : (low + high) / 2;
-    }
-    return x;
+      return std::pair(jet.slope, jet.curvature);
+    };
+    std::uintmax_t steps = 60;
+    return boost::math::tools::newton_raphson_iterate(slope, (low + high) / 2, low, high, 46, steps);
   }
 
  private:
