@@ -1,33 +1,12 @@
 #include "unit_costs.hpp"
 
-#include <Eigen/Dense>
 #include <stdexcept>
 #include <vector>
 
+#include "non_negative_fit.hpp"
+
 namespace detp::validate {
 namespace {
-
-/// x >= 0 that minimises |A x - 1|.
-Eigen::VectorXd non_negative_fit(const Eigen::MatrixXd& a) {
-  std::vector<Eigen::Index> kept(static_cast<std::size_t>(a.cols()));
-  for (std::size_t i = 0; i < kept.size(); ++i) kept[i] = static_cast<Eigen::Index>(i);
-  Eigen::VectorXd x = Eigen::VectorXd::Zero(a.cols());
-  while (!kept.empty()) {
-    const Eigen::MatrixXd part = a(Eigen::all, kept);
-    const Eigen::VectorXd scale = part.colwise().norm().cwiseMax(1e-300);
-    const Eigen::VectorXd fit = (part * scale.cwiseInverse().asDiagonal())
-                                    .colPivHouseholderQr()
-                                    .solve(Eigen::VectorXd::Ones(a.rows()))
-                                    .cwiseQuotient(scale);
-    Eigen::Index least = 0;
-    if (fit.minCoeff(&least) >= 0) {
-      x(kept) = fit;
-      break;
-    }
-    kept.erase(kept.begin() + least);
-  }
-  return x;
-}
 
 /// Seconds per unit of one term that alone makes up a phase, of techniques that search ray by ray or of the others:
 /// Σ seconds / Σ counts.
@@ -59,18 +38,17 @@ UnitCosts built_in_unit_costs() {
 }
 
 UnitCosts fit_unit_costs(std::span<const TimedRun> runs) {
-  constexpr Eigen::Index terms = 7;
+  constexpr std::size_t terms = 7;
   if (runs.size() < terms) throw std::invalid_argument("a fit of unit costs takes at least as many runs as costs");
-  Eigen::MatrixXd a(static_cast<Eigen::Index>(runs.size()), terms);
-  for (Eigen::Index row = 0; row < a.rows(); ++row) {
-    const TimedRun& run = runs[static_cast<std::size_t>(row)];
+  std::vector<double> shares;  // of a run's time, per second of each cost
+  for (const TimedRun& run : runs) {
     const Counts<double>& counts = run.counts;
     const bool index = record_of(run.technique).ray_by_ray;
-    a.row(row) << counts.cull_tests, index ? 0 : counts.disc_tests, index ? counts.disc_tests : 0, counts.steps,
-        counts.nodes, counts.listed, counts.culls;
-    a.row(row) /= run.search;
+    for (const double count : {counts.cull_tests, index ? 0 : counts.disc_tests, index ? counts.disc_tests : 0,
+                               counts.steps, counts.nodes, counts.listed, counts.culls})
+      shares.push_back(count / run.search);
   }
-  const Eigen::VectorXd x = non_negative_fit(a);
+  const std::vector<double> x = non_negative_fit(shares, terms, std::vector<double>(runs.size(), 1.0));
   return {.cull_test = x[0],
           .disc_test = x[1],
           .index_test = x[2],

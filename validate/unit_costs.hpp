@@ -27,9 +27,8 @@ struct TimedRun {
   double search = 0;  ///< seconds on all the rest
 };
 
-/// The unit costs that explain the runs best: least squares of relative errors, none negative (the most negative one is
-/// set to zero and the rest fitted again until there is none).
-/// Throws std::invalid_argument for fewer runs than costs.
+/// The unit costs that explain the runs best: least squares of relative errors, none negative (non_negative_fit).
+/// Throws std::invalid_argument for fewer runs than costs, and for a run whose search took no time.
 [[nodiscard]] UnitCosts fit_unit_costs(std::span<const TimedRun> runs);
 
 }  // namespace detp::validate

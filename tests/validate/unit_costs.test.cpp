@@ -87,4 +87,10 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_AS(static_cast<void>(validate::fit_unit_costs(std::vector<validate::TimedRun>(3))),
                     std::invalid_argument);
   }
+
+  TEST_CASE("a run whose search took no time cannot be explained") {
+    std::vector<validate::TimedRun> runs = exact_runs({1e-9, 2e-9, 9e-9, 3e-9, 4e-9, 5e-9, 6e-9, 7e-9, 8e-9});
+    runs[3].search = 0;
+    CHECK_THROWS_AS(static_cast<void>(validate::fit_unit_costs(runs)), std::invalid_argument);
+  }
 }
