@@ -1,20 +1,40 @@
 #pragma once
 
 #include <chrono>
+#include <ctime>
 #include <utility>
 
 namespace detp::sim {
 
-/// Seconds since it was made or last read.
-class Stopwatch {
+/// Seconds of the wall clock.
+struct WallClock {
+  [[nodiscard]] static double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+  }
+};
+
+/// Seconds of the processor that this process took, on all its threads: others on the machine have little part in it.
+struct ProcessorClock {
+  [[nodiscard]] static double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
+};
+
+/// Seconds since it was made, or since its last lap.
+template <class Clock>
+class StopwatchOf {
  public:
+  [[nodiscard]] double seconds() const { return Clock::now() - start_; }
+
+  /// The same, and starts again.
   [[nodiscard]] double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
+    const double now = Clock::now();
+    return now - std::exchange(start_, now);
   }
 
  private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+  double start_ = Clock::now();
 };
+
+using Stopwatch = StopwatchOf<WallClock>;
+using ProcessorStopwatch = StopwatchOf<ProcessorClock>;
 
 }  // namespace detp::sim

@@ -5,19 +5,15 @@
 #include <stdexcept>
 
 #include "detp/sim/stopped.hpp"
+#include "in_turns.hpp"
 #include "neighbours.hpp"
+#include "statistics.hpp"
 #include "stop_after.hpp"
 
 namespace detp::validate {
 namespace {
 
 constexpr double least_patience = 0.02;  // seconds
-
-double median(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
-  const std::size_t middle = values.size() / 2;
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
 
 class Analyser {
  public:
@@ -109,16 +105,16 @@ class Analyser {
 
   void time_all() {
     std::vector<std::vector<double>> seconds(all_.candidates.size());
-    for (int round = 0; round < options_.repeats; ++round)
-      for (std::size_t i = 0; i < all_.candidates.size(); ++i) {
-        Analysed& one = all_.candidates[i];
-        const bool behind = one.counted && first_seconds_[i] > options_.far_behind * fastest_;
-        if (!one.counted || (behind && round > 0)) continue;
-        if (options_.stop.stop_requested()) break;
-        show(i, 0.5 + 0.5 * round / options_.repeats);
-        const sim::Outcome outcome = run(one, false, options_.stop);
-        if (!outcome.stopped) seconds[i].push_back(outcome.seconds.total());
-      }
+    in_turns(all_.candidates.size(), options_.repeats, [&](std::size_t i, int round) {
+      Analysed& one = all_.candidates[i];
+      const bool behind = one.counted && first_seconds_[i] > options_.far_behind * fastest_;
+      if (!one.counted || (behind && round > 0)) return true;
+      if (options_.stop.stop_requested()) return false;
+      show(i, 0.5 + 0.5 * round / options_.repeats);
+      const sim::Outcome outcome = run(one, false, options_.stop);
+      if (!outcome.stopped) seconds[i].push_back(outcome.seconds.total());
+      return true;
+    });
     for (std::size_t i = 0; i < all_.candidates.size(); ++i)
       if (!seconds[i].empty()) {
         const auto [low, high] = std::minmax_element(seconds[i].begin(), seconds[i].end());

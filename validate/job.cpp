@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "detp/sim/scene/photon_source.hpp"
 #include "detp/sim/scene/ray_file.hpp"
 #include "detp/sim/stop_check.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/sim/uniform_discs.hpp"
 #include "measure.hpp"
@@ -76,11 +76,11 @@ class JobMaker {
   JobMaker(const JobRequest& request, std::stop_token stop) : request_(request), stop_(std::move(stop)) {}
 
   Job make() {
-    const auto start = std::chrono::steady_clock::now();
+    const sim::Stopwatch watch;
     sim::in_memory("reading the scene", [&] { request_.numbers_alone() ? from_numbers() : from_scene_and_files(); });
     job_.front_facing = request_.front_facing;
     sim::in_memory("making rays", [&] { make_rays(); });
-    job_.read_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    job_.read_seconds = watch.seconds();
     sim::in_memory("measuring rays and discs", [&] { measure_workload(); });
     return std::move(job_);
   }

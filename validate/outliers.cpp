@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/vector_relational.hpp>
+#include <utility>
 
 #include "detp/sim/stop_check.hpp"
+#include "statistics.hpp"
 
 namespace detp::validate {
 namespace {
@@ -44,11 +46,10 @@ sim::Box central_box(const std::vector<sim::Disc>& discs) {
   return box;
 }
 
-double median_radius(std::vector<sim::Disc> discs) {
-  const auto middle = discs.begin() + static_cast<std::ptrdiff_t>(discs.size() / 2);
-  std::nth_element(discs.begin(), middle, discs.end(),
-                   [](const sim::Disc& a, const sim::Disc& b) { return a.radius < b.radius; });
-  return middle->radius;
+double median_radius(const std::vector<sim::Disc>& discs) {
+  std::vector<double> radii;
+  for (const sim::Disc& disc : discs) radii.push_back(disc.radius);
+  return median(std::move(radii));
 }
 
 /// "1 of 10000 discs is" or "20 of 10000 discs are".
@@ -116,10 +117,10 @@ void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::v
 std::vector<std::string> outlier_warnings(const sim::Problem& problem, const std::stop_token& stop) {
   sim::StopCheck check(stop, "looking for outliers");
   const std::vector<sim::Disc> taken = taken_evenly(problem.discs);
-  const double median = median_radius(taken);
+  const double usual = median_radius(taken);
   std::vector<std::string> warnings;
-  warn_of_far_discs(problem.discs, taken, median, check, warnings);
-  warn_of_large_discs(problem.discs, median, check, warnings);
+  warn_of_far_discs(problem.discs, taken, usual, check, warnings);
+  warn_of_large_discs(problem.discs, usual, check, warnings);
   warn_of_far_rays(problem, check, warnings);
   return warnings;
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <stdexcept>
@@ -19,6 +20,17 @@ std::string_view name(Verdict verdict) {
       return "undecided";
   }
   throw std::logic_error("a verdict without a name");
+}
+
+double quantile(std::vector<double> values, double share) {
+  if (values.empty() || !(share >= 0 && share <= 1))
+    throw std::invalid_argument(
+        fmt::format("a quantile takes values, and a share from 0 to 1 (got {} values, {})", values.size(), share));
+  std::sort(values.begin(), values.end());
+  const double place = share * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const std::size_t above = std::min(below + 1, values.size() - 1);
+  return std::lerp(values[below], values[above], place - std::floor(place));
 }
 
 Estimate batch_means(std::span<const double> batches) {

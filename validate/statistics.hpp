@@ -2,6 +2,8 @@
 
 #include <span>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 /// Verdicts by equivalence: a formula agrees when the data show that it is close, not when they fail to show that it is
 /// wrong.
@@ -16,6 +18,13 @@ struct Estimate {
   double mean = 0;
   double standard_error = 0;
 };
+
+/// The value with that share (0 … 1) of the values below it: between the two nearest, in proportion. Throws
+/// std::invalid_argument for no values.
+[[nodiscard]] double quantile(std::vector<double> values, double share);
+
+/// The one in the middle; of an even number, the mean of the two there.
+[[nodiscard]] inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 /// Mean and standard error of independent, equally long batches; at least 2. Throws std::invalid_argument for fewer.
 [[nodiscard]] Estimate batch_means(std::span<const double> batches);

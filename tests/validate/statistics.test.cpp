@@ -31,6 +31,18 @@ std::vector<double> batches_around(double mean, double sigma, std::uint64_t seed
 }  // namespace
 
 TEST_SUITE("known answer") {
+  TEST_CASE(
+      "the median of an even number of values is the mean of the two in the middle; quantiles lie in proportion") {
+    CHECK(median({3, 1, 2}) == 2);
+    CHECK(median({4, 1, 2, 3}) == 2.5);
+    CHECK(median({7}) == 7);
+    const std::vector<double> values{10, 0, 30, 20, 40};
+    CHECK(quantile(values, 0) == 0);
+    CHECK(quantile(values, 1) == 40);
+    CHECK(quantile(values, 0.25) == 10);
+    CHECK(quantile(values, 0.95) == doctest::Approx(38));
+  }
+
   TEST_CASE("batch means: 1, 2, 3, 4 have mean 5/2 and standard error sqrt(5/12)") {
     const Estimate estimate = batch_means(std::array{1.0, 2.0, 3.0, 4.0});
     CHECK(estimate.mean == 2.5);
@@ -61,6 +73,12 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
+  TEST_CASE("no values have no quantile, and no share is below 0, above 1 or not a number") {
+    CHECK_THROWS_AS(static_cast<void>(median({})), std::invalid_argument);
+    for (const double bad : {-0.1, 1.1, std::nan("")})
+      CHECK_THROWS_AS(static_cast<void>(quantile({1, 2}, bad)), std::invalid_argument);
+  }
+
   TEST_CASE("too few batches and budgets that are none are refused") {
     CHECK_THROWS_AS(static_cast<void>(batch_means(std::array{1.0})), std::invalid_argument);
     for (const double bad : {0.0, 1.0, -1.0, std::nan("")})

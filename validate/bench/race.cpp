@@ -1,19 +1,18 @@
 #include "race.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 #include <optional>
+
+#include "detp/sim/stopwatch.hpp"
+#include "detp/validate/in_turns.hpp"
+#include "detp/validate/statistics.hpp"
 
 namespace detp::validate {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
 /// As many as a median needs to be worth the name.
 constexpr int least_rounds = 3;
-
-double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 class Runner {
  public:
@@ -21,40 +20,37 @@ class Runner {
       : job_(job), right_(right), embree_(embree), options_(options) {}
 
   Race go(const std::vector<Competitor>& competitors) {
-    const auto start = Clock::now();
+    const sim::Stopwatch watch;
     for (const Competitor& competitor : competitors) race_.finishes.push_back({competitor});
-    race_.complete = round([](const Finish&) { return true; });
-    const double ours = slowest_finalist(true);
-    const double peers = slowest_finalist(false);
-    for (int i = 1; i < options_.repeats && race_.complete; ++i) {
-      if (i >= least_rounds && seconds_since(start) >= options_.enough) break;
-      const bool whole = round(
-          [&](const Finish& finish) { return finish.seconds.front() <= (is_ours(finish.competitor) ? ours : peers); });
-      if (!whole) break;
-    }
+    double ours = 0;
+    double peers = 0;
+    in_turns(competitors.size(), options_.repeats, [&](std::size_t i, int round) {
+      Finish& finish = race_.finishes[i];
+      if (round == 0) return run(finish);
+      if (i == 0 && round >= least_rounds && watch.seconds() >= options_.enough) return false;
+      if (i == 0 && round == 1) {
+        ours = slowest_finalist(true);
+        peers = slowest_finalist(false);
+      }
+      return finish.seconds.front() > (is_ours(finish.competitor) ? ours : peers) || run(finish);
+    });
     std::erase_if(race_.finishes, [](const Finish& finish) { return finish.seconds.empty(); });
+    race_.complete = race_.finishes.size() == competitors.size();
     return std::move(race_);
   }
 
  private:
-  /// Whether all that should have run to their end.
-  template <class Predicate>
-  bool round(const Predicate& takes_part) {
-    return std::all_of(race_.finishes.begin(), race_.finishes.end(),
-                       [&](Finish& finish) { return !takes_part(finish) || run(finish); });
-  }
-
   /// One run; whether it came to its end.
   bool run(Finish& finish) const {
-    const auto start = Clock::now();
+    const sim::Stopwatch watch;
     if (const auto* mode = std::get_if<EmbreeMode>(&finish.competitor)) {
       const PeerOutcome outcome = embree_.run(job_.rays, job_.discs, *mode, options_.stop);
-      return note(finish, outcome, seconds_since(start));
+      return note(finish, outcome, watch.seconds());
     }
     const sim::Outcome outcome =
         sim::run(job_.problem(options_.threads, options_.stop), std::get<Candidate>(finish.competitor),
                  {.count = false, .stop = options_.stop, .threads = options_.threads});
-    return note(finish, outcome, seconds_since(start));
+    return note(finish, outcome, watch.seconds());
   }
 
   template <class Outcome>
@@ -95,12 +91,7 @@ std::string parameters_of(const Competitor& competitor) {
   return ours != nullptr ? describe(*ours) : describe(std::get<EmbreeMode>(competitor));
 }
 
-double Finish::median_seconds() const {
-  std::vector<double> sorted = seconds;
-  std::sort(sorted.begin(), sorted.end());
-  const std::size_t middle = sorted.size() / 2;
-  return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
-}
+double Finish::median_seconds() const { return median(seconds); }
 
 Race race(const Job& job, const RightHits& right, const EmbreePeer& embree, const std::vector<Competitor>& competitors,
           const RaceOptions& options) {

@@ -10,10 +10,11 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <random>
 #include <vector>
 
-#include "cpu_time.hpp"
+#include "detp/sim/stopwatch.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace detp::benchmarks {
@@ -122,6 +123,18 @@ constexpr std::size_t chains = 14;
 
 /// Room behind an array, and between arrays, so that they do not start in the same place of a page.
 constexpr std::size_t gap = 80;
+
+/// Seconds of the processor for one call: the least of several measurements of `calls` calls each.
+template <class Work>
+double least_time(std::size_t calls, const Work& work) {
+  double least = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; repeat < 9; ++repeat) {
+    const sim::ProcessorStopwatch watch;
+    for (std::size_t call = 0; call < calls; ++call) work();
+    least = std::min(least, watch.seconds());
+  }
+  return least / static_cast<double>(calls);
+}
 
 hwy::AlignedFreeUniquePtr<float[]> ones(std::size_t size) {
   auto array = hwy::AllocateAligned<float>(size);

@@ -1,13 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <stdexcept>
 
 #include "choose_report.hpp"
 #include "detp/model/paper_rule.hpp"
 #include "detp/sim/stopped.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/validate/structural.hpp"
 #include "detp/validate/unit_costs.hpp"
 #include "unit_cost_option.hpp"
@@ -25,9 +25,9 @@ struct ChooseOptions {
 
 /// How far the ranking came, if a stop request ended it.
 std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs, const std::stop_token& stop) {
-  const auto start = std::chrono::steady_clock::now();
+  const sim::Stopwatch watch;
   answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
-  answer.choosing_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  answer.choosing_seconds = watch.seconds();
   const double fastest = answer.ranking.front().time.total();
   if (!(fastest > 0))
     throw std::invalid_argument(fmt::format(
@@ -75,7 +75,7 @@ std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const val
   if (job.field != sim::Field::isotropic)
     throw std::invalid_argument(
         "--rigor structural counts isotropic lines; give --field isotropic, or --rigor estimate");
-  const auto start = std::chrono::steady_clock::now();
+  const sim::Stopwatch watch;
   std::vector<model::Ranked> ranking;
   try {
     for (const model::Ranked& ranked : answer.ranking)
@@ -86,7 +86,7 @@ std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const val
   answer.ranking = std::move(ranking);
   std::stable_sort(answer.ranking.begin(), answer.ranking.end(),
                    [](const model::Ranked& a, const model::Ranked& b) { return a.time.total() < b.time.total(); });
-  answer.choosing_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  answer.choosing_seconds += watch.seconds();
   return std::nullopt;
 }
 

@@ -1,8 +1,8 @@
 #include "timed_run.hpp"
 
 #include <algorithm>
-#include <chrono>
 
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/technique/streamed.hpp"
 
 namespace detp::cli {
@@ -16,9 +16,9 @@ TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim
                                                {.run = options, .front_facing = job.front_facing, .progress = show});
     return {std::move(streamed.outcome), streamed.check_seconds, streamed.read_seconds, streamed.block};
   }
-  const auto start = std::chrono::steady_clock::now();
+  const sim::Stopwatch watch;
   const sim::Problem problem = job.problem(options.threads, options.stop);
-  const double prepare = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  const double prepare = watch.seconds();
   return {sim::run(problem, candidate, options), prepare, 0, job.rays.size()};
 }
 

@@ -28,7 +28,8 @@ struct Timing {
   [[nodiscard]] double total() const { return prepare + phases.total(); }
 };
 
-/// The timed runs: the counting one itself, or `repeat` others that do nothing but find hits; the median of them.
+/// The timed runs: the counting one itself, or `repeat` others that do nothing but find hits; the median of them, of an
+/// even number the slower of the two in the middle: its phases are those of one run.
 [[nodiscard]] Timing time_runs(const validate::Job& job, const Candidate& candidate, const TimedRun& counted,
                                int repeat, const sim::RunOptions& options, const ProgressLine& progress);
 

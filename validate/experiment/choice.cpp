@@ -7,6 +7,7 @@
 
 #include "batches.hpp"
 #include "detp/model/choose.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/unit_costs.hpp"
 #include "experiments.hpp"
@@ -102,7 +103,7 @@ std::string with_dashes(std::string_view text) {
 }
 
 std::vector<Finding> candidate_findings(const Experiment& experiment, const model::Ranked& ranked) {
-  const Clock clock;
+  const sim::Stopwatch clock;
   const auto counted = count(experiment, ranked);
   if (!counted) return {};
   const std::string_view technique = name(ranked.candidate.technique);

@@ -10,6 +10,7 @@
 #include "detp/model/disc_index_published.hpp"
 #include "detp/model/line_measure.hpp"
 #include "detp/sim/line_field.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/technique/indexed_search.hpp"
 #include "detp/sim/technique/ray_box.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -74,7 +75,7 @@ Estimate ratio(const std::vector<Batch>& batches, double Batch::*above, double B
 
 /// Two small discs in opposite corners of a cube: nothing but cells.
 Finding cells_finding(const Experiment& experiment) {
-  const Clock clock;
+  const sim::Stopwatch clock;
   const std::size_t lines = lines_a_batch(experiment, 20'000);
   const int depth = tested_depth(experiment.workload);
   const std::vector<sim::Disc> corners{{.centre = glm::dvec3{-1}, .radius = 1e-3},
@@ -155,7 +156,7 @@ Finding hits_finding(const Workload& workload, const std::vector<sim::Disc>& dis
 
 std::vector<Finding> disc_index_findings(const Experiment& experiment) {
   std::vector<Finding> findings{cells_finding(experiment)};
-  const Clock clock;
+  const sim::Stopwatch clock;
   const Workload& workload = experiment.workload;
   const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
   const int depth = tested_depth(workload);

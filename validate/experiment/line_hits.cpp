@@ -12,6 +12,7 @@
 #include "detp/sim/line_field.hpp"
 #include "detp/sim/predicates.hpp"
 #include "detp/sim/random.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "experiments.hpp"
 
 namespace detp::validate {
@@ -139,7 +140,7 @@ Finding rays_finding(const std::vector<Shares>& batches, double all_rays, int i)
 }  // namespace
 
 std::vector<Finding> line_hit_findings(const Experiment& experiment) {
-  const Clock clock;
+  const sim::Stopwatch clock;
   const std::size_t lines = lines_a_batch(experiment, 100'000);
   const std::vector<Shares> batches = shares_of_batches(experiment, bodies_inside(experiment), lines);
   if (experiment.stop.stop_requested()) return {};

@@ -11,6 +11,7 @@
 #include "detp/model/sphere_cache_published.hpp"
 #include "detp/model/sphere_count.hpp"
 #include "detp/sim/line_field.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/structural_walk.hpp"
 #include "experiments.hpp"
@@ -176,7 +177,7 @@ Finding walk_finding(const std::vector<SetResult>& sets, std::size_t q) {
 }  // namespace
 
 std::vector<Finding> sphere_cache_findings(const Experiment& experiment) {
-  const Clock clock;
+  const sim::Stopwatch clock;
   const std::size_t lines =
       std::max<std::size_t>(100, static_cast<std::size_t>(experiment.workload.rays) / batch_count);
   std::vector<Finding> findings{count_finding(experiment)};

@@ -6,6 +6,7 @@
 
 #include "detp/model/predict.hpp"
 #include "detp/sim/line_field.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/structural.hpp"
 #include "experiments.hpp"
@@ -135,7 +136,7 @@ std::vector<Finding> sphere_hierarchy_findings(const Experiment& experiment) {
       std::max<std::size_t>(100, static_cast<std::size_t>(experiment.workload.rays) / batch_count);
   std::vector<Finding> findings;
   for (const Subject& subject : {cell_spheres(experiment.workload), sphere_tree()}) {
-    const Clock clock;
+    const sim::Stopwatch clock;
     const auto sets = for_each_batch(experiment, [&](int set) { return run_set(experiment, subject, lines, set); });
     if (experiment.stop.stop_requested()) return {};
     std::vector<Finding> found;

@@ -11,11 +11,6 @@ bool same_quantity(const DeviationSummary& summary, const Deviation& deviation) 
          summary.tier == deviation.tier;
 }
 
-/// The value below which that share of the sorted values lies.
-double quantile(const std::vector<double>& sorted, double share) {
-  return sorted[static_cast<std::size_t>(share * static_cast<double>(sorted.size() - 1))];
-}
-
 void fill(DeviationSummary& summary, std::span<const Deviation> deviations) {
   std::vector<double> sizes;
   for (const Deviation& deviation : deviations) {
@@ -34,8 +29,7 @@ void fill(DeviationSummary& summary, std::span<const Deviation> deviations) {
   }
   summary.compared = sizes.size();
   if (sizes.empty()) return;
-  std::sort(sizes.begin(), sizes.end());
-  summary.median = quantile(sizes, 0.5);
+  summary.median = median(sizes);
   summary.p95 = quantile(sizes, 0.95);
 }
 

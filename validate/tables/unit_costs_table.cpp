@@ -8,15 +8,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <utility>
 #include <vector>
 
 #include "detp/model/box_tree.hpp"
 #include "detp/model/sphere_count.hpp"
 #include "detp/sim/line_field.hpp"
+#include "detp/sim/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/sim/uniform_discs.hpp"
+#include "detp/validate/statistics.hpp"
 #include "detp/validate/unit_costs.hpp"
 
 namespace {
@@ -40,17 +41,11 @@ std::vector<Candidate> candidates(double radius, double outer, double pairs) {
 
 constexpr double longest = 0.1;  ///< seconds: runs that take longer are left out
 
-double processor_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
 /// The phases of a run in time of the processor, which others have no part in: in proportion to those by the clock.
 sim::Phases run_alone(const sim::Problem& problem, const Candidate& candidate) {
-  const double before = processor_seconds();
+  const sim::ProcessorStopwatch watch;
   sim::Phases phases = sim::run(problem, candidate, {.count = false}).seconds;
-  const double share = (processor_seconds() - before) / phases.total();
+  const double share = watch.seconds() / phases.total();
   for (double* const phase : {&phases.order, &phases.build, &phases.search}) *phase *= share;
   return phases;
 }
@@ -99,7 +94,6 @@ int main(int arguments, char**) {
                  run.counts.nodes, run.counts.sorted, run.counts.placements);
   for (const auto& run : runs)
     errors.push_back(std::abs(std::log(price(run.counts, costs, run.technique).total() / total(run))));
-  std::sort(errors.begin(), errors.end());
   fmt::print("{} runs; predicted/measured off by {:.2f}x in the median, {:.2f}x at the 95th percentile\n", runs.size(),
-             std::exp(errors[errors.size() / 2]), std::exp(errors[errors.size() * 95 / 100]));
+             std::exp(validate::median(errors)), std::exp(validate::quantile(errors, 0.95)));
 }
