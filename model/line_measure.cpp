@@ -93,14 +93,6 @@ double disc_hit_probability(DiscRadius disc, SphereRadius outer) {
   return ratio * ratio / 2;
 }
 
-double cube_hit_probability(double side, SphereRadius outer) {
-  require_positive("cube side", side);
-  require_positive("sphere radius", outer.value);
-  require_inside("half the cube's diagonal", side * std::sqrt(0.75) * (1 - 1e-12), outer.value);
-  const double ratio = side / outer.value;
-  return ratio * ratio * (1.5 / pi);
-}
-
 double crossing_probability(const Workload& workload, double volume, double area) {
   check(workload);
   require_non_negative("volume of the body", volume);

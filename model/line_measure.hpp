@@ -41,12 +41,6 @@ namespace detp::model {
 /// Throws     std::invalid_argument unless 0 < d <= r₀, both finite.
 [[nodiscard]] double disc_hit_probability(DiscRadius disc, SphereRadius outer);
 
-/// Probability that a line through a sphere also crosses a cube of side s inside it: 6 s² / (4π r₀²).
-///
-/// Limits     the cube inscribed in the sphere, s = 2r₀/√3: 2/π.   Accuracy  4.1e-16.
-/// Throws     std::invalid_argument unless both are > 0 and finite and the cube fits: s√3/2 <= r₀ (to 1e-12).
-[[nodiscard]] double cube_hit_probability(double side, SphereRadius outer);
-
 /// Probability that a ray of the workload crosses a convex body inside S₀.
 ///
 ///     lines      P = F / (4π r₀²)

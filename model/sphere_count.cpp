@@ -51,14 +51,4 @@ std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereR
   return form == Form::corrected || tie ? k : k + 1;
 }
 
-double step_ratio(std::int64_t spheres, DiscRadius disc, SphereRadius outer) {
-  require_count("number of spheres", static_cast<double>(spheres), 1, 1e18);
-  require_positive("disc radius", disc.value);
-  require_positive("sphere radius", outer.value);
-  if (disc.value >= outer.value)
-    throw std::invalid_argument(fmt::format(
-        "the disc must be smaller than S0, of radius {}, or no sphere fits (got {})", outer.value, disc.value));
-  return static_cast<double>(std::pow(static_cast<long double>(disc.value) / outer.value, 1.0L / spheres));
-}
-
 }  // namespace detp::model

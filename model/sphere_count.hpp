@@ -28,12 +28,4 @@ namespace detp::model {
 ///            workload reaches: with r₀ <= 1e90, d >= 5e-324 and Q <= 1 - 2⁻⁵³, k <= 8.6e18.
 [[nodiscard]] std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereRadius outer);
 
-/// The ratio at which the corrected k steps from j-1 to j: Q_j = (d/r₀)^{1/j}, where r_j = d exactly. T_I has its
-/// minima, all alike, just at these ratios (the paper's text to its fig 12 calls them peaks).
-///
-/// Limits     j → ∞: 1, reached where the root is nearer to 1 than to the next smaller double.
-/// Accuracy   1.1e-16, over 10⁶ inputs log-uniform over all of d < r₀ and j <= 1e18; monotone in j and d.
-/// Throws     std::invalid_argument unless 1 <= j <= 1e18 and 0 < d < r₀, both finite.
-[[nodiscard]] double step_ratio(std::int64_t spheres, DiscRadius disc, SphereRadius outer);
-
 }  // namespace detp::model

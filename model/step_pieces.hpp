@@ -5,7 +5,8 @@
 
 #include "sphere_count.hpp"
 
-/// The pieces of Q between the steps of k, at Q_j = (d/r₀)^{1/j}.
+/// The pieces of Q between the steps of k, at Q_j = (d/r₀)^{1/j}, where r_j = d. The published T_I has its minima, all
+/// alike, just there (the paper's text to its fig 12 calls them peaks).
 namespace detp::model {
 
 /// The ratios among which the best is looked for.

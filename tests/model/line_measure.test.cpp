@@ -59,11 +59,6 @@ TEST_SUITE("identity") {
     CHECK(disc_hit_probability({1e-100}, {1}) < 1e-199);
   }
 
-  TEST_CASE("a cube inscribed in its sphere is hit by 2/π of the lines") {
-    for (const double r : {1e-9, 1.0, 3e7})
-      CHECK(cube_hit_probability(2 * r / std::sqrt(3.0), {r}) == Approx(2 / pi).epsilon(1e-14));
-  }
-
   TEST_CASE("lines meet a body of the workload by its surface over that of the sphere, never more than surely") {
     const Workload w = in_cube();
     const double r0 = w.sphere_radius;
@@ -160,8 +155,6 @@ TEST_SUITE("bad input") {
       CHECK_THROWS_WITH_AS((void)disc_hit_probability({bad}, {1}), Contains("disc radius must be > 0 and finite"),
                            std::invalid_argument);
       CHECK_THROWS_WITH_AS((void)disc_hit_probability({1}, {bad}), Contains("sphere radius"), std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)cube_hit_probability(bad, {1}), Contains("cube side"), std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)cube_hit_probability(1, {bad}), Contains("sphere radius"), std::invalid_argument);
       CHECK_THROWS_WITH_AS((void)both_hit_share(bad, 1, 1), Contains("sphere radius"), std::invalid_argument);
       CHECK_THROWS_WITH_AS((void)both_hit_share(1, bad, 1), Contains("sphere radius"), std::invalid_argument);
     }
@@ -173,8 +166,6 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_WITH_AS((void)sphere_hit_probability({1.0001}, {1}), Contains("inner sphere radius"),
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)disc_hit_probability({1.0001}, {1}), Contains("disc radius"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)cube_hit_probability(1.1548, {1}), Contains("half the cube's diagonal"),
-                         std::invalid_argument);
   }
 
   TEST_CASE("a workload or a body out of range is refused by name") {

@@ -83,18 +83,6 @@ TEST_SUITE("reference value") {
     }
     CHECK(wrong == 0);
   }
-
-  TEST_CASE("the step ratio is the j-th root to an ulp") {
-    support::RandomNumbers random(9);
-    for (int run = 0; run < 2'000; ++run) {
-      const auto [w, unused] = support::random_workload(random);
-      const std::int64_t j = random.whole(1, 1000);
-      const double q = step_ratio(j, {w.disc_radius}, {w.sphere_radius});
-      const Exact share = Exact{w.disc_radius} / w.sphere_radius;
-      REQUIRE(support::power(q * (1 + Exact{0x1p-52}), j) >= share);
-      REQUIRE(support::power(q * (1 - Exact{0x1p-52}), j) <= share);
-    }
-  }
 }
 
 TEST_SUITE("known answer") {
@@ -133,9 +121,7 @@ TEST_SUITE("known answer") {
                          std::overflow_error);
   }
 
-  TEST_CASE("the first step ratio is d/r0, and the forms have names") {
-    CHECK(step_ratio(1, {0.01}, {2}) == 0.005);
-    CHECK(step_ratio(2, {0.01}, {1}) == 0.1);
+  TEST_CASE("the forms have names") {
     CHECK(name(Form::published) == "published");
     CHECK(name(Form::corrected) == "corrected");
   }
@@ -150,17 +136,6 @@ TEST_SUITE("bad input") {
         CHECK_THROWS_WITH_AS((void)count(form, {0.5, bad, 1}), Contains("disc radius"), std::invalid_argument);
         CHECK_THROWS_WITH_AS((void)count(form, {0.5, 0.1, bad}), Contains("sphere radius"), std::invalid_argument);
       }
-    }
-  }
-
-  TEST_CASE("the step ratio of no spheres, or of a radius that is none, is refused by name") {
-    CHECK_THROWS_WITH_AS((void)step_ratio(0, {0.1}, {1}), Contains("number of spheres"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)step_ratio(-3, {0.1}, {1}), Contains("number of spheres"), std::invalid_argument);
-    for (const double disc : {1.0, 7.0})
-      CHECK_THROWS_WITH_AS((void)step_ratio(1, {disc}, {1}), Contains("no sphere fits"), std::invalid_argument);
-    for (const double bad : support::not_a_length) {
-      CHECK_THROWS_WITH_AS((void)step_ratio(1, {bad}, {1}), Contains("disc radius"), std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)step_ratio(1, {0.1}, {bad}), Contains("sphere radius"), std::invalid_argument);
     }
   }
 }

@@ -16,9 +16,6 @@ struct Cells {
   int v;
 };
 
-/// The mean edge of a large patch of squares of side 1, each cut by a diagonal: (2 + √2) / 3.
-inline constexpr double mean_edge_of_unit_cells = 1.1380711874576983;
-
 /// How many cells of about that size fill the length, at least 1.
 [[nodiscard]] int cells_along(double length, double cell);
 

@@ -18,7 +18,6 @@ void see_bodies(double body, double outer, Ledger& ledger) {
   const Exact share = Exact{body} / outer;
   ledger.see("P(sphere)", model::sphere_hit_probability({body}, {outer}), share * share, inputs);
   ledger.see("P(disc)", model::disc_hit_probability({body}, {outer}), share * share / 2, inputs);
-  ledger.see("P(cube)", model::cube_hit_probability(body, {outer}), 3 * share * share / (2 * pi()), inputs);
 }
 
 Exact crossing(const Workload& w, const Exact& volume, const Exact& area) {

@@ -65,10 +65,7 @@ void see_count(Draw& draw, Ledger& ledger) {
   const double r0 = draw.anywhere();
   const double d = draw.log_uniform(5e-324, r0);
   const double more_d = larger(d, r0, draw);
-  const auto j = static_cast<std::int64_t>(draw.count(1, 1e17));
-  const auto inputs = [&] {
-    return fmt::format("Q {:a} {:a}, d {:a} {:a}, r0 {:a}, j {}", q, more_q, d, more_d, r0, j);
-  };
+  const auto inputs = [&] { return fmt::format("Q {:a} {:a}, d {:a} {:a}, r0 {:a}", q, more_q, d, more_d, r0); };
   for (const Form form : {Form::published, Form::corrected}) {
     const std::int64_t k = sphere_count(form, {q}, {d}, {r0});
     const std::int64_t with_more_q = sphere_count(form, {more_q}, {d}, {r0});
@@ -76,9 +73,6 @@ void see_count(Draw& draw, Ledger& ledger) {
     ledger.see_whole("k grows with Q", with_more_q, with_more_q >= k, inputs);
     ledger.see_whole("k falls with d", with_more_d, with_more_d <= k, inputs);
   }
-  if (more_d >= r0) return;
-  see_order("Q_j grows with j", step_ratio(j, {d}, {r0}), step_ratio(j + 1, {d}, {r0}), ledger, inputs);
-  see_order("Q_j grows with d", step_ratio(j, {d}, {r0}), step_ratio(j, {more_d}, {r0}), ledger, inputs);
 }
 
 void see_others(Draw& draw, Ledger& ledger) {

@@ -46,12 +46,6 @@ void see_count_around(const Case& c, Ledger& ledger) {
     if (d > 0) see_count({c.ratio, d, c.outer}, ledger);
 }
 
-void see_step(std::int64_t j, double d, double r0, Ledger& ledger) {
-  const Exact expected = support::exp_of(support::log_of(Exact{d} / r0) / j);
-  ledger.see("step_ratio", model::step_ratio(j, {d}, {r0}), expected,
-             [&] { return fmt::format("j {}, d {:a}, r0 {:a}", j, d, r0); });
-}
-
 void see_random(Draw& draw, Ledger& ledger) {
   const double q = draw.ratio();
   const double r0 = draw.anywhere();
@@ -60,7 +54,6 @@ void see_random(Draw& draw, Ledger& ledger) {
   const bool near_tie = draw.whole(0, 1) == 0 && tie > 1e-323;
   const double d = near_tie ? around(tie)[static_cast<std::size_t>(draw.whole(0, 2))] : draw.log_uniform(5e-324, r0);
   see_count({q, d, r0}, ledger);
-  if (d < r0) see_step(static_cast<std::int64_t>(draw.count(1, 1e18)), d, r0, ledger);
 }
 
 void see_edges(Ledger& ledger) {
@@ -79,18 +72,12 @@ void see_edges(Ledger& ledger) {
       for (int j = 1; j < 60; ++j) see_count_around({q, r0 * std::pow(q, j), r0}, ledger);
   for (const double q : {least, 0.5, 1 - 0x1p-53})
     for (const double d : {1.0, 1 + 0x1p-52, 2.0, 1e308}) see_count({q, d, 1}, ledger);
-  for (const std::int64_t j : {std::int64_t{1}, std::int64_t{2}, std::int64_t{1'000'000}, std::int64_t{1} << 53,
-                               std::int64_t{1'000'000'000'000'000'000}})
-    for (const double d : {least, 1e-300, 0.5, 1 - 0x1p-53}) {
-      see_step(j, d, 1, ledger);
-      see_step(j, d, 1.7e308, ledger);
-    }
 }
 
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("hard cases of k and Q_j: Q next to 0 and to 1, d next to r0 Q^j, d next to and beyond r0") {
+  TEST_CASE("hard cases of k: Q next to 0 and to 1, d next to r0 Q^j, d next to and beyond r0") {
     Ledger ledger = on_random_inputs(1, few, see_random);
     see_edges(ledger);
     require_right(ledger);
@@ -110,5 +97,5 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("k and Q_j") { require_right_and_print(on_random_inputs(1, many, see_random)); }
+  TEST_CASE("k") { require_right_and_print(on_random_inputs(1, many, see_random)); }
 }
