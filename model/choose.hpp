@@ -21,8 +21,8 @@ struct Ranked {
 /// tried by then, at least one.
 ///
 /// The sphere caches by best_ratio_and_stop; cell spheres and the octree over their depths; the sphere tree over
-/// fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by box_tree_rule; the grid over cell counts in steps
-/// of 10 %. Throws std::invalid_argument for a workload out of range.
+/// fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by box_tree_rule; the grid by best_grid_cells.
+/// Throws std::invalid_argument for a workload out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs,
                                        const SearchLimits& limits = {});
 

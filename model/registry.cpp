@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <limits>
 #include <span>
 
 #include "best_ratio.hpp"
@@ -11,6 +9,8 @@
 #include "box_tree_rule.hpp"
 #include "cell_spheres.hpp"
 #include "disc_index.hpp"
+#include "fastest.hpp"
+#include "index_best.hpp"
 #include "line_measure.hpp"
 #include "rebuild_law.hpp"
 #include "sphere_cache.hpp"
@@ -59,31 +59,6 @@ std::optional<Parameters> best_cache(const Workload& workload, const UnitCosts& 
   return SphereCacheParameters{ratio.value_or(best.ratio), spheres.value_or(best.spheres)};
 }
 
-/// Keeps the fastest of the parameters it is shown that stay within the limits.
-template <class P>
-class Fastest {
- public:
-  Fastest(const UnitCosts& costs, Technique technique, const SearchLimits& limits)
-      : costs_(costs), technique_(technique), limits_(limits) {}
-
-  void consider(const P& parameters, const Counts<double>& counts) {
-    if (counts.references > limits_.most_references) return;
-    const double time = price(counts, costs_, technique_).total();
-    if (best_ && time >= least_) return;
-    best_ = Parameters(parameters);
-    least_ = time;
-  }
-
-  [[nodiscard]] std::optional<Parameters> best() const { return best_; }
-
- private:
-  const UnitCosts& costs_;
-  Technique technique_;
-  const SearchLimits& limits_;
-  std::optional<Parameters> best_;
-  double least_ = 0;
-};
-
 std::optional<Parameters> best_cells(const Workload& workload, const UnitCosts& costs, const Wish&,
                                      const SearchLimits& limits) {
   Fastest<CellSpheresParameters> fastest(costs, Technique::cell_spheres, limits);
@@ -120,21 +95,14 @@ std::optional<Parameters> best_box_tree(const Workload& workload, const UnitCost
 /// The depth that is best top-down serves for all traversals.
 std::optional<Parameters> best_octree(const Workload& workload, const UnitCosts& costs, const Wish&,
                                       const SearchLimits& limits) {
-  Fastest<OctreeParameters> fastest(costs, Technique::octree, limits);
-  int depth = 0;
-  for (const Counts<double>& counts : octree_counts_by_depth(workload, {limits.most_depth}))
-    fastest.consider({depth++}, counts);
-  return fastest.best();
+  const auto depth = best_octree_depth(workload, costs, limits);
+  return depth ? std::optional<Parameters>(OctreeParameters{*depth}) : std::nullopt;
 }
 
 std::optional<Parameters> best_grid(const Workload& workload, const UnitCosts& costs, const Wish&,
                                     const SearchLimits& limits) {
-  Fastest<GridParameters> fastest(costs, Technique::grid, limits);
-  for (int cells = 1;
-       cells <= 1 << 16 && index_cells(workload, cells).count() <= limits.most_cells && !limits.stop.stop_requested();
-       cells = std::max(cells + 1, static_cast<int>(1.1 * cells)))
-    fastest.consider({cells}, grid_counts(workload, {cells}));
-  return fastest.best();
+  const auto cells = best_grid_cells(workload, costs, limits);
+  return cells ? std::optional<Parameters>(GridParameters{*cells}) : std::nullopt;
 }
 
 const std::array<TechniqueModel, all_techniques.size()> registry{{

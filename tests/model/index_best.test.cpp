@@ -45,7 +45,7 @@ TEST_SUITE("identity") {
           cube_workload(std::round(random.log_uniform(1e2, 1e7)), std::round(random.log_uniform(1e2, 1e7)),
                         random.log_uniform(1e-4, 0.2), 2, run % 2 == 0 ? 2 : 3);
       const UnitCosts costs = random_costs(random);
-      const int best = best_octree_depth(w, costs, {}, 12);
+      const int best = best_octree_depth(w, costs, {.most_depth = 12}).value();
       for (int depth = 0; depth <= 12; ++depth)
         REQUIRE(octree_time(w, best, costs) <= octree_time(w, depth, costs) * (1 + 1e-12));
     }
@@ -59,11 +59,27 @@ TEST_SUITE("identity") {
       const bool flat = run % 4 > 1;
       if (flat) w.box = {2, 1.3, 0.2};
       const UnitCosts costs = random_costs(random);
-      const double found = grid_time(w, best_grid_cells(w, costs, {}, 600), costs);
+      const double found = grid_time(w, best_grid_cells(w, costs).value(), costs);
       double least = found;
-      for (int cells = 1; cells <= 600; ++cells) least = std::min(least, grid_time(w, cells, costs));
+      for (int cells = 1; cells <= 600; ++cells)
+        if (grid_counts(w, {cells}).references <= 1e9) least = std::min(least, grid_time(w, cells, costs));
       CAPTURE(run);
       CHECK(found <= least * (flat ? 1.01 : 1.001));
+    }
+  }
+
+  TEST_CASE("no grid in steps of 10 % within the limits is faster, however flat the box") {
+    support::RandomNumbers random(6);
+    for (int run = 0; run < 60; ++run) {
+      Workload w = cube_workload(std::round(random.log_uniform(1e2, 1e7)), std::round(random.log_uniform(1e2, 1e7)),
+                                 random.log_uniform(1e-4, 0.2), 2, run % 2 == 0 ? 2 : 3);
+      w.box = {2, 2 * random.log_uniform(1e-3, 1), 2 * random.log_uniform(1e-3, 1)};
+      const UnitCosts costs = random_costs(random);
+      const double found = grid_time(w, best_grid_cells(w, costs).value(), costs);
+      CAPTURE(run);
+      for (int cells = 1; cells <= 1 << 16 && index_cells(w, cells).count() <= 1 << 26;
+           cells = std::max(cells + 1, static_cast<int>(1.1 * cells)))
+        if (grid_counts(w, {cells}).references <= 1e9) CHECK(found <= grid_time(w, cells, costs));
     }
   }
 }
@@ -88,8 +104,8 @@ TEST_SUITE("known answer") {
 
 TEST_SUITE("bad input") {
   TEST_CASE("numbers out of range are refused by name") {
-    CHECK_THROWS_WITH_AS((void)best_octree_depth(in_cube, {}, {}, -1), Contains("depth"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)best_grid_cells(in_cube, {}, {}, 0), Contains("most cells"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)best_octree_depth(in_cube, {}, {.most_depth = -1}), Contains("depth"),
+                         std::invalid_argument);
     Workload bad = in_cube;
     bad.rays = 0;
     CHECK_THROWS_WITH_AS((void)best_octree_depth(bad, {}), Contains("number of rays"), std::invalid_argument);

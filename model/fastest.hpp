@@ -1,0 +1,43 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "registry.hpp"
+
+namespace detp::model {
+
+/// Keeps the fastest of the parameters it is shown that stay within the limits.
+template <class P>
+class Fastest {
+ public:
+  Fastest(const UnitCosts& costs, Technique technique, const SearchLimits& limits)
+      : costs_(costs), technique_(technique), limits_(limits) {}
+
+  /// The time that the counts take; infinite where there are too many references.
+  double consider(const P& parameters, const Counts<double>& counts) {
+    if (counts.references > limits_.most_references) return std::numeric_limits<double>::infinity();
+    const double time = price(counts, costs_, technique_).total();
+    if (!found_ || time < least_) {
+      best_ = parameters;
+      least_ = time;
+      found_ = true;
+    }
+    return time;
+  }
+
+  [[nodiscard]] std::optional<P> best() const { return found_ ? std::optional<P>(best_) : std::nullopt; }
+
+  /// The time of the best; infinite where there is none.
+  [[nodiscard]] double least() const { return least_; }
+
+ private:
+  const UnitCosts& costs_;
+  Technique technique_;
+  const SearchLimits& limits_;
+  bool found_ = false;
+  P best_{};
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace detp::model
