@@ -1,7 +1,5 @@
 #include "sphere_count.hpp"
 
-#include <fmt/format.h>
-
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <stdexcept>

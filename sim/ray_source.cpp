@@ -4,7 +4,6 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "stop_check.hpp"
 

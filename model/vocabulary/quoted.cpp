@@ -1,7 +1,6 @@
 #include "quoted.hpp"
 
 #include <array>
-#include <cstdint>
 #include <vector>
 
 namespace detp {

@@ -1,7 +1,6 @@
 #include "mesh_light.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "detp/sim/stop_check.hpp"
 

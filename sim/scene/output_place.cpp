@@ -7,10 +7,8 @@
 
 #include <cerrno>
 #include <climits>
-#include <cstdlib>
 #include <cstring>
 #include <string_view>
-#include <tuple>
 
 #include "file_error.hpp"
 #include "number_text.hpp"

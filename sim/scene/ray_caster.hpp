@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 #include <stop_token>
-#include <vector>
 
 #include "mesh.hpp"
 

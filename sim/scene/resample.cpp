@@ -1,7 +1,6 @@
 #include "resample.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 #include "detp/sim/random.hpp"
 #include "detp/sim/stop_check.hpp"

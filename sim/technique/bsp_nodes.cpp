@@ -2,7 +2,6 @@
 
 #include <array>
 #include <numeric>
-#include <optional>
 
 #include "detp/sim/memory.hpp"
 #include "detp/sim/stop_check.hpp"

@@ -2,7 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <cmath>
 #include <stdexcept>
 
 #include "detp/model/best_ratio.hpp"

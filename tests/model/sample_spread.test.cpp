@@ -2,8 +2,6 @@
 
 #include <doctest/doctest.h>
 
-#include <algorithm>
-
 #include "detp/sim/uniform_discs.hpp"
 
 using namespace detp;

@@ -1,7 +1,5 @@
 #include "answer_rows.hpp"
 
-#include <fmt/format.h>
-
 #include <set>
 #include <string>
 

@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "built_in.hpp"
 #include "mesh_pieces.hpp"

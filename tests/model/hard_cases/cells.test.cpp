@@ -1,5 +1,4 @@
 #include <boost/math/constants/constants.hpp>
-#include <cmath>
 
 #include "detp/model/cell_spheres.hpp"
 #include "detp/model/disc_index.hpp"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>
-#include <cmath>
 
 #include "run.hpp"
 

@@ -1,4 +1,3 @@
-#include <algorithm>
 #include <cmath>
 
 #include "detp/model/disc_index_published.hpp"
