@@ -117,6 +117,7 @@ const std::array<TechniqueModel, all_techniques.size()> registry{{
     {Technique::grid, predicted<GridParameters, grid>, best_grid, uncounted_grid},
     {Technique::bsp},
     {Technique::bvh},
+    {Technique::ray_map},
     {Technique::photon_map},
 }};
 

@@ -23,6 +23,7 @@ constexpr std::array<StructuralTier, all_techniques.size()> registry{{
     {Technique::grid, structural_grid},
     {Technique::bsp, structural_bsp},
     {Technique::bvh, nullptr, only_run},
+    {Technique::ray_map, nullptr, only_run},
     {Technique::photon_map, nullptr, only_run},
 }};
 

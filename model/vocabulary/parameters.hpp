@@ -97,6 +97,12 @@ struct BvhParameters {
   bool operator==(const BvhParameters&) const = default;
 };
 
+/// A kd-tree over the rays, built where discs look.
+struct RayMapParameters {
+  int leaf = 32;  ///< a cell of so many rays is split no further
+  bool operator==(const RayMapParameters&) const = default;
+};
+
 /// The nearest photons to each disc's centre.
 struct PhotonMapParameters {
   int nearest = 50;  ///< k, photons looked for, no more than there are
@@ -105,6 +111,6 @@ struct PhotonMapParameters {
 
 using Parameters = std::variant<BruteForceParameters, SphereCacheParameters, CellSpheresParameters,
                                 SphereTreeParameters, BoxTreeParameters, OctreeParameters, GridParameters,
-                                BspParameters, BvhParameters, PhotonMapParameters>;
+                                BspParameters, BvhParameters, RayMapParameters, PhotonMapParameters>;
 
 }  // namespace detp

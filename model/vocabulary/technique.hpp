@@ -23,6 +23,7 @@ enum class Technique {
   grid,
   bsp,
   bvh,
+  ray_map,
   photon_map
 };
 
@@ -86,6 +87,9 @@ inline constexpr std::array bsp{
 inline constexpr std::array bvh{
     choice<&BvhParameters::quality>("quality", BuildQuality::low, "how carefully a BVH is built")};
 
+inline constexpr std::array ray_map{number<&RayMapParameters::leaf>(
+    "leaf", "number of rays in a leaf", 1, most_parts, int64_t{2}, "rays in a cell that is split no further")};
+
 inline constexpr std::array photon_map{number<&PhotonMapParameters::nearest>(
     "nearest", "number of nearest photons", 3, 1e9, int64_t{3}, "photons that are looked for")};
 
@@ -116,6 +120,7 @@ inline constexpr std::array technique_records{
     TechniqueRecord{Technique::grid, "grid", records::grid, GridParameters{}, true, true},
     TechniqueRecord{Technique::bsp, "bsp", records::bsp, BspParameters{}, true, true},
     TechniqueRecord{Technique::bvh, "bvh", records::bvh, BvhParameters{}, true, true},
+    TechniqueRecord{Technique::ray_map, "ray-map", records::ray_map, RayMapParameters{}, true, true},
     TechniqueRecord{Technique::photon_map, "photon-map", records::photon_map, PhotonMapParameters{}, false, true}};
 
 [[nodiscard]] constexpr const TechniqueRecord& record_of(Technique technique) {

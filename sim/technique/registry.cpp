@@ -6,7 +6,7 @@ namespace detp::sim {
 
 // Each in a file of its own.
 Prepare prepare_brute_force, prepare_sphere_cache, prepare_sphere_cache_published, prepare_cell_spheres,
-    prepare_sphere_tree, prepare_box_tree, prepare_octree, prepare_grid, prepare_bsp, prepare_bvh, prepare_photon_map;
+    prepare_sphere_tree, prepare_box_tree, prepare_octree, prepare_grid, prepare_bsp, prepare_bvh, prepare_ray_map, prepare_photon_map;
 
 namespace {
 
@@ -21,6 +21,7 @@ constexpr std::array<TechniqueSearch, all_techniques.size()> registry{{
     {Technique::grid, prepare_grid},
     {Technique::bsp, prepare_bsp},
     {Technique::bvh, prepare_bvh},
+    {Technique::ray_map, prepare_ray_map},
     {Technique::photon_map, prepare_photon_map},
 }};
 

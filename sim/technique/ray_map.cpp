@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <numeric>
+
+#include "detp/sim/memory.hpp"
+#include "detp/sim/stop_check.hpp"
+#include "disc_box.hpp"
+#include "hit_collector.hpp"
+#include "indexed_search.hpp"
+#include "ray_box.hpp"
+#include "registry.hpp"
+#include "run_memory.hpp"
+
+namespace detp::sim {
+namespace {
+
+/// A cell with the rays that cross it, or two halves.
+struct Cell {
+  Box box;
+  std::vector<std::uint32_t> rays;  ///< empty once it is split
+  std::uint32_t first = 0;          ///< the lower half, followed by the upper one; 0: not split
+
+  [[nodiscard]] bool is_split() const { return first != 0; }
+};
+
+/// A kd-tree over rays. A cell is halved across its longest side when a disc looks into it, as long as it has more rays
+/// than a leaf and is longer than the largest disc is wide: below that, a disc would look into most of its parts.
+///
+/// Source  V. Havran, J. Bittner, H.-P. Seidel: Ray Maps for Global Illumination (2004); the splitting rule is ours.
+template <bool counting>
+class RayMap {
+ public:
+  RayMap(const Problem& problem, const RunOptions& options, int leaf)
+      : problem_(problem), leaf_(static_cast<std::size_t>(leaf)), check_(options.stop, "searching") {
+    for (const Disc& disc : problem.discs) narrowest_ = std::max(narrowest_, 2 * disc.radius);
+    std::vector<std::uint32_t> all(problem.rays.size());
+    std::iota(all.begin(), all.end(), 0U);
+    cells_.push_back({index_box(problem), std::move(all)});
+    tested_for_.assign(problem.rays.size(), 0);
+  }
+
+  /// The rays that hit the disc, in rising order of their numbers.
+  const std::vector<std::uint32_t>& find(std::uint32_t disc) {
+    found_.clear();
+    look_into(0, disc, bounds(problem_.discs[disc], 2 * problem_.slack));
+    std::sort(found_.begin(), found_.end());
+    return found_;
+  }
+
+  [[nodiscard]] const Counts<std::uint64_t>& counts() const { return tally_.counts(); }
+
+ private:
+  void look_into(std::uint32_t number, std::uint32_t disc, const Box& reach) {
+    tally_.add(&Counts<std::uint64_t>::nodes);
+    check_.after(1);
+    if (!cells_[number].is_split() && should_split(cells_[number])) split(number);
+    if (!cells_[number].is_split()) return test(cells_[number].rays, disc);
+    for (const std::uint32_t half : {cells_[number].first, cells_[number].first + 1})
+      if (overlap(cells_[half].box, reach)) look_into(half, disc, reach);
+  }
+
+  [[nodiscard]] static bool overlap(const Box& a, const Box& b) {
+    return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+  }
+
+  [[nodiscard]] bool should_split(const Cell& cell) const {
+    const glm::dvec3 size = cell.box.size();
+    return cell.rays.size() > leaf_ && std::max({size.x, size.y, size.z}) > narrowest_;
+  }
+
+  /// Rays near the middle plane go to both halves, whose boxes are grown by the slack for them.
+  void split(std::uint32_t number) {
+    const Box box = cells_[number].box;
+    const std::vector<std::uint32_t> rays = std::move(cells_[number].rays);
+    const glm::dvec3 size = box.size();
+    const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+    const auto first = static_cast<std::uint32_t>(cells_.size());
+    for (const bool upper : {false, true}) {
+      Cell half{box, {}};
+      (upper ? half.box.low : half.box.high)[axis] = box.centre()[axis];
+      const Box grown{half.box.low - problem_.slack, half.box.high + problem_.slack};
+      for_each_checked(std::span(rays), check_, [&](std::uint32_t ray) {
+        if (!ClippedRay(problem_.rays[ray]).inside(grown).empty()) half.rays.push_back(ray);
+      });
+      tally_.add(&Counts<std::uint64_t>::culls);
+      tally_.add(&Counts<std::uint64_t>::cull_tests, rays.size());
+      tally_.add(&Counts<std::uint64_t>::listed, half.rays.size());
+      listed_ += half.rays.size();
+      cells_.push_back(std::move(half));
+    }
+    listed_ -= rays.size();
+    cells_[number].first = first;
+    require_memory_for("the ray map",
+                       grown_bytes(cells_.size(), sizeof(Cell)) +
+                           2 * sizeof(std::uint32_t) * static_cast<double>(listed_ + problem_.rays.size()),
+                       problem_);
+  }
+
+  /// A ray that is in several cells of the disc is tested once.
+  void test(const std::vector<std::uint32_t>& rays, std::uint32_t disc) {
+    tally_.add(&Counts<std::uint64_t>::visits);
+    for_each_checked(std::span(rays), check_, [&](std::uint32_t ray) {
+      if (tested_for_[ray] == disc + 1) return;
+      tested_for_[ray] = disc + 1;
+      tally_.add(&Counts<std::uint64_t>::disc_tests);
+      if (counts_as_hit(problem_, problem_.rays[ray], problem_.discs[disc])) found_.push_back(ray);
+    });
+  }
+
+  const Problem& problem_;
+  std::size_t leaf_;
+  StopCheck check_;
+  Tally<counting> tally_;
+  double narrowest_ = 0;  ///< no cell shorter than this is split
+  std::vector<Cell> cells_;
+  std::size_t listed_ = 0;                 ///< rays in the cells not split, except the root
+  std::vector<std::uint32_t> tested_for_;  ///< for each ray: 1 + the last disc it was tested against; 0: none yet
+  std::vector<std::uint32_t> found_;
+};
+
+/// Discs look up the rays that cross them. There is nothing to build before rays come. On one thread.
+class RayMapIndex final : public Index {
+ public:
+  explicit RayMapIndex(int leaf) : leaf_(leaf) {}
+
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    const double rays = 3.0 * sizeof(std::uint32_t) * static_cast<double>(problem.rays.size());
+    need_memory("the ray map", rays + 2 * found_bytes(problem, options), problem, outcome);
+    options.count ? look_up<true>(problem, options, outcome) : look_up<false>(problem, options, outcome);
+  }
+
+ private:
+  template <bool counting>
+  void look_up(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
+    RayMap<counting> map(problem, options, leaf_);
+    HitCollector collector(problem, options);
+    collector.take_discs();
+    std::uint32_t done = 0;
+    try {
+      for (; done < problem.discs.size(); ++done)
+        for (const std::uint32_t ray : map.find(done)) collector.keep(ray, done);
+    } catch (const Stopped&) {  // the disc under way is left out
+    }
+    outcome.counts = map.counts();
+    if (done == problem.discs.size()) return std::move(collector).give(problem.rays.size(), outcome);
+    std::vector<std::uint32_t> first(done);
+    std::iota(first.begin(), first.end(), 0U);
+    std::move(collector).give_discs(first, outcome);
+  }
+
+  int leaf_;
+};
+
+}  // namespace
+
+std::unique_ptr<Index> prepare_ray_map(const Problem&, const Parameters& parameters, const RunOptions&) {
+  return std::make_unique<RayMapIndex>(std::get<RayMapParameters>(parameters).leaf);
+}
+
+}  // namespace detp::sim

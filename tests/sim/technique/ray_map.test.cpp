@@ -1,0 +1,61 @@
+#include <doctest/doctest.h>
+
+#include <vector>
+
+#include "detp/sim/line_field.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/sim/uniform_discs.hpp"
+
+using namespace detp;
+using namespace detp::sim;
+
+namespace {
+
+const std::vector<Disc>& discs() {
+  static const std::vector<Disc> all = uniform_discs(Body::cube_faces, 2, 2000, 0.02, 3);
+  return all;
+}
+
+Outcome search(std::size_t rays, int leaf) {
+  const auto lines = LineField(enclosing_sphere(discs()), 7).lines(0, rays);
+  return run(make_problem(lines, discs()), {Technique::ray_map, RayMapParameters{leaf}}, {.pairs = true});
+}
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("leaves of any size find the hits of brute force, each once") {
+    const auto lines = LineField(enclosing_sphere(discs()), 7).lines(0, 3000);
+    const Outcome expected = run(make_problem(lines, discs()), {}, {.pairs = true});
+    REQUIRE(expected.total_hits > 100);
+    for (const int leaf : {1, 16, 1000, 1 << 20}) {
+      const Outcome found = search(3000, leaf);
+      CHECK(found.pairs == expected.pairs);
+      CHECK(found.irradiance == expected.irradiance);
+    }
+  }
+}
+
+TEST_SUITE("limit") {
+  TEST_CASE("a leaf for all rays is brute force") {
+    const Outcome all = search(500, 500);
+    CHECK(all.counts.disc_tests == 500 * discs().size());
+    CHECK(all.counts.nodes == discs().size());
+    CHECK(all.counts.culls == 0);
+  }
+
+  TEST_CASE("it tests far fewer rays than there are, and ten times the rays take less than ten times the tests") {
+    const Counts<std::uint64_t> few = search(1'000, 32).counts;
+    const Counts<std::uint64_t> many = search(10'000, 32).counts;
+    CHECK(many.disc_tests < 10'000 * discs().size() / 50);
+    CHECK(many.disc_tests < 9 * few.disc_tests);
+  }
+
+  TEST_CASE("where no disc looks nothing is built: one disc in a corner takes few cells") {
+    const std::vector<Disc> pair{{.centre = glm::dvec3{-1}, .radius = 1e-3}, {.centre = glm::dvec3{1}, .radius = 1e-3}};
+    const auto lines = LineField(enclosing_sphere(pair), 7).lines(0, 20'000);
+    const Outcome found = run(make_problem(lines, pair), {Technique::ray_map, RayMapParameters{8}});
+    CHECK(found.counts.culls < 200);
+    CHECK(found.counts.disc_tests < 100);
+  }
+}
