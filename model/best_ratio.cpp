@@ -7,7 +7,6 @@
 #include <queue>
 #include <vector>
 
-#include "predict.hpp"
 #include "sphere_cache.hpp"
 #include "sphere_count.hpp"
 #include "step_pieces.hpp"
@@ -31,15 +30,14 @@ class Times {
 
   /// T with no sphere; any Q will do.
   [[nodiscard]] BestRatio without_spheres() const {
-    const Candidate none{Technique::sphere_cache, SphereCacheParameters{published_ratio, 0}};
-    return {published_ratio, 0, price(predict(workload_, none, Engine::plain), costs_).total()};
+    return {published_ratio, 0, price(sphere_cache_counts(workload_, {published_ratio, 0}), costs_).total()};
   }
 
   /// T with k spheres.
   [[nodiscard]] double at(double ratio, std::int64_t k) const {
     if (k > summed_one_by_one) {
       looked_at_ += summed_one_by_one;
-      return price(predict(workload_, {Technique::sphere_cache, SphereCacheParameters{ratio, k}}, Engine::plain),
+      return price(sphere_cache_counts(workload_, {ratio, k}),
                    costs_)
           .total();
     }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/scene/open_scene.hpp"
 #include "detp/sim/memory.hpp"
 #include "detp/sim/scene/disc_file.hpp"
 #include "detp/sim/scene/photon_paths.hpp"

@@ -7,7 +7,7 @@
 #include "detp/sim/stop_check.hpp"
 #include "detp/sim/technique/cell_walk.hpp"
 #include "detp/sim/technique/ray_list.hpp"
-#include "detp/sim/technique/sphere_tree.hpp"
+#include "detp/sim/technique/sphere_nodes.hpp"
 #include "structural_boxes.hpp"
 #include "structural_registry.hpp"
 

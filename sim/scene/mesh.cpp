@@ -6,7 +6,6 @@
 
 #include "detp/sim/stop_check.hpp"
 #include "detp/sim/unit_vector.hpp"
-#include "scene.hpp"
 
 namespace detp::sim {
 namespace {

@@ -29,4 +29,8 @@ using Notices = std::vector<std::string>;
 [[nodiscard]] std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices,
                                                       const std::stop_token& stop = {});
 
+/// Mean length of the mesh's edges, each counted once; 0 without triangles. An estimate of the distance between
+/// neighbouring samples at vertices. Throws Stopped if a stop was requested.
+[[nodiscard]] double mean_edge_length(const Mesh& mesh, const std::stop_token& stop = {});
+
 }  // namespace detp::sim

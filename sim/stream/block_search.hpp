@@ -1,6 +1,7 @@
 #pragma once
 
 #include "detp/sim/stop_check.hpp"
+#include "detp/sim/technique/outcome.hpp"
 #include "detp/sim/technique/totals.hpp"
 #include "disc_tree.hpp"
 #include "ray_list.hpp"

@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "detp/sim/technique/outcome.hpp"
 #include "frame.hpp"
 #include "ray_list.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "detp/sim/technique/technique.hpp"
+#include "detp/sim/technique/problem.hpp"
 
 /// Where rays and discs are when they are floats: the scene moved to the origin and scaled to about 1.
 namespace detp::sim::stream {

@@ -1,7 +1,6 @@
 #include "bsp_nodes.hpp"
 #include "indexed_search.hpp"
 #include "ray_box.hpp"
-#include "registry.hpp"
 #include "run_memory.hpp"
 
 namespace detp::sim {

@@ -3,7 +3,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "technique.hpp"
+#include "problem.hpp"
 
 namespace detp::sim {
 

@@ -11,7 +11,6 @@
 #include "disc_box.hpp"
 #include "hit_collector.hpp"
 #include "ray_search.hpp"
-#include "registry.hpp"
 #include "run_memory.hpp"
 
 namespace detp::sim {

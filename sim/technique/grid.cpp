@@ -6,7 +6,6 @@
 #include "disc_box.hpp"
 #include "indexed_search.hpp"
 #include "ray_box.hpp"
-#include "registry.hpp"
 #include "run_memory.hpp"
 
 namespace detp::sim {

@@ -5,7 +5,8 @@
 #include "detp/sim/dominant_axis.hpp"
 #include "detp/sim/predicates.hpp"
 #include "sort_pairs.hpp"
-#include "technique.hpp"
+#include "problem.hpp"
+#include "outcome.hpp"
 
 namespace detp::sim {
 

@@ -2,7 +2,8 @@
 
 #include <memory>
 
-#include "technique.hpp"
+#include "outcome.hpp"
+#include "problem.hpp"
 
 /// One door to every search: `prepare` builds what depends on the discs alone, `search` uses it.
 namespace detp::sim {
@@ -30,10 +31,11 @@ class Index {
   Built built_;
 };
 
-/// Builds the index of a candidate over a problem's discs, for rays that start no farther away than those of the
-/// problem (which may have none yet). Throws as run does; Stopped if a stop was requested.
-[[nodiscard]] std::unique_ptr<Index> prepare(const Problem& problem, const Candidate& candidate,
-                                             const RunOptions& options);
+/// Throws std::invalid_argument for options that no technique can run with.
+void check_options(const RunOptions& options, const Problem& problem);
+
+/// The outcome of a run that was stopped before it searched.
+[[nodiscard]] Outcome nothing_found(const Problem& problem, const RunOptions& options);
 
 /// Searches an index for the hits of the problem's rays. Throws as Index::search does, and std::invalid_argument for
 /// options out of range. A search that is stopped before it found anything has an outcome without hits.

@@ -1,8 +1,9 @@
 #pragma once
 
 #include "detp/sim/stream/ray_list.hpp"
-#include "sphere_tree.hpp"
-#include "technique.hpp"
+#include "sphere_nodes.hpp"
+#include "outcome.hpp"
+#include "problem.hpp"
 
 /// Predicted memory of techniques that cull lists of rays, beside rays, discs and pairs.
 ///

@@ -4,7 +4,6 @@
 #include "octree_descent.hpp"
 #include "octree_links.hpp"
 #include "octree_walk.hpp"
-#include "registry.hpp"
 #include "run_memory.hpp"
 
 namespace detp::sim {

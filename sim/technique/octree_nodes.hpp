@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/index_variant.hpp"
-#include "technique.hpp"
+#include "problem.hpp"
 
 namespace detp::sim {
 

@@ -9,7 +9,7 @@
 #include "detp/sim/stop_check.hpp"
 #include "detp/sim/threads.hpp"
 #include "soundness.hpp"
-#include "technique.hpp"
+#include "problem.hpp"
 
 namespace detp::sim {
 namespace {

@@ -4,7 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "technique.hpp"
+#include "outcome.hpp"
+#include "problem.hpp"
 
 /// Techniques that trace rays one by one, on any number of threads.
 namespace detp::sim {

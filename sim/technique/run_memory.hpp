@@ -2,7 +2,8 @@
 
 #include <string_view>
 
-#include "technique.hpp"
+#include "outcome.hpp"
+#include "problem.hpp"
 
 /// Memory that a run takes beside the problem's rays and discs: predicted, and refused before it is taken.
 namespace detp::sim {

@@ -5,7 +5,7 @@
 
 #include "detp/sim/memory.hpp"
 #include "detp/sim/stop_check.hpp"
-#include "technique.hpp"
+#include "outcome.hpp"
 
 namespace detp::sim {
 

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "list_walk.hpp"
-#include "technique.hpp"
+#include "problem.hpp"
 
 namespace detp::sim {
 

@@ -2,7 +2,8 @@
 
 #include "list_walk.hpp"
 #include "ray_list.hpp"
-#include "technique.hpp"
+#include "outcome.hpp"
+#include "problem.hpp"
 
 namespace detp::sim {
 

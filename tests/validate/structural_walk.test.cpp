@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "detp/sim/line_field.hpp"
-#include "detp/sim/scene/scene.hpp"
+#include "detp/sim/scene/open_scene.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/sim/uniform_discs.hpp"
 

@@ -4,6 +4,7 @@
 
 #include "command.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/scene/open_scene.hpp"
 #include "detp/sim/scene/disc_file.hpp"
 #include "detp/sim/scene/mesh_writer.hpp"
 #include "detp/sim/scene/ray_file.hpp"

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "detp/sim/lebesgue.hpp"
-#include "detp/sim/technique/sphere_tree.hpp"
+#include "detp/sim/technique/sphere_nodes.hpp"
 #include "detp/sim/uniform_discs.hpp"
 
 namespace {

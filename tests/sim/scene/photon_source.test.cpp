@@ -1,3 +1,4 @@
+#include "detp/sim/scene/open_scene.hpp"
 #include "detp/sim/scene/photon_source.hpp"
 
 #include <doctest/doctest.h>

@@ -1,4 +1,4 @@
-#include "detp/sim/technique/sphere_tree.hpp"
+#include "detp/sim/technique/sphere_nodes.hpp"
 
 #include <doctest/doctest.h>
 

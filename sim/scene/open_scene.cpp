@@ -1,4 +1,4 @@
-#include "scene.hpp"
+#include "open_scene.hpp"
 
 #include <stdexcept>
 

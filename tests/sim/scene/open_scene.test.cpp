@@ -1,4 +1,4 @@
-#include "detp/sim/scene/scene.hpp"
+#include "detp/sim/scene/open_scene.hpp"
 
 #include <doctest/doctest.h>
 
