@@ -4,7 +4,7 @@
 #include <cstring>
 #include <utility>
 
-#include "detp/sim/stop_check.hpp"
+#include "detp/sim/base/stop_check.hpp"
 
 namespace detp::sim {
 namespace {

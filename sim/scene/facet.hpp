@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detp/sim/geometry.hpp"
+#include "detp/sim/geometry/geometry.hpp"
 
 /// Where a ray crosses a triangle, in double precision. All coordinates are below about 1.
 namespace detp::sim {

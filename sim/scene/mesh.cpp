@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "detp/sim/stop_check.hpp"
-#include "detp/sim/unit_vector.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/geometry/unit_vector.hpp"
 
 namespace detp::sim {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/sim/geometry.hpp"
+#include "detp/sim/geometry/geometry.hpp"
 
 /// Triangle meshes, and the samples at their vertices.
 namespace detp::sim {

@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "detp/sim/geometry.hpp"
+#include "detp/sim/geometry/geometry.hpp"
 #include "mesh.hpp"
 
 namespace detp::sim {

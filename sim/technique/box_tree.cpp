@@ -1,12 +1,12 @@
 #include <deque>
 
-#include "detp/sim/stopwatch.hpp"
-#include "detp/sim/stream/search.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/geometry/ray_box.hpp"
+#include "detp/sim/lists/plain/ray_list.hpp"
+#include "detp/sim/lists/simd/search.hpp"
+#include "detp/sim/search/run_memory.hpp"
 #include "list_memory.hpp"
-#include "ray_box.hpp"
-#include "ray_list.hpp"
 #include "registry.hpp"
-#include "run_memory.hpp"
 
 namespace detp::sim {
 namespace {

@@ -1,9 +1,9 @@
-#include "detp/sim/stop_check.hpp"
-#include "detp/sim/stream/search.hpp"
-#include "hit_collector.hpp"
-#include "ray_search.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/lists/simd/search.hpp"
+#include "detp/sim/search/hit_collector.hpp"
+#include "detp/sim/search/ray_search.hpp"
+#include "detp/sim/search/run_memory.hpp"
 #include "registry.hpp"
-#include "run_memory.hpp"
 
 namespace detp::sim {
 namespace {

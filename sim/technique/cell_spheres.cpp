@@ -1,4 +1,4 @@
-#include "cell_walk.hpp"
+#include "detp/sim/lists/cell_walk.hpp"
 #include "registry.hpp"
 #include "walk_index.hpp"
 

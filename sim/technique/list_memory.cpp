@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detp/sim/curve.hpp"
-#include "detp/sim/stream/ray_list.hpp"
-#include "detp/sim/stream/search.hpp"
-#include "hit_collector.hpp"
-#include "ray_list.hpp"
-#include "run_memory.hpp"
-#include "sphere_walk.hpp"
+#include "detp/sim/geometry/curve.hpp"
+#include "detp/sim/lists/plain/ray_list.hpp"
+#include "detp/sim/lists/simd/ray_list.hpp"
+#include "detp/sim/lists/simd/search.hpp"
+#include "detp/sim/lists/sphere_walk.hpp"
+#include "detp/sim/search/hit_collector.hpp"
+#include "detp/sim/search/run_memory.hpp"
 
 namespace detp::sim {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "detp/sim/stream/ray_list.hpp"
-#include "sphere_nodes.hpp"
-#include "outcome.hpp"
-#include "problem.hpp"
+#include "detp/sim/lists/simd/ray_list.hpp"
+#include "detp/sim/lists/sphere_nodes.hpp"
+#include "detp/sim/search/outcome.hpp"
+#include "detp/sim/search/problem.hpp"
 
 /// Predicted memory of techniques that cull lists of rays, beside rays, discs and pairs.
 ///

@@ -8,12 +8,12 @@
 #include <stdexcept>
 #include <vector>
 
-#include "detp/sim/predicates.hpp"
-#include "detp/sim/stop_check.hpp"
-#include "detp/sim/stopwatch.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/geometry/predicates.hpp"
+#include "detp/sim/search/run_memory.hpp"
+#include "detp/sim/search/sort_pairs.hpp"
 #include "registry.hpp"
-#include "run_memory.hpp"
-#include "sort_pairs.hpp"
 
 namespace detp::sim {
 namespace {
@@ -179,8 +179,8 @@ double map_bytes(const Problem& problem) {
 ///     E = (power of the k - 1 nearest) / (π r_k²)        r_k: distance of the k-th nearest
 ///
 /// Not k: that would be k/(k - 1) times too much where photons fall evenly (García, Ureña, Sbert, CGF 2012; its spread
-/// and bias: model/nearest_photons.hpp). The discs' radii and normals do not matter, except that with front_facing only
-/// photons count that arrive in front; a disc that fewer than k of them reach has irradiance 0.
+/// and bias: model/accuracy/nearest_photons.hpp). The discs' radii and normals do not matter, except that with
+/// front_facing only photons count that arrive in front; a disc that fewer than k of them reach has irradiance 0.
 ///
 /// Hits and pairs are the k - 1 photons used; counted are the photons stored (references) and these hits. On one
 /// thread.

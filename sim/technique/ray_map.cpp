@@ -1,14 +1,14 @@
 #include <algorithm>
 #include <numeric>
 
-#include "detp/sim/memory.hpp"
-#include "detp/sim/stop_check.hpp"
-#include "disc_box.hpp"
-#include "hit_collector.hpp"
-#include "indexed_search.hpp"
-#include "ray_box.hpp"
+#include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/geometry/disc_box.hpp"
+#include "detp/sim/geometry/ray_box.hpp"
+#include "detp/sim/index/indexed_search.hpp"
+#include "detp/sim/search/hit_collector.hpp"
+#include "detp/sim/search/run_memory.hpp"
 #include "registry.hpp"
-#include "run_memory.hpp"
 
 namespace detp::sim {
 namespace {
@@ -18,12 +18,14 @@ struct Cell {
   Box box;
   std::vector<std::uint32_t> rays;  ///< empty once it is split
   std::uint32_t first = 0;          ///< the lower half, followed by the upper one; 0: not split
+  bool final = false;               ///< splitting it does not separate its rays
 
   [[nodiscard]] bool is_split() const { return first != 0; }
 };
 
 /// A kd-tree over rays. A cell is halved across its longest side when a disc looks into it, as long as it has more rays
 /// than a leaf and is longer than the largest disc is wide: below that, a disc would look into most of its parts.
+/// Halves that would hold most rays twice, as where rays coincide, are not made.
 ///
 /// Source  V. Havran, J. Bittner, H.-P. Seidel: Ray Maps for Global Illumination (2004); the splitting rule is ours.
 template <bool counting>
@@ -31,6 +33,7 @@ class RayMap {
  public:
   RayMap(const Problem& problem, const RunOptions& options, int leaf)
       : problem_(problem), leaf_(static_cast<std::size_t>(leaf)), check_(options.stop, "searching") {
+    narrowest_ = 8 * problem.slack;  // to which halves are grown
     for (const Disc& disc : problem.discs) narrowest_ = std::max(narrowest_, 2 * disc.radius);
     std::vector<std::uint32_t> all(problem.rays.size());
     std::iota(all.begin(), all.end(), 0U);
@@ -64,31 +67,38 @@ class RayMap {
 
   [[nodiscard]] bool should_split(const Cell& cell) const {
     const glm::dvec3 size = cell.box.size();
-    return cell.rays.size() > leaf_ && std::max({size.x, size.y, size.z}) > narrowest_;
+    return !cell.final && cell.rays.size() > leaf_ && std::max({size.x, size.y, size.z}) > narrowest_;
   }
 
-  /// Rays near the middle plane go to both halves, whose boxes are grown by the slack for them.
+  /// The part of a box, grown by the slack: rays near the middle plane are in both.
+  [[nodiscard]] Cell half_of(const Cell& cell, int axis, bool upper) {
+    Cell half{cell.box, {}};
+    (upper ? half.box.low : half.box.high)[axis] = cell.box.centre()[axis];
+    const Box grown{half.box.low - problem_.slack, half.box.high + problem_.slack};
+    for_each_checked(std::span(cell.rays), check_, [&](std::uint32_t ray) {
+      if (!ClippedRay(problem_.rays[ray]).inside(grown).empty()) half.rays.push_back(ray);
+    });
+    tally_.add(&Counts<std::uint64_t>::culls);
+    tally_.add(&Counts<std::uint64_t>::cull_tests, cell.rays.size());
+    tally_.add(&Counts<std::uint64_t>::listed, half.rays.size());
+    return half;
+  }
+
   void split(std::uint32_t number) {
-    const Box box = cells_[number].box;
-    const std::vector<std::uint32_t> rays = std::move(cells_[number].rays);
-    const glm::dvec3 size = box.size();
+    const glm::dvec3 size = cells_[number].box.size();
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto first = static_cast<std::uint32_t>(cells_.size());
-    for (const bool upper : {false, true}) {
-      Cell half{box, {}};
-      (upper ? half.box.low : half.box.high)[axis] = box.centre()[axis];
-      const Box grown{half.box.low - problem_.slack, half.box.high + problem_.slack};
-      for_each_checked(std::span(rays), check_, [&](std::uint32_t ray) {
-        if (!ClippedRay(problem_.rays[ray]).inside(grown).empty()) half.rays.push_back(ray);
-      });
-      tally_.add(&Counts<std::uint64_t>::culls);
-      tally_.add(&Counts<std::uint64_t>::cull_tests, rays.size());
-      tally_.add(&Counts<std::uint64_t>::listed, half.rays.size());
-      listed_ += half.rays.size();
-      cells_.push_back(std::move(half));
-    }
-    listed_ -= rays.size();
-    cells_[number].first = first;
+    Cell lower = half_of(cells_[number], axis, false);
+    Cell upper = half_of(cells_[number], axis, true);
+    constexpr double most_twice = 1.9;  // of the rays; a line meets 4/3 halves of a cube
+    const auto in_halves = static_cast<double>(lower.rays.size() + upper.rays.size());
+    cells_[number].final = in_halves > most_twice * static_cast<double>(cells_[number].rays.size());
+    if (cells_[number].final) return;
+    listed_ += lower.rays.size() + upper.rays.size();
+    listed_ -= std::min(listed_, cells_[number].rays.size());
+    cells_[number].rays = {};
+    cells_[number].first = static_cast<std::uint32_t>(cells_.size());
+    cells_.push_back(std::move(lower));
+    cells_.push_back(std::move(upper));
     require_memory_for("the ray map",
                        grown_bytes(cells_.size(), sizeof(Cell)) +
                            2 * sizeof(std::uint32_t) * static_cast<double>(listed_ + problem_.rays.size()),

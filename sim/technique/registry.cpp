@@ -6,7 +6,8 @@ namespace detp::sim {
 
 // Each in a file of its own.
 Prepare prepare_brute_force, prepare_sphere_cache, prepare_sphere_cache_published, prepare_cell_spheres,
-    prepare_sphere_tree, prepare_box_tree, prepare_octree, prepare_grid, prepare_bsp, prepare_bvh, prepare_ray_map, prepare_photon_map;
+    prepare_sphere_tree, prepare_box_tree, prepare_octree, prepare_grid, prepare_bsp, prepare_bvh, prepare_ray_map,
+    prepare_photon_map;
 
 namespace {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "index.hpp"
+#include "detp/sim/search/index.hpp"
 
 /// What prepares the search of each technique. Parameters have been checked and are the technique's own.
 namespace detp::sim {

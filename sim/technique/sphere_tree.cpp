@@ -1,12 +1,12 @@
-#include "detp/sim/stopwatch.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 
 #include <algorithm>
 
+#include "detp/sim/lists/plain/ray_list.hpp"
+#include "detp/sim/lists/sphere_nodes.hpp"
+#include "detp/sim/search/run_memory.hpp"
 #include "list_memory.hpp"
-#include "ray_list.hpp"
 #include "registry.hpp"
-#include "run_memory.hpp"
-#include "sphere_nodes.hpp"
 
 namespace detp::sim {
 namespace {

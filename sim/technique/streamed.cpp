@@ -6,11 +6,12 @@
 #include <bit>
 #include <stdexcept>
 
-#include "detp/sim/memory.hpp"
-#include "detp/sim/stopped.hpp"
-#include "detp/sim/stopwatch.hpp"
-#include "detp/sim/threads.hpp"
-#include "index.hpp"
+#include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/search/index.hpp"
+#include "registry.hpp"
 
 namespace detp::sim {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <functional>
 
-#include "detp/sim/ray_source.hpp"
+#include "detp/sim/rays/ray_source.hpp"
 #include "technique.hpp"
 
 /// Any number of rays in bounded memory: read in blocks, searched one block after another.

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
-#include "detp/sim/stop_check.hpp"
-#include "detp/sim/stopwatch.hpp"
-#include "index.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/search/index.hpp"
 #include "registry.hpp"
 
 namespace detp::sim {

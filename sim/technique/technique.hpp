@@ -1,7 +1,7 @@
 #pragma once
 
-#include "outcome.hpp"
-#include "problem.hpp"
+#include "detp/sim/search/outcome.hpp"
+#include "detp/sim/search/problem.hpp"
 
 /// One question, many techniques: which rays cross which discs? All exact techniques give the same answer.
 namespace detp::sim {

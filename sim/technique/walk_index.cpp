@@ -1,11 +1,11 @@
 #include "walk_index.hpp"
 
-#include "detp/sim/stopwatch.hpp"
-#include "detp/sim/stream/search.hpp"
-#include "detp/sim/stream/walk_search.hpp"
-#include "ray_list.hpp"
-#include "run_memory.hpp"
-#include "walk_search.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/lists/plain/ray_list.hpp"
+#include "detp/sim/lists/plain/walk_search.hpp"
+#include "detp/sim/lists/simd/search.hpp"
+#include "detp/sim/lists/simd/walk_search.hpp"
+#include "detp/sim/search/run_memory.hpp"
 
 namespace detp::sim {
 namespace {

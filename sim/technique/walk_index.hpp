@@ -2,9 +2,9 @@
 
 #include <string>
 
-#include "index.hpp"
+#include "detp/sim/lists/list_walk.hpp"
+#include "detp/sim/search/index.hpp"
 #include "list_memory.hpp"
-#include "list_walk.hpp"
 
 namespace detp::sim {
 

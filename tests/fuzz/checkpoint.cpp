@@ -1,7 +1,7 @@
 // Checkpoint files of the sweep: read or refused by FileError; what was read can be written and read again.
 
 #include "detp/validate/sweep/checkpoint.hpp"
-#include "detp/sim/scene/file_error.hpp"
+#include "detp/sim/files/file_error.hpp"
 #include "scratch.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

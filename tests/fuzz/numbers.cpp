@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "detp/sim/scene/number_text.hpp"
-#include "detp/validate/job.hpp"
+#include "detp/sim/files/number_text.hpp"
+#include "detp/validate/choice/job.hpp"
 #include "scratch.hpp"
 
 namespace {

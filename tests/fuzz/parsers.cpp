@@ -4,10 +4,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "detp/sim/scene/disc_file.hpp"
-#include "detp/sim/scene/file_error.hpp"
-#include "detp/sim/scene/mesh_file.hpp"
-#include "detp/sim/scene/ray_file.hpp"
+#include "detp/sim/files/disc_file.hpp"
+#include "detp/sim/files/file_error.hpp"
+#include "detp/sim/files/mesh_file.hpp"
+#include "detp/sim/files/ray_file.hpp"
 #include "scratch.hpp"
 
 namespace {

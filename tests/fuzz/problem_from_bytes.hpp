@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "detp/sim/directions.hpp"
-#include "detp/sim/geometry.hpp"
-#include "detp/sim/unit_vector.hpp"
+#include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/geometry.hpp"
+#include "detp/sim/geometry/unit_vector.hpp"
 
 /// Small problems made of a fuzzer's bytes. Degenerate ones are likely: most bytes choose among special cases.
 namespace detp::fuzz {

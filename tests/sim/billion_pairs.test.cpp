@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "detp/sim/line_field.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/sim/uniform_discs.hpp"
 #include "support/float_candidates.hpp"
 #include "support/hard_scene.hpp"
 

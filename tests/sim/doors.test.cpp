@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "detp/sim/line_field.hpp"
-#include "detp/sim/ray_source.hpp"
+#include "detp/sim/photons/photon_paths.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/scene/mesh.hpp"
-#include "detp/sim/scene/photon_paths.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/streamed.hpp"
-#include "detp/sim/uniform_discs.hpp"
 #include "support/exact_candidates.hpp"
 #include "support/not_a_length.hpp"
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cstdint>
 
-#include "detp/sim/error_band.hpp"
-#include "detp/sim/predicates.hpp"
+#include "detp/sim/geometry/error_band.hpp"
+#include "detp/sim/geometry/predicates.hpp"
 #include "support/exact_geometry.hpp"
 #include "support/hard_geometry.hpp"
 

@@ -5,9 +5,9 @@
 #include <iterator>
 #include <map>
 
-#include "detp/sim/line_field.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/sim/uniform_discs.hpp"
 
 using namespace detp;
 using namespace detp::sim;

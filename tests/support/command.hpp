@@ -20,7 +20,7 @@
 #include <utility>
 #include <vector>
 
-#include "support/scratch_file.hpp"
+#include "scratch_file.hpp"
 
 /// The command `detp` run as a user runs it: a process of its own.
 namespace detp::support {
@@ -48,8 +48,13 @@ struct Finished {
 /// A started detp, its stdout and stderr in files. One that hangs is killed after a minute.
 class Process {
  public:
-  explicit Process(const Arguments& arguments) {
+  /// With so many bytes of addresses, if that is not 0: a limit of the new process alone.
+  explicit Process(const Arguments& arguments, double addresses = 0) {
     std::vector<std::string> words{DETP_COMMAND};
+    if (addresses > 0) {
+      const std::string limit = std::to_string(static_cast<long long>(addresses / 1024));
+      words = {"/bin/sh", "-c", "ulimit -v " + limit + "; exec \"$0\" \"$@\"", DETP_COMMAND};
+    }
     words.insert(words.end(), arguments.begin(), arguments.end());
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
@@ -135,6 +140,7 @@ inline std::string line_of(const Arguments& arguments) {
 
 inline Finished detp(const Arguments& arguments) { return Process(arguments).finish(); }
 inline Finished detp(const std::string& line) { return detp(words(line)); }
+inline Finished detp_in(double addresses, const std::string& line) { return Process(words(line), addresses).finish(); }
 
 /// The JSON result of a command that must succeed.
 inline Json result_of(const Arguments& arguments) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "support/command.hpp"
+#include "command.hpp"
 
 /// Answers as CSV, read as RFC 4180 says.
 namespace detp::support {

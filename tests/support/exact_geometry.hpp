@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <initializer_list>
 
-#include "detp/sim/geometry.hpp"
+#include "detp/sim/geometry/geometry.hpp"
 
 /// What hits what, exactly. Every double is an integer times a power of 2, and each question is the sign of a
 /// polynomial in them, so integers of enough bits decide it. Directions and normals are taken as they are: the ray is

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "detp/model/vocabulary.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 
 namespace detp::support {
 

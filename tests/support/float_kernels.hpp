@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detp/sim/stream/disc_tree.hpp"
+#include "detp/sim/lists/simd/disc_tree.hpp"
 
-/// What the float kernels compute (sim/stream/kernels-inl.hpp), written once more for one ray and any kind of number:
-/// in floats, with and without fused operations, and in long double, where it serves as the truth.
+/// What the float kernels compute (sim/lists/simd/kernels-inl.hpp), written once more for one ray and any kind of
+/// number: in floats, with and without fused operations, and in long double, where it serves as the truth.
 namespace detp::support {
 
 /// A ray and a disc in the coordinates of the ray's class.

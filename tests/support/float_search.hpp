@@ -4,9 +4,9 @@
 #include <numeric>
 #include <vector>
 
-#include "detp/sim/stream/list_search.hpp"
-#include "detp/sim/stream/load_rays.hpp"
-#include "detp/sim/stream/tree_search.hpp"
+#include "detp/sim/lists/simd/list_search.hpp"
+#include "detp/sim/lists/simd/load_rays.hpp"
+#include "detp/sim/lists/simd/tree_search.hpp"
 
 /// The float kernels by themselves, so that tests may narrow their bands and margins.
 namespace detp::support {

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "detp/sim/predicates.hpp"
-#include "support/float_kernels.hpp"
-#include "support/float_search.hpp"
+#include "detp/sim/geometry/predicates.hpp"
+#include "float_kernels.hpp"
+#include "float_search.hpp"
 
 /// How much of their bounds the float kernels use up.
 namespace detp::support {

@@ -8,9 +8,9 @@
 #include <numbers>
 #include <string_view>
 
-#include "detp/sim/directions.hpp"
-#include "detp/sim/geometry.hpp"
-#include "detp/sim/random.hpp"
+#include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/geometry.hpp"
+#include "detp/sim/geometry/random.hpp"
 
 /// Rays that only just hit or miss a disc or a sphere, in every way we could think of.
 namespace detp::support {

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <vector>
 
-#include "support/hard_geometry.hpp"
+#include "hard_geometry.hpp"
 
 /// Scenes of hard rays and discs, for all techniques.
 namespace detp::support {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detp/sim/technique/disc_index.hpp"
+#include "detp/sim/index/disc_index.hpp"
 
 /// Runs of an index in its variants.
 namespace detp::support {

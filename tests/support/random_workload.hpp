@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <random>
 
-#include "detp/model/vocabulary.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 
 /// Random workloads for tests, the same on every machine.
 namespace detp::support {

@@ -11,8 +11,8 @@
 #include <iterator>
 #include <string>
 
-#include "detp/sim/random.hpp"
-#include "detp/sim/scene/file_error.hpp"
+#include "detp/sim/files/file_error.hpp"
+#include "detp/sim/geometry/random.hpp"
 
 /// Files for tests of readers and writers.
 namespace detp::sim::support {

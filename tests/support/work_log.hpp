@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detp/sim/stop_check.hpp"
+#include "detp/sim/base/stop_check.hpp"
 
 namespace detp::sim::support {
 

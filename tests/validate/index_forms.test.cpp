@@ -4,13 +4,13 @@
 #include <cmath>
 #include <string>
 
-#include "detp/model/disc_index.hpp"
-#include "detp/model/index_memory.hpp"
-#include "detp/sim/line_field.hpp"
-#include "detp/sim/technique/disc_index.hpp"
-#include "detp/sim/technique/indexed_search.hpp"
-#include "detp/sim/technique/ray_box.hpp"
-#include "detp/sim/uniform_discs.hpp"
+#include "detp/model/disc_index/disc_index.hpp"
+#include "detp/model/disc_index/index_memory.hpp"
+#include "detp/sim/geometry/ray_box.hpp"
+#include "detp/sim/index/disc_index.hpp"
+#include "detp/sim/index/indexed_search.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "support/indexed.hpp"
 
 // The closed forms of an index of discs against counts, in all its variants.

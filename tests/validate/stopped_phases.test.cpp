@@ -1,12 +1,12 @@
 #include <doctest/doctest.h>
 
-#include "detp/sim/line_field.hpp"
-#include "detp/sim/uniform_discs.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/validate/bench/bench.hpp"
-#include "detp/validate/experiment/experiments.hpp"
-#include "detp/validate/job.hpp"
-#include "detp/validate/measure.hpp"
-#include "detp/validate/structural.hpp"
+#include "detp/validate/choice/job.hpp"
+#include "detp/validate/choice/measure.hpp"
+#include "detp/validate/claims/experiments.hpp"
+#include "detp/validate/structural/structural.hpp"
 #include "detp/validate/sweep/sweep.hpp"
 #include "support/work_log.hpp"
 

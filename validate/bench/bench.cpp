@@ -7,7 +7,7 @@
 #include <numeric>
 
 #include "contenders.hpp"
-#include "detp/sim/stopped.hpp"
+#include "detp/sim/base/stopped.hpp"
 
 namespace detp::validate {
 namespace {

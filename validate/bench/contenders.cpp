@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "detp/validate/unit_costs.hpp"
+#include "detp/validate/choice/unit_costs.hpp"
 
 namespace detp::validate {
 Contenders contenders(const Workload& workload, std::span<const Technique> named, double hopeless) {

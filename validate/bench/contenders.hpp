@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "detp/model/choose.hpp"
+#include "detp/model/rank/choose.hpp"
 
 /// Which of our techniques are worth running on a workload, and with which parameters.
 namespace detp::validate {

@@ -4,9 +4,9 @@
 #include <numeric>
 #include <optional>
 
-#include "detp/sim/stopwatch.hpp"
-#include "detp/validate/in_turns.hpp"
-#include "detp/validate/statistics.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/validate/base/in_turns.hpp"
+#include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::validate {
 namespace {

@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "detp/validate/peer/embree_peer.hpp"
+#include "detp/validate/bench/peer/embree_peer.hpp"
 #include "referee.hpp"
 
 /// Competitors on the same rays and discs, in turns.

@@ -6,8 +6,8 @@
 #include <stop_token>
 #include <vector>
 
-#include "detp/model/vocabulary.hpp"
-#include "detp/validate/job.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/validate/choice/job.hpp"
 
 namespace detp::validate {
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/validate/job.hpp"
+#include "detp/validate/choice/job.hpp"
 
 /// Which work the benchmark is about.
 namespace detp::validate {

@@ -4,7 +4,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "detp/sim/stopped.hpp"
+#include "detp/sim/base/stopped.hpp"
 #include "table.hpp"
 #include "value_lists.hpp"
 

@@ -5,11 +5,11 @@
 #include <stdexcept>
 
 #include "choose_report.hpp"
-#include "detp/model/paper_rule.hpp"
-#include "detp/sim/stopped.hpp"
-#include "detp/sim/stopwatch.hpp"
-#include "detp/validate/structural.hpp"
-#include "detp/validate/unit_costs.hpp"
+#include "detp/model/rank/paper_rule.hpp"
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/validate/choice/unit_costs.hpp"
+#include "detp/validate/structural/structural.hpp"
 #include "unit_cost_option.hpp"
 #include "workload_options.hpp"
 

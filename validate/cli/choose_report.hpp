@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "command.hpp"
-#include "detp/model/choose.hpp"
-#include "detp/validate/analysis.hpp"
+#include "detp/model/rank/choose.hpp"
+#include "detp/validate/choice/analysis.hpp"
 
 namespace detp::cli {
 

@@ -8,7 +8,7 @@
 #include <stop_token>
 #include <string>
 
-#include "detp/sim/progress.hpp"
+#include "detp/sim/base/progress.hpp"
 
 /// What the commands share: their options, and the shape of their results.
 namespace detp::cli {

@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/threads.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "number_option.hpp"
 
 namespace detp::cli {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "command.hpp"
-#include "detp/model/vocabulary.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 
 /// How results tell that a prediction is extrapolated (detp/model/extrapolation.hpp).
 namespace detp::cli {

@@ -7,7 +7,7 @@
 #include <mutex>
 #include <utility>
 
-#include "detp/sim/scene/part_files.hpp"
+#include "detp/sim/files/part_files.hpp"
 
 namespace detp::cli {
 namespace {

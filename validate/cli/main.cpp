@@ -8,11 +8,11 @@
 #include <system_error>
 
 #include "command_line.hpp"
-#include "detp/model/vocabulary.hpp"
-#include "detp/sim/memory.hpp"
-#include "detp/sim/scene/file_error.hpp"
-#include "detp/sim/scene/output_file.hpp"
-#include "detp/sim/threads.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/files/file_error.hpp"
+#include "detp/sim/files/output_file.hpp"
 #include "interruption.hpp"
 #include "messages.hpp"
 #include "outputs.hpp"

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "detp/validate/prediction_error.hpp"
+#include "detp/validate/choice/prediction_error.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {

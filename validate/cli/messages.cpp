@@ -11,7 +11,7 @@
 #include <iostream>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/scene/file_error.hpp"
+#include "detp/sim/files/file_error.hpp"
 
 namespace detp::cli {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "answer_rows.hpp"
 #include "command.hpp"
-#include "detp/model/extrapolation.hpp"
-#include "detp/model/registry.hpp"
+#include "detp/model/rank/extrapolation.hpp"
+#include "detp/model/rank/registry.hpp"
 #include "extrapolated.hpp"
 #include "model_answer.hpp"
 #include "unit_cost_option.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "command.hpp"
-#include "detp/model/form.hpp"
+#include "detp/model/vocabulary/form.hpp"
 #include "workload_options.hpp"
 
 /// What the closed forms say of each technique, as the `model` command shows it.

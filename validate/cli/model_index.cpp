@@ -4,8 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "detp/model/disc_index.hpp"
-#include "detp/model/disc_index_published.hpp"
+#include "detp/model/disc_index/disc_index.hpp"
+#include "detp/model/disc_index/disc_index_published.hpp"
 #include "model_answer.hpp"
 
 namespace detp::cli {

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "detp/model/best_ratio.hpp"
-#include "detp/model/cell_spheres.hpp"
-#include "detp/model/choose.hpp"
-#include "detp/model/predict.hpp"
-#include "detp/model/rebuild_law.hpp"
-#include "detp/model/sphere_cache.hpp"
-#include "detp/model/sphere_cache_published.hpp"
-#include "detp/model/sphere_tree.hpp"
+#include "detp/model/hierarchy/cell_spheres.hpp"
+#include "detp/model/hierarchy/sphere_tree.hpp"
+#include "detp/model/optimum/best_ratio.hpp"
+#include "detp/model/rank/choose.hpp"
+#include "detp/model/rank/predict.hpp"
+#include "detp/model/sphere_cache/rebuild_law.hpp"
+#include "detp/model/sphere_cache/sphere_cache.hpp"
+#include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "model_answer.hpp"
 #include "sphere_stops.hpp"
 

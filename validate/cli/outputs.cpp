@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/sim/scene/output_place.hpp"
+#include "detp/sim/files/output_place.hpp"
 
 namespace detp::cli {
 

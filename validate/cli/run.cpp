@@ -4,12 +4,12 @@
 #include <stdexcept>
 
 #include "command.hpp"
-#include "detp/model/best_ratio.hpp"
-#include "detp/model/choose.hpp"
-#include "detp/sim/scene/output_file.hpp"
-#include "detp/sim/scene/writing_check.hpp"
-#include "detp/sim/threads.hpp"
-#include "detp/validate/unit_costs.hpp"
+#include "detp/model/optimum/best_ratio.hpp"
+#include "detp/model/rank/choose.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/files/output_file.hpp"
+#include "detp/sim/files/writing_check.hpp"
+#include "detp/validate/choice/unit_costs.hpp"
 #include "outputs.hpp"
 #include "run_report.hpp"
 #include "sphere_stops.hpp"

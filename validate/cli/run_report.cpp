@@ -4,8 +4,8 @@
 
 #include <stdexcept>
 
-#include "detp/model/predict.hpp"
-#include "detp/validate/unit_costs.hpp"
+#include "detp/model/rank/predict.hpp"
+#include "detp/validate/choice/unit_costs.hpp"
 #include "sphere_stops.hpp"
 #include "workload_options.hpp"
 
@@ -152,7 +152,7 @@ Columns run_columns() {
 TextColumns run_text_columns() {
   return {{"scene", "field", "ray_file", "front_facing", "rays", "samples", "disc_radius", "engine", "technique",
            "parameters"},
-          {"hits", "cull_tests", "predicted_sphere_tests", "disc_tests", "predicted_disc_tests", "seconds",
+          {"hits", "cull_tests", "predicted_cull_tests", "disc_tests", "predicted_disc_tests", "seconds",
            "predicted_seconds"}};
 }
 

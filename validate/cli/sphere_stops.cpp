@@ -1,8 +1,8 @@
 #include "sphere_stops.hpp"
 
-#include "detp/model/best_published_ratio.hpp"
-#include "detp/model/best_ratio.hpp"
-#include "detp/model/sphere_count.hpp"
+#include "detp/model/optimum/best_published_ratio.hpp"
+#include "detp/model/optimum/best_ratio.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
 
 namespace detp::cli {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "detp/model/form.hpp"
-#include "detp/model/vocabulary.hpp"
+#include "detp/model/vocabulary/form.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 
 namespace detp::cli {
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "command.hpp"
-#include "detp/sim/stopped.hpp"
+#include "detp/sim/base/stopped.hpp"
 
 /// What a stop request leaves of an answer.
 namespace detp::cli {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "command.hpp"
-#include "detp/model/vocabulary.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 
 /// Answers as one tidy table: a row each, the columns declared once.
 namespace detp::cli {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "detp/sim/stopwatch.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/streamed.hpp"
 
 namespace detp::cli {

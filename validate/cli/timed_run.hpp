@@ -4,7 +4,7 @@
 
 #include "command.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/job.hpp"
+#include "detp/validate/choice/job.hpp"
 
 namespace detp::cli {
 

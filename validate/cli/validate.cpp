@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/experiment/experiments.hpp"
+#include "detp/validate/claims/experiments.hpp"
 #include "outputs.hpp"
 #include "sweep_report.hpp"
 #include "workload_options.hpp"

@@ -5,8 +5,8 @@
 #include <string>
 
 #include "command.hpp"
-#include "detp/model/choose.hpp"
-#include "detp/validate/job.hpp"
+#include "detp/model/rank/choose.hpp"
+#include "detp/validate/choice/job.hpp"
 #include "value_lists.hpp"
 
 namespace detp::cli {

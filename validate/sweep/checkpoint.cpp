@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "detp/sim/scene/file_error.hpp"
-#include "detp/sim/scene/input_file.hpp"
-#include "detp/sim/scene/output_file.hpp"
+#include "detp/sim/files/file_error.hpp"
+#include "detp/sim/files/input_file.hpp"
+#include "detp/sim/files/output_file.hpp"
 
 namespace detp::validate {
 namespace {

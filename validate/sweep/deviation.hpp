@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/validate/statistics.hpp"
+#include "detp/validate/statistics/statistics.hpp"
 
 /// How far formulas are from what was counted, over a sweep of workloads.
 namespace detp::validate {

@@ -6,13 +6,13 @@
 #include <numeric>
 #include <optional>
 
-#include "detp/model/disc_index_published.hpp"
-#include "detp/model/predict.hpp"
-#include "detp/model/sphere_cache.hpp"
-#include "detp/model/sphere_cache_published.hpp"
-#include "detp/model/sphere_count.hpp"
-#include "detp/sim/line_field.hpp"
-#include "detp/sim/stopped.hpp"
+#include "detp/model/disc_index/disc_index_published.hpp"
+#include "detp/model/rank/predict.hpp"
+#include "detp/model/sphere_cache/sphere_cache.hpp"
+#include "detp/model/sphere_cache/sphere_cache_published.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 namespace detp::validate {

@@ -6,10 +6,10 @@
 #include <array>
 #include <cmath>
 
-#include "detp/model/disc_index_published.hpp"
-#include "detp/model/predict.hpp"
-#include "detp/model/sphere_count.hpp"
-#include "detp/sim/uniform_discs.hpp"
+#include "detp/model/disc_index/disc_index_published.hpp"
+#include "detp/model/rank/predict.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 
 namespace detp::validate {
 namespace {

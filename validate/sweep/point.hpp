@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "detp/model/vocabulary.hpp"
-#include "detp/sim/geometry.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/geometry/geometry.hpp"
 
 /// The workloads over which the formulas are held against counting: samples uniform in a cube of side 2 or on its
 /// faces.

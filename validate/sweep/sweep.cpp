@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "checkpoint.hpp"
-#include "detp/model/predict.hpp"
+#include "detp/model/rank/predict.hpp"
 #include "measure_point.hpp"
 
 namespace detp::validate {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detp/sim/random.hpp"
+#include "detp/sim/geometry/random.hpp"
 
 namespace detp::sim::built_in {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "detp/sim/random.hpp"
+#include "detp/sim/geometry/random.hpp"
 #include "mesh_pieces.hpp"
 
 namespace detp::sim::built_in {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "detp/sim/directions.hpp"
+#include "detp/sim/geometry/directions.hpp"
 
 namespace detp::sim::built_in {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "detp/sim/directions.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "dice.hpp"
 #include "mesh_pieces.hpp"
 

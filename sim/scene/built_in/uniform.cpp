@@ -1,7 +1,7 @@
 #include "built_in.hpp"
-#include "detp/sim/directions.hpp"
-#include "detp/sim/random.hpp"
-#include "detp/sim/stop_check.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/random.hpp"
 
 namespace detp::sim::built_in {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "detp/model/line_measure.hpp"
+#include "detp/model/lines/line_measure.hpp"
 #include "run.hpp"
 
 using namespace detp;

@@ -1,7 +1,7 @@
 #include <boost/math/constants/constants.hpp>
 
-#include "detp/model/cell_spheres.hpp"
-#include "detp/model/disc_index.hpp"
+#include "detp/model/disc_index/disc_index.hpp"
+#include "detp/model/hierarchy/cell_spheres.hpp"
 #include "run.hpp"
 
 using namespace detp;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/model/predict.hpp"
+#include "detp/model/rank/predict.hpp"
 #include "draw.hpp"
 
 using namespace detp;

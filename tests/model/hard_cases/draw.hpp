@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <limits>
 
-#include "detp/model/vocabulary.hpp"
-#include "detp/sim/random.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/geometry/random.hpp"
 #include "support/random_workload.hpp"
 
 /// Inputs over the whole domain of the formulas: a function of their index alone, whatever the threads.

@@ -1,4 +1,4 @@
-#include "detp/model/estimate_error.hpp"
+#include "detp/model/accuracy/estimate_error.hpp"
 
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>

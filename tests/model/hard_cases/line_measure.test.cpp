@@ -1,4 +1,4 @@
-#include "detp/model/line_measure.hpp"
+#include "detp/model/lines/line_measure.hpp"
 
 #include <algorithm>
 #include <boost/math/constants/constants.hpp>

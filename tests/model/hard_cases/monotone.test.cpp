@@ -2,12 +2,12 @@
 #include <cmath>
 #include <utility>
 
-#include "detp/model/cell_spheres.hpp"
-#include "detp/model/estimate_error.hpp"
-#include "detp/model/line_measure.hpp"
-#include "detp/model/optimal_ratio.hpp"
-#include "detp/model/sphere_cache_published.hpp"
-#include "detp/model/sphere_count.hpp"
+#include "detp/model/accuracy/estimate_error.hpp"
+#include "detp/model/hierarchy/cell_spheres.hpp"
+#include "detp/model/lines/line_measure.hpp"
+#include "detp/model/optimum/optimal_ratio.hpp"
+#include "detp/model/sphere_cache/sphere_cache_published.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
 #include "run.hpp"
 
 using namespace detp;

@@ -1,4 +1,4 @@
-#include "detp/model/optimal_ratio.hpp"
+#include "detp/model/optimum/optimal_ratio.hpp"
 
 #include <algorithm>
 #include <cmath>

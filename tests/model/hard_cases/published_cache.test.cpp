@@ -1,7 +1,7 @@
 #include <cmath>
 #include <limits>
 
-#include "detp/model/sphere_cache_published.hpp"
+#include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "run.hpp"
 
 using namespace detp;

@@ -1,6 +1,6 @@
 #include <cmath>
 
-#include "detp/model/disc_index_published.hpp"
+#include "detp/model/disc_index/disc_index_published.hpp"
 #include "run.hpp"
 
 using namespace detp;

@@ -1,11 +1,11 @@
-#include "detp/model/sphere_count.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
 
 #include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "detp/model/choose.hpp"
+#include "detp/model/rank/choose.hpp"
 #include "run.hpp"
 
 using namespace detp;

@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "detp/sim/random.hpp"
+#include "detp/sim/geometry/random.hpp"
 
 using namespace detp::sim;
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "detp/sim/scene/mesh_file.hpp"
+#include "detp/sim/files/mesh_file.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "support/scratch_file.hpp"
 

@@ -11,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "detp/sim/line_field.hpp"
-#include "detp/sim/random.hpp"
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/sim/uniform_discs.hpp"
 #include "support/sanitized.hpp"
 
 // Predicted memory beside what the system says that the process held at its peak. Each run has a process of its own, so

@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "detp/sim/memory.hpp"
+#include "detp/sim/base/memory.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 using namespace detp;

@@ -6,7 +6,7 @@
 #include <stop_token>
 #include <vector>
 
-#include "detp/sim/random.hpp"
+#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 using namespace detp;

@@ -2,9 +2,9 @@
 
 #include <vector>
 
-#include "detp/sim/line_field.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/sim/uniform_discs.hpp"
 
 using namespace detp;
 using namespace detp::sim;

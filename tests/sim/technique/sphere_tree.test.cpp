@@ -1,4 +1,4 @@
-#include "detp/sim/technique/sphere_nodes.hpp"
+#include "detp/sim/lists/sphere_nodes.hpp"
 
 #include <doctest/doctest.h>
 
@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "detp/sim/uniform_discs.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 
 using namespace detp;
 using namespace detp::sim;

@@ -2,10 +2,10 @@
 
 #include <vector>
 
-#include "detp/sim/line_field.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/sim/uniform_discs.hpp"
 #include "support/work_log.hpp"
 
 namespace detp::sim {

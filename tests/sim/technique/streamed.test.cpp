@@ -6,8 +6,8 @@
 #include <stdexcept>
 #include <vector>
 
-#include "detp/sim/random.hpp"
-#include "detp/sim/uniform_discs.hpp"
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 
 using namespace detp;
 using namespace detp::sim;

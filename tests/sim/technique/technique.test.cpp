@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <vector>
 
-#include "detp/sim/directions.hpp"
-#include "detp/sim/line_field.hpp"
-#include "detp/sim/random.hpp"
-#include "detp/sim/uniform_discs.hpp"
+#include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "support/float_candidates.hpp"
 
 using namespace detp;

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "detp/model/vocabulary.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 #include "support/command.hpp"
 
 namespace detp::support {

@@ -1,12 +1,10 @@
 #include <doctest/doctest.h>
 
-#include "support/address_limit.hpp"
 #include "support/command.hpp"
 #include "support/sanitized.hpp"
 
 // Memory and threads that the user's machine does not have, or is not to give.
 
-using detp::support::AddressLimit;
 using detp::support::check_refused;
 using detp::support::Finished;
 using detp::support::Json;
@@ -58,9 +56,8 @@ TEST_SUITE("end to end") {
 
   TEST_CASE("threads that the system does not start are done without") {
     if (sanitized) return;  // a sanitizer needs address space
-    const AddressLimit limit(6e9);
-    const Finished finished =
-        detp::support::detp("run @uniform --rays 1000 --samples 100 --technique grid --threads 4096 --memory-limit 1G");
+    const Finished finished = detp::support::detp_in(
+        6e9, "run @uniform --rays 1000 --samples 100 --technique grid --threads 4096 --memory-limit 1G");
     CAPTURE(finished.err);
     CHECK(finished.code == 0);
     CHECK(finished.err.find("threads only, not 4096") != std::string::npos);
@@ -68,13 +65,13 @@ TEST_SUITE("end to end") {
 
   TEST_CASE("memory that runs out all the same is said to have run out, by Embree too") {
     if (sanitized) return;
-    const AddressLimit limit(164e6);
     // Met by the technique, while the scene is read or sorted, and in Embree.
     for (const char* work : {"grid --cells 400 --samples 1e5", "sphere-tree --samples 3e6",
                              "sphere-cache --ratio 0.6 --samples 1e6", "bvh --samples 2e5"})
       check_short_of(
-          detp::support::detp("run @uniform --rays 10 --threads 1 --memory-limit 100G --disc-radius 0.1% --technique " +
-                              std::string(work)),
+          detp::support::detp_in(
+              164e6, "run @uniform --rays 10 --threads 1 --memory-limit 100G --disc-radius 0.1% --technique " +
+                         std::string(work)),
           "out of memory");
   }
 }

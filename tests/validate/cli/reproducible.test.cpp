@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "detp/model/vocabulary.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
 #include "run_support.hpp"
 
 namespace detp::support {

@@ -4,9 +4,9 @@
 
 #include <numbers>
 
-#include "detp/sim/directions.hpp"
-#include "detp/sim/scene/disc_file.hpp"
-#include "detp/sim/scene/ray_file.hpp"
+#include "detp/sim/files/disc_file.hpp"
+#include "detp/sim/files/ray_file.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "support/command.hpp"
 
 /// Rays and discs as a user's own data, and what `detp run` writes of them.

@@ -1,0 +1,78 @@
+#include "disc_index.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "detp/model/lines/line_measure.hpp"
+
+namespace detp::model {
+namespace {
+
+Counts<double> leaf_counts(const Workload& workload, const Cells& cells, const IndexVariant& variant) {
+  const double references = workload.samples * cells.overlapped;
+  const double once = workload.samples * cells.meeting;
+  return {.disc_tests = workload.rays * (variant.mailboxing ? once : cells.crossing * references),
+          .references = references,
+          .hits = expected_hits(workload)};
+}
+
+/// Grid cells that a ray steps through: the cells' parts inside the discs' box, by their mean surface and volume.
+double steps_of_ray(const Workload& workload, const Cells& cells) {
+  std::array<double, 3> length = workload.box;
+  for (double& side : length) side += 2 * std::min(workload.disc_radius, 1e99);  // their volume is no overflow
+  double faces = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    faces += 2 * cells.along[axis] * length[(axis + 1) % 3] * length[(axis + 2) % 3];
+  const double count = cells.count();
+  return count * crossing_probability(workload, length[0] * length[1] * length[2] / count, faces / count);
+}
+
+}  // namespace
+
+std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, const OctreeParameters& deepest,
+                                                   const IndexVariant& variant) {
+  check(workload);
+  require_count("depth", deepest.depth, 0, 300);
+  if (deepest.traversal == Traversal::neighbour_links)
+    throw std::invalid_argument("an octree with neighbour links has no closed form; the other traversals have");
+  std::vector<Counts<double>> by_depth;
+  double above = 0;       // nodes visited by a ray above this level
+  double left_out = 0;    // visits of its descents to octants left out, down to this level
+  double placements = 0;  // down to this level
+  double parents = 0;     // occupied nodes one level up
+  for (int level = 0; level <= deepest.depth; ++level) {
+    const Cells nodes = index_cells(workload, std::ldexp(1.0, level), variant.insertion);
+    const double occupied = occupied_cells(workload, nodes);
+    if (level > 0) {
+      placements += workload.samples * nodes.overlapped;
+      left_out += level * nodes.crossing * std::max(0.0, 8 * parents - occupied);
+    }
+    Counts<double> counts = leaf_counts(workload, nodes, variant);
+    const double leaves = nodes.crossing * occupied;
+    const bool restart = deepest.traversal == Traversal::restart;
+    counts.nodes = workload.rays * (restart ? left_out + (level + 1) * leaves : above + leaves);
+    counts.placements = placements;
+    by_depth.push_back(counts);
+    above += leaves;
+    parents = occupied;
+  }
+  return by_depth;
+}
+
+Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters,
+                             const IndexVariant& variant) {
+  return octree_counts_by_depth(workload, parameters, variant).back();
+}
+
+Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters, const IndexVariant& variant) {
+  check(workload);
+  require_count("cells a side", parameters.cells, 1, 1e9);
+  const Cells cells = index_cells(workload, parameters.cells, variant.insertion);
+  Counts<double> counts = leaf_counts(workload, cells, variant);
+  counts.steps = workload.rays * steps_of_ray(workload, cells);
+  counts.placements = counts.references;
+  return counts;
+}
+
+}  // namespace detp::model

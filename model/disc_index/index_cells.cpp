@@ -1,0 +1,144 @@
+#include "index_cells.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "detp/model/lines/line_measure.hpp"
+#include "index_mailbox.hpp"
+
+namespace detp::model {
+namespace {
+
+/// The three axes; along the first the centres may be fixed.
+using Axes = std::array<Crossings, 3>;
+
+double planes_across(const Axes& n) { return n[0].one + n[1].one + n[2].one; }
+
+double lines_through(const Axes& n, Insertion insertion) {
+  return n[0].two * (n[1].one + n[2].one) + uniform_crossings(1, insertion).two * n[1].one * n[2].one;
+}
+
+double corners_in(const Axes& n) { return n[0].three * n[1].one * n[2].one; }
+
+IndexAxis axis_of(const Workload& workload, const Cells& cells, std::size_t axis) {
+  return {cells.along[axis], cells.side, workload.box[axis], workload.disc_radius};
+}
+
+/// Share of the samples on the two faces across each axis: by area.
+std::array<double, 3> face_shares(const Workload& workload) {
+  const auto& box = workload.box;
+  std::array<double, 3> areas{box[1] * box[2], box[2] * box[0], box[0] * box[1]};
+  const double all = areas[0] + areas[1] + areas[2];
+  for (double& area : areas) area = all > 0 ? area / all : 1.0 / 3;
+  return areas;
+}
+
+/// Whether the samples lie on the faces of their box, as far as is known; 0 … 1.
+double on_faces(const Workload& workload) {
+  return workload.sample_extent == 0 ? 1 - std::clamp(workload.dimension - 2, 0.0, 1.0) : 0;
+}
+
+/// E and S, means over where the samples are.
+void put_overlapped(Cells& cells, const Workload& workload) {
+  const double x = workload.disc_radius / cells.side;
+  const auto one = [&](std::size_t axis, Centres centres) {
+    return crossings(axis_of(workload, cells, axis), centres, cells.insertion);
+  };
+  const Axes uniform{one(0, Centres::uniform), one(1, Centres::uniform), one(2, Centres::uniform)};
+  cells.overlapped = cells.seen = 0;
+  const auto add = [&](const Axes& n, double weight) {
+    const double planes = planes_across(n);
+    const double lines = lines_through(n, cells.insertion);
+    cells.overlapped += weight * (1 + planes + lines + corners_in(n));
+    cells.seen += weight * faces_seen(x, planes, lines, cells.insertion);
+  };
+  const double faces = on_faces(workload);
+  if (faces < 1) add(uniform, 1 - faces);
+  if (faces == 0) return;
+  const std::array<double, 3> shares = face_shares(workload);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (const Centres centres : {Centres::low_face, Centres::high_face})
+      add({one(axis, centres), uniform[(axis + 1) % 3], uniform[(axis + 2) % 3]}, faces * shares[axis] / 2);
+}
+
+/// The chance that a disc overlaps a cell, by the terms of E: centred in its slabs, or reaching in.
+double overlap_chance(const std::array<const Slabs*, 3>& slabs, std::size_t fixed, Centres centres, double two) {
+  const auto at = static_cast<std::size_t>(centres);
+  const Slabs& j = *slabs[(fixed + 1) % 3];
+  const Slabs& k = *slabs[(fixed + 2) % 3];
+  const double in_both = j.centred[0] * k.centred[0];
+  const double in_one = j.reached[0].one * k.centred[0] + j.centred[0] * k.reached[0].one;
+  const double in_none = j.reached[0].one * k.reached[0].one;
+  const double in = slabs[fixed]->centred[at];
+  const Crossings& reached = slabs[fixed]->reached[at];
+  return in * (in_both + in_one) + slabs[fixed]->pierced[at] * two * in_none + reached.one * in_both +
+         reached.two * in_one + reached.three * in_none;
+}
+
+/// The same, over where the samples are.
+class OverlapChance {
+ public:
+  OverlapChance(const Workload& workload, Insertion insertion)
+      : faces_(on_faces(workload)), shares_(face_shares(workload)), two_(uniform_crossings(1, insertion).two) {}
+
+  [[nodiscard]] double operator()(const std::array<const Slabs*, 3>& slabs) const {
+    double all = faces_ < 1 ? (1 - faces_) * overlap_chance(slabs, 0, Centres::uniform, two_) : 0;
+    for (std::size_t axis = 0; axis < 3 && faces_ > 0; ++axis)
+      for (const Centres centres : {Centres::low_face, Centres::high_face})
+        all += faces_ * shares_[axis] / 2 * overlap_chance(slabs, axis, centres, two_);
+    return std::min(all, 1.0);
+  }
+
+ private:
+  double faces_;
+  std::array<double, 3> shares_;
+  double two_;
+};
+
+}  // namespace
+
+Cells index_cells(const Workload& workload, double parts, Insertion insertion) {
+  check(workload);
+  require_positive("cells along the longest side", parts);
+  const double d = std::min(workload.disc_radius, 1e99);  // larger than all cells, and its volume is no overflow
+  Cells cells{.side = (scene_side(workload) + 2 * d) / parts, .insertion = insertion};
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    cells.along[axis] = std::max(1.0, std::ceil((workload.box[axis] + 2 * d) / cells.side * (1 - 1e-12)));
+  put_overlapped(cells, workload);
+  cells.overlapped = std::min(cells.overlapped, cells.count());
+  const double face = cells.side * cells.side;
+  cells.crossing = crossing_probability(workload, face * cells.side, 6 * face);
+  cells.meeting = crossing_probability(workload, cells.overlapped * face * cells.side, cells.seen * face);
+  return cells;
+}
+
+double occupied_cells(const Workload& workload, const Cells& cells) {
+  check(workload);
+  require_positive("cell side", cells.side);
+  if (workload.dimension < 3 && workload.sample_extent > 0) {
+    const double on_surface =
+        std::min(cells.count(), std::max(1.0, 1.5 * sample_extent(workload) / (cells.side * cells.side)));
+    const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);
+    const double reach = std::pow(cells.count(), weight) * std::pow(on_surface, 1 - weight);
+    return -reach * std::expm1(-workload.samples * cells.overlapped / reach);
+  }
+  std::array<SlabRuns, 3> axes;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    axes[axis] = axis > 0 && workload.box[axis] == workload.box[axis - 1]
+                     ? axes[axis - 1]
+                     : slab_runs(axis_of(workload, cells, axis), cells.insertion);
+  const OverlapChance chance(workload, cells.insertion);
+  double occupied = 0;
+  for (std::size_t i = 0; i < axes[0].size; ++i)
+    for (std::size_t j = 0; j < axes[1].size; ++j)
+      for (std::size_t k = 0; k < axes[2].size; ++k) {
+        const std::array<const Slabs*, 3> slabs{&axes[0].runs[i], &axes[1].runs[j], &axes[2].runs[k]};
+        const double q = chance(slabs);
+        // Beyond 40 discs a cell, empty ones are fewer than 1e-17.
+        const double held = workload.samples * q < 40 ? -std::expm1(workload.samples * std::log1p(-q)) : 1;
+        occupied += slabs[0]->count * slabs[1]->count * slabs[2]->count * held;
+      }
+  return occupied;
+}
+
+}  // namespace detp::model

@@ -1,0 +1,231 @@
+#include "box_tree.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "box_tree_expected.hpp"
+#include "detp/model/lines/line_measure.hpp"
+
+namespace detp::model {
+namespace {
+
+using box_tree::CellKind;
+using box_tree::LevelNodes;
+using box_tree::Sums;
+
+/// Σ P over bodies, each of the mean size.
+class Crossing {
+ public:
+  Crossing(const Workload& workload, double side)
+      : of_surface_(crossing_probability(workload, 0, std::min(largest, unit * side * side)) / unit),
+        of_volume_(crossing_probability(workload, std::min(largest, unit * side * side * side), 0) / unit) {}
+
+  [[nodiscard]] double share(const Sums& sums) const {
+    if (sums.count <= 0) return 0;
+    return std::min(1.0, (of_surface_ * sums.surface + of_volume_ * sums.volume) / sums.count);
+  }
+
+  [[nodiscard]] double operator()(const Sums& sums) const { return sums.count * share(sums); }
+
+ private:
+  static constexpr double unit = 0x1p-40;  // so small that no probability is 1
+  static constexpr double largest = 1e300;
+
+  double of_surface_;
+  double of_volume_;
+};
+
+/// What rays meet in the wide tree, per ray; `culls` and `visits` for all.
+struct Met {
+  double tests = 0;
+  double listed = 0;
+  double discs = 0;
+  double culls = 0;
+  double visits = 0;
+};
+
+/// The inner nodes of the binary tree, joined into wide ones.
+class Widening {
+ public:
+  Widening(const std::vector<LevelNodes>& nodes, const std::vector<CellKind>& kinds, int fan_out)
+      : nodes_(nodes), kinds_(kinds), opened_(fan_out - 1), wide_(nodes.size(), 0), moments_(nodes.size()) {
+    links_.resize(nodes.size());
+    for (std::size_t i = nodes.size(); i-- > 0;) {
+      link(i);
+      find_moments(i);
+    }
+  }
+
+  /// Calls visit(number of the kind, wide nodes, their children each) for kinds with wide nodes.
+  template <class Visit>
+  void for_each(const Visit& visit) {
+    if (nodes_.empty()) return;
+    wide_[0] = nodes_[0].inner.count;
+    for (std::size_t i = 0; i < nodes_.size(); ++i)
+      if (wide_[i] > 1e-9) visit(i, wide_[i], 1 + open(i));
+  }
+
+ private:
+  /// The halves of an inner node, as far as they are inner themselves.
+  struct Link {
+    std::array<std::size_t, 2> child{};
+    std::array<double, 2> inner{};  ///< probability
+  };
+
+  /// Number of inner nodes at most so deep below one, itself counted: means and variances.
+  struct Moments {
+    std::array<double, box_tree_most_children> mean{};
+    std::array<double, box_tree_most_children> variance{};
+  };
+
+  void link(std::size_t number) {
+    const CellKind& kind = kinds_[number];
+    const double here = nodes_[number].inner.count / kind.cells;
+    for (int side = 0; side < 2; ++side) {
+      const std::size_t child = kind.child[side];
+      if (child == 0 || child >= nodes_.size() || here <= 0) continue;
+      links_[number].child[side] = child;
+      links_[number].inner[side] = nodes_[child].inner.count / kinds_[child].cells / here;
+    }
+  }
+
+  void find_moments(std::size_t number) {
+    Moments& all = moments_[number];
+    all.mean[0] = 1;
+    for (int depth = 1; depth <= opened_; ++depth) {
+      all.mean[depth] = 1;
+      for (int side = 0; side < 2; ++side) {
+        const double inner = links_[number].inner[side];
+        if (inner <= 0) continue;
+        const Moments& below = moments_[links_[number].child[side]];
+        const double likely = std::min(1.0, inner);
+        all.mean[depth] += inner * below.mean[depth - 1];
+        all.variance[depth] +=
+            inner * below.variance[depth - 1] + likely * (1 - likely) * below.mean[depth - 1] * below.mean[depth - 1];
+      }
+    }
+  }
+
+  /// E[min(opened, X)] of a normal X.
+  [[nodiscard]] double at_most_opened(double mean, double variance) const {
+    const double most = opened_;
+    if (variance < 1e-9) return std::min(most, mean);
+    const double deviation = std::sqrt(variance);
+    const double z = (mean - most) / deviation;
+    if (z > 6) return most;
+    if (z < -6) return mean;
+    const double excess = deviation * (z * std::erfc(-z / std::numbers::sqrt2) / 2 +
+                                       std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi));
+    return std::min(mean - excess, std::min(mean, most));
+  }
+
+  /// Opens inner nodes below a wide one, the largest first, which are the least deep. What is not opened is wide.
+  double open(std::size_t number) {
+    const Moments& moments = moments_[number];
+    frontier_.assign(1, {number, 1.0});
+    double opened = 0;
+    for (int depth = 0; depth <= opened_ && !frontier_.empty(); ++depth) {
+      double ready = 0;
+      for (const auto& [kind, count] : frontier_) ready += count;
+      const double more = at_most_opened(moments.mean[depth], moments.variance[depth]) - opened;
+      const double part = std::clamp(more / ready, 0.0, 1.0);
+      opened += part * ready;
+      next_.clear();
+      for (const auto& [kind, count] : frontier_) {
+        if (depth > 0) wide_[kind] += wide_[number] * count * (1 - part);
+        for (int side = 0; side < 2; ++side) put(links_[kind].child[side], count * part * links_[kind].inner[side]);
+      }
+      frontier_.swap(next_);
+    }
+    for (const auto& [kind, count] : frontier_) wide_[kind] += wide_[number] * count;
+    return opened;
+  }
+
+  void put(std::size_t kind, double count) {
+    if (count <= 1e-9) return;
+    for (auto& [other, sum] : next_)
+      if (other == kind) {
+        sum += count;
+        return;
+      }
+    next_.emplace_back(kind, count);
+  }
+
+  const std::vector<LevelNodes>& nodes_;
+  const std::vector<CellKind>& kinds_;
+  int opened_;  ///< inner nodes of the binary tree that are one wide node, at most
+  std::vector<double> wide_;
+  std::vector<Link> links_;
+  std::vector<Moments> moments_;
+  std::vector<std::pair<std::size_t, double>> frontier_;
+  std::vector<std::pair<std::size_t, double>> next_;
+};
+
+/// Probability that any ray crosses what each ray crosses with that one.
+double crossed_at_all(const Workload& workload, double share) {
+  return share < 1 ? -std::expm1(workload.rays * std::log1p(-share)) : 1;
+}
+
+/// What `samples` in a cube of that side, or on its faces, meet.
+Met met_in(int dimension, const Workload& workload, double samples, double side, int fan_out, int leaf) {
+  constexpr double far = 1e60;  // beyond all that makes a difference
+  const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
+  const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf);
+  const Crossing crossing(workload, side);
+  Met met;
+  Widening widening(nodes, box_tree::cell_kinds(dimension), fan_out);
+  widening.for_each([&](std::size_t kind, double wide, double children) {
+    const double share = kind == 0 ? 1 : crossing.share(nodes[kind].inner);
+    met.tests += wide * children * share;
+    if (kind > 0) met.listed += wide * share;
+    met.culls += wide * children * crossed_at_all(workload, share);
+  });
+  for (std::size_t kind = 0; kind < nodes.size(); ++kind) {
+    if (kind > 0) met.listed += crossing(nodes[kind].leaves);
+    const double share = kind > 0 ? crossing.share(nodes[kind].discs) : 1;
+    met.discs += nodes[kind].discs.count * share;
+    met.visits += nodes[kind].discs.count * crossed_at_all(workload, share);
+  }
+  return met;
+}
+
+}  // namespace
+
+Counts<double> box_tree_counts(const Workload& workload, const BoxTreeParameters& parameters) {
+  check(workload);
+  check(Candidate{Technique::box_tree, parameters});
+  const double rays = workload.rays;
+  const double samples = workload.samples;
+  Counts<double> counts{
+      .references = samples, .placements = samples, .sorted = samples, .hits = expected_hits(workload)};
+  if (samples <= parameters.leaf) {
+    counts.disc_tests = rays * samples;
+    counts.visits = samples;
+    return counts;
+  }
+  const int fan_out = std::min(parameters.fan_out, box_tree_most_children);
+  const int leaf = std::min(parameters.leaf, box_tree_largest_leaf);
+  // Larger leaves: as many nodes as with proportionally fewer samples.
+  const double in_one = static_cast<double>(parameters.leaf) / leaf;
+  const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
+  const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);
+  const auto of = [&](int whole) { return met_in(whole, workload, std::round(samples / in_one), side, fan_out, leaf); };
+  Met met = of(dimension < 3 ? 2 : 3);
+  if (dimension > 2 && dimension < 3) {
+    const Met volume = of(3);
+    for (const auto term : {&Met::tests, &Met::listed, &Met::discs, &Met::culls, &Met::visits})
+      met.*term = std::pow(met.*term, 3 - dimension) * std::pow(volume.*term, dimension - 2);
+  }
+  counts.cull_tests = rays * met.tests;
+  counts.listed = rays * met.listed;
+  counts.disc_tests = rays * std::min(samples, in_one * met.discs);
+  counts.visits = std::min(samples, in_one * met.visits);
+  counts.culls = met.culls;
+  return counts;
+}
+
+}  // namespace detp::model

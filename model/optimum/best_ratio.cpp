@@ -1,0 +1,278 @@
+#include "best_ratio.hpp"
+
+#include <algorithm>
+#include <array>
+#include <boost/math/tools/minima.hpp>
+#include <cmath>
+#include <queue>
+#include <vector>
+
+#include "detp/model/sphere_cache/sphere_cache.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
+#include "detp/model/sphere_cache/step_pieces.hpp"
+
+namespace detp::model {
+namespace {
+
+/// T of the sphere cache at one Q for all stops, in one pass from the outside in.
+class Times {
+ public:
+  Times(const Workload& workload, const UnitCosts& costs) : workload_(workload), costs_(costs) {
+    check(workload);
+    check(costs);
+    const double blocks = blocks_of(workload.rays, workload.samples);
+    costs_.cull *= blocks;
+    costs_.visit *= blocks;
+  }
+
+  /// Spheres whose counts were evaluated so far.
+  [[nodiscard]] std::int64_t looked_at() const { return looked_at_; }
+
+  /// T with no sphere; any Q will do.
+  [[nodiscard]] BestRatio without_spheres() const {
+    return {published_ratio, 0, price(sphere_cache_counts(workload_, {published_ratio, 0}), costs_).total()};
+  }
+
+  /// T with k spheres.
+  [[nodiscard]] double at(double ratio, std::int64_t k) const {
+    if (k > summed_one_by_one) {
+      looked_at_ += summed_one_by_one;
+      return price(sphere_cache_counts(workload_, {ratio, k}), costs_).total();
+    }
+    double time = 0;
+    pass(ratio, k, [&](std::int64_t, double with_discs, double) {
+      time = with_discs;
+      return true;
+    });
+    return time;
+  }
+
+  /// The fastest of the stops 1 … last; spheres = 0 if last = 0. Gives up where the spheres alone take longer than
+  /// `enough`: what it returns is then slower than that.
+  [[nodiscard]] BestRatio best_stop(double ratio, std::int64_t last, double enough) const {
+    BestRatio best{ratio, 0, 0};
+    if (last >= 1)
+      pass(ratio, last, [&](std::int64_t i, double with_discs, double spheres) {
+        if (best.spheres == 0 || with_discs < best.time) best = {ratio, i, with_discs};
+        return spheres < std::min(enough, best.time);
+      });
+    return best;
+  }
+
+ private:
+  static constexpr std::int64_t summed_one_by_one = 4096;  // more are summed in groups
+
+  /// Calls visit(i, T with i spheres, the same without testing discs) until it returns false.
+  template <class Visit>
+  void pass(double ratio, std::int64_t last, const Visit& visit) const {
+    double spheres = (costs_.sort + costs_.visit) * workload_.samples;
+    for_each_level(workload_, {ratio, last, SampleOrder::lebesgue}, [&](const SphereLevel& level) {
+      ++looked_at_;
+      spheres += level.rebuilds * (level.tests * costs_.cull_test + level.listed * costs_.listed + costs_.cull);
+      return visit(level.i, spheres + workload_.samples * level.served * costs_.disc_test, spheres);
+    });
+  }
+
+  const Workload& workload_;
+  UnitCosts costs_;  ///< lists are made, and discs visited, for each block of rays
+  mutable std::int64_t looked_at_ = 0;
+};
+
+/// ln(ln 1/Q): sphere i moves by i steps of ln Q, and spheres down to d take ln(d/r₀)/ln Q, so that T has about as many
+/// ups and downs in each unit of it.
+double place_of(double ratio) { return std::log(-std::log(ratio)); }
+
+/// The first ratios of a search, with all steps Q_j of j <= most_spheres.
+std::vector<double> first_ratios(const StepPieces& pieces, std::int64_t most_spheres) {
+  constexpr int parts = 128;
+  const double from = place_of(least_ratio);
+  const double to = place_of(most_ratio);
+  std::vector<double> ratios;
+  for (int i = 0; i <= parts; ++i) ratios.push_back(std::exp(-std::exp(from + (to - from) * i / parts)));
+  for (std::int64_t j = 1; j <= most_spheres && pieces.above(j) <= most_ratio; ++j)
+    if (pieces.above(j) >= least_ratio) ratios.push_back(pieces.above(j));
+  std::sort(ratios.begin(), ratios.end());
+  return ratios;
+}
+
+/// Halves, best first, the intervals that may hold a better ratio, and narrows down the minima that are left.
+class Search {
+ public:
+  /// Stops up to most_spheres are free; 0: `run` is given one. A ratio takes `spheres` spheres at most.
+  Search(const Times& times, const StepPieces& pieces, std::int64_t most_spheres, std::int64_t spheres)
+      : times_(times),
+        pieces_(pieces),
+        most_spheres_(most_spheres),
+        most_looked_at_(most_looked_at * (std::clamp<std::int64_t>(spheres, 40, 4000) / 40)) {}
+
+  /// The best of evaluate(Q, enough) from the first to the last of the ratios.
+  template <class Evaluate>
+  BestRatio run(const std::vector<double>& ratios, const Evaluate& evaluate) {
+    for (const double ratio : ratios) add(evaluate(ratio, enough()));
+    const std::vector<BestRatio> first = points_;
+    for (std::size_t i = 1; i < first.size(); ++i) split_later(first[i - 1], first[i]);
+    while (!intervals_.empty() && intervals_.top().hope < best_.time && times_.looked_at() < most_looked_at_ / 4 * 3) {
+      const Interval interval = intervals_.top();
+      intervals_.pop();
+      const BestRatio middle = evaluate(0.5 * (interval.left.ratio + interval.right.ratio), enough());
+      add(middle);
+      split_later(interval.left, middle);
+      split_later(middle, interval.right);
+    }
+    narrow_down();
+    best_.looked_at = times_.looked_at();
+    return best_;
+  }
+
+ private:
+  struct Interval {
+    BestRatio left;
+    BestRatio right;
+    double hope;  ///< the least T that it may hold
+
+    bool operator<(const Interval& other) const { return hope > other.hope; }
+  };
+
+  /// By how much, relatively, T may fall in a unit of ln(ln 1/Q): seen to suffice, not proved.
+  static constexpr double steepness = 5;
+  static constexpr double narrowest = 2.5e-4;              ///< in ln(ln 1/Q)
+  static constexpr double next_to = 1.0005;                ///< minima of T that near the best are narrowed down
+  static constexpr std::int64_t evaluations_at_once = 60;  ///< of Brent's method
+
+  [[nodiscard]] double enough() const { return best_.spheres > 0 ? 1.2 * best_.time : HUGE_VAL; }
+
+  void add(const BestRatio& point) {
+    if (point.spheres == 0) return;
+    points_.push_back(point);
+    if (best_.spheres == 0 || point.time < best_.time) best_ = point;
+  }
+
+  void split_later(const BestRatio& left, const BestRatio& right) {
+    const double width = place_of(left.ratio) - place_of(right.ratio);
+    if (width <= narrowest || left.spheres == 0 || right.spheres == 0) return;
+    intervals_.push({left, right, std::min(left.time, right.time) * (1 - steepness * width / 2)});
+  }
+
+  void narrow_down() {
+    std::sort(points_.begin(), points_.end(), [](const BestRatio& a, const BestRatio& b) { return a.ratio < b.ratio; });
+    const std::size_t last = points_.empty() ? 0 : points_.size() - 1;
+    const double near_best = next_to * best_.time;
+    std::vector<std::size_t> minima;
+    for (std::size_t i = 0; i < points_.size(); ++i)
+      if (points_[i].time <= std::min(points_[i > 0 ? i - 1 : 0].time, points_[std::min(i + 1, last)].time))
+        minima.push_back(i);
+    std::stable_sort(minima.begin(), minima.end(),
+                     [&](std::size_t a, std::size_t b) { return points_[a].time < points_[b].time; });
+    for (const std::size_t i : minima) {
+      const std::int64_t to_compare_stops = 3 * (points_[i].spheres + 1);
+      if (points_[i].time > near_best || times_.looked_at() + to_compare_stops > most_looked_at_) break;
+      for (const std::int64_t k : stops_around(points_[i]))
+        minimise(std::max(points_[i > 0 ? i - 1 : 0].ratio, pieces_.above(k)), points_[std::min(i + 1, last)].ratio, k);
+    }
+  }
+
+  /// The point's stop, and those beside it that are about as good there; only itself where k is given.
+  [[nodiscard]] std::vector<std::int64_t> stops_around(const BestRatio& point) const {
+    std::vector<std::int64_t> stops{point.spheres};
+    for (const std::int64_t k : {point.spheres - 1, point.spheres + 1})
+      if (k >= 1 && k <= most_spheres_ && times_.at(point.ratio, k) <= next_to * best_.time) stops.push_back(k);
+    return stops;
+  }
+
+  /// The least T with k spheres for Q from low to high: kinks may lie closer together than the points of the search,
+  /// and make several minima between them.
+  void minimise(double low, double high, std::int64_t k) {
+    constexpr int parts = 16;
+    if (!(low < high) || (most_looked_at_ - times_.looked_at()) / k <= parts) return;
+    const auto ratio = [&](int i) { return low + (high - low) * i / parts; };
+    std::array<double, parts + 1> times{};
+    for (int i = 0; i <= parts; ++i) times[static_cast<std::size_t>(i)] = times_.at(ratio(i), k);
+    const double hope = 1 - steepness * (place_of(low) - place_of(high)) / parts / 2;
+    for (int i = 0; i <= parts; ++i) {
+      const int left = std::max(i - 1, 0);
+      const int right = std::min(i + 1, parts);
+      const double time = times[static_cast<std::size_t>(i)];
+      const double beside = std::min(times[static_cast<std::size_t>(left)], times[static_cast<std::size_t>(right)]);
+      if (time <= beside && time * hope < best_.time) follow(ratio(left), ratio(right), k);
+    }
+  }
+
+  /// Brent's method, in a coordinate from -1 to 1: its tolerance is then 4e-6 of the width, at a kink too.
+  void follow(double low, double high, std::int64_t k) {
+    const std::int64_t evaluations_left = (most_looked_at_ - times_.looked_at()) / k - 1;
+    if (evaluations_left < 2) return;
+    const auto ratio = [&](double place) { return low + (high - low) * (place + 1) / 2; };
+    auto evaluations = static_cast<std::uintmax_t>(std::min(evaluations_at_once, evaluations_left));
+    const auto [place, time] = boost::math::tools::brent_find_minima([&](double y) { return times_.at(ratio(y), k); },
+                                                                     -1.0, 1.0, 19, evaluations);
+    if (time < best_.time) best_ = {ratio(place), k, time};
+  }
+
+  const Times& times_;
+  const StepPieces& pieces_;
+  std::int64_t most_spheres_;
+  std::int64_t most_looked_at_;
+  std::priority_queue<Interval> intervals_;
+  std::vector<BestRatio> points_;
+  BestRatio best_;
+};
+
+/// The largest k with r_k >= d, at most `most`; Q off the steps, or just above one.
+std::int64_t last_stop(const Workload& workload, double ratio, std::int64_t most) {
+  const double exact = std::log(workload.disc_radius / workload.sphere_radius) / std::log(ratio);
+  return static_cast<std::int64_t>(std::min(static_cast<double>(most), std::floor(exact * (1 + 1e-12))));
+}
+
+/// Whether the sphere S₁ of this ratio holds a disc.
+bool holds_a_disc(const Workload& workload, double ratio) {
+  return workload.disc_radius < ratio * workload.sphere_radius;
+}
+
+}  // namespace
+
+BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs, std::int64_t most_spheres) {
+  require_count("largest number of spheres", static_cast<double>(most_spheres), 1, 9e18);
+  const Times times(workload, costs);
+  if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
+  const StepPieces pieces(workload);
+  const BestRatio best =
+      Search(times, pieces, most_spheres, most_spheres)
+          .run(first_ratios(pieces, std::min<std::int64_t>(most_spheres, 40)), [&](double ratio, double enough) {
+            return times.best_stop(ratio, last_stop(workload, ratio, most_spheres), enough);
+          });
+  return best.spheres > 0 ? best : times.without_spheres();
+}
+
+BestRatio good_ratio_and_stop(const Workload& workload, const UnitCosts& costs) {
+  const Times times(workload, costs);
+  if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
+  BestRatio best;
+  // Chosen one after the other, each to lower the mean square of what is left above the best T.
+  for (const double ratio : {0.575, 0.47, 0.765, 0.425, 0.49, 0.6, 0.455, 0.635}) {
+    const BestRatio stop = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), HUGE_VAL);
+    if (best.spheres == 0 || stop.time < best.time) best = stop;
+  }
+  return best;
+}
+
+BestRatio best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio) {
+  constexpr std::int64_t most = 4096;
+  const Times times(workload, costs);
+  const std::int64_t last = sphere_count(Form::corrected, ratio, {workload.disc_radius}, {workload.sphere_radius});
+  return last == 0 ? times.without_spheres() : times.best_stop(ratio.value, std::min(last, most), HUGE_VAL);
+}
+
+BestRatio best_ratio_for(const Workload& workload, const UnitCosts& costs, std::int64_t spheres) {
+  require_count("number of spheres", static_cast<double>(spheres), 0, 9e18);
+  const Times times(workload, costs);
+  if (spheres == 0 || !holds_a_disc(workload, 1)) return times.without_spheres();
+  const StepPieces pieces(workload);
+  std::vector<double> ratios = first_ratios(pieces, 0);
+  std::erase_if(ratios, [&](double ratio) { return ratio <= pieces.above(spheres); });
+  ratios.insert(ratios.begin(), std::min(most_ratio, std::max(least_ratio, pieces.above(spheres))));
+  return Search(times, pieces, 0, spheres).run(ratios, [&](double ratio, double) {
+    return BestRatio{ratio, spheres, times.at(ratio, spheres)};
+  });
+}
+
+}  // namespace detp::model

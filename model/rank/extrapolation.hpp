@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "detp/model/vocabulary/vocabulary.hpp"
+
+/// Where a prediction leaves the range in which its formula was compared with counts.
+///
+/// What was counted (README.md, the sweep): isotropic lines through S₀, samples uniform in a cube or on its faces, n_P
+/// 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3; of each technique the parameters below. Outside, the closed forms go on as
+/// they end, which nobody has checked.
+///
+///     sphere-cache (both)   Q 0.3 … 0.9, no more spheres than hold a disc, samples sorted
+///     cell-spheres          depth 1 … 6
+///     sphere-tree           fan-out 4 … 8, leaf 4 … 16
+///     box-tree              n_P 2¹⁰ … 2²⁰, d 2⁻¹⁰ … 2³ sample distances and up to 0.16 of the side; fan-out 2 … 16,
+///                           leaf 1 … 256
+///     octree, grid          depth 1 … 7, 2 … 128 cells a side
+///
+/// Brute force tests n_R n_P pairs whatever they are, and so does a sphere cache without spheres.
+namespace detp::model {
+
+/// Collects the inputs that lie outside, each as a short text.
+class Reasons {
+ public:
+  /// An end of the range, reached except for rounding, is inside.
+  void range(std::string_view what, double value, double least, double most);
+  void add(std::string reason) { reasons_.push_back(std::move(reason)); }
+  [[nodiscard]] std::vector<std::string> take() && { return std::move(reasons_); }
+
+ private:
+  std::vector<std::string> reasons_;
+};
+
+/// The reasons of one technique; for the registry.
+void uncounted_cache(const Workload& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_cells(const Workload& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_sphere_tree(const Workload& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_box_tree(const Workload& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_octree(const Workload& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_grid(const Workload& workload, const Parameters& parameters, Reasons& reasons);
+
+/// Why the counts that `predict` gives for the candidate are extrapolated: a short text for each input that lies
+/// outside, as "d over r0 1e-05 below 0.0001". Empty where they are not.
+///
+/// Throws std::invalid_argument for a workload or parameters out of range.
+[[nodiscard]] std::vector<std::string> extrapolations(const Workload& workload, const Candidate& candidate);
+
+}  // namespace detp::model

@@ -1,0 +1,47 @@
+#include "index_best.hpp"
+
+#include <algorithm>
+
+#include "detp/model/disc_index/disc_index.hpp"
+#include "fastest.hpp"
+
+namespace detp::model {
+namespace {
+
+constexpr double enough = 3;    // times the least time
+constexpr double ripple = 1.4;  // how far from the best step the least time may lie, as a factor
+constexpr int most_tried = 64;  // numbers of cells in that range
+
+}  // namespace
+
+std::optional<int> best_octree_depth(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
+  Fastest<int> fastest(costs, Technique::octree, limits);
+  int depth = 0;
+  for (const Counts<double>& counts : octree_counts_by_depth(workload, {limits.most_depth}))
+    fastest.consider(depth++, counts);
+  return fastest.best();
+}
+
+std::optional<int> best_grid_cells(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
+  Fastest<int> fastest(costs, Technique::grid, limits);
+  const auto fits = [&](int cells) {
+    return cells <= 1 << 16 && index_cells(workload, cells).count() <= limits.most_cells &&
+           !limits.stop.stop_requested();
+  };
+  const auto consider = [&](int cells) { return fastest.consider(cells, grid_counts(workload, {cells})); };
+  const auto consider_all = [&](int from, int to, int step) {
+    for (int cells = std::max(1, from); cells <= to && fits(cells); cells += step) consider(cells);
+  };
+  for (int cells = 1; fits(cells); cells = std::max(cells + 1, static_cast<int>(1.1 * cells)))
+    if (consider(cells) > enough * fastest.least()) break;
+  const int middle = fastest.best().value_or(0);
+  const auto from = static_cast<int>(middle / ripple);
+  const auto to = static_cast<int>(middle * ripple);
+  const int step = std::max(1, (to - from) / most_tried);
+  consider_all(from, to, step);
+  const int best = fastest.best().value_or(0);
+  consider_all(best - step, best + step, std::max(1, step / 8));
+  return fastest.best();
+}
+
+}  // namespace detp::model

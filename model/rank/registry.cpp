@@ -1,0 +1,128 @@
+#include "registry.hpp"
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "detp/model/disc_index/disc_index.hpp"
+#include "detp/model/hierarchy/box_tree.hpp"
+#include "detp/model/hierarchy/box_tree_rule.hpp"
+#include "detp/model/hierarchy/cell_spheres.hpp"
+#include "detp/model/hierarchy/sphere_tree.hpp"
+#include "detp/model/lines/line_measure.hpp"
+#include "detp/model/optimum/best_ratio.hpp"
+#include "detp/model/sphere_cache/rebuild_law.hpp"
+#include "detp/model/sphere_cache/sphere_cache.hpp"
+#include "detp/model/sphere_cache/sphere_cache_published.hpp"
+#include "fastest.hpp"
+#include "index_best.hpp"
+
+namespace detp::model {
+namespace {
+
+template <class P>
+using CountsOf = Counts<double> (*)(const Workload&, const P&);
+
+/// A formula of one technique's parameters, for parameters of any.
+template <class P, CountsOf<P> counts>
+Counts<double> predicted(const Workload& workload, const Parameters& parameters) {
+  return counts(workload, std::get<P>(parameters));
+}
+
+/// Plain density estimation on the tangent plane: each disc against each ray.
+Counts<double> brute_force(const Workload& workload, const BruteForceParameters&) {
+  return {.visits = workload.samples, .disc_tests = workload.rays * workload.samples, .hits = expected_hits(workload)};
+}
+
+Counts<double> published_cache(const Workload& workload, const SphereCacheParameters& parameters) {
+  require_rebuild_law(parameters.order);
+  return published::counts(workload, {parameters.ratio}, parameters.spheres);
+}
+
+Counts<double> octree(const Workload& workload, const OctreeParameters& parameters) {
+  return octree_counts(workload, parameters);
+}
+
+Counts<double> grid(const Workload& workload, const GridParameters& parameters) {
+  return grid_counts(workload, parameters);
+}
+
+std::optional<Parameters> best_cache(const Workload& workload, const UnitCosts& costs, const Wish& wish,
+                                     const SearchLimits&) {
+  const auto ratio = wish.value<double>("ratio");
+  const auto spheres = wish.value<std::int64_t>("spheres");
+  if (workload.disc_radius >= workload.sphere_radius)
+    return SphereCacheParameters{ratio.value_or(published_ratio), spheres.value_or(0)};  // no sphere holds a disc
+  const BestRatio best = ratio     ? best_stop(workload, costs, {*ratio})
+                         : spheres ? best_ratio_for(workload, costs, *spheres)
+                                   : best_ratio_and_stop(workload, costs);
+  return SphereCacheParameters{ratio.value_or(best.ratio), spheres.value_or(best.spheres)};
+}
+
+std::optional<Parameters> best_cells(const Workload& workload, const UnitCosts& costs, const Wish&,
+                                     const SearchLimits& limits) {
+  Fastest<CellSpheresParameters> fastest(costs, Technique::cell_spheres, limits);
+  for (int depth = 0; depth <= std::min(limits.most_depth, 16) && !limits.stop.stop_requested(); ++depth)
+    fastest.consider({depth}, cell_sphere_counts(workload, {depth}));
+  return fastest.best();
+}
+
+std::optional<Parameters> best_sphere_tree(const Workload& workload, const UnitCosts& costs, const Wish& wish,
+                                           const SearchLimits& limits) {
+  constexpr std::array<std::int64_t, 7> fan_outs{2, 3, 4, 6, 8, 12, 16};
+  constexpr std::array<std::int64_t, 14> leaves{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 1024};
+  const auto only = [&](std::string_view name, std::span<const std::int64_t> all) {
+    const auto given = wish.value<std::int64_t>(name);
+    return given ? std::vector<std::int64_t>{*given} : std::vector<std::int64_t>(all.begin(), all.end());
+  };
+  Fastest<SphereTreeParameters> fastest(costs, Technique::sphere_tree, limits);
+  for (const std::int64_t fan_out : only("fan-out", fan_outs))
+    for (const std::int64_t leaf : only("leaf", leaves)) {
+      const SphereTreeParameters tree{static_cast<int>(fan_out), static_cast<int>(leaf)};
+      fastest.consider(tree, sphere_tree_counts(workload, tree));
+    }
+  return fastest.best();
+}
+
+std::optional<Parameters> best_box_tree(const Workload& workload, const UnitCosts&, const Wish& wish,
+                                        const SearchLimits&) {
+  BoxTreeParameters tree = box_tree_rule(workload);
+  if (const auto fan_out = wish.value<std::int64_t>("fan-out")) tree.fan_out = static_cast<int>(*fan_out);
+  if (const auto leaf = wish.value<std::int64_t>("leaf")) tree.leaf = static_cast<int>(*leaf);
+  return tree;
+}
+
+/// The depth that is best top-down serves for all traversals.
+std::optional<Parameters> best_octree(const Workload& workload, const UnitCosts& costs, const Wish&,
+                                      const SearchLimits& limits) {
+  const auto depth = best_octree_depth(workload, costs, limits);
+  return depth ? std::optional<Parameters>(OctreeParameters{*depth}) : std::nullopt;
+}
+
+std::optional<Parameters> best_grid(const Workload& workload, const UnitCosts& costs, const Wish&,
+                                    const SearchLimits& limits) {
+  const auto cells = best_grid_cells(workload, costs, limits);
+  return cells ? std::optional<Parameters>(GridParameters{*cells}) : std::nullopt;
+}
+
+const std::array<TechniqueModel, all_techniques.size()> registry{{
+    {Technique::brute_force, predicted<BruteForceParameters, brute_force>},
+    {Technique::sphere_cache, predicted<SphereCacheParameters, sphere_cache_counts>, best_cache, uncounted_cache},
+    {Technique::sphere_cache_published, predicted<SphereCacheParameters, published_cache>, best_cache, uncounted_cache},
+    {Technique::cell_spheres, predicted<CellSpheresParameters, cell_sphere_counts>, best_cells, uncounted_cells},
+    {Technique::sphere_tree, predicted<SphereTreeParameters, sphere_tree_counts>, best_sphere_tree,
+     uncounted_sphere_tree},
+    {Technique::box_tree, predicted<BoxTreeParameters, box_tree_counts>, best_box_tree, uncounted_box_tree},
+    {Technique::octree, predicted<OctreeParameters, octree>, best_octree, uncounted_octree},
+    {Technique::grid, predicted<GridParameters, grid>, best_grid, uncounted_grid},
+    {Technique::bsp},
+    {Technique::bvh},
+    {Technique::ray_map},
+    {Technique::photon_map},
+}};
+
+}  // namespace
+
+const TechniqueModel& model_of(Technique technique) { return registry[static_cast<std::size_t>(technique)]; }
+
+}  // namespace detp::model

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <optional>
+#include <stop_token>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "extrapolation.hpp"
+
+/// The model of each technique: what predicts it, what finds its best parameters, and where it was checked.
+namespace detp::model {
+
+/// Limits of the parameters searched.
+struct SearchLimits {
+  int most_depth = 14;           ///< of an octree, and of cells with spheres
+  double most_cells = 1 << 26;   ///< of a grid, all together: 8 bytes each
+  double most_references = 1e9;  ///< to discs in an index: 4 bytes each
+  std::stop_token stop = {};     ///< ends the search: what it has found by then is given
+};
+
+/// Parameters that are given by name; the others are to be found.
+struct Wish {
+  std::vector<std::pair<std::string_view, ParameterValue>> given = {};
+
+  /// The value of a parameter of that type, if it is given.
+  template <class T>
+  [[nodiscard]] std::optional<T> value(std::string_view name) const {
+    for (const auto& [parameter, value] : given)
+      if (parameter == name) return std::get<T>(value);
+    return std::nullopt;
+  }
+};
+
+struct TechniqueModel {
+  Technique technique;
+
+  /// Expected counts. Null where there is no closed form.
+  Counts<double> (*predict)(const Workload&, const Parameters&) = nullptr;
+
+  /// The fastest parameters among those with what is given; nothing where none fits the limits. Not called where all
+  /// numbers are given.
+  std::optional<Parameters> (*best)(const Workload&, const UnitCosts&, const Wish&, const SearchLimits&) = nullptr;
+
+  /// Adds reasons why the prediction is outside the range in which it was compared with counts.
+  void (*uncounted)(const Workload&, const Parameters&, Reasons&) = nullptr;
+};
+
+[[nodiscard]] const TechniqueModel& model_of(Technique technique);
+
+/// Whether the closed forms predict its counts, so that it can be chosen without being run. There is none for trees
+/// whose shape depends on the samples themselves (bsp, bvh).
+[[nodiscard]] inline bool has_closed_form(Technique technique) { return model_of(technique).predict != nullptr; }
+
+}  // namespace detp::model

@@ -1,0 +1,157 @@
+#include "obj_file.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "detp/sim/base/kept_memory.hpp"
+#include "detp/sim/geometry/unit_vector.hpp"
+#include "file_error.hpp"
+#include "number_text.hpp"
+#include "obj_lines.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// Below this share of its terms, a sum of unit normals is what cancellation left.
+constexpr double least_sum = 1e-6;
+
+/// The sum of the unit normals of the corners at a position.
+struct CornerNormals {
+  glm::dvec3 sum{0.0};
+  glm::dvec3 first{0.0};
+  double count = 0;
+
+  void add(const glm::dvec3& normal) {
+    if (count == 0) first = normal;
+    sum += normal;
+    ++count;
+  }
+
+  /// The sum, or where the normals cancel, as those of a leaf that is there once for each face, the first.
+  [[nodiscard]] glm::dvec3 vector() const { return glm::length(sum) < least_sum * count ? first : sum; }
+};
+
+/// Indices of a face's corner as the file gives them; 0: none.
+struct Corner {
+  long long vertex = 0;
+  long long normal = 0;
+};
+
+class ObjReader {
+ public:
+  ObjReader(const std::string& path, std::stop_token stop) : lines_(path, std::move(stop)), memory_(path) {}
+
+  Mesh read(Notices& notices) {
+    while (lines_.next()) {
+      if (lines_.keyword() == "v") add_position();
+      if (lines_.keyword() == "vn") add_normal();
+      if (lines_.keyword() == "f") add_face();
+    }
+    lines_.note_unknown(notices);
+    if (!normals_.empty() && all_used_have_normals()) {
+      memory_.reserve(mesh_.normals, at_positions_.size());
+      for (const CornerNormals& normals : at_positions_) mesh_.normals.push_back(normals.vector());
+    }
+    return std::move(mesh_);
+  }
+
+ private:
+  void add_position() {
+    memory_.push(mesh_.positions, vector_in_line());
+    memory_.push(at_positions_, CornerNormals{});
+  }
+
+  void add_normal() {
+    const glm::dvec3 normal = vector_in_line();
+    const bool finite = std::isfinite(normal.x) && std::isfinite(normal.y) && std::isfinite(normal.z);
+    memory_.push(normals_, finite ? unit_or_zero(normal) : glm::dvec3{nan});
+  }
+
+  void add_face() {
+    polygon_.clear();
+    for (std::string_view words = lines_.rest(), word = cut_word(words); !word.empty(); word = cut_word(words))
+      memory_.push(polygon_, add_corner(corner_in(word)));
+    if (polygon_.size() < 3) lines_.fail("a face needs at least 3 corners");
+    for (std::size_t i = 2; i < polygon_.size(); ++i)
+      memory_.push(mesh_.triangles, {polygon_[0], polygon_[i - 1], polygon_[i]});
+  }
+
+  /// The first three numbers of a v or vn line.
+  [[nodiscard]] glm::dvec3 vector_in_line() const {
+    std::string_view words = lines_.rest();
+    glm::dvec3 vector{0.0};
+    for (int axis = 0; axis < 3; ++axis) vector[axis] = number(cut_word(words));
+    return vector;
+  }
+
+  [[nodiscard]] double number(std::string_view word) const {
+    if (const auto value = number_in(word)) return *value;
+    if (word.find("1.#") != std::string_view::npos) return nan;  // how older Microsoft libraries print NaN and infinity
+    if (word.empty()) lines_.fail("has too few numbers, 3 are needed");
+    lines_.fail(quoted(word) + " is not a number");
+  }
+
+  /// 1, 1/2, 1//3 or 1/2/3: the vertex, its texture, which is not used, and its normal.
+  [[nodiscard]] Corner corner_in(std::string_view word) const {
+    std::string_view parts = word;
+    Corner corner{.vertex = index_in(cut_until(parts, "/"), word)};
+    (void)index_in(cut_until(parts, "/"), word);
+    corner.normal = index_in(parts, word);
+    return corner;
+  }
+
+  [[nodiscard]] long long index_in(std::string_view digits, std::string_view word) const {
+    if (digits.empty()) return 0;
+    if (digits.front() == '+') digits.remove_prefix(1);
+    long long index = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
+    if (error == std::errc{} && end == digits.data() + digits.size()) return index;
+    if (error == std::errc::result_out_of_range) lines_.fail("an index of " + quoted(word) + " is out of range");
+    lines_.fail(quoted(word) + " is no corner of a face; wanted are corners such as 1, 1/2, 1//3 or 1/2/3");
+  }
+
+  /// Of an index as the file gives it: from 1, or from the last one so far backwards as a negative number.
+  [[nodiscard]] std::size_t resolve(long long index, std::size_t count, const char* what) const {
+    const auto size = static_cast<long long>(count);
+    const bool in_range = index != 0 && index >= -size && index <= size;
+    if (!in_range)
+      lines_.fail(std::string(what) + " " + std::to_string(index) + " is out of range, there are " +
+                  std::to_string(count) + " so far");
+    return static_cast<std::size_t>(index < 0 ? size + index : index - 1);
+  }
+
+  std::uint32_t add_corner(const Corner& corner) {
+    const std::size_t position = resolve(corner.vertex, mesh_.positions.size(), "vertex");
+    if (position > UINT32_MAX) lines_.fail("a mesh can use the first 4294967295 vertices only");
+    if (corner.normal != 0) at_positions_[position].add(normals_[resolve(corner.normal, normals_.size(), "normal")]);
+    return static_cast<std::uint32_t>(position);
+  }
+
+  [[nodiscard]] bool all_used_have_normals() const {
+    return std::all_of(mesh_.triangles.begin(), mesh_.triangles.end(), [this](const auto& triangle) {
+      return std::all_of(triangle.begin(), triangle.end(),
+                         [this](auto corner) { return at_positions_[corner].count > 0; });
+    });
+  }
+
+  ObjLines lines_;
+  KeptMemory memory_;
+  Mesh mesh_;
+  std::vector<glm::dvec3> normals_;
+  std::vector<CornerNormals> at_positions_;
+  std::vector<std::uint32_t> polygon_;
+};
+
+}  // namespace
+
+Mesh read_obj(const std::string& path, Notices& notices, std::stop_token stop) {
+  return ObjReader(path, std::move(stop)).read(notices);
+}
+
+}  // namespace detp::sim

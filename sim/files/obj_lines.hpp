@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <string>
+#include <string_view>
+
+#include "detp/sim/scene/mesh.hpp"
+#include "input_file.hpp"
+#include "text_lines.hpp"
+
+namespace detp::sim {
+
+/// The statements of an OBJ file, without comments and blank lines; joined where a backslash ends a line.
+class ObjLines {
+ public:
+  ObjLines(const std::string& path, std::stop_token stop);
+
+  /// Goes to the next statement of a kind that OBJ has; false at the end of the file. Throws FileError where most
+  /// statements are of none, and as TextLines does.
+  bool next();
+
+  [[nodiscard]] std::string_view keyword() const { return keyword_; }
+  /// What follows the keyword. Valid until next().
+  [[nodiscard]] std::string_view rest() const { return rest_; }
+
+  /// Throws FileError with the line, the first of joined ones.
+  [[noreturn]] void fail(const std::string& what) const;
+
+  /// Adds a notice of statements left out.
+  void note_unknown(Notices& notices) const;
+
+ private:
+  [[nodiscard]] std::string_view joined();
+  void count_unknown();
+
+  InputFile file_;
+  TextLines lines_;
+  std::string joined_;
+  std::string_view keyword_;
+  std::string_view rest_;
+  std::size_t number_ = 0;  ///< of the statement's first line
+  std::uint64_t known_ = 0;
+  std::uint64_t unknown_ = 0;
+  std::string first_unknown_;
+};
+
+}  // namespace detp::sim

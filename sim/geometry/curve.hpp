@@ -1,0 +1,61 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "detp/sim/base/radix_sort.hpp"
+#include "geometry.hpp"
+
+/// What the curves through space share: 65536 cells a side, and points sorted by their cell's place on the curve.
+namespace detp::sim {
+
+/// A cell's number along each axis, 16 bits each.
+using CurveCell = std::array<std::uint32_t, 3>;
+
+/// The cell of a point.
+///
+/// The coordinates are counted from the box's low corner in units of its longest side / 65536: cells are cubes. (The
+/// paper stretches each side to the full 16 bits; in a flat scene its cells, and so its runs, would be flat too.)
+/// Points outside the box go to its nearest cell.
+[[nodiscard]] inline CurveCell curve_cell(const glm::dvec3& point, const Box& box) {
+  const glm::dvec3 size = box.size();
+  const double side = std::max({size.x, size.y, size.z});
+  CurveCell cell{};
+  if (!(side > 0)) return cell;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double place = std::floor((point[axis] - box.low[axis]) / side * 65536.0);
+    cell[axis] = static_cast<std::uint32_t>(std::clamp(place, 0.0, 65535.0));
+  }
+  return cell;
+}
+
+/// Bytes that putting so many points in order takes at its peak: copies of their places, entries that are sorted from
+/// one array to another and back.
+[[nodiscard]] inline double sorting_bytes(std::size_t points) {
+  return (sizeof(glm::dvec3) + 2 * sizeof(KeyedIndex)) * static_cast<double>(points);
+}
+
+/// Indices of the points by rising code(point, their bounding box), of 48 bits; points of the same code keep their
+/// order. At most 2³² - 1 points. Throws Stopped if a stop was requested.
+template <class Code>
+[[nodiscard]] std::vector<std::uint32_t> order_along(std::span<const glm::dvec3> points, const Code& code,
+                                                     const std::stop_token& stop) {
+  StopCheck check(stop, "sorting along a curve");
+  Box box;
+  for (const glm::dvec3& point : points) box.include(point);
+  std::vector<KeyedIndex> entries(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    entries[i] = {code(points[i], box), static_cast<std::uint32_t>(i)};
+    check.after(1);
+  }
+  radix_sort(entries, 48, stop);
+  std::vector<std::uint32_t> order(points.size());
+  std::transform(entries.begin(), entries.end(), order.begin(), [](const KeyedIndex& entry) { return entry.index; });
+  return order;
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "geometry.hpp"
+
+namespace detp::sim {
+
+/// A stretch of a ray, by the distance from its origin (negative behind it, on a line).
+struct Stretch {
+  double from;
+  double to;
+  [[nodiscard]] bool empty() const { return !(from <= to); }
+};
+
+/// A ray ready to be clipped against boxes.
+struct ClippedRay {
+  explicit ClippedRay(const Ray& ray)
+      : origin(ray.origin), inverse(1.0 / ray.direction), whole{ray.is_line() ? -unbounded : 0.0, ray.length} {}
+
+  glm::dvec3 origin;
+  glm::dvec3 inverse;  ///< 1 / direction, infinite where the ray keeps its coordinate
+  Stretch whole;
+
+  /// The stretch inside the closed box.
+  [[nodiscard]] Stretch inside(const Box& box) const {
+    Stretch stretch = whole;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::isinf(inverse[axis])) {
+        if (origin[axis] < box.low[axis] || origin[axis] > box.high[axis]) return {0, -1};
+        continue;
+      }
+      const double a = (box.low[axis] - origin[axis]) * inverse[axis];
+      const double b = (box.high[axis] - origin[axis]) * inverse[axis];
+      stretch.from = std::max(stretch.from, std::min(a, b));
+      stretch.to = std::min(stretch.to, std::max(a, b));
+    }
+    return stretch;
+  }
+};
+
+}  // namespace detp::sim

@@ -1,0 +1,84 @@
+#include "bsp_nodes.hpp"
+#include "detp/sim/geometry/ray_box.hpp"
+#include "detp/sim/search/run_memory.hpp"
+#include "indexed_search.hpp"
+
+namespace detp::sim {
+namespace {
+
+/// Rays go through the tree front to back, each with the stretch of it that is in the node. Empty leaves are kept.
+class Bsp {
+ public:
+  Bsp(const Problem& problem, const BspParameters& parameters, const std::stop_token& stop)
+      : slack_(problem.slack), tree_(build_bsp(problem, parameters, stop)) {}
+
+  [[nodiscard]] IndexSize size() const {
+    return {.nodes = tree_.nodes.size(),
+            .references = tree_.references.size(),
+            .placements = tree_.placements,
+            .bytes = tree_.nodes.size() * sizeof(BspNode) + tree_.references.size() * sizeof(std::uint32_t),
+            .building_bytes = tree_.building_bytes};
+  }
+
+  void show(const VisitNode& visit) const { show(0, tree_.box, 0, visit); }
+
+  template <class Search>
+  void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
+    const ClippedRay clipped(traced);
+    const Stretch stretch = clipped.inside({tree_.box.low - slack_, tree_.box.high + slack_});
+    if (!stretch.empty()) enter(0, stretch, ray, clipped, search);
+  }
+
+ private:
+  void show(std::uint32_t number, const Box& box, int level, const VisitNode& visit) const {
+    const BspNode& node = tree_.nodes[number];
+    visit({box, level, node.leaf(), node.count});
+    if (node.leaf()) return;
+    for (const bool above : {false, true})
+      show(node.first + above, part_of(box, node.axis, node.plane, above), level + 1, visit);
+  }
+
+  /// The ray is in the node, grown by the slack, for that stretch: it goes on into the part that it enters first, and
+  /// then into the other. The parts are grown too, so that near the plane it is in both.
+  template <class Search>
+  void enter(std::uint32_t number, const Stretch& stretch, std::uint32_t ray, const ClippedRay& clipped,
+             Search& search) const {
+    search.visit(&Counts<std::uint64_t>::nodes);
+    const BspNode& node = tree_.nodes[number];
+    if (node.leaf()) return search.test(ray, tree_.references_in(node));
+    const double origin = clipped.origin[node.axis];
+    const double inverse = clipped.inverse[node.axis];
+    const double end_of_low = node.plane + slack_;
+    const double start_of_high = node.plane - slack_;
+    if (std::isinf(inverse)) {
+      if (origin <= end_of_low) enter(node.first, stretch, ray, clipped, search);
+      if (origin >= start_of_high) enter(node.first + 1, stretch, ray, clipped, search);
+      return;
+    }
+    const bool up = inverse > 0;
+    const Stretch near{stretch.from, std::min(stretch.to, ((up ? end_of_low : start_of_high) - origin) * inverse)};
+    const Stretch far{std::max(stretch.from, ((up ? start_of_high : end_of_low) - origin) * inverse), stretch.to};
+    if (!near.empty()) enter(up ? node.first : node.first + 1, near, ray, clipped, search);
+    if (!far.empty()) enter(up ? node.first + 1 : node.first, far, ray, clipped, search);
+  }
+
+  double slack_;
+  BspNodes tree_;
+};
+
+}  // namespace
+
+IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, const VisitNode& visit,
+                      const std::stop_token& stop) {
+  check({Technique::bsp, parameters});
+  const Bsp tree(problem, parameters, stop);
+  tree.show(visit);
+  return tree.size();
+}
+
+std::unique_ptr<Index> prepare_bsp(const Problem& problem, const Parameters& parameters, const RunOptions& options) {
+  return std::make_unique<TracedIndex<Bsp>>("the BSP tree", problem, options, false,
+                                            std::get<BspParameters>(parameters));
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,138 @@
+#pragma once
+
+#include <algorithm>
+
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/search/hit_collector.hpp"
+#include "detp/sim/search/index.hpp"
+#include "detp/sim/search/ray_search.hpp"
+#include "detp/sim/search/run_memory.hpp"
+#include "disc_index.hpp"
+
+namespace detp::sim {
+
+/// Traces rays through an index and tests each against the discs of the cells it enters. The hit of a disc met in
+/// several cells is kept once. Without mailboxes the disc is tested in each (what is tested again counts again, though
+/// the answer is known).
+///
+/// An index offers trace(ray, number, search), which calls visit and test, and size().
+template <bool counting, bool mailboxing, class Cells>
+class IndexedSearch final : public RaySearch {
+ public:
+  IndexedSearch(const Cells& index, const Problem& problem, const std::stop_token& stop)
+      : index_(index), problem_(problem), check_(stop, "searching"), last_ray_(problem.discs.size(), 0) {}
+
+  void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
+    hits_ = &hits;
+    for (std::uint32_t ray = first; ray < last; ++ray) index_.trace(problem_.rays[ray], ray, *this);
+  }
+
+  [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
+
+  /// Counts a visit to a cell (steps) or a node (nodes).
+  void visit(std::uint64_t Counts<std::uint64_t>::*term) { tally_.add(term); }
+
+  /// Throws Stopped if a stop was requested.
+  void test(std::uint32_t ray, std::span<const std::uint32_t> discs) {
+    for (; discs.size() >= StopCheck::most_work; discs = discs.subspan(StopCheck::most_work - 1))
+      test_some(ray, discs.first(StopCheck::most_work - 1));
+    test_some(ray, discs);
+  }
+
+ private:
+  void test_some(std::uint32_t ray, std::span<const std::uint32_t> discs) {
+    check_.after(discs.size() + 1);
+    const Ray& tested = problem_.rays[ray];
+    std::uint64_t known = 0;
+    for (const std::uint32_t disc : discs) {
+      const bool seen = last_ray_[disc] == ray + 1;
+      if (mailboxing && seen) ++known;
+      if (seen) continue;
+      const bool hit = counts_as_hit(problem_, tested, problem_.discs[disc]);
+      if (mailboxing || hit) last_ray_[disc] = ray + 1;
+      if (hit) hits_->push_back({ray, disc});
+    }
+    tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size() - known);
+  }
+
+  const Cells& index_;
+  const Problem& problem_;
+  StopCheck check_;
+  Tally<counting> tally_;
+  std::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray known to hit it or not; 0: none yet
+  std::vector<Pair>* hits_ = nullptr;
+};
+
+/// An index of cells over discs, and its search. `Cells` is made of a problem's discs and further arguments.
+template <class Cells>
+class TracedIndex final : public Index {
+ public:
+  template <class... Arguments>
+  TracedIndex(std::string_view what, const Problem& problem, const RunOptions& options, bool mailboxing,
+              const Arguments&... arguments)
+      : what_(what), mailboxing_(mailboxing), cells_(problem, arguments..., options.stop) {
+    built_.seconds.build = watch_.lap();
+    const IndexSize size = cells_.size();
+    built_.counts.references = size.references;
+    built_.counts.placements = size.placements;
+    built_.bytes = checked_bytes(what, size.building_bytes, problem);
+  }
+
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    need_memory(what_, searching_bytes(problem, options), problem, outcome);
+    if (mailboxing_)
+      options.count ? trace_all<true, true>(problem, options, outcome)
+                    : trace_all<false, true>(problem, options, outcome);
+    else
+      options.count ? trace_all<true, false>(problem, options, outcome)
+                    : trace_all<false, false>(problem, options, outcome);
+  }
+
+ private:
+  /// The index, the mailboxes of its search, the sums and the outcome.
+  [[nodiscard]] double searching_bytes(const Problem& problem, const RunOptions& options) const {
+    const double mailboxes = thread_count(options.threads) * static_cast<double>(sizeof(std::uint32_t)) *
+                             static_cast<double>(problem.discs.size());
+    return static_cast<double>(cells_.size().bytes) + mailboxes + found_bytes(problem, options);
+  }
+
+  template <bool counting, bool mailboxing>
+  void trace_all(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
+    search_rays(
+        problem, options,
+        [&] { return std::make_unique<IndexedSearch<counting, mailboxing, Cells>>(cells_, problem, options.stop); },
+        outcome);
+  }
+
+  Stopwatch watch_;
+  std::string_view what_;
+  bool mailboxing_;
+  Cells cells_;
+};
+
+/// The box around the discs' centres, grown by the largest radius: no disc pokes out.
+[[nodiscard]] inline Box index_box(std::span<const Disc> discs) {
+  Box box;
+  double largest = 0;
+  for (const Disc& disc : discs) {
+    box.include(disc.centre);
+    largest = std::max(largest, disc.radius);
+  }
+  return {box.low - largest, box.high + largest};
+}
+
+/// What the cells of an index fill: over 2 slack beyond the discs, so that a ray along an outer face, or just outside
+/// it, is still among the cells when it passes the discs that touch that face (sim/README.md, "The culls").
+///
+/// Discs of man-made scenes lie just where the box is halved or quartered. The planes there move by a part of the
+/// margin that depends on their place; were it one slack for any j/N of small N, rounding would tell which cells they
+/// overlap.
+[[nodiscard]] inline Box index_box(const Problem& problem) {
+  constexpr double slacks = 2.618;
+  const Box box = index_box(problem.discs);
+  return {box.low - slacks * problem.slack, box.high + slacks * problem.slack};
+}
+
+}  // namespace detp::sim

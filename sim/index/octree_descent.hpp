@@ -1,0 +1,78 @@
+#pragma once
+
+#include <array>
+
+#include "detp/sim/geometry/ray_box.hpp"
+#include "octree_nodes.hpp"
+
+namespace detp::sim {
+
+/// Calls visit(child, its box) for each of an inner node's children, in the order of their octants.
+template <class VisitChild>
+void for_each_child(const OctreeNode& node, const Box& box, const VisitChild& visit) {
+  std::uint32_t child = node.first;
+  for (unsigned octant = 0; octant < 8; ++octant)
+    if (node.octants >> octant & 1) visit(child++, octant_of(box, octant));
+}
+
+/// One ray, which crosses the cube, on its way from the root of an octree into every node that it crosses.
+class OctreeDescent {
+ public:
+  OctreeDescent(const OctreeNodes& tree, const ClippedRay& clipped, double slack)
+      : tree_(tree), clipped_(clipped), slack_(slack) {}
+
+  /// Children in the order of their octants.
+  template <class Search>
+  void all(std::uint32_t ray, Search& search) const {
+    all(0, tree_.cube, 0, ray, search);
+  }
+
+  /// The same nodes: of each node's children that first which the ray enters first; of those that it enters together,
+  /// the lower octant.
+  template <class Search>
+  void in_order(std::uint32_t ray, Search& search) const {
+    in_order(0, tree_.cube, 0, ray, search);
+  }
+
+ private:
+  struct CrossedChild {
+    double from;
+    std::uint32_t number;
+    Box box;
+  };
+
+  [[nodiscard]] Stretch inside(const Box& box) const { return clipped_.inside({box.low - slack_, box.high + slack_}); }
+
+  template <class Search>
+  void all(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
+    search.visit(&Counts<std::uint64_t>::nodes);
+    const OctreeNode& node = tree_.nodes[number];
+    if (level == tree_.depth) return search.test(ray, tree_.references_in(node));
+    for_each_child(node, box, [&](std::uint32_t child, const Box& part) {
+      if (!inside(part).empty()) all(child, part, level + 1, ray, search);
+    });
+  }
+
+  template <class Search>
+  void in_order(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
+    search.visit(&Counts<std::uint64_t>::nodes);
+    const OctreeNode& node = tree_.nodes[number];
+    if (level == tree_.depth) return search.test(ray, tree_.references_in(node));
+    std::array<CrossedChild, 8> crossed;
+    std::size_t count = 0;
+    for_each_child(node, box, [&](std::uint32_t child, const Box& part) {
+      const Stretch stretch = inside(part);
+      if (stretch.empty()) return;
+      std::size_t place = count++;
+      for (; place > 0 && crossed[place - 1].from > stretch.from; --place) crossed[place] = crossed[place - 1];
+      crossed[place] = {stretch.from, child, part};
+    });
+    for (std::size_t i = 0; i < count; ++i) in_order(crossed[i].number, crossed[i].box, level + 1, ray, search);
+  }
+
+  const OctreeNodes& tree_;
+  const ClippedRay& clipped_;
+  double slack_;
+};
+
+}  // namespace detp::sim

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "list_walk.hpp"
+
+/// The cells of an octree that samples lie in, met along the Lebesgue curve, and spheres around them.
+namespace detp::sim {
+
+/// The cell of level i (0: the samples' cube) is that of the first i octal digits of the sample's Lebesgue code. Its
+/// sphere has the cell's centre, and radius s_i √3/2 + d: it holds the discs of all samples in the cell, and lies in
+/// the sphere of the cell around it (proof: model/hierarchy/cell_spheres.hpp).
+///
+/// Exact in floating point too: a sample may be coded into the cell beside its own, but then it lies within 3 ulp of
+/// the cube's size and place from that cell, the culls' slack being thousands of times more.
+class CellWalk : public ListWalk {
+ public:
+  /// For levels 0 … depth.
+  CellWalk(std::span<const Disc> discs, int depth);
+
+  /// Goes to the next disc's cells. The first level, 1 or more, at which they are not those of the disc before; depth +
+  /// 1 where all are.
+  int enter(const Disc& disc) override;
+  [[nodiscard]] int innermost() const override { return deepest(); }
+  [[nodiscard]] int deepest() const override { return static_cast<int>(spheres_.size()) - 1; }
+
+  /// The sphere of the cell of that level around the disc entered last.
+  [[nodiscard]] const Sphere& sphere(int level) const override { return spheres_[static_cast<std::size_t>(level)]; }
+
+ private:
+  Box box_;
+  double side_ = 0;
+  std::uint64_t code_ = 0;
+  bool entered_ = false;
+  std::vector<Sphere> spheres_;
+};
+
+}  // namespace detp::sim

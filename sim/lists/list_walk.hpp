@@ -1,0 +1,34 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "detp/sim/geometry/geometry.hpp"
+
+namespace detp::sim {
+
+/// Nested spheres that follow the discs, one disc after another: which must be rebuilt, and where each then is.
+///
+/// Level 0 is S₀, which holds all rays and is never built. Level i's list of rays is made from level i - 1's.
+class ListWalk {
+ public:
+  virtual ~ListWalk() = default;
+
+  /// Advances to the next disc. The caller must rebuild levels [result, innermost()]; the range is empty if result >
+  /// innermost().
+  virtual int enter(const Disc& disc) = 0;
+
+  /// The level whose list the disc is tested against.
+  [[nodiscard]] virtual int innermost() const = 0;
+
+  /// The largest level that there can be.
+  [[nodiscard]] virtual int deepest() const = 0;
+
+  /// Where a level stands; only of 1 … innermost().
+  [[nodiscard]] virtual const Sphere& sphere(int level) const = 0;
+};
+
+/// Makes a walk that has not yet met a disc.
+using MakeWalk = std::function<std::unique_ptr<ListWalk>()>;
+
+}  // namespace detp::sim

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstdint>
+#include <numeric>
+#include <span>
+#include <vector>
+
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/geometry/hilbert.hpp"
+#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/search/hit_collector.hpp"
+
+/// Lists of rays, which spheres cull: the work that all techniques with spheres share.
+namespace detp::sim {
+
+/// A ray in a list, with its number. Copied, so that a list is read from one end to the other.
+struct ListedRay {
+  Ray ray;
+  std::uint32_t index;
+};
+
+/// In rising order of their numbers.
+using RayList = std::vector<ListedRay>;
+
+/// All rays of a problem.
+[[nodiscard]] inline RayList list_of(std::span<const Ray> rays) {
+  RayList list;
+  list.reserve(rays.size());
+  for (std::uint32_t i = 0; i < rays.size(); ++i) list.push_back({rays[i], i});
+  return list;
+}
+
+/// Lists in `inside` those rays of `around` that come within `slack` of the sphere: all that hit a disc in it, if
+/// `around` holds them.
+inline void cull(const RayList& around, const Sphere& sphere, double slack, RayList& inside, StopCheck& check) {
+  const Sphere grown{sphere.centre, sphere.radius + slack};
+  inside.clear();
+  inside.reserve(around.size());  // pages are touched only as far as it is filled
+  for_each_checked(std::span(around), check, [&](const ListedRay& listed) {
+    if (hits(listed.ray, grown)) inside.push_back(listed);
+  });
+}
+
+/// Tests disc number `index` against the listed rays.
+template <bool counting>
+void test_disc(const RayList& rays, const Disc& disc, std::uint32_t index, HitCollector& collector,
+               Tally<counting>& tally, StopCheck& check) {
+  for_each_checked(std::span(rays), check, [&](const ListedRay& listed) {
+    if (collector.decide(listed.ray, disc)) collector.keep(listed.index, index);
+  });
+  tally.add(&Counts<std::uint64_t>::disc_tests, rays.size());
+}
+
+/// The discs' numbers in that order of their centres; by default along the Lebesgue curve. Throws Stopped if a stop was
+/// requested.
+[[nodiscard]] inline std::vector<std::uint32_t> along_curve(std::span<const Disc> discs,
+                                                            SampleOrder order = SampleOrder::lebesgue,
+                                                            const std::stop_token& stop = {}) {
+  if (order == SampleOrder::none) {
+    std::vector<std::uint32_t> as_given(discs.size());
+    std::iota(as_given.begin(), as_given.end(), 0U);
+    return as_given;
+  }
+  std::vector<glm::dvec3> centres;
+  centres.reserve(discs.size());
+  for (const Disc& disc : discs) centres.push_back(disc.centre);
+  return order == SampleOrder::hilbert ? hilbert_order(centres, stop) : lebesgue_order(centres, stop);
+}
+
+}  // namespace detp::sim

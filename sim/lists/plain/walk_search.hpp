@@ -1,0 +1,69 @@
+#pragma once
+
+#include "detp/sim/lists/list_walk.hpp"
+#include "detp/sim/search/outcome.hpp"
+#include "detp/sim/search/problem.hpp"
+#include "ray_list.hpp"
+
+namespace detp::sim {
+
+/// Adds up the spheres' counts.
+inline void add_spheres(const std::vector<SphereCounts>& spheres, Counts<std::uint64_t>& counts) {
+  for (const SphereCounts& sphere : spheres) {
+    counts.cull_tests += sphere.tests;
+    counts.listed += sphere.listed;
+    counts.culls += sphere.rebuilds;
+  }
+}
+
+/// The plain version of all techniques whose spheres follow the discs: tests each disc, in that order, against the
+/// innermost list, after rebuilding what the walk says.
+template <bool counting>
+void search_along_counting(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,
+                           const RunOptions& options, Outcome& outcome) {
+  HitCollector collector(problem, options);
+  Tally<counting> tally;
+  StopCheck check(options.stop, "searching");
+  std::vector<RayList> lists(static_cast<std::size_t>(walk.deepest()) + 1);
+  std::vector<SphereCounts> events(lists.size() - 1);
+  lists[0] = list_of(problem.rays);
+  collector.take_discs();
+  std::size_t done = 0;
+  const auto take = [&](std::uint32_t d) {
+    const Disc disc = problem.discs[d];
+    for (int level = walk.enter(disc); level <= walk.innermost(); ++level) {
+      const auto i = static_cast<std::size_t>(level);
+      check.after(1);
+      cull(lists[i - 1], walk.sphere(level), problem.slack, lists[i], check);
+      if constexpr (counting) {
+        ++events[i - 1].rebuilds;
+        events[i - 1].tests += lists[i - 1].size();
+        events[i - 1].listed += lists[i].size();
+      }
+    }
+    check.after(1);
+    tally.add(&Counts<std::uint64_t>::visits);
+    test_disc(lists[static_cast<std::size_t>(walk.innermost())], disc, d, collector, tally, check);
+  };
+  try {
+    for (; done < order.size(); ++done) take(order[done]);
+  } catch (const Stopped&) {  // the disc under way is left out
+  }
+  outcome.counts = tally.counts();
+  if constexpr (counting) {
+    add_spheres(events, outcome.counts);
+    outcome.spheres = std::move(events);
+  }
+  if (done < order.size())
+    std::move(collector).give_discs(order.first(done), outcome);
+  else
+    std::move(collector).give(problem.rays.size(), outcome);
+}
+
+inline void search_along(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,
+                         const RunOptions& options, Outcome& outcome) {
+  options.count ? search_along_counting<true>(walk, problem, order, options, outcome)
+                : search_along_counting<false>(walk, problem, order, options, outcome);
+}
+
+}  // namespace detp::sim

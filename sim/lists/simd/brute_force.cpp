@@ -1,0 +1,89 @@
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/search/run_memory.hpp"
+#include "gathering.hpp"
+#include "list_search.hpp"
+#include "ray_blocks.hpp"
+#include "search.hpp"
+
+namespace detp::sim::stream {
+namespace {
+
+/// Discs that stay in the first-level cache while vector after vector of rays passes.
+constexpr std::size_t chunk = 512;
+
+/// Rays tested against a chunk between two checks for a stop request.
+constexpr std::size_t rays_at_once = StopCheck::most_work * tests_a_unit / chunk;
+
+/// Whether it was finished: not after a stop request.
+bool test_chunk(const BlockSearch& block, const RayLists& lists, const DiscRun& discs, Worker& worker) {
+  for (int k = 0; k < classes; ++k) {
+    const RayList& rays = lists[static_cast<std::size_t>(k)];
+    for (std::size_t first = 0; first < rays.size; first += rays_at_once) {
+      const RayList some = part_of(rays, first, std::min(rays_at_once, rays.size - first));
+      if (worker.check.requested_after(test_work(some.size, discs.count))) {
+        worker.skipped.push_back(discs);
+        return false;
+      }
+      test_discs(block, k, discs.first, discs.count, some, worker);
+    }
+  }
+  return true;
+}
+
+class FloatBruteForce final : public Index {
+ public:
+  FloatBruteForce(const Problem& problem, const RunOptions& options) : frame_(problem) {
+    Stopwatch watch;
+    built_.bytes = checked_bytes(what, all_bytes(size_of(problem, options)), problem);
+    std::vector<std::uint32_t> order(problem.discs.size());
+    std::iota(order.begin(), order.end(), 0U);
+    discs_ = discs_in_order(problem, frame_, std::move(order), options);
+    built_.seconds.build = watch.lap();
+  }
+
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    need_memory(what, all_bytes(size_of(problem, options)), problem, outcome);
+    on_threads(thread_count(options.threads), [&] {
+      tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(options.stop); });
+      Gathering gathering(problem, discs_, options, outcome);
+      for_each_block(problem, frame_, options.stop, [&](const Block& rays) {
+        test_block(gathering.begin(frame_, rays.first(), rays.traits()), rays, workers);
+        gathering.end(rays, workers);
+      });
+      gathering.give(workers);
+    });
+  }
+
+ private:
+  static constexpr const char* what = "the discs in floats and blocks of rays";
+
+  template <class Workers>
+  void test_block(const BlockSearch& block, const Block& rays, Workers& workers) const {
+    tbb::parallel_for(std::size_t{0}, (discs_.discs.size() - 1) / chunk + 1, [&](std::size_t i) {
+      const std::size_t count = std::min(chunk, discs_.discs.size() - i * chunk);
+      Worker& worker = workers.local();
+      const DiscRun run{static_cast<std::uint32_t>(i * chunk), static_cast<std::uint32_t>(count)};
+      if (!test_chunk(block, rays.lists(), run, worker)) return;
+      worker.counts.visits += count;
+      worker.counts.disc_tests += count * rays.size();
+    });
+  }
+
+  Frame frame_;
+  DiscTree discs_;
+};
+
+}  // namespace
+
+std::unique_ptr<Index> prepare_all(const Problem& problem, const RunOptions& options) {
+  return std::make_unique<FloatBruteForce>(problem, options);
+}
+
+}  // namespace detp::sim::stream

@@ -1,0 +1,208 @@
+#include "gathering.hpp"
+
+#include <hwy/cache_control.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <atomic>
+#include <utility>
+
+#include "detp/sim/search/sort_pairs.hpp"
+
+namespace detp::sim::stream {
+namespace {
+
+/// Sums of the same power added to 0, once, twice, …
+class RepeatedSums {
+ public:
+  explicit RepeatedSums(double power) : power_(power) {}
+
+  /// The sum after `count` more were added to `sum`, one after another.
+  [[nodiscard]] double add(double sum, std::uint32_t count) {
+    if (sum == 0) return from_zero(count);
+    for (std::uint32_t i = 0; i < count; ++i) sum += power_;
+    return sum;
+  }
+
+ private:
+  double from_zero(std::size_t count) {
+    while (sums_.size() <= count) sums_.push_back(sums_.back() + power_);
+    return sums_[count];
+  }
+
+  double power_;
+  std::vector<double> sums_{0};
+};
+
+template <class Element>
+double bytes_of(const std::vector<Element>& array) {
+  return static_cast<double>(array.size()) * sizeof(Element);
+}
+
+}  // namespace
+
+Gathering::Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome)
+    : problem_(problem), tree_(tree), options_(options), outcome_(outcome), hits_(tree.discs.size()) {
+  if (options.totals != nullptr) need_totals();
+}
+
+void Gathering::need_totals() {
+  if (!totals_.empty()) return;
+  totals_.resize(tree_.discs.size());
+  if (options_.totals == nullptr || options_.totals->empty()) return;
+  for (std::size_t place = 0; place < totals_.size(); ++place) totals_[place] = (*options_.totals)[tree_.order[place]];
+}
+
+BlockSearch Gathering::begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits) {
+  const bool only_count = traits.power && !options_.pairs && !problem_.front_facing;
+  const std::optional<double> power = only_count ? traits.power : std::nullopt;
+  if (first_ray > 0 && power != counted_power_) add_up();
+  counted_power_ = power;
+  if (!only_count) need_totals();
+  return {.problem = problem_,
+          .frame = frame,
+          .tree = tree_,
+          .first_ray = static_cast<std::uint32_t>(first_ray),
+          .segments = traits.segments,
+          .pairs = options_.pairs,
+          .hits = hits_.data(),
+          .totals = only_count ? nullptr : totals_.data()};
+}
+
+void Gathering::add_up() {
+  need_totals();
+  std::optional<RepeatedSums> sums;
+  if (counted_power_) sums.emplace(*counted_power_);
+  for (std::size_t place = 0; place < totals_.size(); ++place)
+    for (int k = 0; k < classes; ++k) {
+      const std::uint32_t count = std::exchange(hits_[place][static_cast<std::size_t>(k)], 0);
+      totals_[place].hits += count;
+      found_ += count;
+      if (sums) totals_[place].power[k] = sums->add(totals_[place].power[k], count);
+    }
+}
+
+void Gathering::end_wholly(const Block& block, std::uint64_t tests) {
+  // A copy takes some nanoseconds a disc, a test a sixth of one: this bounds its cost to about a hundredth.
+  constexpr std::uint64_t tests_for_each_disc = 4096;
+  rays_ = block.first() + block.size();
+  if (rays_ == problem_.rays.size() || tests - tests_when_kept_ < tests_for_each_disc * tree_.discs.size()) return;
+  tests_when_kept_ = tests;
+  if (room_to_keep()) keep();
+}
+
+/// Counts the copy as memory that the run takes. Without room for it, a stopped run knows less.
+bool Gathering::room_to_keep() {
+  const double copy = bytes_of(hits_) + bytes_of(totals_);
+  const double more = copy - bytes_of(kept_.counts) - bytes_of(kept_.totals);
+  if (!fits_memory(outcome_.bytes + more, problem_)) return false;
+  outcome_.bytes += more;
+  return true;
+}
+
+void Gathering::end_partly(const Block& block) {
+  partial_ = true;
+  by_discs_ = block.size() == problem_.rays.size() && options_.totals == nullptr;
+}
+
+std::uint64_t Gathering::hits() const {
+  std::uint64_t sum = found_;
+  for (const ClassCounts& counts : hits_)
+    for (const std::uint32_t count : counts) sum += count;
+  return sum;
+}
+
+void Gathering::keep() {
+  const std::uint64_t found = hits();
+  batches_.add(rays_ - kept_.rays, found - kept_.hits);
+  kept_.rays = rays_;
+  kept_.hits = found;
+  kept_.totals = totals_;
+  kept_.counts = hits_;
+  kept_.counted_power = counted_power_;
+  kept_.in_totals = found_;
+}
+
+void Gathering::go_back() {
+  rays_ = kept_.rays;
+  totals_ = std::move(kept_.totals);
+  hits_ = std::move(kept_.counts);
+  hits_.resize(tree_.discs.size());
+  counted_power_ = kept_.counted_power;
+  found_ = kept_.in_totals;
+}
+
+void Gathering::mark_done(std::span<const DiscRun> skipped) const {
+  outcome_.done_discs.assign(tree_.order.size(), true);
+  for (const DiscRun& run : skipped)
+    for (std::uint32_t place = run.first; place < run.first + run.count; ++place)
+      outcome_.done_discs[tree_.order[place]] = false;
+  keep_done_discs(outcome_);
+}
+
+void Gathering::finish_outcome(std::span<const DiscRun> skipped) {
+  if (partial_ && !by_discs_) go_back();
+  totals_.empty() && counted_power_ ? give_counted() : give_totals();
+  if (!options_.count) outcome_.counts = {};
+  outcome_.counts.hits = outcome_.total_hits;
+  outcome_.progress = {rays_, problem_.rays.size()};
+  outcome_.stopped = rays_ < problem_.rays.size() || !sort_pairs(outcome_.pairs, options_.stop);
+  if (outcome_.stopped) outcome_.pairs.clear();
+  if (rays_ > kept_.rays) batches_.add(rays_ - kept_.rays, outcome_.total_hits - kept_.hits);
+  outcome_.batches = batches_;
+  if (by_discs_) mark_done(skipped);
+}
+
+/// Of rays that all carry the same power, and no others before them: no totals are needed.
+void Gathering::give_counted() const {
+  outcome_.hits.resize(hits_.size());
+  outcome_.irradiance.resize(hits_.size());
+  std::atomic<std::uint64_t> found = 0;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hits_.size(), 1U << 14),
+                    [&](const auto& range) { found += give_counted(range.begin(), range.end()); });
+  outcome_.total_hits = found;
+}
+
+/// The same of the discs at some places; the number of their hits.
+std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last) const {
+  constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
+  RepeatedSums sums(*counted_power_);
+  std::uint64_t found = 0;
+  for (std::size_t place = first; place < last; ++place) {
+    if (place + ahead < hits_.size()) {
+      const std::uint32_t later = tree_.order[place + ahead];
+      hwy::Prefetch(&problem_.discs[later].radius);
+      hwy::Prefetch(&outcome_.hits[later]);
+      hwy::Prefetch(&outcome_.irradiance[later]);
+    }
+    const auto& [x, y, z] = hits_[place];
+    if ((x | y | z) == 0) continue;  // with few rays most
+    const std::uint32_t disc = tree_.order[place];
+    const DiscTotals totals{.hits = std::uint64_t{x} + y + z,
+                            .power = {sums.add(0, x), sums.add(0, y), sums.add(0, z)}};
+    outcome_.hits[disc] = totals.hits;
+    outcome_.irradiance[disc] = irradiance(totals, problem_.discs[disc]);
+    found += totals.hits;
+  }
+  return found;
+}
+
+void Gathering::give_totals() {
+  add_up();
+  outcome_.total_hits = found_;
+  if (options_.totals != nullptr) {
+    options_.totals->resize(totals_.size());
+    for (std::size_t place = 0; place < totals_.size(); ++place)
+      (*options_.totals)[tree_.order[place]] = totals_[place];
+    return;
+  }
+  outcome_.hits.resize(totals_.size());
+  outcome_.irradiance.resize(totals_.size());
+  for (std::size_t place = 0; place < totals_.size(); ++place) {
+    const std::uint32_t disc = tree_.order[place];
+    outcome_.hits[disc] = totals_[place].hits;
+    outcome_.irradiance[disc] = irradiance(totals_[place], problem_.discs[disc]);
+  }
+}
+
+}  // namespace detp::sim::stream

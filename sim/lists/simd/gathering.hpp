@@ -1,0 +1,112 @@
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "block_search.hpp"
+#include "detp/sim/base/memory.hpp"
+#include "detp/sim/search/run_memory.hpp"
+#include "ray_blocks.hpp"
+
+namespace detp::sim::stream {
+
+/// What has been found so far, disc by disc in the order of a DiscTree.
+///
+/// Where all rays of a block carry the same power, hits are only counted; their powers are added up when that changes
+/// or at the end, in ray order as usual.
+///
+/// A stop request ends a block when some discs have been searched and others not. What is given is then what there was
+/// after an earlier block, of which a copy is kept now and then; or, of a single block, the discs searched.
+class Gathering {
+ public:
+  /// Borrows all four. Goes on with the options' totals, if there are any.
+  Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome);
+
+  /// What the search of a block of such rays needs.
+  [[nodiscard]] BlockSearch begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits);
+
+  /// After the search of a block.
+  template <class Workers>
+  void end(const Block& block, const Workers& workers) {
+    const bool skipped =
+        options_.stop.stop_requested() &&
+        std::any_of(workers.begin(), workers.end(), [](const Worker& w) { return !w.skipped.empty(); });
+    if (skipped) return end_partly(block);
+    std::uint64_t tests = 0;
+    for (const Worker& worker : workers) tests += detp::tests(worker.counts);
+    end_wholly(block, tests);
+  }
+
+  /// Fills in the outcome: hits, irradiance, pairs, and what the workers counted.
+  template <class Workers>
+  void give(Workers& workers) {
+    std::vector<DiscRun> skipped;
+    for (Worker& worker : workers) {
+      skipped.insert(skipped.end(), worker.skipped.begin(), worker.skipped.end());
+      outcome_.counts += worker.counts;
+      outcome_.vectors += worker.vectors;
+    }
+    if (options_.pairs && rays_ == problem_.rays.size()) take_pairs(workers);
+    finish_outcome(skipped);
+  }
+
+ private:
+  /// What had been found when so many of the first rays had been searched.
+  struct Found {
+    std::size_t rays = 0;
+    std::uint64_t hits = 0;
+    Totals totals = {};
+    std::vector<ClassCounts> counts = {};
+    std::optional<double> counted_power = {};
+    std::uint64_t in_totals = 0;
+  };
+
+  /// Gives back each worker's when they are copied.
+  template <class Workers>
+  void take_pairs(Workers& workers) {
+    std::size_t count = 0;
+    double bytes = 0;  // while they grew
+    for (const Worker& worker : workers) {
+      count += worker.pairs.size();
+      bytes += grown_bytes(worker.pairs.size(), sizeof(Pair));
+    }
+    outcome_.bytes += std::max(bytes, 2.0 * sizeof(Pair) * static_cast<double>(count));
+    require_memory_for("the pairs", outcome_.bytes, problem_);
+    outcome_.pairs.reserve(count);
+    for (Worker& worker : workers) {
+      outcome_.pairs.insert(outcome_.pairs.end(), worker.pairs.begin(), worker.pairs.end());
+      worker.pairs = {};
+    }
+  }
+
+  void end_wholly(const Block& block, std::uint64_t tests);
+  void end_partly(const Block& block);
+  [[nodiscard]] bool room_to_keep();
+  void keep();
+  [[nodiscard]] std::uint64_t hits() const;
+  void go_back();
+  void mark_done(std::span<const DiscRun> skipped) const;
+  void finish_outcome(std::span<const DiscRun> skipped);
+  void need_totals();
+  void add_up();
+  void give_counted() const;
+  [[nodiscard]] std::uint64_t give_counted(std::size_t first, std::size_t last) const;
+  void give_totals();
+
+  const Problem& problem_;
+  const DiscTree& tree_;
+  const RunOptions& options_;
+  Outcome& outcome_;
+  Totals totals_;                        ///< empty as long as hits have only been counted
+  std::vector<ClassCounts> hits_;        ///< not yet in the totals
+  std::optional<double> counted_power_;  ///< what each of those carries; nothing if their powers are in the totals
+  std::uint64_t found_ = 0;              ///< hits in the totals that were not there at first
+  std::size_t rays_ = 0;                 ///< the first so many have been searched for all discs
+  bool partial_ = false;                 ///< some discs have been searched for more of them
+  bool by_discs_ = false;                ///< … for all of them
+  std::uint64_t tests_when_kept_ = 0;
+  Found kept_;
+  HitBatches batches_;
+};
+
+}  // namespace detp::sim::stream

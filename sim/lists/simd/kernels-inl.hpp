@@ -1,0 +1,242 @@
+// Included once for each instruction set (Highway's foreach_target), so no #pragma once.
+#if defined(DETP_SIM_STREAM_KERNELS_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef DETP_SIM_STREAM_KERNELS_INL_HPP
+#undef DETP_SIM_STREAM_KERNELS_INL_HPP
+#else
+#define DETP_SIM_STREAM_KERNELS_INL_HPP
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstdint>
+
+#include "disc_tree.hpp"
+#include "ray_list.hpp"
+
+/// The inner loops: a list of rays of one class against one box, one sphere, one disc.
+HWY_BEFORE_NAMESPACE();
+namespace detp::sim::stream {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using FloatLanes = hn::CappedTag<float, padding>;
+using WordLanes = hn::CappedTag<std::uint32_t, padding>;
+using Floats = hn::Vec<FloatLanes>;
+using Mask = hn::Mask<FloatLanes>;
+
+/// How many vectors hold so many rays.
+HWY_INLINE std::size_t vectors_of(std::size_t rays) {
+  const FloatLanes lanes;
+  return (rays + hn::Lanes(lanes) - 1) / hn::Lanes(lanes);
+}
+
+/// The lanes from `first` on that are in the list.
+HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
+  const FloatLanes lanes;
+  return hn::FirstN(lanes, HWY_MIN(size - first, hn::Lanes(lanes)));
+}
+
+/// Appends those lanes of a list's vector that start at `first`.
+///
+/// Where each lane goes is found once, by one Compress; the arrays are then permuted. (A Compress of each takes five
+/// cycles on Zen 5, and a table lookup of its own before AVX-512.)
+template <bool segments>
+HWY_INLINE void append(const RayList& from, std::size_t first, Floats a, Floats b, Floats p, Floats q, Mask kept,
+                       RayList& to) {
+  const FloatLanes lanes;
+  const WordLanes words;
+  const hn::RebindToSigned<WordLanes> numbers;
+  const auto kept_lanes = hn::Compress(hn::Iota(numbers, 0), hn::RebindMask(numbers, kept));
+  const auto places = hn::IndicesFromVec(lanes, kept_lanes);
+  const std::size_t end = to.size;
+  hn::StoreU(hn::TableLookupLanes(a, places), lanes, to.a + end);
+  hn::StoreU(hn::TableLookupLanes(b, places), lanes, to.b + end);
+  hn::StoreU(hn::TableLookupLanes(p, places), lanes, to.p + end);
+  hn::StoreU(hn::TableLookupLanes(q, places), lanes, to.q + end);
+  const auto ids = hn::Load(words, from.id + first);
+  hn::StoreU(hn::TableLookupLanes(ids, hn::IndicesFromVec(words, kept_lanes)), words, to.id + end);
+  if constexpr (segments) {
+    hn::StoreU(hn::TableLookupLanes(hn::Load(lanes, from.from + first), places), lanes, to.from + end);
+    hn::StoreU(hn::TableLookupLanes(hn::Load(lanes, from.to + first), places), lanes, to.to + end);
+  }
+  to.size = end + hn::CountTrue(lanes, kept);
+}
+
+/// Lists those rays that may cross the box grown by `margin`, all that do among them.
+///
+/// A ray x = p + a z is in the box's slab of x, as long as it is in that of z, only if
+/// |p + a c_z - c_x| <= h_x + |a| h_z. Likewise y. (The third separating axis, z × D, would spare one ray in ten.)
+template <bool segments, int k>
+HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin, RayList& inside) {
+  const FloatLanes lanes;
+  constexpr auto axes = axes_of_class(k);
+  constexpr int x = axes[0];
+  constexpr int y = axes[1];
+  constexpr int z = axes[2];
+  const Floats cx = hn::Set(lanes, box.centre[x]);
+  const Floats cy = hn::Set(lanes, box.centre[y]);
+  const Floats cz = hn::Set(lanes, box.centre[z]);
+  const Floats hx = hn::Set(lanes, box.half[x] + margin);
+  const Floats hy = hn::Set(lanes, box.half[y] + margin);
+  const Floats hz = hn::Set(lanes, box.half[z] + margin);
+  [[maybe_unused]] const Floats low = hn::Set(lanes, box.centre[z] - (box.half[z] + margin));
+  [[maybe_unused]] const Floats high = hn::Set(lanes, box.centre[z] + (box.half[z] + margin));
+  // Copies, which stay in registers: for all the compiler knows, storing a vector may change the lists themselves.
+  const RayList around = rays;
+  RayList kept_rays = inside;
+  kept_rays.size = 0;
+  for (std::size_t i = 0; i < around.size; i += hn::Lanes(lanes)) {
+    const Floats a = hn::Load(lanes, around.a + i);
+    const Floats b = hn::Load(lanes, around.b + i);
+    const Floats p = hn::Load(lanes, around.p + i);
+    const Floats q = hn::Load(lanes, around.q + i);
+    const Floats off_x = hn::Abs(hn::Sub(hn::MulAdd(a, cz, p), cx));
+    const Floats off_y = hn::Abs(hn::Sub(hn::MulAdd(b, cz, q), cy));
+    Mask kept =
+        hn::And(hn::Le(hn::NegMulAdd(hn::Abs(a), hz, off_x), hx), hn::Le(hn::NegMulAdd(hn::Abs(b), hz, off_y), hy));
+    if constexpr (segments) {
+      kept = hn::And(
+          kept, hn::And(hn::Le(hn::Load(lanes, around.from + i), high), hn::Ge(hn::Load(lanes, around.to + i), low)));
+    }
+    if (HWY_UNLIKELY(i + hn::Lanes(lanes) > around.size)) kept = hn::And(kept, in_list(i, around.size));
+    append<segments>(around, i, a, b, p, q, kept, kept_rays);
+  }
+  inside.size = kept_rays.size;
+}
+
+/// Lists those rays that may come within the sphere, whose radius has been grown by Frame::margin.
+///
+/// With w = (P, Q, 0) from the sphere's centre to the ray at the centre's z, the ray's distance is |w × D|/|D|. Of
+/// segments it is only asked besides whether they reach the sphere's extent in z: those that end before it in its
+/// corner are listed for nothing.
+template <bool segments, int k>
+HWY_INLINE void cull_sphere(const RayList& rays, const FloatSphere& sphere, RayList& inside) {
+  const FloatLanes lanes;
+  constexpr auto axes = axes_of_class(k);
+  const Floats cx = hn::Set(lanes, sphere.centre[axes[0]]);
+  const Floats cy = hn::Set(lanes, sphere.centre[axes[1]]);
+  const Floats cz = hn::Set(lanes, sphere.centre[axes[2]]);
+  const Floats square = hn::Set(lanes, sphere.radius * sphere.radius);
+  [[maybe_unused]] const Floats low = hn::Set(lanes, sphere.centre[axes[2]] - sphere.radius);
+  [[maybe_unused]] const Floats high = hn::Set(lanes, sphere.centre[axes[2]] + sphere.radius);
+  // Copies, which stay in registers: for all the compiler knows, storing a vector may change the lists themselves.
+  const RayList around = rays;
+  RayList kept_rays = inside;
+  kept_rays.size = 0;
+  for (std::size_t i = 0; i < around.size; i += hn::Lanes(lanes)) {
+    const Floats a = hn::Load(lanes, around.a + i);
+    const Floats b = hn::Load(lanes, around.b + i);
+    const Floats p = hn::Load(lanes, around.p + i);
+    const Floats q = hn::Load(lanes, around.q + i);
+    const Floats P = hn::Sub(hn::MulAdd(a, cz, p), cx);
+    const Floats Q = hn::Sub(hn::MulAdd(b, cz, q), cy);
+    const Floats turn = hn::MulSub(P, b, hn::Mul(Q, a));
+    const Floats moment = hn::MulAdd(P, P, hn::MulAdd(Q, Q, hn::Mul(turn, turn)));
+    const Floats stretch = hn::MulAdd(a, a, hn::MulAdd(b, b, hn::Set(lanes, 1.0F)));
+    Mask kept = hn::Le(moment, hn::Mul(square, stretch));
+    if constexpr (segments) {
+      kept = hn::And(
+          kept, hn::And(hn::Le(hn::Load(lanes, around.from + i), high), hn::Ge(hn::Load(lanes, around.to + i), low)));
+    }
+    if (HWY_UNLIKELY(i + hn::Lanes(lanes) > around.size)) kept = hn::And(kept, in_list(i, around.size));
+    append<segments>(around, i, a, b, p, q, kept, kept_rays);
+  }
+  inside.size = kept_rays.size;
+}
+
+/// Which lanes hit a disc for certain, and which may or may not.
+struct Decision {
+  Mask sure;
+  Mask unsure;
+};
+
+/// A disc, spread over the lanes, in the coordinates of a class.
+template <int k>
+struct SpreadDisc {
+  Floats cx, cy, cz, nx, ny, nz, radius, band, ends;
+
+  HWY_INLINE explicit SpreadDisc(const FloatDisc& disc) {
+    const FloatLanes lanes;
+    constexpr auto axes = axes_of_class(k);
+    constexpr int x = axes[0];
+    constexpr int y = axes[1];
+    constexpr int z = axes[2];
+    cx = hn::Set(lanes, disc.centre[x]);
+    cy = hn::Set(lanes, disc.centre[y]);
+    cz = hn::Set(lanes, disc.centre[z]);
+    nx = hn::Set(lanes, disc.normal[x]);
+    ny = hn::Set(lanes, disc.normal[y]);
+    nz = hn::Set(lanes, disc.normal[z]);
+    radius = hn::Set(lanes, disc.radius);
+    band = hn::Set(lanes, disc.band);
+    ends = hn::Set(lanes, 0.5F * disc.band);
+  }
+};
+
+/// As many rays of a list as there are lanes.
+template <bool segments>
+struct RayVector {
+  Floats a, b, p, q, from, to;
+  const std::uint32_t* id;
+
+  HWY_INLINE RayVector(const RayList& list, std::size_t first) : id(list.id + first) {
+    const FloatLanes lanes;
+    a = hn::Load(lanes, list.a + first);
+    b = hn::Load(lanes, list.b + first);
+    p = hn::Load(lanes, list.p + first);
+    q = hn::Load(lanes, list.q + first);
+    if constexpr (segments) {
+      from = hn::Load(lanes, list.from + first);
+      to = hn::Load(lanes, list.to + first);
+    }
+  }
+};
+
+/// The canonical decision (predicates.hpp) in floats, where it is certain.
+///
+/// With w = (P, Q, 0) from the disc's centre to the ray at the centre's z, D = (a, b, 1), φ = n·D and g = n·w, the
+/// crossing lies (wφ - Dg)/φ from the centre: a hit if |wφ - Dg| <= d|φ|, and of segments from <= c_z - g/φ <= to.
+/// Within `band` of the rim, `ends` of an end, it is not certain (sim/README.md, "Floats").
+template <bool segments, bool front_facing, int k>
+HWY_INLINE Decision decide(const RayVector<segments>& rays, const SpreadDisc<k>& disc) {
+  const FloatLanes lanes;
+  const Floats a = rays.a;
+  const Floats b = rays.b;
+  const Floats P = hn::Sub(hn::MulAdd(a, disc.cz, rays.p), disc.cx);
+  const Floats Q = hn::Sub(hn::MulAdd(b, disc.cz, rays.q), disc.cy);
+  const Floats facing = hn::MulAdd(disc.nx, a, hn::MulAdd(disc.ny, b, disc.nz));
+  const Floats height = hn::MulAdd(disc.nx, P, hn::Mul(disc.ny, Q));
+  const Floats X = hn::NegMulAdd(a, height, hn::Mul(P, facing));
+  const Floats Y = hn::NegMulAdd(b, height, hn::Mul(Q, facing));
+  const Floats square = hn::MulAdd(X, X, hn::MulAdd(Y, Y, hn::Mul(height, height)));
+  const Floats size = hn::Abs(facing);
+  const Floats outer = hn::MulAdd(disc.radius, size, disc.band);
+  const Floats inner = hn::Max(hn::MulSub(disc.radius, size, disc.band), hn::Zero(lanes));
+  Mask sure = hn::Lt(square, hn::Mul(inner, inner));
+  Mask possible = hn::Le(square, hn::Mul(outer, outer));
+  if constexpr (segments) {
+    // -g sgn φ, which is to lie between (from - c_z)|φ| and (to - c_z)|φ|.
+    const Floats along = hn::Xor(hn::Neg(height), hn::And(facing, hn::SignBit(lanes)));
+    const Floats after = hn::NegMulAdd(hn::Sub(rays.from, disc.cz), size, along);
+    const Floats before = hn::MulSub(hn::Sub(rays.to, disc.cz), size, along);
+    const Floats within = hn::Min(after, before);
+    sure = hn::And(sure, hn::Gt(within, disc.ends));
+    possible = hn::And(possible, hn::Ge(within, hn::Neg(disc.ends)));
+  }
+  if constexpr (front_facing) {
+    // The direction is ±(a, b, 1): it arrives in front if its product with the normal is negative.
+    const Floats falls = hn::BitCast(lanes, hn::Load(WordLanes{}, rays.id));
+    const Mask in_front = hn::Lt(hn::Xor(facing, hn::And(falls, hn::SignBit(lanes))), hn::Zero(lanes));
+    // A certain hit is certain about its face; the others are asked again anyway.
+    possible = hn::And(possible, hn::Or(in_front, hn::Not(sure)));
+    sure = hn::And(sure, in_front);
+  }
+  return {sure, hn::AndNot(sure, possible)};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace detp::sim::stream
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,68 @@
+#include "list_search.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "detp/sim/lists/simd/list_search.cpp"
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+#include "kernels-inl.hpp"
+#include "leaf-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace detp::sim::stream {
+namespace HWY_NAMESPACE {
+
+template <int k>
+void cull_class(const BlockSearch& block, const FloatSphere& sphere, const RayList& around, RayList& inside) {
+  block.segments ? cull_sphere<true, k>(around, sphere, inside) : cull_sphere<false, k>(around, sphere, inside);
+}
+
+void CullSphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside,
+                Worker& worker) {
+  worker.vectors.cull += vectors_of(around.size);
+  if (k == 0) return cull_class<0>(block, sphere, around, inside);
+  if (k == 1) return cull_class<1>(block, sphere, around, inside);
+  return cull_class<2>(block, sphere, around, inside);
+}
+
+template <int k>
+void test_any(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
+  if (block.totals == nullptr)
+    block.segments ? test_class<true, true, k>(block, leaf, rays, worker)
+                   : test_class<false, true, k>(block, leaf, rays, worker);
+  else
+    block.segments ? test_class<true, false, k>(block, leaf, rays, worker)
+                   : test_class<false, false, k>(block, leaf, rays, worker);
+}
+
+void TestDiscs(const BlockSearch& block, int k, std::uint32_t first, std::uint32_t count, const RayList& rays,
+               Worker& worker) {
+  const TreeNode leaf{.centre = {}, .half = {}, .first = first, .count = count & 0x7fff'ffff, .leaf = 1};
+  if (k == 0) return test_any<0>(block, leaf, rays, worker);
+  if (k == 1) return test_any<1>(block, leaf, rays, worker);
+  return test_any<2>(block, leaf, rays, worker);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace detp::sim::stream
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace detp::sim::stream {
+
+HWY_EXPORT(CullSphere);
+HWY_EXPORT(TestDiscs);
+
+void cull_sphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside,
+                 Worker& worker) {
+  HWY_DYNAMIC_DISPATCH(CullSphere)(block, k, sphere, around, inside, worker);
+}
+
+void test_discs(const BlockSearch& block, int k, std::uint32_t first, std::uint32_t count, const RayList& rays,
+                Worker& worker) {
+  HWY_DYNAMIC_DISPATCH(TestDiscs)(block, k, first, count, rays, worker);
+}
+
+}  // namespace detp::sim::stream
+#endif

@@ -1,0 +1,228 @@
+#include "load_rays.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "detp/sim/lists/simd/load_rays.cpp"
+#include <hwy/foreach_target.h>
+//
+#include <hwy/cache_control.h>
+#include <hwy/highway.h>
+
+#include <cstddef>
+
+HWY_BEFORE_NAMESPACE();
+namespace detp::sim::stream {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+using DoubleLanes = hn::CappedTag<double, 8>;
+using FloatLanes = hn::Rebind<float, DoubleLanes>;
+using WordLanes = hn::Rebind<std::uint32_t, DoubleLanes>;
+using Doubles = hn::Vec<DoubleLanes>;
+using Mask = hn::Mask<DoubleLanes>;
+
+/// Beyond the ball around the origin of radius 1, with room for the slack: |p| and |q| of a ray that meets it are no
+/// more than √2.
+constexpr double outside = 2;
+
+/// Three coordinates of as many rays as there are lanes.
+struct Triple {
+  Doubles x, y, z;
+};
+
+/// For each ray the component along the axis k + shift, k its class (first: class 0; second: class 1).
+HWY_INLINE Doubles turned(const Triple& v, Mask first, Mask second, int shift) {
+  const Doubles axes[3] = {v.x, v.y, v.z};
+  const Doubles of_third = axes[(2 + shift) % 3];
+  return hn::IfThenElse(first, axes[shift % 3], hn::IfThenElse(second, axes[(1 + shift) % 3], of_third));
+}
+
+/// As many rays as there are lanes, before they are sorted into classes.
+struct Lines {
+  hn::Vec<FloatLanes> a, b, p, q, from, to;
+  hn::Vec<WordLanes> id;
+  Mask near;
+
+  HWY_INLINE void append(Mask chosen, RayList& list) const {
+    const FloatLanes floats;
+    const WordLanes words;
+    const hn::RebindToSigned<WordLanes> numbers;
+    std::uint8_t bits[8] = {};
+    hn::StoreMaskBits(DoubleLanes(), hn::And(chosen, near), bits);
+    const auto kept = hn::LoadMaskBits(floats, bits);
+    // As in kernels-inl.hpp: one Compress tells the places of all arrays.
+    const auto kept_lanes = hn::Compress(hn::Iota(numbers, 0), hn::RebindMask(numbers, kept));
+    const auto places = hn::IndicesFromVec(floats, kept_lanes);
+    const std::size_t end = list.size;
+    hn::StoreU(hn::TableLookupLanes(a, places), floats, list.a + end);
+    hn::StoreU(hn::TableLookupLanes(b, places), floats, list.b + end);
+    hn::StoreU(hn::TableLookupLanes(p, places), floats, list.p + end);
+    hn::StoreU(hn::TableLookupLanes(q, places), floats, list.q + end);
+    hn::StoreU(hn::TableLookupLanes(from, places), floats, list.from + end);
+    hn::StoreU(hn::TableLookupLanes(to, places), floats, list.to + end);
+    hn::StoreU(hn::TableLookupLanes(id, hn::IndicesFromVec(words, kept_lanes)), words, list.id + end);
+    list.size = end + hn::CountTrue(floats, kept);
+  }
+};
+
+/// A Ray as doubles: where its fields are.
+constexpr std::size_t doubles_in_ray = sizeof(Ray) / sizeof(double);
+constexpr std::size_t direction_at = offsetof(Ray, direction) / sizeof(double);
+constexpr std::size_t length_at = offsetof(Ray, length) / sizeof(double);
+constexpr std::size_t power_at = offsetof(Ray, power) / sizeof(double);
+static_assert(doubles_in_ray == 8);
+
+#if HWY_TARGET == HWY_SCALAR
+HWY_INLINE void load_fields(const Ray* ray, Doubles* fields) {
+  for (std::size_t j = 0; j < doubles_in_ray; ++j) fields[j] = hn::Load(DoubleLanes(), &ray->origin.x + j);
+}
+#else
+/// The columns of n × n doubles, n the number of lanes, whose rows are a ray apart.
+template <std::size_t n>
+HWY_INLINE void transpose(const double* rows, Doubles* columns) {
+  const DoubleLanes lanes;
+  Doubles pairs[n];  // of rows 2 i and 2 i + 1: the even columns, then the odd ones
+  for (std::size_t i = 0; i < n; i += 2) {
+    const Doubles upper = hn::LoadU(lanes, rows + i * doubles_in_ray);
+    const Doubles lower = hn::LoadU(lanes, rows + (i + 1) * doubles_in_ray);
+    pairs[i] = hn::InterleaveLower(lanes, upper, lower);
+    pairs[i + 1] = hn::InterleaveUpper(lanes, upper, lower);
+  }
+  if constexpr (n == 2) {
+    columns[0] = pairs[0];
+    columns[1] = pairs[1];
+  } else {
+    Doubles fours[n];  // of four rows: columns 0, 1, 2 and 3, and those four further on
+    for (std::size_t i = 0; i < n; i += 4) {
+      for (std::size_t odd = 0; odd < 2; ++odd) {
+        const Doubles upper = pairs[i + odd];
+        const Doubles lower = pairs[i + 2 + odd];
+        fours[i + odd] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(lower), upper);
+        fours[i + 2 + odd] = hn::OddEvenBlocks(lower, hn::SwapAdjacentBlocks(upper));
+      }
+    }
+    for (std::size_t j = 0; j < 4; ++j) {
+      if constexpr (n == 4) {
+        columns[j] = fours[j];
+      } else {
+        columns[j] = hn::ConcatLowerLower(lanes, fours[4 + j], fours[j]);
+        columns[4 + j] = hn::ConcatUpperUpper(lanes, fours[4 + j], fours[j]);
+      }
+    }
+  }
+}
+
+/// The fields of as many rays as there are lanes. (Gathers of eight lanes take three times as long on Zen 5.)
+HWY_INLINE void load_fields(const Ray* rays, Doubles* fields) {
+  constexpr std::size_t n = hn::MaxLanes(DoubleLanes());
+  for (std::size_t first = 0; first < doubles_in_ray; first += n) transpose<n>(&rays->origin.x + first, fields + first);
+}
+#endif
+
+constexpr std::size_t ahead = 64;  ///< rays that memory is asked for before they are needed
+
+/// What the rays have in common, so far.
+struct Seen {
+  Mask bounded;
+  Mask other_power;
+};
+
+/// Loads as many rays as there are lanes, the first `count` of which count.
+HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t number, const Frame& frame, Doubles power,
+                          RayLists& lists, Seen& seen) {
+  const DoubleLanes lanes;
+  const WordLanes words;
+  Doubles fields[doubles_in_ray];
+  load_fields(rays, fields);
+  const Triple direction{fields[direction_at], fields[direction_at + 1], fields[direction_at + 2]};
+  const auto place = [&](std::size_t axis) {
+    const Doubles centre = hn::Set(lanes, frame.centre[static_cast<int>(axis)]);
+    return hn::Mul(hn::Sub(fields[axis], centre), hn::Set(lanes, frame.scale));
+  };
+  const Triple origin{place(0), place(1), place(2)};
+  const Doubles length = fields[length_at];
+
+  const Doubles dx = hn::Abs(direction.x);
+  const Doubles dy = hn::Abs(direction.y);
+  const Doubles dz = hn::Abs(direction.z);
+  const Mask there = hn::FirstN(lanes, count);
+  const Mask first = hn::And(hn::Ge(dx, dy), hn::Ge(dx, dz));
+  const Mask second = hn::AndNot(first, hn::Ge(dy, dz));
+
+  const Doubles z = turned(direction, first, second, 0);
+  const Doubles start = turned(origin, first, second, 0);
+  const Doubles inverse = hn::Div(hn::Set(lanes, 1.0), z);
+  const Doubles a = hn::Mul(turned(direction, first, second, 1), inverse);
+  const Doubles b = hn::Mul(turned(direction, first, second, 2), inverse);
+  const Doubles p = hn::Sub(turned(origin, first, second, 1), hn::Mul(a, start));
+  const Doubles q = hn::Sub(turned(origin, first, second, 2), hn::Mul(b, start));
+
+  const Mask bounded = hn::Lt(length, hn::Set(lanes, unbounded));
+  const Doubles end = hn::Add(start, hn::Mul(hn::Mul(length, hn::Set(lanes, frame.scale)), z));
+  const Doubles far = hn::Set(lanes, 2 * outside);
+  const Doubles from = hn::IfThenElse(bounded, hn::Max(hn::Min(start, end), hn::Neg(far)), hn::Neg(far));
+  const Doubles to = hn::IfThenElse(bounded, hn::Min(hn::Max(start, end), far), far);
+
+  const Doubles reach = hn::Set(lanes, outside);
+  const Mask near = hn::And(hn::And(there, hn::Le(hn::Max(hn::Abs(p), hn::Abs(q)), reach)),
+                            hn::And(hn::Le(from, reach), hn::Ge(to, hn::Neg(reach))));
+  const FloatLanes floats;
+  Lines lines{.a = hn::DemoteTo(floats, a),
+              .b = hn::DemoteTo(floats, b),
+              .p = hn::DemoteTo(floats, p),
+              .q = hn::DemoteTo(floats, q),
+              .from = hn::DemoteTo(floats, from),
+              .to = hn::DemoteTo(floats, to),
+              .id = hn::Add(hn::Set(words, number), hn::Iota(words, 0)),
+              .near = near};
+  std::uint8_t falls[8] = {};
+  hn::StoreMaskBits(lanes, hn::Lt(z, hn::Zero(lanes)), falls);
+  lines.id = hn::Or(lines.id, hn::IfThenElseZero(hn::LoadMaskBits(words, falls), hn::Set(words, falling)));
+  lines.append(first, lists[0]);
+  lines.append(second, lists[1]);
+  lines.append(hn::Not(hn::Or(first, second)), lists[2]);
+
+  seen.bounded = hn::Or(seen.bounded, hn::And(there, bounded));
+  seen.other_power = hn::Or(seen.other_power, hn::And(there, hn::Ne(fields[power_at], power)));
+}
+
+RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& filled) {
+  // Copies, which stay in registers: for all the compiler knows, storing a vector may change what it is told by
+  // reference.
+  const Frame frame = given;
+  RayLists lists = filled;
+  const DoubleLanes lanes;
+  const std::size_t step = hn::Lanes(lanes);
+  const Doubles power = hn::Set(lanes, rays.front().power);
+  Seen seen{hn::FirstN(lanes, 0), hn::FirstN(lanes, 0)};
+  std::size_t i = 0;
+  for (; i + step <= rays.size(); i += step) {
+    // Blocks may come from memory. (Where they come from the third-level cache, asking early makes no difference.)
+    for (std::size_t j = i + ahead; j < HWY_MIN(i + ahead + step, rays.size()); ++j) hwy::Prefetch(&rays[j]);
+    load_some(&rays[i], step, static_cast<std::uint32_t>(i), frame, power, lists, seen);
+  }
+  if (i < rays.size()) {
+    Ray last[8];
+    std::copy(rays.begin() + static_cast<std::ptrdiff_t>(i), rays.end(), last);
+    load_some(last, rays.size() - i, static_cast<std::uint32_t>(i), frame, power, lists, seen);
+  }
+  filled = lists;
+  const bool same = hn::AllFalse(lanes, seen.other_power);
+  return {!hn::AllFalse(lanes, seen.bounded), same ? std::optional(rays.front().power) : std::nullopt};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace detp::sim::stream
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace detp::sim::stream {
+
+HWY_EXPORT(LoadRays);
+
+RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists) {
+  return HWY_DYNAMIC_DISPATCH(LoadRays)(rays, frame, lists);
+}
+
+}  // namespace detp::sim::stream
+#endif

@@ -1,0 +1,52 @@
+#include "ray_list.hpp"
+
+#include <algorithm>
+
+#include "detp/sim/base/memory.hpp"
+
+namespace detp::sim::stream {
+namespace {
+
+constexpr std::size_t line = 16;  // floats in a cache line
+
+/// Whole cache lines, an odd number of them: arrays of one list do not fall on the same sets of the cache.
+std::size_t stride_for(std::size_t capacity) {
+  const std::size_t lines = (capacity + padding + line - 1) / line;
+  return (lines | 1) * line;
+}
+
+}  // namespace
+
+RayList ListArena::take(std::size_t capacity, bool segments) {
+  const std::size_t stride = stride_for(capacity);
+  float* const start = take_floats(stride * (segments ? 7 : 5));
+  RayList list{.a = start, .b = start + stride, .p = start + 2 * stride, .q = start + 3 * stride};
+  list.id = reinterpret_cast<std::uint32_t*>(start + 4 * stride);
+  if (segments) {
+    list.from = start + 5 * stride;
+    list.to = start + 6 * stride;
+  }
+  return list;
+}
+
+float* ListArena::take_floats(std::size_t count) {
+  constexpr std::size_t least = std::size_t{1} << 14;
+  while (chunk_ < chunks_.size() && used_ + count > chunks_[chunk_].size) {
+    ++chunk_;
+    used_ = 0;
+  }
+  if (chunk_ == chunks_.size()) {
+    const std::size_t size = std::max({count, least << std::min<std::size_t>(chunk_, 10), chunk_ == 0 ? expected_ : 0});
+    bytes_ += static_cast<double>(size) * sizeof(float);
+    require_memory("a thread's lists of rays", bytes_);
+    Chunk chunk{std::unique_ptr<std::byte[]>(new std::byte[(size + line) * sizeof(float)]), nullptr, size};
+    const auto address = reinterpret_cast<std::uintptr_t>(chunk.bytes.get());
+    chunk.start = reinterpret_cast<float*>(chunk.bytes.get() + (64 - address % 64) % 64);
+    chunks_.push_back(std::move(chunk));
+  }
+  float* const taken = chunks_[chunk_].start + used_;
+  used_ += count;
+  return taken;
+}
+
+}  // namespace detp::sim::stream

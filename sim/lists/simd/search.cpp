@@ -1,0 +1,60 @@
+#include "search.hpp"
+
+#include <fmt/format.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/search/run_memory.hpp"
+#include "gathering.hpp"
+#include "ray_blocks.hpp"
+#include "tree_search.hpp"
+
+namespace detp::sim::stream {
+namespace {
+
+using Workers = tbb::enumerable_thread_specific<Worker>;
+
+/// Makes tasks of the children while there is much to do.
+void divide(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Workers& workers) {
+  if (node.leaf || size(lists) * node.count < least_work) {
+    search_below(block, node, lists, workers.local());
+    return;
+  }
+  // Isolated, so that a thread that waits takes no task that would heap its lists upon those in use.
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(node.first, node.first + node.count, [&](std::uint32_t child) {
+      Worker& worker = workers.local();
+      const TreeNode& next = block.tree.nodes[child];
+      if (worker.check.requested_after(test_work(size(lists))))
+        return worker.skipped.push_back(discs_below(block.tree, next));
+      const ArenaScope scope(worker.lists);
+      RayLists inside = worker.lists.take_like(lists, block.segments);
+      cull_node(block, next, lists, inside, worker);
+      if (size(inside) > 0) divide(block, next, inside, workers);
+    });
+  });
+}
+
+}  // namespace
+
+bool can_search(const Problem& problem) { return Frame(problem).slack <= 0.01; }
+
+void search_boxes(const Searched& searched, int fan_out, const RunOptions& options, Outcome& outcome) {
+  const auto& [problem, frame, tree] = searched;
+  const SearchSize size = size_of(problem, options);
+  const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
+  need_memory("the tree of boxes and its lists of rays", boxes_bytes(size, fan_out, made), problem, outcome);
+  on_threads(thread_count(options.threads), [&] {
+    Workers workers([&] { return Worker(options.stop, list_floats(size, tree.lists)); });
+    Gathering gathering(problem, tree, options, outcome);
+    for_each_block(problem, frame, options.stop, [&](const Block& block) {
+      divide(gathering.begin(frame, block.first(), block.traits()), tree.nodes.front(), block.lists(), workers);
+      gathering.end(block, workers);
+    });
+    gathering.give(workers);
+  });
+}
+
+}  // namespace detp::sim::stream

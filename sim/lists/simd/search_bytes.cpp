@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+
+#include "block_search.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/geometry/curve.hpp"
+#include "ray_blocks.hpp"
+#include "search.hpp"
+
+namespace detp::sim::stream {
+namespace {
+
+double rays_at_once(const SearchSize& size) {
+  return static_cast<double>(std::min(rays_in_block(size.discs), size.rays));
+}
+
+/// The block that is searched, and the one that is loaded meanwhile, both with their rays' ends.
+double block_bytes(const SearchSize& size) {
+  constexpr double bytes_a_ray = 7 * sizeof(float);
+  return bytes_a_ray * static_cast<double>(std::min(2 * rays_in_block(size.discs), size.rays));
+}
+
+/// Of a ray in a list inside the block's.
+double floats_a_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
+
+/// One thread's lists inside one another. A last, smaller block's come to lie where those of the others were not
+/// filled.
+double list_bytes(const SearchSize& size, const ListRoom& lists) {
+  const auto last = static_cast<double>(size.rays % rays_in_block(size.discs));
+  const double rays = rays_at_once(size);
+  const double unfilled = std::max(0.0, 1 - lists.first) * rays;
+  const double beside = last < rays ? std::min(unfilled, (1 + lists.all) * last) : 0;
+  return sizeof(float) * floats_a_ray(size) * (rays * lists.all + beside);
+}
+
+/// While rays are searched, and when they have been: blocks then make room for the outcome.
+double searching_bytes(const SearchSize& size, double tree, double lists) {
+  constexpr double outcome = sizeof(std::uint64_t) + sizeof(double);
+  const double a_disc =
+      sizeof(FloatDisc) + sizeof(std::uint32_t) + sizeof(ClassCounts) + (size.sums ? sizeof(DiscTotals) : 0);
+  const auto discs = static_cast<double>(size.discs);
+  return a_disc * discs + tree + lists + std::max(block_bytes(size), size.own_totals ? outcome * discs : 0);
+}
+
+}  // namespace
+
+SearchSize size_of(const Problem& problem, const RunOptions& options) {
+  return {.discs = problem.discs.size(),
+          .rays = problem.rays.size(),
+          .threads = options.threads,
+          .segments = problem.segments,
+          .sums = !problem.one_power || options.pairs || problem.front_facing || options.totals != nullptr,
+          .own_totals = options.totals == nullptr};
+}
+
+std::size_t list_floats(const SearchSize& size, const ListRoom& lists) {
+  return static_cast<std::size_t>(floats_a_ray(size) * rays_at_once(size) * (1 + lists.all));
+}
+
+double all_bytes(const SearchSize& size) { return searching_bytes(size, 0, 0); }
+
+double walk_bytes(const SearchSize& size, const ListRoom& lists) {
+  return std::max(sorting_bytes(size.discs), searching_bytes(size, 0, list_bytes(size, lists)));
+}
+
+double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree) {
+  const bool alone = rays_at_once(size) * fan_out < static_cast<double>(least_work);
+  const double lists = (alone ? 1 : thread_count(size.threads)) * list_bytes(size, tree.lists);
+  return std::max(building_bytes(size.discs, tree.binary_nodes, tree.nodes),
+                  searching_bytes(size, sizeof(TreeNode) * tree.nodes, lists));
+}
+
+TreeSize expected_tree(std::size_t discs, const BoxTreeParameters& parameters) {
+  const double nodes = std::min(2.0, 4.0 / parameters.leaf) * static_cast<double>(discs);
+  const double share = std::pow(parameters.fan_out, -2.0 / 3);  // of a part's surface in the whole's
+  return {.binary_nodes = nodes, .nodes = nodes, .lists = {share, share + share / (1 - share)}};
+}
+
+}  // namespace detp::sim::stream

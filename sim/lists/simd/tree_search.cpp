@@ -1,0 +1,95 @@
+#include "tree_search.hpp"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "detp/sim/lists/simd/tree_search.cpp"
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+#include "kernels-inl.hpp"
+#include "leaf-inl.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace detp::sim::stream {
+namespace HWY_NAMESPACE {
+
+template <bool segments>
+HWY_INLINE void cull(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
+                     Worker& worker) {
+  cull_box<segments, 0>(around[0], node, block.frame.margin, inside[0]);
+  cull_box<segments, 1>(around[1], node, block.frame.margin, inside[1]);
+  cull_box<segments, 2>(around[2], node, block.frame.margin, inside[2]);
+  worker.counts.cull_tests += size(around);
+  worker.counts.listed += size(inside);
+  ++worker.counts.culls;
+  for (const RayList& list : around) worker.vectors.cull += vectors_of(list.size);
+}
+
+/// Tests a leaf's discs, few enough at a time for the check between.
+template <bool segments, bool counting_only>
+void visit_leaf(const BlockSearch& block, TreeNode leaf, const RayLists& lists, Worker& worker) {
+  if (size(lists) == 0) return;  // the root may be a leaf, and no ray near
+  const auto at_once =
+      static_cast<std::uint32_t>(std::max<std::size_t>(1, StopCheck::most_work * tests_a_unit / size(lists)));
+  for (std::uint32_t left = leaf.count; left > 0; left -= leaf.count, leaf.first += leaf.count) {
+    leaf.count = std::min(left, at_once) & 0x7fff'ffff;
+    if (worker.check.requested_after(test_work(size(lists), leaf.count)))
+      return worker.skipped.push_back({leaf.first, left});
+    test_leaf<segments, counting_only>(block, leaf, lists, worker);
+  }
+}
+
+template <bool segments, bool counting_only>
+void visit(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker) {
+  if (node.leaf) return visit_leaf<segments, counting_only>(block, node, lists, worker);
+  const ArenaScope scope(worker.lists);
+  RayLists inside = worker.lists.take_like(lists, segments);
+  for (std::uint32_t child = node.first; child < node.first + node.count; ++child) {
+    const TreeNode& next = block.tree.nodes[child];
+    if (worker.check.requested_after(test_work(size(lists)))) {
+      worker.skipped.push_back(discs_below(block.tree, next));
+      continue;
+    }
+    cull<segments>(block, next, lists, inside, worker);
+    if (size(inside) > 0) visit<segments, counting_only>(block, next, inside, worker);
+  }
+}
+
+void CullNode(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
+              Worker& worker) {
+  block.segments ? cull<true>(block, node, around, inside, worker) : cull<false>(block, node, around, inside, worker);
+}
+
+void SearchBelow(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker) {
+  if (block.totals == nullptr)
+    block.segments ? visit<true, true>(block, node, lists, worker) : visit<false, true>(block, node, lists, worker);
+  else
+    block.segments ? visit<true, false>(block, node, lists, worker) : visit<false, false>(block, node, lists, worker);
+}
+
+const char* InstructionSet() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace detp::sim::stream
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace detp::sim::stream {
+
+HWY_EXPORT(CullNode);
+HWY_EXPORT(SearchBelow);
+HWY_EXPORT(InstructionSet);
+
+void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
+               Worker& worker) {
+  HWY_DYNAMIC_DISPATCH(CullNode)(block, node, around, inside, worker);
+}
+
+void search_below(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker) {
+  HWY_DYNAMIC_DISPATCH(SearchBelow)(block, node, lists, worker);
+}
+
+const char* instruction_set() { return HWY_DYNAMIC_DISPATCH(InstructionSet)(); }
+
+}  // namespace detp::sim::stream
+#endif

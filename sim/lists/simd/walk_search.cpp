@@ -1,0 +1,112 @@
+#include "walk_search.hpp"
+
+#include <tbb/parallel_for.h>
+
+#include <array>
+
+#include "detp/sim/base/threads.hpp"
+#include "gathering.hpp"
+#include "list_search.hpp"
+#include "ray_blocks.hpp"
+#include "search.hpp"
+
+namespace detp::sim::stream {
+namespace {
+
+/// The walk of one class of rays through one block.
+class ClassWalk {
+ public:
+  ClassWalk(const BlockSearch& block, int k, const RayList& rays, ListWalk& walk, Worker& worker,
+            std::vector<SphereCounts>& events)
+      : block_(block), k_(k), walk_(walk), worker_(worker), events_(events) {
+    const auto levels = static_cast<std::size_t>(walk.deepest()) + 1;
+    lists_.resize(levels);
+    marks_.resize(levels);
+    lists_[0] = rays;
+    events_.resize(levels - 1);
+  }
+
+  void run() {
+    const ArenaScope scope(worker_.lists);
+    for (std::uint32_t place = 0; place < block_.tree.order.size(); ++place) {
+      const int first = walk_.enter(block_.problem.discs[block_.tree.order[place]]);
+      for (int level = first; level <= walk_.innermost(); ++level) {
+        if (worker_.check.requested_after(test_work(lists_[static_cast<std::size_t>(level - 1)].size)))
+          return skip_from(place);
+        build(static_cast<std::size_t>(level), level == first);
+      }
+      const RayList& rays = lists_[static_cast<std::size_t>(walk_.innermost())];
+      if (worker_.check.requested_after(test_work(rays.size))) return skip_from(place);
+      if (rays.size > 0) test_discs(block_, k_, place, 1, rays, worker_);
+      worker_.counts.visits += k_ == 0 ? 1 : 0;
+      worker_.counts.disc_tests += rays.size;
+    }
+  }
+
+ private:
+  void skip_from(std::uint32_t place) {
+    worker_.skipped.push_back({place, static_cast<std::uint32_t>(block_.tree.order.size()) - place});
+  }
+
+  /// Lists further in were made of this one, and go with it.
+  void build(std::size_t level, bool first) {
+    if (first && level < built_) worker_.lists.release(marks_[level]);
+    built_ = level + 1;
+    marks_[level] = worker_.lists.mark();
+    const RayList& around = lists_[level - 1];
+    lists_[level] = worker_.lists.take(around.size, block_.segments);
+    cull_sphere(block_, k_, block_.frame(walk_.sphere(static_cast<int>(level))), around, lists_[level], worker_);
+    worker_.counts.culls += k_ == 0 ? 1 : 0;
+    worker_.counts.cull_tests += around.size;
+    worker_.counts.listed += lists_[level].size;
+    SphereCounts& events = events_[level - 1];
+    events.rebuilds += block_.first_ray == 0 && k_ == 0 ? 1 : 0;
+    events.tests += around.size;
+    events.listed += lists_[level].size;
+  }
+
+  const BlockSearch& block_;
+  int k_;
+  ListWalk& walk_;
+  Worker& worker_;
+  std::vector<SphereCounts>& events_;
+  std::vector<RayList> lists_;
+  std::vector<ListArena::Mark> marks_;  ///< where the arena stood before each list was made
+  std::size_t built_ = 1;
+};
+
+void add(const std::vector<SphereCounts>& events, std::vector<SphereCounts>& sum) {
+  sum.resize(events.size());
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    sum[i].rebuilds += events[i].rebuilds;
+    sum[i].tests += events[i].tests;
+    sum[i].listed += events[i].listed;
+  }
+}
+
+}  // namespace
+
+void search_walk(const Searched& searched, const MakeWalk& make_walk, const ListRoom& room, const RunOptions& options,
+                 Outcome& outcome) {
+  const auto& [problem, frame, discs] = searched;
+  const std::size_t floats = list_floats(size_of(problem, options), room);
+  std::array workers{Worker(options.stop, floats), Worker(options.stop, floats), Worker(options.stop, floats)};
+  std::array<std::vector<SphereCounts>, classes> events;
+  on_threads(thread_count(options.threads), [&] {
+    Gathering gathering(problem, discs, options, outcome);
+    for_each_block(problem, frame, options.stop, [&](const Block& rays) {
+      const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());
+      tbb::parallel_for(0, classes, [&](int k) {
+        const auto i = static_cast<std::size_t>(k);
+        const std::unique_ptr<ListWalk> walk = make_walk();
+        ClassWalk(block, k, rays.lists()[i], *walk, workers[i], events[i]).run();
+      });
+      gathering.end(rays, workers);
+    });
+    gathering.give(workers);
+  });
+  if (!options.count) return;
+  for (const std::vector<SphereCounts>& of_class : events) add(of_class, outcome.spheres);
+}
+
+}  // namespace detp::sim::stream

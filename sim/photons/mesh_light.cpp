@@ -1,0 +1,100 @@
+#include "mesh_light.hpp"
+
+#include <algorithm>
+
+#include "detp/sim/base/stop_check.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr int drops_along_edge = 5;
+constexpr double step = 0.01;   // of the box's height, between the heights tried
+constexpr int most_steps = 20;  // below the top
+
+double longest_side(const Box& box) {
+  const glm::dvec3 size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
+
+/// The light without its height.
+AreaLight level_light(const Box& box) {
+  const glm::dvec3 size = box.size();
+  const double least = 0.05 * longest_side(box);
+  const double along_x = std::max(0.5 * size.x, least);
+  const double along_z = std::max(0.5 * size.z, least);
+  const glm::dvec3 middle = box.centre();
+  return {.corner = {middle.x - 0.5 * along_x, box.high.y, middle.z - 0.5 * along_z},
+          .edge_u = {along_x, 0, 0},
+          .edge_v = {0, 0, along_z}};
+}
+
+/// A drop that falls from the light, and the depths below the top of the box where it meets the mesh.
+struct Drop {
+  double x, z;
+  std::vector<double> depths;
+
+  /// How far it falls from a depth until it lands; 0 if it never does.
+  [[nodiscard]] double fall(double depth) const {
+    const auto floor = std::upper_bound(depths.begin(), depths.end(), depth);
+    return floor == depths.end() ? 0 : *floor - depth;
+  }
+};
+
+/// Adds where the drop meets the triangle, its corners given relative to the top of the box's middle. Upright triangles
+/// stop no drop.
+void meet(Drop& drop, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  if (drop.x < std::min({a.x, b.x, c.x}) || drop.x > std::max({a.x, b.x, c.x})) return;
+  if (drop.z < std::min({a.z, b.z, c.z}) || drop.z > std::max({a.z, b.z, c.z})) return;
+  const auto cross = [](const glm::dvec3& first, const glm::dvec3& second) {
+    return first.x * second.z - first.z * second.x;
+  };
+  const glm::dvec3 to{drop.x - a.x, 0, drop.z - a.z};
+  const double area = cross(b - a, c - a);
+  const double u = cross(to, c - a) / area;
+  const double v = cross(b - a, to) / area;
+  if (u >= 0 && v >= 0 && u + v <= 1) drop.depths.push_back(-(a.y + u * (b.y - a.y) + v * (c.y - a.y)));
+}
+
+/// All coordinates in units of the box's longest side.
+std::vector<Drop> drops(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
+  const double unit = longest_side(box);
+  const glm::dvec3 top{box.centre().x, box.high.y, box.centre().z};
+  std::vector<Drop> all;
+  for (int i = 0; i < drops_along_edge; ++i)
+    for (int j = 0; j < drops_along_edge; ++j)
+      all.push_back({.x = ((i + 0.5) / drops_along_edge - 0.5) * light.edge_u.x / unit,
+                     .z = ((j + 0.5) / drops_along_edge - 0.5) * light.edge_v.z / unit,
+                     .depths = {}});
+  StopCheck check(stop, "placing the light");
+  for (const auto& [a, b, c] : mesh.triangles) {
+    for (Drop& drop : all)
+      meet(drop, (mesh.positions[a] - top) / unit, (mesh.positions[b] - top) / unit, (mesh.positions[c] - top) / unit);
+    check.after(all.size());
+  }
+  for (Drop& drop : all) std::sort(drop.depths.begin(), drop.depths.end());
+  return all;
+}
+
+/// Depth of the light below the top of the box, as a share of the box's height.
+double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
+  const double height = box.size().y / longest_side(box);
+  const std::vector<Drop> all = drops(mesh, box, light, stop);
+  for (int i = 1; i <= most_steps; ++i) {
+    // From half a step higher, so that the light cannot lie in the ceiling.
+    const auto falls_far = [&](const Drop& drop) { return drop.fall((i - 0.5) * step * height) >= 0.5 * height; };
+    if (2 * std::count_if(all.begin(), all.end(), falls_far) > std::ssize(all)) return i * step;
+  }
+  return step;
+}
+
+}  // namespace
+
+AreaLight light_for(const Mesh& mesh, const Box& box, const std::stop_token& stop) {
+  AreaLight light = level_light(box);
+  const double height = box.size().y;
+  const bool flat = height < 0.05 * longest_side(box);
+  light.corner.y += flat ? 0.5 * longest_side(box) : -depth_of_light(mesh, box, light, stop) * height;
+  return light;
+}
+
+}  // namespace detp::sim

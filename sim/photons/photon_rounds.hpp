@@ -1,0 +1,58 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "detp/sim/base/stopped.hpp"
+
+namespace detp::sim {
+
+/// How many photons to trace for a number of pieces of path: round by round, for how many pieces a photon gives is
+/// known only from those traced. Rounds decide how much is traced in vain, not what comes out.
+class PhotonRounds {
+ public:
+  PhotonRounds(std::string scene, std::uint64_t pieces)
+      : scene_(std::move(scene)), pieces_(pieces), limit_(1000 + 100 * pieces) {}
+
+  /// The photons of the next round: about as many as give the missing pieces. `found`: pieces of all rounds before.
+  /// Throws std::invalid_argument if the limit is reached.
+  [[nodiscard]] std::uint64_t next(std::uint64_t found) {
+    if (traced_ >= limit_)
+      throw std::invalid_argument("the light of " + scene_ + " hardly meets its surfaces: " + std::to_string(traced_) +
+                                  " photons gave " + std::to_string(found) + " pieces of path (" +
+                                  std::to_string(pieces_) + " asked for)");
+    const std::uint64_t photons = std::min(wanted(found), limit_ - traced_);
+    traced_ += photons;
+    return photons;
+  }
+
+  /// Photons after which to give up.
+  [[nodiscard]] std::uint64_t limit() const { return limit_; }
+
+ private:
+  static constexpr std::uint64_t least_in_a_round = 256;
+  static constexpr std::uint64_t most_in_a_round = 1ULL << 20;
+
+  [[nodiscard]] std::uint64_t wanted(std::uint64_t found) const {
+    const std::uint64_t missing = pieces_ - found;
+    if (traced_ == 0) return std::clamp<std::uint64_t>(missing / 4, least_in_a_round, most_in_a_round);
+    const double each = static_cast<double>(found) / static_cast<double>(traced_);
+    const double more = each > 0 ? 1.02 * static_cast<double>(missing) / each : 2.0 * static_cast<double>(traced_);
+    return std::max(least_in_a_round, static_cast<std::uint64_t>(std::min(more, static_cast<double>(most_in_a_round))));
+  }
+
+  std::string scene_;
+  std::uint64_t pieces_;
+  std::uint64_t limit_;
+  std::uint64_t traced_ = 0;
+};
+
+/// Throws Stopped, which says how many of the rays have been traced.
+[[noreturn]] inline void stopped_tracing(std::uint64_t rays, std::uint64_t of) {
+  throw Stopped("stopped while tracing photons after " + std::to_string(rays) + " of " + std::to_string(of) + " rays",
+                {rays, of, "rays"});
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,135 @@
+#include "ray_caster.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+#include "detp/sim/base/embree.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/scene/distinct_facets.hpp"
+
+namespace detp::sim {
+namespace {
+
+// In the caster's own units, where coordinates are below 1. Rays start inside start_radius, so that single precision
+// misplaces no point of a ray by more than 1e-6.
+constexpr float box_slack = 2e-6F;
+constexpr float distance_slack = 1e-5F;
+constexpr double start_radius = 1.5;
+
+/// What Embree hands back to us with each candidate; the context proper must come first.
+struct Query {
+  RTCIntersectContext context;
+  glm::dvec3 origin;
+  glm::dvec3 direction;
+  double skipped;                                   ///< from the origin to where Embree's ray starts
+  std::uint32_t from;                               ///< facet, or no_facet
+  std::uint32_t nearest = RTC_INVALID_GEOMETRY_ID;  ///< facet
+  double distance = unbounded;
+};
+static_assert(std::is_standard_layout_v<Query>);
+
+void bound(const RTCBoundsFunctionArguments* arguments) {
+  const Facet& facet = static_cast<const Facet*>(arguments->geometryUserPtr)[arguments->primID];
+  Box box;
+  for (const glm::dvec3& corner : {facet.corner, facet.corner + facet.first, facet.corner + facet.second})
+    box.include(corner);
+  RTCBounds& bounds = *arguments->bounds_o;
+  bounds.lower_x = static_cast<float>(box.low.x) - box_slack;
+  bounds.lower_y = static_cast<float>(box.low.y) - box_slack;
+  bounds.lower_z = static_cast<float>(box.low.z) - box_slack;
+  bounds.upper_x = static_cast<float>(box.high.x) + box_slack;
+  bounds.upper_y = static_cast<float>(box.high.y) + box_slack;
+  bounds.upper_z = static_cast<float>(box.high.z) + box_slack;
+}
+
+void meet(const RTCIntersectFunctionNArguments* arguments) {
+  if (arguments->valid[0] == 0) return;
+  Query& query = *reinterpret_cast<Query*>(arguments->context);
+  const std::uint32_t facet = arguments->primID;
+  if (facet == query.from) return;
+  const double distance =
+      crossing(query.origin, query.direction, static_cast<const Facet*>(arguments->geometryUserPtr)[facet]);
+  const bool nearer = distance < query.distance || (distance == query.distance && facet < query.nearest);
+  if (!nearer || distance == unbounded) return;
+  query.distance = distance;
+  query.nearest = facet;
+  // Embree shall still show what lies as far as this to within its own rounding.
+  const float limit = static_cast<float>(distance - query.skipped) + distance_slack;
+  RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = limit;
+}
+
+/// Distance to where the ray enters the sphere around the origin that holds all; 0 if it starts within; negative if it
+/// never enters.
+double entry(const glm::dvec3& origin, const glm::dvec3& direction) {
+  if (glm::dot(origin, origin) <= start_radius * start_radius) return 0;
+  const double along = -glm::dot(origin, direction);
+  const glm::dvec3 nearest = origin + along * direction;
+  const double rest = start_radius * start_radius - glm::dot(nearest, nearest);
+  return along < 0 || rest < 0 ? -1 : along - std::sqrt(rest);
+}
+
+/// The least power of two above half the box's diagonal: scaling by it is exact.
+double own_unit(const Box& box) {
+  const glm::dvec3 half = 0.5 * box.size();
+  return std::exp2(std::ilogb(std::hypot(half.x, half.y, half.z)) + 1);
+}
+
+}  // namespace
+
+struct RayCaster::Embree {
+  DistinctFacets distinct;
+  embree::Owned<RTCDevice> device{rtcNewDevice(nullptr)};
+  embree::Owned<RTCScene> scene;
+
+  Embree(std::vector<Facet> all, const std::stop_token& stop) : distinct(distinct_facets(std::move(all), stop)) {
+    embree::require_no_error(device);
+    scene.reset(rtcNewScene(device.get()));
+    rtcSetSceneFlags(scene.get(), RTC_SCENE_FLAG_ROBUST);
+    const embree::Owned<RTCGeometry> geometry(rtcNewGeometry(device.get(), RTC_GEOMETRY_TYPE_USER));
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(distinct.facets.size()));
+    rtcSetGeometryUserData(geometry.get(), distinct.facets.data());
+    rtcSetGeometryBoundsFunction(
+        geometry.get(), [](const auto* arguments) { bound(arguments); }, nullptr);
+    rtcSetGeometryIntersectFunction(geometry.get(), meet);
+    rtcCommitGeometry(geometry.get());
+    rtcAttachGeometry(scene.get(), geometry.get());
+    embree::commit(device.get(), scene.get(), stop, "building a tree over the scene's triangles");
+  }
+};
+
+RayCaster::RayCaster(const Mesh& mesh, const Box& box, const std::stop_token& stop)
+    : centre_(box.centre()), scale_(own_unit(box)) {
+  std::vector<Facet> facets;
+  facets.reserve(mesh.triangles.size());
+  StopCheck check(stop, "copying triangles");
+  for_each_checked(std::span(mesh.triangles), check, [&](const auto& corners) {
+    const auto& [a, b, c] = corners;
+    facets.push_back(make_facet(to_own(mesh.positions[a]), to_own(mesh.positions[b]), to_own(mesh.positions[c])));
+  });
+  embree_ = std::make_unique<Embree>(std::move(facets), stop);
+}
+
+RayCaster::~RayCaster() = default;
+
+std::optional<RayCaster::Meeting> RayCaster::first_meeting(const glm::dvec3& origin, const glm::dvec3& direction,
+                                                           std::optional<std::uint32_t> from) const {
+  const double skipped = entry(origin, direction);
+  if (skipped < 0) return std::nullopt;
+  Query query{.context = {},
+              .origin = origin,
+              .direction = direction,
+              .skipped = skipped,
+              .from = from ? embree_->distinct.places[*from] : no_facet};
+  rtcInitIntersectContext(&query.context);
+  const glm::vec3 start(origin + skipped * direction);
+  const glm::vec3 heading(direction);
+  RTCRayHit ray{};
+  ray.ray = {start.x, start.y, start.z, 0, heading.x, heading.y, heading.z, 0, INFINITY, 0xFFFFFFFFU, 0, 0};
+  ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(embree_->scene.get(), &query.context, &ray);
+  if (query.nearest == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+  return Meeting{query.distance, embree_->distinct.facets[query.nearest].normal,
+                 embree_->distinct.triangles[query.nearest]};
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "detp/sim/geometry/geometry.hpp"
+
+namespace detp::sim {
+
+/// Uniform isotropic random lines through a sphere: the measure μ_ℓ, invariant under rotation and translation.
+///
+/// A uniform direction, and a uniform point on the disc perpendicular to it through the sphere's centre
+/// (Santaló, Integral Geometry, II.12). Line i is a function of (seed, i) alone.
+class LineField {
+ public:
+  /// Throws std::invalid_argument unless the radius is > 0 and it and the centre are within 1e100.
+  LineField(const Sphere& sphere, std::uint64_t seed);
+
+  /// Line number `index`: unbounded, power 1, its origin the point nearest to the sphere's centre.
+  [[nodiscard]] Ray line(std::uint64_t index) const;
+
+  /// Lines first … first + count - 1.
+  [[nodiscard]] std::vector<Ray> lines(std::uint64_t first, std::size_t count, const std::stop_token& stop = {}) const;
+
+ private:
+  Sphere sphere_;
+  std::uint64_t seed_;
+};
+
+}  // namespace detp::sim

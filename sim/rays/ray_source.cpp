@@ -1,0 +1,37 @@
+#include "ray_source.hpp"
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+
+#include "detp/sim/base/stop_check.hpp"
+
+namespace detp::sim {
+
+void RaysInMemory::read(std::uint64_t first, std::span<Ray> block, const std::stop_token&) const {
+  std::ranges::copy(rays_.subspan(first, block.size()), block.begin());
+}
+
+double RaysInMemory::farthest_from(const glm::dvec3& point) const {
+  double farthest = 0;
+  for (const Ray& ray : rays_) farthest = std::max(farthest, glm::distance(ray.origin, point));
+  return farthest;
+}
+
+void LinesOfField::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
+  constexpr std::size_t lines_at_once = 4096;
+  using Range = oneapi::tbb::blocked_range<std::size_t>;
+  oneapi::tbb::parallel_for(Range(0, block.size(), lines_at_once), [&](const Range& range) {
+    StopCheck check(stop, "making lines");
+    check.now();
+    for_each_checked(range.begin(), range.end(), check, [&](std::size_t i) { block[i] = field_.line(first + i); });
+  });
+}
+
+double LinesOfField::farthest_from(const glm::dvec3& point) const {
+  constexpr double rounding = 1 + 1e-12;  // of an origin on the sphere, and of the distances
+  return (glm::distance(sphere_.centre, point) + sphere_.radius + 1e-15 * glm::length(sphere_.centre)) * rounding;
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <stop_token>
+
+#include "detp/sim/geometry/geometry.hpp"
+#include "line_field.hpp"
+
+/// Rays by their number, so that a block of them can be in memory at a time.
+namespace detp::sim {
+
+/// Many rays, each a function of its number alone: whoever reads one, in whatever block, gets the same bytes.
+class RaySource {
+ public:
+  virtual ~RaySource() = default;
+
+  [[nodiscard]] virtual std::uint64_t size() const = 0;
+
+  /// Rays first, first + 1, … as many as the block holds. Callers ask for none beyond the last. May use oneTBB's
+  /// threads. Throws Stopped if a stop was requested: what is in the block is then any rays.
+  virtual void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const = 0;
+
+  /// No ray's origin is farther from the point.
+  [[nodiscard]] virtual double farthest_from(const glm::dvec3& point) const = 0;
+};
+
+/// Rays in memory. Borrowed: they must outlive the source.
+class RaysInMemory final : public RaySource {
+ public:
+  explicit RaysInMemory(std::span<const Ray> rays) : rays_(rays) {}
+
+  [[nodiscard]] std::uint64_t size() const override { return rays_.size(); }
+  void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;
+  [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
+
+ private:
+  std::span<const Ray> rays_;
+};
+
+/// The first lines of a field.
+class LinesOfField final : public RaySource {
+ public:
+  LinesOfField(const Sphere& sphere, std::uint64_t seed, std::uint64_t count)
+      : field_(sphere, seed), sphere_(sphere), count_(count) {}
+
+  [[nodiscard]] std::uint64_t size() const override { return count_; }
+  void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;
+  [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
+
+ private:
+  LineField field_;
+  Sphere sphere_;
+  std::uint64_t count_;
+};
+
+}  // namespace detp::sim

@@ -1,0 +1,110 @@
+#include "open_scene.hpp"
+
+#include <stdexcept>
+
+#include "detp/sim/files/file_error.hpp"
+#include "detp/sim/files/mesh_file.hpp"
+#include "detp/sim/photons/mesh_light.hpp"
+#include "detp/sim/scene/built_in/built_in.hpp"
+#include "resample.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr std::size_t default_uniform_samples = 100'000;
+
+struct BuiltIn {
+  std::string name;
+  built_in::Setting (*make)();  ///< null: samples without a mesh
+};
+
+const std::vector<BuiltIn>& built_ins() {
+  static const std::vector<BuiltIn> all{{"@uniform", nullptr},
+                                        {"@tree", built_in::tree},
+                                        {"@tree-coarse", built_in::tree_coarse},
+                                        {"@courtyard", built_in::courtyard},
+                                        {"@cornell", built_in::cornell}};
+  return all;
+}
+
+const BuiltIn& built_in_named(const std::string& name) {
+  std::string known;
+  for (const BuiltIn& scene : built_ins()) {
+    if (scene.name == name) return scene;
+    known += (known.empty() ? "" : ", ") + scene.name;
+  }
+  throw std::invalid_argument("no built-in scene is called " + shortened(name) + "; there are " + known);
+}
+
+Box box_of(const Scene& scene) {
+  Box box;
+  for (const Sample& sample : scene.samples) box.include(sample.position);
+  for (const auto& triangle : scene.mesh.triangles)
+    for (const std::uint32_t corner : triangle) box.include(scene.mesh.positions[corner]);
+  return box;
+}
+
+/// The samples of a mesh; `scene` has its mesh and name.
+void put_samples(Scene& scene, const SceneRequest& request, const std::stop_token& stop) {
+  scene.samples = samples_at_vertices(scene.mesh, scene.notices, stop);
+  if (scene.samples.empty())
+    throw FileError(request.name, "no vertex has a normal; irradiance needs triangles with an area");
+  const std::size_t wanted = request.samples.value_or(scene.samples.size());
+  if (wanted < scene.samples.size()) scene.samples = thinned(scene.samples, wanted, request.seed, stop);
+  if (wanted > scene.samples.size())
+    add_by_area(scene.samples, scene.mesh, wanted - scene.samples.size(), request.seed, stop);
+  if (scene.samples.size() < wanted)
+    throw FileError(request.name, "its triangles have no area, so that only its " +
+                                      std::to_string(scene.samples.size()) + " vertices can be samples (" +
+                                      std::to_string(wanted) + " asked for)");
+}
+
+Scene uniform_scene(const SceneRequest& request, const std::stop_token& stop) {
+  Scene scene;
+  scene.name = request.name;
+  scene.samples = built_in::uniform_samples(request.samples.value_or(default_uniform_samples), request.seed, stop);
+  scene.box = {glm::dvec3(-1), glm::dvec3(1)};  // not the samples' own: 1 % of it is 0.02 whatever their number
+  scene.field = Field::isotropic;
+  return scene;
+}
+
+Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
+  const BuiltIn& known = built_in_named(request.name);
+  if (known.make == nullptr) return uniform_scene(request, stop);
+  Scene scene;
+  scene.name = request.name;
+  built_in::Setting setting = known.make();
+  scene.mesh = std::move(setting.mesh);
+  scene.light = setting.light;
+  put_samples(scene, request, stop);
+  scene.box = box_of(scene);
+  return scene;
+}
+
+Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
+  Scene scene;
+  scene.name = request.name;
+  scene.mesh = read_mesh(request.name, scene.notices, stop);
+  put_samples(scene, request, stop);
+  scene.box = box_of(scene);
+  if (scene.box.low != scene.box.high) scene.light = light_for(scene.mesh, scene.box, stop);
+  return scene;
+}
+
+}  // namespace
+
+const std::vector<std::string>& built_in_scenes() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const BuiltIn& scene : built_ins()) all.push_back(scene.name);
+    return all;
+  }();
+  return names;
+}
+
+Scene open_scene(const SceneRequest& request, const std::stop_token& stop) {
+  if (request.samples == std::size_t{0}) throw std::invalid_argument("a scene needs at least 1 sample (got 0)");
+  return request.name.starts_with('@') ? built_in_scene(request, stop) : mesh_scene(request, stop);
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,19 @@
+#pragma once
+
+#include <cstdint>
+
+#include "detp/sim/scene/mesh.hpp"
+
+namespace detp::sim {
+
+/// A random subset of `count` <= samples.size(), each subset as likely as any other, in the same order.
+/// Throws Stopped if a stop was requested.
+[[nodiscard]] std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t count, std::uint64_t seed,
+                                          const std::stop_token& stop = {});
+
+/// Adds `count` samples distributed by area over the triangles, with the triangles' normals. Adds none to a mesh whose
+/// triangles have no area. Throws Stopped if a stop was requested.
+void add_by_area(std::vector<Sample>& samples, const Mesh& mesh, std::size_t count, std::uint64_t seed,
+                 const std::stop_token& stop = {});
+
+}  // namespace detp::sim

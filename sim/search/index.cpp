@@ -1,0 +1,46 @@
+#include "index.hpp"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
+
+namespace detp::sim {
+
+void check_options(const RunOptions& options, const Problem& problem) {
+  if (problem.discs.empty() || !(problem.slack > 0 && problem.slack < unbounded))
+    throw std::invalid_argument("a problem needs discs and a slack > 0; make it by make_problem");
+  require_count("number of threads", options.threads, 0, most_threads);
+  if (options.totals != nullptr && !options.totals->empty() && options.totals->size() != problem.discs.size())
+    throw std::invalid_argument(fmt::format("totals of {} discs cannot go on with {}; give those of the same discs",
+                                            options.totals->size(), problem.discs.size()));
+}
+
+Outcome nothing_found(const Problem& problem, const RunOptions& options) {
+  Outcome outcome;
+  outcome.stopped = true;
+  outcome.progress.of = problem.rays.size();
+  if (options.totals == nullptr) finish(Totals(problem.discs.size()), problem.discs, outcome);
+  return outcome;
+}
+
+Outcome search(const Index& index, const Problem& problem, const RunOptions& options) {
+  check_options(options, problem);
+  Outcome outcome;
+  Stopwatch watch;
+  try {
+    StopCheck(options.stop, "beginning").now();
+    index.search(problem, options, outcome);
+  } catch (const Stopped&) {  // before the search
+    const double bytes = outcome.bytes;
+    outcome = nothing_found(problem, options);
+    outcome.bytes = bytes;
+  }
+  outcome.seconds.search = watch.lap() - outcome.seconds.build;
+  return outcome;
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "problem.hpp"
+#include "soundness.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr const char* checking = "checking rays and discs";
+
+void require_number(const char* what, std::size_t count) {
+  if (count == 0) throw std::invalid_argument(fmt::format("there must be at least one {}", what));
+  if (count >= UINT32_MAX)
+    throw std::length_error(fmt::format("{} {}s are too many; the most is 4294967294", count, what));
+}
+
+struct Radii {
+  double smallest = unbounded;
+  double largest = 0;
+};
+
+Radii radii_of(std::span<const Disc> discs, StopCheck& check) {
+  Radii radii;
+  for_each_checked(discs, check, [&](const Disc& disc) {
+    radii.smallest = std::min(radii.smallest, disc.radius);
+    radii.largest = std::max(radii.largest, disc.radius);
+  });
+  return radii;
+}
+
+/// The largest power of which 2⁶⁴ rays can be summed, and divided by the area of the smallest disc.
+double most_power_for(double smallest_radius) {
+  const double area = std::numbers::pi * smallest_radius * smallest_radius;
+  return 0.99 * std::numeric_limits<double>::max() * 0x1p-64 * std::min(1.0, area);
+}
+
+/// What make_problem promises. sim/README.md proves it enough for every cull.
+double cull_slack(const Problem& problem, double largest_radius) {
+  double offset = 0;
+  for (int axis = 0; axis < 3; ++axis) offset = std::max(offset, std::abs(problem.enclosing.centre[axis]));
+  const double extent = problem.farthest + problem.enclosing.radius;
+  const double rounding = 2e-15;
+  // In shares of the extent: the product of three small lengths would underflow.
+  const double grazing = std::cbrt(2 * (largest_radius / extent) * rounding * rounding);
+  return (16e-12 + grazing) * extent + 1e-15 * offset;
+}
+
+void set_farthest(Problem& problem, double farthest, double largest_radius) {
+  if (!(farthest + problem.enclosing.radius < largest_coordinate))
+    throw std::invalid_argument("rays and discs must lie within 1e100 of each other, or their squares overflow");
+  problem.farthest = farthest;
+  problem.slack = cull_slack(problem, largest_radius);
+}
+
+/// What enclosing_sphere promises.
+Sphere sphere_around(std::span<const Disc> discs, StopCheck& check) {
+  Box box;
+  double largest = 0;
+  double sum = 0;  // NaN or infinite if any number is
+  for_each_checked(discs, check, [&](const Disc& disc) {
+    box.include(disc.centre);
+    largest = std::max(largest, disc.radius);
+    sum += 0 * (disc.centre.x + disc.centre.y + disc.centre.z + disc.radius);
+  });
+  const glm::dvec3 centre = box.centre();
+  // To the farther corner, as computed: half the diagonal can be an ulp short of it.
+  const double reach = std::max(glm::distance(centre, box.low), glm::distance(centre, box.high));
+  const double radius = (reach + largest) * (1 + 1e-15);
+  if (!(radius > 0 && radius + sum < unbounded)) require_sound(discs, check);
+  return {centre, radius};
+}
+
+/// Checks the discs and takes them into the problem; their radii.
+Radii take_discs(Problem& problem, std::span<const Disc> discs, bool front_facing, const std::stop_token& stop) {
+  require_number("disc", discs.size());
+  StopCheck check(stop, checking);
+  problem.own_discs = normalised_if_needed(discs, check);
+  problem.discs = problem.own_discs ? std::span<const Disc>(*problem.own_discs) : discs;
+  problem.enclosing = sphere_around(problem.discs, check);
+  problem.front_facing = front_facing;
+  const Radii radii = radii_of(problem.discs, check);
+  problem.most_power = most_power_for(radii.smallest);
+  return radii;
+}
+
+/// Checks the rays and takes them into the problem; the distance of the farthest origin.
+double take_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uint64_t first,
+                 const std::stop_token& stop) {
+  require_number("ray", rays.size());
+  require_count("number of threads", threads, 0, most_threads);
+  CheckedRays checked;
+  on_threads(thread_count(threads), [&] {
+    checked = check_rays(rays, problem.enclosing.centre, problem.most_power, first, StopCheck(stop, checking));
+  });
+  problem.one_power = checked.one_power;
+  problem.segments = checked.segments;
+  problem.own_rays = std::move(checked.unit);
+  problem.rays = problem.own_rays ? std::span<const Ray>(*problem.own_rays) : rays;
+  return checked.farthest;
+}
+
+}  // namespace
+
+Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop) {
+  require_number("disc", discs.size());
+  StopCheck check(stop, checking);
+  return sphere_around(discs, check);
+}
+
+Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing, int threads,
+                     const std::stop_token& stop) {
+  Problem problem;
+  const Radii radii = take_discs(problem, discs, front_facing, stop);
+  set_farthest(problem, take_rays(problem, rays, threads, 0, stop), radii.largest);
+  return problem;
+}
+
+Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, bool front_facing,
+                                  const std::stop_token& stop) {
+  Problem problem;
+  const Radii radii = take_discs(problem, discs, front_facing, stop);
+  require_non_negative("distance of the farthest ray's origin", farthest);
+  set_farthest(problem, farthest, radii.largest);
+  return problem;
+}
+
+void set_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uint64_t first) {
+  Problem taken = problem;
+  const double farthest = take_rays(taken, rays, threads, first, {});
+  if (farthest > problem.farthest)
+    throw std::invalid_argument(
+        fmt::format("a ray starts {} from the centre of the discs, but none was to start farther away than {}",
+                    farthest, problem.farthest));
+  problem = std::move(taken);
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,117 @@
+#include "ray_search.hpp"
+
+#include <oneapi/tbb/enumerable_thread_specific.h>
+#include <oneapi/tbb/parallel_pipeline.h>
+
+#include <algorithm>
+
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "hit_collector.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr std::size_t chunk_rays = 64;
+constexpr std::size_t chunks_a_thread = 4;
+
+struct Chunk {
+  std::uint32_t first = 0;
+  std::uint32_t last = 0;
+  std::vector<Pair>* hits = nullptr;
+};
+
+/// Cuts the rays into chunks; those under way take turns with the buffers for their hits.
+class Chunks {
+ public:
+  Chunks(std::size_t rays, std::size_t under_way, const std::stop_token& stop)
+      : rays_(rays), buffers_(under_way), stop_(stop) {}
+
+  /// False after the last one, or when asked to stop.
+  bool next(Chunk& chunk) {
+    if (begun_ >= rays_ || stop_.stop_requested()) return false;
+    const std::size_t end = std::min(begun_ + chunk_rays, rays_);
+    chunk = {static_cast<std::uint32_t>(begun_), static_cast<std::uint32_t>(end),
+             &buffers_[begun_ / chunk_rays % buffers_.size()]};
+    chunk.hits->clear();
+    begun_ = end;
+    return true;
+  }
+
+ private:
+  std::size_t rays_;
+  std::size_t begun_ = 0;
+  std::vector<std::vector<Pair>> buffers_;
+  const std::stop_token& stop_;
+};
+
+/// Adds up the hits of one chunk after another.
+class Sum {
+ public:
+  explicit Sum(HitCollector& collector) : collector_(collector) {}
+
+  void add(const Chunk& chunk) {
+    for (const Pair& hit : *chunk.hits) collector_.keep(hit.ray, hit.disc);
+    batches_.add(chunk.last - chunk.first, chunk.hits->size());
+  }
+
+  [[nodiscard]] const HitBatches& batches() const { return batches_; }
+
+ private:
+  HitCollector& collector_;
+  HitBatches batches_;
+};
+
+Counts<std::uint64_t> search_alone(Chunks& chunks, const MakeRaySearch& make, Sum& sum) {
+  const std::unique_ptr<RaySearch> search = make();
+  try {
+    for (Chunk chunk; chunks.next(chunk);) {
+      search->search(chunk.first, chunk.last, *chunk.hits);
+      sum.add(chunk);
+    }
+  } catch (const Stopped&) {  // the chunk under way is left out
+  }
+  return search->counts();
+}
+
+/// A chunk leaves the pipeline after all before it, so that its buffer is free when its turn comes again.
+Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, const MakeRaySearch& make, Sum& total) {
+  using namespace oneapi::tbb;
+  enumerable_thread_specific<std::unique_ptr<RaySearch>> searches(make);
+  const auto cut = make_filter<void, Chunk>(filter_mode::serial_in_order, [&](flow_control& flow) {
+    Chunk chunk;
+    if (!chunks.next(chunk)) flow.stop();
+    return chunk;
+  });
+  const auto search = make_filter<Chunk, Chunk>(filter_mode::parallel, [&](const Chunk& chunk) {
+    searches.local()->search(chunk.first, chunk.last, *chunk.hits);
+    return chunk;
+  });
+  const auto sum =
+      make_filter<Chunk, void>(filter_mode::serial_in_order, [&](const Chunk& chunk) { total.add(chunk); });
+  try {
+    parallel_pipeline(under_way, cut & search & sum);
+  } catch (const Stopped&) {  // chunks under way are left out
+  }
+  Counts<std::uint64_t> counts;
+  for (const std::unique_ptr<RaySearch>& one : searches) counts += one->counts();
+  return counts;
+}
+
+}  // namespace
+
+void search_rays(const Problem& problem, const RunOptions& options, const MakeRaySearch& make, Outcome& outcome) {
+  const int threads = thread_count(options.threads);
+  const std::size_t under_way = threads == 1 ? 1 : chunks_a_thread * static_cast<std::size_t>(threads);
+  HitCollector collector(problem, options);
+  Chunks chunks(problem.rays.size(), under_way, options.stop);
+  Sum sum(collector);
+  if (threads == 1)
+    outcome.counts = search_alone(chunks, make, sum);
+  else
+    on_threads(threads, [&] { outcome.counts = search_together(chunks, under_way, make, sum); });
+  outcome.batches = sum.batches();
+  std::move(collector).give(outcome.batches.rays, outcome);
+}
+
+}  // namespace detp::sim

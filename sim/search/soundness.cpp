@@ -1,0 +1,162 @@
+#include "soundness.hpp"
+
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/geometry/unit_vector.hpp"
+
+namespace detp::sim {
+namespace {
+
+using Range = tbb::blocked_range<std::size_t>;
+constexpr std::size_t rays_at_once = std::size_t{1} << 14;
+
+/// Whether squares alone show that the vector is within the largest coordinate, or of length 1 (to 1e-12, with room for
+/// rounding). NaN compares false.
+bool surely_in_range(const glm::dvec3& vector) {
+  return glm::dot(vector, vector) <= largest_coordinate * largest_coordinate;
+}
+bool surely_unit(const glm::dvec3& vector) { return std::abs(glm::dot(vector, vector) - 1) <= 1.99e-12; }
+
+bool surely_sound(const Ray& ray, double most_power) {
+  return surely_in_range(ray.origin) && surely_unit(ray.direction) && ray.length > 0 && ray.power >= 0 &&
+         ray.power <= most_power;
+}
+
+bool surely_sound(const Disc& disc) {
+  return surely_in_range(disc.centre) && surely_unit(disc.normal) && disc.radius >= least_radius &&
+         disc.radius <= largest_coordinate;
+}
+
+void require_coordinates(const std::string& what, const glm::dvec3& point) {
+  for (int axis = 0; axis < 3; ++axis) {
+    require_finite(what, point[axis]);
+    if (std::abs(point[axis]) > largest_coordinate)
+      throw std::invalid_argument(fmt::format("{} must be within 1e100 of zero (got {})", what, point[axis]));
+  }
+}
+
+void require_non_zero(const std::string& what, const glm::dvec3& vector) {
+  for (int axis = 0; axis < 3; ++axis) require_finite(what, vector[axis]);
+  if (vector == glm::dvec3{0})
+    throw std::invalid_argument(fmt::format("{} must be non-zero (got {} {} {})", what, vector.x, vector.y, vector.z));
+}
+
+/// Refuses what is wrong with the ray, with its number.
+void refuse_unsound(const Ray& ray, std::uint64_t number, double most_power) {
+  const std::string who = fmt::format("ray {}: ", number);
+  require_coordinates(who + "origin", ray.origin);
+  require_non_zero(who + "direction", ray.direction);
+  if (!ray.is_line()) require_positive(who + "length", ray.length);
+  require_non_negative(who + "power", ray.power);
+  if (ray.power > most_power)
+    throw std::invalid_argument(
+        fmt::format("{}power must be at most {:.4g}, or irradiance overflows (got {})", who, most_power, ray.power));
+}
+
+void refuse_unsound(const Disc& disc, std::uint64_t number) {
+  const std::string who = fmt::format("disc {}: ", number);
+  require_coordinates(who + "centre", disc.centre);
+  require_non_zero(who + "normal", disc.normal);
+  require_positive(who + "radius", disc.radius);
+  if (disc.radius < least_radius || disc.radius > largest_coordinate)
+    throw std::invalid_argument(
+        fmt::format("{}radius must be from 1e-100 to 1e100, or its square overflows (got {})", who, disc.radius));
+}
+
+Ray normalised(Ray ray) {
+  if (!surely_unit(ray.direction)) ray.direction = unit_or_zero(ray.direction);
+  return ray;
+}
+
+Disc normalised(Disc disc) {
+  if (!surely_unit(disc.normal)) disc.normal = unit_or_zero(disc.normal);
+  return disc;
+}
+
+/// What a look at some rays shows.
+struct Glance {
+  double farthest2 = 0;  ///< square of the distance of the farthest origin
+  double least_power = unbounded;
+  double most_power = 0;
+  double least_length = unbounded;
+  bool sound = true;
+};
+
+Glance look_at(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, const StopCheck& stop) {
+  return tbb::parallel_reduce(
+      Range(0, rays.size(), rays_at_once), Glance{},
+      [&](const Range& range, Glance glance) {
+        StopCheck check = stop;
+        for_each_checked(rays.subspan(range.begin(), range.size()), check, [&](const Ray& ray) {
+          glance.sound = glance.sound && surely_sound(ray, most_power);
+          const glm::dvec3 away = ray.origin - centre;
+          glance.farthest2 = std::max(glance.farthest2, glm::dot(away, away));
+          glance.least_power = std::min(glance.least_power, ray.power);
+          glance.most_power = std::max(glance.most_power, ray.power);
+          glance.least_length = std::min(glance.least_length, ray.length);
+        });
+        check.now();
+        return glance;
+      },
+      [](const Glance& a, const Glance& b) {
+        return Glance{std::max(a.farthest2, b.farthest2), std::min(a.least_power, b.least_power),
+                      std::max(a.most_power, b.most_power), std::min(a.least_length, b.least_length),
+                      a.sound && b.sound};
+      });
+}
+
+/// A copy with unit directions or normals.
+template <class T>
+std::shared_ptr<const std::vector<T>> normalised_copy(std::span<const T> given, StopCheck& check) {
+  auto unit = std::make_shared<std::vector<T>>();
+  unit->reserve(given.size());
+  for_each_checked(given, check, [&](const T& one) { unit->push_back(normalised(one)); });
+  return unit;
+}
+
+/// A copy with unit directions; null if all were. Checks one by one: there is one that a glance left in doubt.
+std::shared_ptr<const std::vector<Ray>> normalised_if_needed(std::span<const Ray> rays, double most_power,
+                                                             std::uint64_t first, StopCheck check) {
+  bool all_unit = true;
+  for_each_checked(0, rays.size(), check, [&](std::size_t i) {
+    all_unit = all_unit && surely_unit(rays[i].direction);
+    if (!surely_sound(normalised(rays[i]), most_power)) refuse_unsound(rays[i], first + i, most_power);
+  });
+  if (all_unit) return nullptr;
+  return normalised_copy(rays, check);
+}
+
+}  // namespace
+
+void require_sound(std::span<const Disc> discs, StopCheck& check) {
+  for_each_checked(0, discs.size(), check, [&](std::size_t i) {
+    if (!surely_sound(discs[i]) && !surely_sound(normalised(discs[i]))) refuse_unsound(discs[i], i);
+  });
+}
+
+std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Disc> discs, StopCheck& check) {
+  require_sound(discs, check);
+  bool all_unit = true;
+  for_each_checked(discs, check, [&](const Disc& disc) { all_unit = all_unit && surely_unit(disc.normal); });
+  if (all_unit) return nullptr;
+  return normalised_copy(discs, check);
+}
+
+CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, std::uint64_t first,
+                       const StopCheck& check) {
+  const Glance seen = look_at(rays, centre, most_power, check);
+  CheckedRays checked{std::sqrt(seen.farthest2), seen.least_power == seen.most_power, seen.least_length < unbounded};
+  if (!seen.sound) checked.unit = normalised_if_needed(rays, most_power, first, check);
+  return checked;
+}
+
+}  // namespace detp::sim

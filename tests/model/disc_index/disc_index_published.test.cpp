@@ -1,0 +1,125 @@
+#include "detp/model/disc_index/disc_index_published.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "support/high_precision.hpp"
+#include "support/not_a_length.hpp"
+#include "support/random_workload.hpp"
+
+using namespace detp;
+using namespace detp::model;
+using doctest::Contains;
+using support::Exact;
+using support::relative_error;
+
+namespace {
+
+const Workload some = {.rays = 1000, .samples = 100, .disc_radius = 0.01, .sphere_radius = 1, .box = {1, 1, 1}};
+
+/// Halves the side as long as half of it is no narrower than a disc.
+int depth_by_halving(double disc, double side) {
+  int depth = 0;
+  for (Exact cell = Exact{side} / 2; cell >= 2 * Exact{disc}; cell /= 2) ++depth;
+  return depth;
+}
+
+}  // namespace
+
+TEST_SUITE("reference value") {
+  TEST_CASE("eqs 20 to 22 hold within 1e-15, on 20 000 random workloads") {
+    support::RandomNumbers random(42);
+    double worst = 0;
+    int wrong_depths = 0;
+    for (int run = 0; run < 20'000; ++run) {
+      const auto [w, unused] = support::random_workload(random);
+      const double side = w.sphere_radius * random.uniform(0.5, 2);
+      const double disc_test = random.log_uniform(1e-9, 1e3);
+      const int depth = published::octree_depth({w.disc_radius}, side);
+      wrong_depths += depth != depth_by_halving(w.disc_radius, side);
+      const Exact cells = support::power(2, depth);
+      const Exact time = Exact{disc_test} * w.rays * w.samples / (cells * cells);
+      for (const double error :
+           {relative_error(published::cells_per_line(depth), cells),
+            relative_error(published::discs_per_cell(w.samples, depth), w.samples / (cells * cells * cells)),
+            relative_error(published::tests_per_line(w.samples, depth), w.samples / (cells * cells)),
+            relative_error(published::balanced_octree_time(w, depth, disc_test), time),
+            relative_error(published::octree_time(w, depth, disc_test), time * depth)})
+        worst = std::max(worst, error);
+    }
+    CHECK(wrong_depths == 0);
+    CHECK_MESSAGE(worst < 1e-15, "largest relative error seen: ", worst);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("a cell as wide as a disc is taken; one ulp less, and the next larger one is") {
+    for (int depth = 0; depth <= 300; ++depth)
+      for (const double side : {2.0, 1.0, 0.7, 3e5}) {
+        const double d = std::ldexp(side, -depth - 1);
+        CHECK(published::octree_depth({d}, side) == depth);
+        CHECK(published::octree_depth({std::nextafter(d, 1e9)}, side) == std::max(0, depth - 1));
+        CHECK(published::octree_depth({std::nextafter(d, 0.0)}, side) == depth);
+      }
+  }
+
+  TEST_CASE("the paper's scene of side 2: k = floor(-log2 d)") {
+    CHECK(published::octree_depth({0.25}, 2) == 2);
+    CHECK(published::octree_depth({0.01}, 2) == 6);
+    CHECK(published::octree_depth({1}, 2) == 0);
+  }
+
+  TEST_CASE("discs wider than the scene need no level; the smallest double is a disc too") {
+    CHECK(published::octree_depth({1e300}, 1e-300) == 0);
+    CHECK(published::octree_depth({std::numeric_limits<double>::denorm_min()}, 1) == 1073);
+  }
+
+  TEST_CASE("depth 4 of 1000 rays and 100 discs") {
+    CHECK(published::cells_per_line(4) == 16);
+    CHECK(published::discs_per_cell(100, 4) == 100 / 4096.0);
+    CHECK(published::tests_per_line(100, 4) == 100 / 256.0);
+    CHECK(published::balanced_octree_time(some, 4, 2) == 781.25);
+    CHECK(published::octree_time(some, 4, 2) == 3125);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a length that is none is refused by name") {
+    for (const double bad : support::not_a_length) {
+      CHECK_THROWS_WITH_AS((void)published::octree_depth({bad}, 1), Contains("disc radius"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)published::octree_depth({1}, bad), Contains("scene side"), std::invalid_argument);
+    }
+  }
+
+  TEST_CASE("a depth, a number of samples or a workload out of range is refused by name") {
+    for (const int bad : {-1, 2097}) {
+      CHECK_THROWS_WITH_AS((void)published::cells_per_line(bad), Contains("depth"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)published::discs_per_cell(1, bad), Contains("depth"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)published::tests_per_line(1, bad), Contains("depth"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)published::octree_time(some, bad, 1), Contains("depth"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)published::balanced_octree_time(some, bad, 1), Contains("depth"),
+                           std::invalid_argument);
+    }
+    for (const double bad : support::not_a_count) {
+      Workload w = some;
+      w.samples = bad;
+      const Contains name("number of samples");
+      CHECK_THROWS_WITH_AS((void)published::discs_per_cell(bad, 1), name, std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)published::tests_per_line(bad, 1), name, std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)published::octree_time(w, 1, 1), name, std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)published::balanced_octree_time(w, 1, 1), name, std::invalid_argument);
+    }
+  }
+
+  TEST_CASE("a time of a test that is none is refused by name") {
+    for (const double bad : support::not_a_size) {
+      const Contains name("time of a ray-disc test");
+      CHECK_THROWS_WITH_AS((void)published::octree_time(some, 1, bad), name, std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)published::balanced_octree_time(some, 1, bad), name, std::invalid_argument);
+    }
+  }
+}

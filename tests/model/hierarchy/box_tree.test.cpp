@@ -1,0 +1,174 @@
+#include "detp/model/hierarchy/box_tree.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "detp/model/lines/line_measure.hpp"
+#include "detp/model/rank/choose.hpp"
+#include "detp/model/rank/predict.hpp"
+#include "support/random_workload.hpp"
+
+using namespace detp;
+using namespace detp::model;
+using doctest::Approx;
+using doctest::Contains;
+
+namespace {
+
+constexpr BoxTreeParameters tree{4, 16};
+
+Counts<double> counts_of(const Workload& workload) { return box_tree_counts(workload, tree); }
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("predict and rank know the tree of boxes") {
+    const Workload w = cube_workload(1e6, 1e5, 0.01, 2);
+    const Candidate candidate{Technique::box_tree, tree};
+    CHECK(predict(w, candidate, Engine::plain) == counts_of(w));
+    CHECK(best_of(Technique::box_tree, w, {})->candidate == candidate);
+  }
+
+  TEST_CASE("each tree that the rule gives is the best one: few rays a disc want large leaves, many small ones") {
+    for (const auto& [rays, leaf] : {std::pair{5e4, 64}, {1e5, 16}, {6.3e6, 16}, {6.4e6, 8}}) {
+      const Workload w = cube_workload(rays, 1e5, 0.01, 2);
+      CHECK(best_of(Technique::box_tree, w, {})->candidate ==
+            Candidate{Technique::box_tree, BoxTreeParameters{4, leaf}});
+    }
+  }
+
+  TEST_CASE("larger leaves: fewer boxes are tested, and more discs; no leaf is far from the next") {
+    for (const double dimension : {2.0, 2.5, 3.0})
+      for (const double disc : {1e-4, 0.01, 0.1})
+        for (const double samples : {500.0, 1e4, 1e6}) {
+          const Workload w = cube_workload(1e6, samples, disc, 2, dimension);
+          CAPTURE(dimension);
+          CAPTURE(disc);
+          CAPTURE(samples);
+          Counts<double> smaller = box_tree_counts(w, {5, 2});
+          for (const int leaf : {3, 4, 5, 6, 7, 9, 12, 16, 17, 40, 63, 64, 65, 100, 128, 256}) {
+            const Counts<double> counts = box_tree_counts(w, {5, leaf});
+            CAPTURE(leaf);
+            CHECK(counts.cull_tests < 1.01 * smaller.cull_tests);
+            CHECK(counts.disc_tests > 0.99 * smaller.disc_tests);
+            smaller = counts;
+          }
+          for (const int leaf : {16, 63, 64, 100}) {  // one disc more or less
+            const Counts<double> one = box_tree_counts(w, {5, leaf});
+            const Counts<double> next = box_tree_counts(w, {5, leaf + 1});
+            for (const auto term : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests})
+              CHECK(next.*term == Approx(one.*term).epsilon(0.1));
+          }
+        }
+  }
+
+  TEST_CASE("more children: fewer rays are listed, by as much as for the next fan-out; leaves stay as they are") {
+    for (const double dimension : {2.0, 2.5, 3.0})
+      for (const int leaf : {1, 6, 30, 150}) {
+        const Workload w = cube_workload(1e6, 3e4, 0.01, 2, dimension);
+        Counts<double> fewer = box_tree_counts(w, {2, leaf});
+        for (int fan_out = 3; fan_out <= 16; ++fan_out) {
+          const Counts<double> counts = box_tree_counts(w, {fan_out, leaf});
+          CAPTURE(dimension);
+          CAPTURE(fan_out);
+          CHECK(counts.listed < 1.03 * fewer.listed);
+          CHECK(counts.listed > 0.6 * fewer.listed);
+          CHECK(counts.cull_tests == Approx(fewer.cull_tests).epsilon(0.25));
+          CHECK(counts.disc_tests == Approx(fewer.disc_tests).epsilon(1e-12));
+          fewer = counts;
+        }
+      }
+  }
+
+  TEST_CASE("twice the rays, twice the tests; the unit of length does not matter") {
+    for (const double dimension : {2.0, 2.4, 3.0}) {
+      const Counts<double> once = counts_of(cube_workload(1e5, 1e5, 0.01, 2, dimension));
+      const Counts<double> twice = counts_of(cube_workload(2e5, 1e5, 0.01, 2, dimension));
+      const Counts<double> scaled = counts_of(cube_workload(1e5, 1e5, 0.01e6, 2e6, dimension));
+      for (const auto term : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests}) {
+        CHECK(twice.*term == Approx(2 * once.*term).epsilon(1e-12));
+        CHECK(scaled.*term == Approx(once.*term).epsilon(1e-9));
+      }
+    }
+  }
+}
+
+TEST_SUITE("limit") {
+  TEST_CASE("few samples are one leaf, tested with every ray") {
+    const Counts<double> counts = counts_of(cube_workload(1000, 16, 0.01, 2));
+    CHECK(counts.disc_tests == 16'000);
+    CHECK(counts.cull_tests == 0);
+  }
+
+  TEST_CASE("few large leaves are tested with most rays, each disc by itself: not fewer than leaves are crossed") {
+    const Workload w = cube_workload(1e6, 200, 1e-4, 2);
+    CHECK(box_tree_counts(w, {4, 64}).disc_tests > 40e6);  // four leaves of 50, crossed by a quarter
+  }
+
+  TEST_CASE("many rays test each node once, and once for each block by the simd engine; a single one few") {
+    const double nodes = counts_of(cube_workload(0x1p17, 1e4, 0.01, 2)).culls;
+    CHECK(counts_of(cube_workload(0x1p27, 1e4, 0.01, 2)).culls == Approx(nodes).epsilon(1e-6));
+    const Candidate candidate{Technique::box_tree, tree};
+    const auto in_blocks = [&](double rays) { return predict(cube_workload(rays, 1e4, 0.01, 2), candidate); };
+    REQUIRE(rays_in_block(10'000) == 1U << 16);
+    CHECK(in_blocks(0x1p26).culls == Approx(1024 * in_blocks(0x1p16).culls).epsilon(1e-12));
+    CHECK(in_blocks(0x1p17 + 1000).visits ==
+          Approx(2 * in_blocks(0x1p16).visits + in_blocks(1000).visits).epsilon(1e-12));
+    const Counts<double> one = counts_of(cube_workload(1, 1e4, 0.01, 2));
+    CHECK(one.culls <= one.cull_tests * (1 + 1e-12));
+    CHECK(one.culls < 0.2 * nodes);
+  }
+
+  TEST_CASE("discs that are points: boxes of what is between samples, whatever the radius") {
+    for (const double dimension : {2.0, 3.0}) {
+      const Counts<double> small = counts_of(cube_workload(1000, 1e5, 1e-9, 2, dimension));
+      const Counts<double> smaller = counts_of(cube_workload(1000, 1e5, 1e-10, 2, dimension));
+      for (const auto term : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests})
+        CHECK(smaller.*term == Approx(small.*term).epsilon(1e-4));
+    }
+  }
+
+  TEST_CASE("every ray crosses discs as large as S0: all nodes are visited, all discs tested") {
+    const Counts<double> counts = counts_of(cube_workload(1000, 1000, 100, 2));
+    CHECK(counts.disc_tests == Approx(1e6).epsilon(1e-3));
+    CHECK(counts.cull_tests == Approx(counts.listed).epsilon(1e-3));
+    CHECK(counts.culls == Approx(counts.listed / 1000).epsilon(1e-3));
+  }
+
+  TEST_CASE("beyond 16 children, as 16; beyond 256 samples a leaf, as many leaves for as many more samples") {
+    const Workload w = cube_workload(1e6, 1e5, 0.001, 2);
+    CHECK(box_tree_counts(w, {1000, 16}) == box_tree_counts(w, {16, 16}));
+    const Workload fewer = cube_workload(1e6, 25e3, 0.001, 2);
+    const Counts<double> large = box_tree_counts(w, {4, 1024});
+    const Counts<double> small = box_tree_counts(fewer, {4, 256});
+    CHECK(large.cull_tests == Approx(small.cull_tests));
+    CHECK(large.disc_tests == Approx(4 * small.disc_tests));
+  }
+
+  TEST_CASE("larger discs are tested more often, and no disc more than once a ray; all is finite") {
+    support::RandomNumbers random(7);
+    for (int run = 0; run < 100; ++run) {
+      const double rays = random.count(1, 1e9);
+      const double samples = random.count(1, 1e12);
+      const double dimension = random.uniform(1, 3);
+      const BoxTreeParameters any{static_cast<int>(random.count(2, 1e4)), static_cast<int>(random.count(1, 1e5))};
+      double before = 0;
+      for (double disc = 1e-7; disc < 1; disc *= 3) {
+        const Counts<double> counts = box_tree_counts(cube_workload(rays, samples, disc, 2, dimension), any);
+        for_each_term(counts, [](std::string_view, double term) { CHECK((std::isfinite(term) && term >= 0)); });
+        CHECK(counts.disc_tests <= rays * samples);
+        CHECK(counts.disc_tests >= 0.9 * before);
+        before = counts.disc_tests;
+      }
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a workload out of range is refused") {
+    CHECK_THROWS_WITH_AS((void)box_tree_counts({}, tree), Contains("rays"), std::invalid_argument);
+  }
+}

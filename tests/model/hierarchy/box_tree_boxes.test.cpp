@@ -1,0 +1,84 @@
+#include "detp/model/hierarchy/box_tree_boxes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "support/random_workload.hpp"
+
+using namespace detp::model::box_tree;
+using doctest::Approx;
+
+namespace {
+
+const CellKind cube{.side = {1, 1, 1}};
+const CellKind face{.side = {1, 1, 0}, .touched = {0, 0, 1}};
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("around points that are uniform in a cell, each side is L (m - 1)/(m + 1)") {
+    const CellBoxes boxes(cube, 1e-12);
+    const CellBoxes flat(face, 1e-12);
+    for (const double m : {2.0, 3.0, 10.0, 64.0, 100.0, 1000.0}) {
+      const double side = (m - 1) / (m + 1);
+      CAPTURE(m);
+      CHECK(boxes(m).products == Approx(3 * side * side).epsilon(4e-3));
+      CHECK(boxes(m).volume == Approx(side * side * side).epsilon(6e-3));
+      CHECK(flat(m).products == Approx(side * side).epsilon(4e-3));
+      CHECK(flat(m).volume < 1e-9);
+    }
+    CHECK(boxes(1).products < 1e-20);
+  }
+
+  TEST_CASE("around one disc, each side is π d/2 on average") {
+    const double side = std::numbers::pi / 2 * 0.1;
+    CHECK(CellBoxes(cube, 0.1)(1).products == Approx(3 * side * side).epsilon(0.01));
+    CHECK(CellBoxes(face, 0.1)(1).volume == Approx(side * side * side).epsilon(0.01));
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("around few discs, as large as the cell, sides are those of random discs") {
+    constexpr int discs = 5;
+    constexpr double radius = 0.5;
+    constexpr int sets = 40000;
+    detp::support::RandomNumbers random(5);
+    double sum = 0;
+    for (int set = 0; set < sets; ++set) {
+      double low = 2;
+      double high = -2;
+      for (int i = 0; i < discs; ++i) {
+        const double x = random.uniform(0, 1);
+        const double reach = radius * std::sqrt(1 - std::pow(random.uniform(0, 1), 2));
+        low = std::min(low, x - reach);
+        high = std::max(high, x + reach);
+      }
+      sum += (high - low) / sets;
+    }
+    CHECK(std::cbrt(CellBoxes(cube, radius)(discs).volume) == Approx(sum).epsilon(0.005));
+  }
+}
+
+TEST_SUITE("limit") {
+  TEST_CASE("boxes around many discs fill the cell and reach beyond it by d") {
+    CHECK(CellBoxes(cube, 0.1)(1e9).volume == Approx(std::pow(1.2, 3)).epsilon(0.01));
+    CHECK(CellBoxes(face, 0.1)(1e9).volume == Approx(1.2 * 1.2 * 0.2).epsilon(0.01));
+  }
+
+  TEST_CASE("more discs have larger boxes, so have larger discs") {
+    for (const CellKind& cell : {cube, face, CellKind{.side = {1, 1, 1}, .touched = {1, 0, 1}},
+                                 CellKind{.side = {1, 1, 1}, .touched = {2, 2, 2}}})
+      for (double radius = 1e-5; radius < 1e5; radius *= 10) {
+        double before = 0;
+        for (double m = 1; m < 1e6; m *= 1.3) {
+          const MeanBox box = CellBoxes(cell, radius)(m);
+          CHECK(box.surface > 0.98 * before);
+          CHECK(CellBoxes(cell, 1.5 * radius)(m).surface > box.surface);
+          before = box.surface;
+        }
+      }
+  }
+}

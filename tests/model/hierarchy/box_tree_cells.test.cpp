@@ -1,0 +1,36 @@
+#include "detp/model/hierarchy/box_tree_cells.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+using namespace detp::model::box_tree;
+using doctest::Approx;
+
+TEST_SUITE("identity") {
+  TEST_CASE("halves have the samples and, on average, the number of their cells") {
+    for (const int dimension : {2, 3}) {
+      const auto& kinds = cell_kinds(dimension);
+      for (std::size_t i = 0; i < kinds.size(); ++i) {
+        const CellKind& cell = kinds[i];
+        if (cell.child[0] == 0 || cell.cells == 0) continue;
+        CAPTURE(dimension);
+        CAPTURE(i);
+        CHECK(cell.part[0] + cell.part[1] == Approx(1).epsilon(1e-15));
+        CHECK(kinds[cell.child[0]].share == Approx(cell.part[0] * cell.share).epsilon(1e-15));
+        CHECK(kinds[cell.child[1]].share == Approx(cell.part[1] * cell.share).epsilon(1e-15));
+        for (const auto child : cell.child) CHECK(child > i);
+      }
+    }
+  }
+
+  TEST_CASE("cells of one size have all samples: in a cube, and on its faces") {
+    for (const CellKind& cell : cell_kinds(3)) CHECK(cell.cells * cell.share == 1);
+    // Halved six times across each axis, 64 cells a side: on faces, at edges, at corners.
+    double share = 0;
+    for (const CellKind& cell : cell_kinds(2))
+      if (cell.side[0] == 0x1p-6 && cell.side[1] == 0x1p-6 && (cell.side[2] == 0 || cell.side[2] == 0x1p-6))
+        share += cell.cells * cell.share;
+    CHECK(share == Approx(1).epsilon(1e-12));
+  }
+}

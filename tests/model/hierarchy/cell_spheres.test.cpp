@@ -1,0 +1,163 @@
+#include "detp/model/hierarchy/cell_spheres.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <array>
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <set>
+#include <stdexcept>
+
+#include "detp/sim/geometry/random.hpp"
+
+using namespace detp;
+using Exact = boost::multiprecision::cpp_bin_float_100;
+
+namespace {
+
+const Workload workload = cube_workload(1e5, 1e4, 0.01, 2);
+
+}  // namespace
+
+TEST_SUITE("reference value") {
+  TEST_CASE("8^i (1 - (1 - 8^-i)^n) in 100 digits") {
+    for (const double samples : {1.0, 2.0, 1e3, 1e9, 1e18})
+      for (const int level : {0, 1, 2, 5, 10, 20, 40}) {
+        const Exact cells = pow(Exact{8}, level);
+        const Exact expected = level == 0 ? Exact{1} : cells * (1 - pow(1 - 1 / cells, Exact{samples}));
+        CHECK(abs(model::occupied_cell_spheres(samples, level) / expected - 1) < 1e-15);
+      }
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("a child's sphere touches its parent's from inside") {
+    for (int level = 0; level < 20; ++level) {
+      const double outer = model::cell_sphere_radius(workload, level);
+      const double inner = model::cell_sphere_radius(workload, level + 1);
+      const double between = std::ldexp(2.0, -level - 1) * std::sqrt(0.75);  // of the centres
+      CHECK(between + inner == doctest::Approx(outer).epsilon(1e-15));
+    }
+  }
+
+  TEST_CASE("no level is plain testing; the sums are those of the levels") {
+    const Counts<double> none = model::cell_sphere_counts(workload, {0});
+    CHECK(none.disc_tests == workload.rays * workload.samples);
+    CHECK(none.cull_tests == 0);
+    const Counts<double> one = model::cell_sphere_counts(workload, {1});
+    CHECK(one.cull_tests == doctest::Approx(8 * workload.rays).epsilon(1e-12));
+    const double share = model::cell_sphere_radius(workload, 1) / workload.sphere_radius;
+    CHECK(one.disc_tests == doctest::Approx(workload.samples * workload.rays * share * share).epsilon(1e-12));
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("in a cube, cells of the workload are those of the formula; a box sees no unit of length") {
+    for (const int level : {0, 1, 3, 8, 16, 40, 300})
+      CHECK(model::occupied_cell_spheres(workload, level) == model::occupied_cell_spheres(1e4, level));
+    Workload box = workload;
+    box.box = {2, 1.3, 0.7};
+    for (const double dimension : {2.0, 2.4, 3.0})
+      for (const int level : {1, 2, 5, 9}) {
+        box.dimension = dimension;
+        Workload scaled = box;
+        for (double& side : scaled.box) side *= 3e-7;
+        scaled.sphere_radius *= 3e-7;
+        scaled.disc_radius *= 3e-7;
+        CHECK(model::occupied_cell_spheres(scaled, level) ==
+              doctest::Approx(model::occupied_cell_spheres(box, level)).epsilon(1e-9));
+      }
+  }
+
+  TEST_CASE("cells grow with the level and the samples, and are never more than there are, or than the samples") {
+    for (const double dimension : {2.0, 2.5, 3.0})
+      for (const double extent : {0.0, 1.7}) {
+        Workload w = workload;
+        w.dimension = dimension;
+        w.sample_extent = extent;
+        double last = 1;
+        for (int level = 1; level <= 40; ++level) {
+          const double cells = model::occupied_cell_spheres(w, level);
+          CHECK(cells >= last * (1 - 1e-12));
+          CHECK(cells <= std::min(std::ldexp(1.0, 3 * level), 1e4) * (1 + 1e-12));
+          last = cells;
+        }
+        CHECK(last == doctest::Approx(1e4).epsilon(1e-6));
+      }
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("many samples on a cube's faces fill the cells at its surface, in a flat box those of its sides") {
+    const Workload faces = cube_workload(10, 1e15, 0.01, 2, 2);
+    for (const int level : {1, 2, 5}) {
+      const double along = std::ldexp(1.0, level);
+      CHECK(model::occupied_cell_spheres(faces, level) ==
+            doctest::Approx(along * along * along - std::pow(along - 2, 3)).epsilon(1e-12));
+    }
+    Workload flat = cube_workload(10, 1e15, 0.01, 2);
+    flat.box = {2, 0.9, 0};
+    CHECK(model::occupied_cell_spheres(flat, 3) == doctest::Approx(8 * 4));  // 0.9 ends in a cut cell of 0.25
+    flat.dimension = 2;
+    CHECK(model::occupied_cell_spheres(flat, 3) == doctest::Approx(8 * 4));
+  }
+
+  TEST_CASE("cells counted on random samples in a box that cuts cells, and on its faces") {
+    constexpr int samples = 20'000;
+    for (const double dimension : {2.0, 3.0})
+      for (const int level : {2, 4, 6}) {
+        Workload w = cube_workload(10, samples, 0.01, 2, dimension);
+        w.box = {2, 1.1, 0.6};
+        std::set<std::uint64_t> cells;
+        for (std::uint64_t i = 0; i < samples; ++i) {
+          const auto u = sim::uniform4(23, sim::Stream::tests, i);
+          std::array<double, 3> place{u[0], u[1], u[2]};
+          const double pick = u[3] * (1.1 * 0.6 + 2 * 0.6 + 2 * 1.1);
+          const std::size_t across = pick < 1.1 * 0.6 ? 0 : (pick < 1.1 * 0.6 + 2 * 0.6 ? 1 : 2);
+          if (dimension == 2) place[across] = place[across] < 0.5 ? 0 : std::nextafter(1.0, 0.0);
+          std::uint64_t cell = 0;
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            cell = cell * 1024 + static_cast<std::uint64_t>(place[axis] * w.box[axis] / 2 * std::ldexp(1.0, level));
+          cells.insert(cell);
+        }
+        const double expected = model::occupied_cell_spheres(w, level);
+        CHECK(std::abs(static_cast<double>(cells.size()) - expected) <= 5 * std::sqrt(expected));
+        CHECK(std::abs(static_cast<double>(cells.size()) - expected) <= 0.02 * expected);
+      }
+  }
+
+  // Occupied cells of n uniform samples vary by less than √cells: 5 standard deviations at most.
+  TEST_CASE("cells counted on random samples") {
+    constexpr int samples = 20'000;
+    for (const int level : {2, 4, 5, 6}) {
+      std::set<std::uint64_t> cells;
+      const double along = std::ldexp(1.0, level);
+      for (std::uint64_t i = 0; i < samples; ++i) {
+        const auto u = sim::uniform4(17, sim::Stream::tests, i);
+        std::uint64_t cell = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) cell = cell * 1024 + static_cast<std::uint64_t>(u[axis] * along);
+        cells.insert(cell);
+      }
+      const double expected = model::occupied_cell_spheres(samples, level);
+      CHECK(std::abs(static_cast<double>(cells.size()) - expected) <= 5 * std::sqrt(expected));
+      CHECK(std::abs(static_cast<double>(cells.size()) - expected) <= 0.02 * expected);
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("levels and samples out of range are refused by name") {
+    CHECK_THROWS_WITH_AS((void)model::occupied_cell_spheres(10, -1), doctest::Contains("level"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)model::occupied_cell_spheres(0.5, 1), doctest::Contains("samples"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)model::cell_sphere_counts(workload, {17}), doctest::Contains("depth"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)model::occupied_cell_spheres(workload, 301), doctest::Contains("level"),
+                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)model::rays_in_cell_sphere(workload, -1), doctest::Contains("level"),
+                         std::invalid_argument);
+    CHECK_THROWS_AS((void)model::occupied_cell_spheres(Workload{}, 1), std::invalid_argument);
+    CHECK_THROWS_AS((void)model::cell_sphere_radius(Workload{}, 1), std::invalid_argument);
+  }
+}

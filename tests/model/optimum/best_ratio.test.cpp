@@ -1,0 +1,228 @@
+#include "detp/model/optimum/best_ratio.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <vector>
+
+#include "detp/model/rank/predict.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
+#include "detp/model/sphere_cache/step_pieces.hpp"
+#include "support/not_a_length.hpp"
+#include "support/random_workload.hpp"
+
+using namespace detp;
+using namespace detp::model;
+using doctest::Approx;
+using doctest::Contains;
+
+namespace {
+
+constexpr std::int64_t most_spheres = 40;
+const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
+
+struct Question {
+  Workload workload;
+  UnitCosts costs;
+};
+
+/// Workloads on which spheres can pay: d/r0 1e-4 … 0.3, dimension 2 to 3, and costs of a machine.
+std::vector<Question> questions(int number, std::uint64_t seed) {
+  support::RandomNumbers random(seed);
+  std::vector<Question> all;
+  for (int i = 0; i < number; ++i)
+    all.push_back({cube_workload(random.count(1e2, 1e8), random.count(1e2, 1e8), random.log_uniform(2e-4, 0.5), 2,
+                                 random.uniform(2, 3)),
+                   {.cull_test = random.uniform(1, 5),
+                    .disc_test = random.uniform(1, 10),
+                    .listed = random.uniform(0, 3),
+                    .cull = random.uniform(0, 100)}});
+  return all;
+}
+
+double time(const Question& question, double ratio, std::int64_t k) {
+  return price(predict(question.workload, {Technique::sphere_cache, SphereCacheParameters{ratio, k}}), question.costs)
+      .total();
+}
+
+std::int64_t count(const Workload& w, double ratio) {
+  return sphere_count(Form::corrected, {ratio}, {w.disc_radius}, {w.sphere_radius});
+}
+
+/// The least time over all stops and ratios of a grid, the steps of k, and ever finer grids around the best.
+double least_on_grids(const Question& question, int points) {
+  const Workload& w = question.workload;
+  double least = support::infinity;
+  double best = 0.5;
+  const auto consider = [&](double ratio) {
+    if (ratio < least_ratio || ratio > most_ratio) return;
+    const std::int64_t last = std::min(most_spheres, count(w, ratio));
+    for (std::int64_t k = 1; k <= last; ++k)
+      if (const double t = time(question, ratio, k); t < least) {
+        least = t;
+        best = ratio;
+      }
+  };
+  for (int i = 0; i <= points; ++i) consider(least_ratio + (most_ratio - least_ratio) * i / points);
+  const StepPieces pieces(w);
+  for (std::int64_t j = 1; j <= most_spheres; ++j) consider(pieces.above(j));
+  for (double width = 1e-3; width > 1e-12; width /= 8) {
+    const double centre = best;
+    for (int i = -8; i <= 8; ++i) consider(centre + width * i / 8);
+  }
+  return least;
+}
+
+/// How far above the least time of fine grids the best ratio and stop of so many random questions are, relative.
+std::vector<double> above_grids(int many, std::uint64_t seed) {
+  std::vector<double> above;
+  for (const Question& question : questions(many, seed)) {
+    const BestRatio best = best_ratio_and_stop(question.workload, question.costs);
+    CAPTURE(best.ratio);
+    CAPTURE(best.spheres);
+    CHECK(best.time == Approx(time(question, best.ratio, best.spheres)).epsilon(1e-12));
+    CHECK(best.spheres <= count(question.workload, best.ratio));
+    above.push_back(best.time / least_on_grids(question, 1500) - 1);
+  }
+  std::sort(above.begin(), above.end());
+  return above;
+}
+
+}  // namespace
+
+TEST_SUITE("reference value") {
+  TEST_CASE("no ratio and stop of fine grids are faster by 1e-9") { CHECK(above_grids(4, 33).back() <= 1e-9); }
+
+  TEST_CASE("of two minima 1.5e-4 apart in ln ln 1/Q, with T within 3e-6 of each other, the lower one is found") {
+    const std::vector<Question> all = questions(50, 133);
+    const auto no_slower = [&](const Question& question, double ratio, std::int64_t k) {
+      const double found = best_ratio_and_stop(question.workload, question.costs).time;
+      CHECK(found <= time(question, ratio, k) * (1 + 1e-9));
+    };
+    no_slower(all[37], 0.7875453401, 6);
+    no_slower(all[46], 0.4799978847, 8);
+  }
+
+  TEST_CASE("a good ratio is within 20 % of the best, and within 3 % of it in the median") {
+    std::vector<double> above;
+    for (const Question& question : questions(41, 36)) {
+      const BestRatio good = good_ratio_and_stop(question.workload, question.costs);
+      above.push_back(good.time / best_ratio_and_stop(question.workload, question.costs).time - 1);
+      CHECK(above.back() >= -1e-9);
+      CHECK(good.spheres >= 1);
+    }
+    std::sort(above.begin(), above.end());
+    CHECK(above.back() < 0.2);
+    CHECK(above[above.size() / 2] < 0.03);
+  }
+
+  TEST_CASE("control: a ratio 2 % off, with its own best stop, is slower") {
+    const Question question{typical, {.cull_test = 1, .disc_test = 1, .listed = 1}};
+    const BestRatio best = best_ratio_and_stop(typical, question.costs);
+    for (const double off : {0.98, 1.02})
+      CHECK(best_stop(typical, question.costs, {off * best.ratio}).time > best.time * (1 + 1e-6));
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("free to choose both, it is never slower than with Q or k bound") {
+    for (const Question& question : questions(25, 34)) {
+      const auto& [w, costs] = question;
+      const double best = best_ratio_and_stop(w, costs).time * (1 - 1e-9);
+      for (const double ratio : {0.3, 0.5, 0.65, 0.8})
+        if (const BestRatio stop = best_stop(w, costs, {ratio}); stop.spheres <= most_spheres) {
+          CHECK(stop.ratio == ratio);
+          if (count(w, ratio) >= 1) CHECK(best <= stop.time);
+        }
+      for (const std::int64_t k : {1, 2, 3, 5, 9, 15}) {
+        const BestRatio fixed = best_ratio_for(w, costs, k);
+        CHECK(fixed.spheres == k);
+        if (count(w, fixed.ratio) >= k) CHECK(best <= fixed.time);
+      }
+    }
+  }
+
+  TEST_CASE("the fastest stop is the fastest of all stops") {
+    for (const Question& question : questions(20, 35))
+      for (const double ratio : {0.4, 0.65, 0.9}) {
+        const BestRatio best = best_stop(question.workload, question.costs, {ratio});
+        for (std::int64_t k = 1; k <= std::max<std::int64_t>(1, count(question.workload, ratio)); ++k)
+          REQUIRE(best.time <= time(question, ratio, k) * (1 + 1e-12));
+        CHECK(best.time == Approx(time(question, ratio, best.spheres)).epsilon(1e-12));
+      }
+  }
+
+  TEST_CASE("the choice knows no unit of length, nor of time") {
+    const UnitCosts costs{.cull_test = 3, .disc_test = 5, .listed = 2};
+    const BestRatio best = best_ratio_and_stop(typical, costs);
+    for (const double scale : {1e-9, 1e9}) {
+      const BestRatio scaled = best_ratio_and_stop(cube_workload(1e6, 1e5, 0.01 * scale, 2 * scale), costs);
+      CHECK(scaled.spheres == best.spheres);
+      CHECK(scaled.time == Approx(best.time).epsilon(1e-9));
+    }
+    const BestRatio slow =
+        best_ratio_and_stop(typical, {.cull_test = 3e6, .disc_test = 5e6, .step = 0, .node = 0, .listed = 2e6});
+    CHECK(slow.spheres == best.spheres);
+    CHECK(slow.time == Approx(1e6 * best.time).epsilon(1e-9));
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("with many samples in a volume the best ratio is near 2/3, on surfaces near e^-1/2; and T is flat there") {
+    const UnitCosts costs{.cull_test = 1, .disc_test = 1};
+    const BestRatio best = best_ratio_and_stop(cube_workload(1e6, 1e6, 0.01, 2), costs);
+    CHECK(best.ratio > 0.45);
+    CHECK(best.ratio < 0.75);
+    CHECK(published_ratio == 0.65);
+    CHECK(best_stop(cube_workload(1e6, 1e6, 0.01, 2), costs, {published_ratio}).time < 1.15 * best.time);
+  }
+
+  TEST_CASE("a disc next to as large as S0 leaves no sphere in the ratios searched") {
+    const Workload w{.rays = 100, .samples = 100, .disc_radius = 0.99, .sphere_radius = 1, .box = {1, 1, 1}};
+    CHECK(best_ratio_and_stop(w, {}).spheres == 0);
+  }
+
+  TEST_CASE("where no sphere holds a disc, the best is no sphere: its time is brute force's, its ratio valid") {
+    for (const double disc : {0.99, 1.0, 1.5}) {
+      const Workload w{.rays = 100, .samples = 30, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
+      const UnitCosts one_each{.disc_test = 2, .sort = 5};
+      const BestRatio fixed_stop = best_ratio_for(w, one_each, 0);
+      for (const BestRatio& best : {best_ratio_and_stop(w, one_each), good_ratio_and_stop(w, one_each), fixed_stop,
+                                    best_stop(w, one_each, {disc < 1 ? 0.9 : 0.5})}) {
+        CHECK(best.spheres == 0);
+        CHECK(best.time == 2 * 100 * 30 + 5 * 30);
+        CHECK_NOTHROW(check(Candidate{Technique::sphere_cache, SphereCacheParameters{best.ratio, best.spheres}}));
+      }
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a workload out of range is refused by name") {
+    for (const double bad : support::not_a_count) {
+      Workload w = typical;
+      w.rays = bad;
+      const Contains name("number of rays");
+      CHECK_THROWS_WITH_AS((void)best_ratio_and_stop(w, {}), name, std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)best_stop(w, {}, {0.5}), name, std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)best_ratio_for(w, {}, 3), name, std::invalid_argument);
+    }
+  }
+
+  TEST_CASE("a ratio or a number of spheres out of range is refused by name") {
+    for (const double bad : support::not_a_ratio)
+      CHECK_THROWS_WITH_AS((void)best_stop(typical, {}, {bad}), Contains("radius ratio Q"), std::invalid_argument);
+    const Contains name("number of spheres");
+    CHECK_THROWS_WITH_AS((void)best_ratio_for(typical, {}, -1), name, std::invalid_argument);
+    for (const std::int64_t bad : {0, -1})
+      CHECK_THROWS_WITH_AS((void)best_ratio_and_stop(typical, {}, bad), name, std::invalid_argument);
+  }
+}
+
+TEST_SUITE("hard-cases") {
+  TEST_CASE("no ratio and stop of fine grids are faster by 1e-9 on 50 more workloads") {
+    CHECK(above_grids(50, 133).back() <= 1e-9);
+  }
+}

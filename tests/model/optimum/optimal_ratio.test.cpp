@@ -1,0 +1,62 @@
+#include "detp/model/optimum/optimal_ratio.hpp"
+
+#include <doctest/doctest.h>
+
+#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <cmath>
+#include <stdexcept>
+
+#include "support/not_a_length.hpp"
+
+using namespace detp;
+using Exact = boost::multiprecision::cpp_bin_float_100;
+
+TEST_SUITE("known answer") {
+  TEST_CASE("two thirds for volumes, 1/sqrt(e) for surfaces, a half for curves") {
+    CHECK(model::optimal_ratio(3) == doctest::Approx(2.0 / 3).epsilon(1e-15));
+    CHECK(model::optimal_ratio(2) == doctest::Approx(std::exp(-0.5)).epsilon(1e-15));
+    CHECK(model::optimal_ratio(1) == doctest::Approx(0.5).epsilon(1e-15));
+    CHECK(model::optimal_ratio_with_copies(0) == doctest::Approx(2.0 / 3).epsilon(1e-15));
+    CHECK(model::optimal_ratio_with_copies(1e30) == doctest::Approx(std::cbrt(2e-30)).epsilon(1e-9));
+  }
+}
+
+TEST_SUITE("reference value") {
+  TEST_CASE("(2/D)^(1/(D-2)) in 100 digits, next to 2 above all") {
+    for (const double beyond : {-1.0, -0.3, -1e-3, -1e-9, -1e-15, 1e-15, 1e-12, 1e-8, 1e-4, 0.1, 0.7, 1.0}) {
+      const double dimension = 2 + beyond;
+      const Exact exact_beyond = Exact{dimension} - 2;
+      const Exact expected = exact_beyond == 0 ? exp(Exact{-1} / 2) : pow(2 / Exact{dimension}, 1 / exact_beyond);
+      CHECK(abs(model::optimal_ratio(dimension) / expected - 1) < 1e-15);
+    }
+  }
+
+  TEST_CASE("with copies the cubic's residue vanishes in 100 digits, for costs from 1e-300 to 1e300") {
+    for (double exponent = -300; exponent <= 300; exponent += 2.5) {
+      const double cost = std::pow(10, exponent);
+      const Exact q = model::optimal_ratio_with_copies(cost);
+      const Exact slope = 3 * Exact{cost} * q * q + 3;
+      CHECK(abs((Exact{cost} * q * q * q + 3 * q - 2) / slope / q) < 2e-15);
+    }
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("no other ratio makes the sum it stands for smaller") {
+    for (const double cost : {0.0, 0.1, 1.0, 7.0}) {
+      const auto time = [&](double q) { return (1 + cost * q * q) / (q * q * (1 - q)); };
+      const double best = time(model::optimal_ratio_with_copies(cost));
+      for (double q = 0.01; q < 1; q += 0.001) CHECK(time(q) >= best * (1 - 1e-14));
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("what is no dimension or no cost is refused by name") {
+    for (const double bad : support::not_a_dimension)
+      CHECK_THROWS_WITH_AS((void)model::optimal_ratio(bad), doctest::Contains("dimension"), std::invalid_argument);
+    for (const double bad : support::not_a_size)
+      CHECK_THROWS_WITH_AS((void)model::optimal_ratio_with_copies(bad), doctest::Contains("copy"),
+                           std::invalid_argument);
+  }
+}

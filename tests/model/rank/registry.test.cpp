@@ -1,0 +1,22 @@
+#include "detp/model/rank/registry.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+
+using namespace detp;
+using namespace detp::model;
+
+TEST_SUITE("identity") {
+  TEST_CASE("every technique has an entry of its own; what predicts also says where it was not checked") {
+    for (const Technique technique : all_techniques) {
+      const TechniqueModel& model = model_of(technique);
+      CAPTURE(name(technique));
+      CHECK(model.technique == technique);
+      const bool has_numbers = std::ranges::any_of(
+          record_of(technique).parameters, [](const Parameter& parameter) { return parameter.choices.empty(); });
+      CHECK((model.best != nullptr) == (has_closed_form(technique) && has_numbers));
+      CHECK((model.uncounted != nullptr) == (has_closed_form(technique) && has_numbers));
+    }
+  }
+}

@@ -1,0 +1,111 @@
+#include "detp/model/sphere_cache/listed_rays.hpp"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+
+#include "support/not_a_length.hpp"
+#include "support/random_workload.hpp"
+
+using namespace detp;
+using namespace detp::model;
+using doctest::Approx;
+using doctest::Contains;
+
+namespace {
+
+const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("the share listed is from 0 to 1; of spheres as small as the disc, or where samples are few, all") {
+    support::RandomNumbers random(21);
+    for (int run = 0; run < 5000; ++run) {
+      auto [w, ratio] = support::random_workload(random);
+      w.dimension = random.uniform(1, 3);
+      const double octaves = random.log_uniform(1e-9, 6);
+      const double share = listed_share(w, w.sphere_radius * random.log_uniform(1e-8, 1), octaves);
+      REQUIRE(share >= 0);
+      REQUIRE(share <= 1);
+      REQUIRE(listed_share(w, w.disc_radius, octaves) == 1);
+      REQUIRE(listed_share(w, 0.3 * w.disc_radius, octaves) == 1);
+    }
+    const Workload few = cube_workload(1e6, 1, 1e-6, 2);
+    CHECK(listed_share(few, 1e-5, 0.3) == Approx(1).epsilon(0.01));
+  }
+
+  TEST_CASE("spheres far apart in size list nearly all their rays, those close together fewer") {
+    for (const double dimension : {2.0, 2.5, 3.0}) {
+      const Workload w = cube_workload(1e6, 1e6, 1e-4, 2, dimension);
+      double before = 1;
+      for (const double octaves : {4.0, 2.0, 1.0, 0.6, 0.4, 0.2, 0.1, 0.05, 0.0}) {
+        const double share = listed_share(w, 0.02, octaves);
+        CHECK(share < before);
+        before = share;
+      }
+      CHECK(before > 0.5);
+      CHECK(listed_share(w, 0.02, 4) > 0.99);
+    }
+  }
+
+  TEST_CASE("the share listed is continuous, and knows no unit of length") {
+    support::RandomNumbers random(22);
+    for (int run = 0; run < 2000; ++run) {
+      const double dimension = random.uniform(2, 3);
+      const Workload w = cube_workload(1e6, random.count(10, 1e8), random.log_uniform(1e-4, 0.3), 2, dimension);
+      const double radius = w.disc_radius + (w.sphere_radius - w.disc_radius) * random.uniform(0.001, 0.98);
+      const double octaves = random.uniform(0, 3);
+      const double share = listed_share(w, radius, octaves);
+      REQUIRE(listed_share(w, radius * (1 + 1e-9), octaves) == Approx(share).epsilon(1e-6));
+      REQUIRE(listed_share(w, radius, octaves + 1e-9) == Approx(share).epsilon(1e-6));
+      const Workload scaled = cube_workload(1e6, w.samples, 1e6 * w.disc_radius, 2e6, dimension);
+      REQUIRE(listed_share(scaled, 1e6 * radius, octaves) == Approx(share).epsilon(1e-9));
+    }
+  }
+
+  TEST_CASE("rays through a sphere inside S0: in proportion to its area") {
+    CHECK(rays_through(typical, typical.sphere_radius) == Approx(1e6).epsilon(1e-14));
+    CHECK(rays_through(typical, typical.sphere_radius / 4) == Approx(62'500).epsilon(1e-14));
+    CHECK(rays_through(typical, 0) == 0);
+  }
+
+  TEST_CASE("unsorted: spheres that share their centres with all around hold all their rays") {
+    CHECK(unsorted_listed_share(0.2, 50, {}) == 1);
+    CHECK(unsorted_listed_share(0.2, 50, {{0.4, 50, 0.39}, {0.8, 50, 0.79}}) == 1);
+    const double one = unsorted_listed_share(0.2, 50, {{0.4, 20, 0.39}});
+    CHECK(one < 1);
+    CHECK(unsorted_listed_share(0.2, 50, {{0.4, 20, 0.39}, {0.8, 5, 0.79}}) < one);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a radius, ratio or workload that is none is refused by name") {
+    for (const double bad : support::not_a_size) {
+      CHECK_THROWS_WITH_AS((void)rays_through(typical, bad), Contains("sphere radius"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)listed_share(typical, bad, 0.3), Contains("sphere radius"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)listed_share(typical, 0.3, bad), Contains("octaves"), std::invalid_argument);
+    }
+    for (const double bad : support::not_a_length) {
+      Workload w = typical;
+      w.disc_radius = bad;
+      CHECK_THROWS_WITH_AS((void)listed_share(w, 0.3, 0.3), Contains("disc radius"), std::invalid_argument);
+    }
+  }
+
+  TEST_CASE("unsorted: a sphere never built, or a radius that is none, has no share") {
+    for (const double bad : support::not_a_length)
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(0.2, bad, {{0.4, 20, 0.39}}), Contains("rebuilds of the sphere"),
+                           std::invalid_argument);
+    for (const double bad : support::not_a_size) {
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(0.2, 50, {{0.4, 20, bad}}), Contains("reach of the offsets"),
+                           std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(bad, 9, {{0.4, 2, 0.39}}), Contains("sphere radius"),
+                           std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(0.2, 50, {{bad, 20, 0.39}}), Contains("sphere radius"),
+                           std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)unsorted_listed_share(0.2, 50, {{0.4, bad, 0.39}}),
+                           Contains("rebuilds of the outer sphere"), std::invalid_argument);
+    }
+  }
+}

@@ -1,0 +1,110 @@
+#include "detp/sim/base/memory.hpp"
+
+#include <doctest/doctest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+
+using namespace detp::sim;
+using doctest::Contains;
+
+namespace {
+
+/// Folders of cgroups, made up; gone with the object.
+class Groups {
+ public:
+  Groups() { std::filesystem::create_directories(root_); }
+  ~Groups() { std::filesystem::remove_all(root_); }
+  Groups(const Groups&) = delete;
+  Groups& operator=(const Groups&) = delete;
+
+  void put(const std::filesystem::path& file, const char* content) const {
+    std::filesystem::create_directories((root_ / file).parent_path());
+    std::ofstream(root_ / file) << content << "\n";
+  }
+  [[nodiscard]] const std::filesystem::path& root() const { return root_; }
+
+ private:
+  std::filesystem::path root_ = std::filesystem::temp_directory_path() / "detp-cgroups-test";
+};
+
+/// The default limit again, whatever a test did.
+struct Restored {
+  Restored() = default;
+  ~Restored() { set_memory_limit({}); }
+  Restored(const Restored&) = delete;
+  Restored& operator=(const Restored&) = delete;
+};
+
+constexpr double unlimited = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("of cgroups of version 2 the least limit counts, of the group itself and of those around it") {
+    const Groups groups;
+    CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == unlimited);
+    groups.put("a/b/memory.max", "max");
+    CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == unlimited);
+    groups.put("a/memory.max", "3000000");
+    CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == 3e6);
+    groups.put("a/b/memory.max", "2000000");
+    CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == 2e6);
+    CHECK(cgroup_limit("0::/\n", groups.root().string()) == unlimited);
+    groups.put("memory.max", "1000000");  // a container's own root
+    CHECK(cgroup_limit("0::/\n", groups.root().string()) == 1e6);
+    CHECK(cgroup_limit("0::/unseen/from/here\n", groups.root().string()) == 1e6);
+  }
+
+  TEST_CASE("of cgroups of version 1 the memory controller's") {
+    const Groups groups;
+    groups.put("memory/job/memory.limit_in_bytes", "5000000");
+    groups.put("cpu/job/memory.limit_in_bytes", "1");
+    CHECK(cgroup_limit("4:cpu,cpuacct:/job\n3:memory:/job\n", groups.root().string()) == 5e6);
+    CHECK(cgroup_limit("4:cpu,cpuacct:/job\n", groups.root().string()) == unlimited);
+    CHECK(cgroup_limit("no such line\n7\n:::\n", groups.root().string()) == unlimited);
+  }
+
+  TEST_CASE("sizes are bytes, or K, M, G, T") {
+    CHECK(parse_bytes("1") == 1);
+    CHECK(parse_bytes("1e9") == 1e9);
+    CHECK(parse_bytes("2K") == 2048);
+    CHECK(parse_bytes("1.5M") == 1.5 * 1024 * 1024);
+    CHECK(parse_bytes("3G") == 3.0 * (1 << 30));
+    CHECK(parse_bytes("1T") == 0x1p40);
+  }
+
+  TEST_CASE("a limit that is set replaces half of the memory") {
+    const Restored restored;
+    CHECK(memory_budget() > 0);
+    CHECK(memory_budget() <= machine_memory());
+    set_memory_limit(1e6);
+    CHECK(memory_budget() == 1e6);
+    CHECK_NOTHROW(require_memory("a list", 1e6));
+    CHECK_THROWS_WITH_AS(require_memory("a list", 3e6),
+                         "a list would take 0.003 GB, more than the memory limit (0.001 GB)", std::length_error);
+    set_memory_limit({});
+    CHECK_THROWS_WITH_AS(require_memory("a list", 1e18), Contains("half of the memory"), std::length_error);
+  }
+
+  TEST_CASE("work that runs out of memory says what it was doing") {
+    const auto exhausted = [] { throw std::bad_alloc(); };
+    CHECK_THROWS_WITH_AS(in_memory("reading the scene", exhausted), "out of memory while reading the scene",
+                         OutOfMemory);
+    CHECK_THROWS_WITH_AS(in_memory("outer work", [&] { in_memory("inner work", exhausted); }),
+                         "out of memory while inner work", std::bad_alloc);
+    CHECK(in_memory("counting", [] { return 3; }) == 3);
+    CHECK_THROWS_WITH_AS(in_memory(std::string(1000, 'x'), exhausted), Contains("while xxx"), OutOfMemory);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("what is no size is refused") {
+    for (const char* bad : {"", "G", "0", "-1", "4X", "4GB", "1 G", "nan", "inf", "1e400", "1e300T", "0x10", "4G\n"})
+      CHECK_THROWS_WITH_AS((void)parse_bytes(bad), Contains("must be a size such as 4G"), std::invalid_argument);
+    for (const double bad : {0.0, -1.0, unlimited, std::numeric_limits<double>::quiet_NaN()})
+      CHECK_THROWS_WITH_AS(set_memory_limit(bad), Contains("memory limit must be > 0"), std::invalid_argument);
+  }
+}

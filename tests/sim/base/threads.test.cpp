@@ -1,0 +1,32 @@
+#include "detp/sim/base/threads.hpp"
+
+#include <doctest/doctest.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <atomic>
+
+#include "support/address_limit.hpp"
+#include "support/sanitized.hpp"
+
+using namespace detp::sim;
+
+TEST_SUITE("known answer") {
+  TEST_CASE("all threads of a modest number can be started, and run what is given to them") {
+    CHECK(startable_threads(1) == 1);
+    CHECK(startable_threads(4) == 4);
+    std::atomic<int> sum = 0;
+    on_threads(4, [&] { oneapi::tbb::parallel_for(0, 1000, [&](int i) { sum += i; }); });
+    CHECK(sum == 499'500);
+  }
+
+  TEST_CASE("of threads that the system does not start, fewer serve") {
+    if (detp::support::sanitized) return;          // address space is what a sanitizer needs most
+    const detp::support::AddressLimit limit(8e9);  // stacks of 4000 threads take some 32 GB
+    const int started = startable_threads(4000);
+    CHECK(started >= 1);
+    CHECK(started < 4000);
+    std::atomic<int> sum = 0;
+    on_threads(4000, [&] { oneapi::tbb::parallel_for(0, 1000, [&](int i) { sum += i; }); });
+    CHECK(sum == 499'500);
+  }
+}

@@ -1,0 +1,138 @@
+#include "detp/sim/files/csv.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <clocale>
+#include <cmath>
+#include <limits>
+
+#include "support/scratch_file.hpp"
+
+using namespace detp::sim;
+using support::ScratchFolder;
+
+namespace {
+
+const std::vector<TableColumn> columns{{"a", {}, {}}, {"b", {}, {}}, {"c", 5.0, 6.0}};
+
+struct Table {
+  std::array<std::vector<double>, 3> values;
+  std::vector<std::string> places;
+};
+
+/// Where the row is, by its own complaint.
+std::string place_of(const TableRow& row) {
+  return support::file_error_of([&] { row.fail("here"); });
+}
+
+Table read(const std::string& content) {
+  const ScratchFolder folder;
+  Table table;
+  const std::size_t rows = read_csv(folder.file("t.csv", content), columns, [&](const TableRow& row) {
+    for (std::size_t i = 0; i < 3; ++i) table.values[i].push_back(row[i]);
+    const std::string place = place_of(row);
+    table.places.push_back(place.substr(place.find("t.csv")));
+  });
+  CHECK(rows == table.places.size());
+  return table;
+}
+
+std::string refusal(const std::string& content) {
+  return support::file_error_of([&] { (void)read(content); });
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("columns may come in any order, with blanks, blank lines, CR LF and a byte order mark") {
+    const Table table = read("\xEF\xBB\xBF\r\n b ,a\r\n\r\n 1.5 , +2 \r\n   \r\n-3e-2,\t0.1\r\n");
+    REQUIRE(table.places.size() == 2);
+    CHECK(table.values[0] == std::vector<double>{2, 0.1});
+    CHECK(table.values[1] == std::vector<double>{1.5, -0.03});
+    CHECK(table.places == std::vector<std::string>{"t.csv:4: here", "t.csv:6: here"});
+  }
+
+  TEST_CASE("lines may end in CR alone") {
+    const Table table = read("a,b\r1,2\r\r3,4");
+    CHECK(table.values[1] == std::vector<double>{2, 4});
+    CHECK(table.places == std::vector<std::string>{"t.csv:2: here", "t.csv:4: here"});
+  }
+
+  TEST_CASE("the first bad row is refused before later rows are read") {
+    const ScratchFolder folder;
+    const std::string path = folder.file("t.csv", "a,b\n1,2\n3,4\n5,x\n");
+    std::size_t rows = 0;
+    const auto stop_at_second = [&](const TableRow& row) {
+      if (++rows == 2) row.fail("enough");
+    };
+    CHECK(support::file_error_of([&] { read_csv(path, columns, stop_at_second); }) == path + ":3: enough");
+  }
+
+  TEST_CASE("an absent column and an empty field have the values agreed on") {
+    CHECK(read("a,b\n1,2").values[2] == std::vector<double>{5});
+    CHECK(read("a,b,c\n1,2,\n1,2,3\n").values[2] == std::vector<double>{6, 3});
+  }
+
+  TEST_CASE("numbers beyond a double's range become infinite or zero, and special ones are read") {
+    const Table table = read("a,b\n1e400,-1e400\n1e-400,4.9e-324\ninf,-Infinity\nnan,0\n");
+    const double infinity = std::numeric_limits<double>::infinity();
+    CHECK(table.values[0][0] == infinity);
+    CHECK(table.values[1][0] == -infinity);
+    CHECK(table.values[0][1] == 0);
+    CHECK(table.values[1][1] == std::numeric_limits<double>::denorm_min());
+    CHECK(table.values[0][2] == infinity);
+    CHECK(table.values[1][2] == -infinity);
+    CHECK(std::isnan(table.values[0][3]));
+  }
+
+  TEST_CASE("a locale with a decimal comma changes nothing") {
+    const std::string before = std::setlocale(LC_NUMERIC, nullptr);
+    if (std::setlocale(LC_NUMERIC, "de_DE.UTF-8") == nullptr) {
+      MESSAGE("skipped: the locale de_DE.UTF-8 is not installed");
+      return;
+    }
+    CHECK(read("a,b\n1.5,1e-400\n").values[0][0] == 1.5);
+    std::setlocale(LC_NUMERIC, before.c_str());
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("what is wrong is told with its line") {
+    std::string fifteen;
+    for (int i = 0; i < 15; ++i) fifteen += "\\xff";
+    for (const auto& [bound_content, reason] :
+         {std::pair<std::string, std::string>{"", ": is empty; wanted is a header a,b,c"},
+          {"\n \n", ": is empty"},
+          {"a,b,radius\n", ":1: unknown column \"radius\"; known are a,b,c"},
+          {"a,b,\n", ":1: unknown column \"\""},
+          {"\na;b\n", ":2: unknown column \"a;b\""},
+          {"a,b,a\n", ":1: column a is there twice"},
+          {"a,c\n", ":1: the header has no column b; known are a,b,c"},
+          {"1,2\n", ":1: unknown column \"1\""},
+          {"a,b\n1\n", ":2: 1 fields, but the header has 2 columns"},
+          {"a,b\n\n1,2,3\n", ":3: 3 fields, but"},
+          {"a,b\n1,2,\n", ":2: 3 fields, but"},
+          {"a,b\n1,\n", ":2: b is empty; a number is needed"},
+          {"a,b\n1,2x\n", ":2: b is \"2x\", which is not a number"},
+          {"a,b\n1,+-2\n", ":2: b is \"+-2\", which"},
+          {"a,b\n1,0x10\n", ":2: b is \"0x10\", which"},
+          {"a,b\n1,+\n", ":2: b is \"+\", which"},
+          {"a,b\n1,\x1b[2J\n", ":2: b is \"\\x1b[2J\", which"},
+          {"a,b\n1," + std::string(2'000'000, '7') + "x\n", ":2: b is \"" + std::string(60, '7') + "...\", which"},
+          {std::string("\xFF\xFE", 2) + "a,b\n", ": is text in UTF-16"},
+          {"a,b\n1,1 2\n", ":2: b is \"1 2\", which"},
+          {"a,b\n# comment\n", ":2: 1 fields, but"},
+          {std::string("a,b\n1,2\0\n", 9), ":2: holds a NUL byte"},
+          {"a,b\n1," + std::string(99, '\xff') + "\n", ":2: b is \"" + fifteen + "...\", which"}}) {
+      const auto& content = bound_content;
+      CAPTURE(content.substr(0, 200));
+      CHECK_MESSAGE(refusal(content).find("t.csv" + reason) != std::string::npos, refusal(content));
+    }
+  }
+
+  TEST_CASE("a damaged file is read or refused, never more") {
+    const auto read_any = [](const std::string& path) { read_csv(path, columns, [](const TableRow&) {}); };
+    CHECK(support::refused_when_damaged("t.csv", "a,b,c\n1,2.5,-3e-7\r\n4,5,\n7,8,inf\n", 2500, read_any) > 250);
+  }
+}

@@ -1,0 +1,108 @@
+#include "detp/sim/files/ray_file.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/scratch_file.hpp"
+
+using namespace detp::sim;
+using support::ScratchFolder;
+
+namespace {
+
+std::vector<Ray> read(const std::string& name, const std::string& content) {
+  const ScratchFolder folder;
+  return read_rays(folder.file(name, content));
+}
+
+std::string refusal(const std::string& name, const std::string& content) {
+  return support::file_error_of([&] { (void)read(name, content); });
+}
+
+const std::string ply_header =
+    "ply\nformat ascii 1.0\nelement vertex 1\nproperty double ox\nproperty double oy\nproperty double oz\n"
+    "property double dx\nproperty double dy\nproperty double dz\n";
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("written rays are read back to the last bit") {
+    const std::vector<Ray> rays{
+        {.origin = {0.1, 2e-308, -3}, .direction = {0, 1, 0}, .length = unbounded, .power = 1},
+        {.origin = {1e22, 0, 0}, .direction = glm::normalize(glm::dvec3{1, 2, 3}), .length = 0.7, .power = 1e-9}};
+    const ScratchFolder folder;
+    write_rays(folder.path("rays.csv"), rays);
+    const std::vector<Ray> back = read_rays(folder.path("rays.csv"));
+    REQUIRE(back.size() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(back[i].origin == rays[i].origin);
+      CHECK(back[i].direction == rays[i].direction);
+      CHECK(back[i].length == rays[i].length);
+      CHECK(back[i].power == rays[i].power);
+    }
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("a ray without length is a line, and without power carries 1") {
+    const auto lines = read("r.csv", "ox,oy,oz,dx,dy,dz\n1,2,3,0,0,-1e-300\n");
+    CHECK(lines[0].is_line());
+    CHECK(lines[0].power == 1);
+    CHECK(lines[0].origin == glm::dvec3{1, 2, 3});
+    CHECK(lines[0].direction == glm::dvec3{0, 0, -1});
+    const auto mixed = read("r.csv", "length,ox,oy,oz,dx,dy,dz\n,0,0,0,0,0,1\ninf,0,0,0,0,0,1\n2,0,0,0,0,0,9\n");
+    CHECK(mixed[0].is_line());
+    CHECK(mixed[1].is_line());
+    CHECK(mixed[2].length == 2);  // not scaled with the direction
+  }
+
+  TEST_CASE("PLY vertices are rays") {
+    const auto rays = read("r.ply", ply_header + "property double power\nend_header\n1 2 3 0 0 4 0.5\n");
+    CHECK(rays[0].is_line());
+    CHECK(rays[0].power == 0.5);
+    CHECK(rays[0].direction == glm::dvec3{0, 0, 1});
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a bad ray in a CSV file is refused with its line") {
+    const std::string header = "ox,oy,oz,dx,dy,dz,length,power\n0,0,0,0,0,1,1,1\n";
+    for (const auto& [bound_row, reason] :
+         {std::pair{"0,0,0,0,0,0,1,1", ":3: the direction is zero; it needs a length"},
+          {"0,0,0,0,0,inf,1,1", ":3: dz must be finite (got inf)"},
+          {"0,nan,0,0,0,1,1,1", ":3: oy must be finite (got nan)"},
+          {"0,0,0,0,0,1,0,1", ":3: length must be > 0, or inf for a line (got 0)"},
+          {"0,0,0,0,0,1,-1,1", ":3: length must be > 0, or inf for a line (got -1)"},
+          {"0,0,0,0,0,1,-inf,1", ":3: length must be > 0, or inf for a line (got -inf)"},
+          {"0,0,0,0,0,1,nan,1", ":3: length must be > 0, or inf for a line (got nan)"},
+          {"0,0,0,0,0,1,1,-1", ":3: power must be >= 0 and finite (got -1)"},
+          {"0,0,0,0,0,1,1,inf", ":3: power must be finite (got inf)"},
+          {"0,0,0,0,0,1,1,", ":3: power is empty; a number is needed"}}) {
+      const auto& row = bound_row;
+      CAPTURE(row);
+      const std::string message = refusal("r.csv", header + row + "\n");
+      CHECK_MESSAGE(message.find(std::string("r.csv") + reason) != std::string::npos, message);
+    }
+  }
+
+  TEST_CASE("a file without rays is refused, and a bad ray in a PLY file with its number") {
+    CHECK(refusal("r.csv", "ox,oy,oz,dx,dy,dz\n").find("holds no ray") != std::string::npos);
+    CHECK(refusal("r.ply", ply_header + "end_header\n1 2 3 0 0 0\n").find("vertex 1 of 1: the direction is zero") !=
+          std::string::npos);
+  }
+
+  TEST_CASE("a damaged ray file is read or refused, and what is read is sound") {
+    const auto read_sound = [](const std::string& path) {
+      for (const Ray& ray : read_rays(path)) {
+        REQUIRE(std::abs(glm::length(ray.direction) - 1) < 1e-14);
+        REQUIRE(ray.length > 0);
+        REQUIRE(ray.power >= 0);
+      }
+    };
+    CHECK(support::refused_when_damaged("r.csv",
+                                        "ox,oy,oz,dx,dy,dz,length,power\n0,1,2,0,0,1,inf,0.5\n1,1,1,1,1,1,,1\n", 2000,
+                                        read_sound) > 100);
+    CHECK(support::refused_when_damaged("r.ply", ply_header + "end_header\n1 2 3 0 2 0\n", 1500, read_sound) > 100);
+  }
+}

@@ -1,0 +1,267 @@
+#include "detp/sim/photons/photon_paths.hpp"
+#include "detp/sim/scene/open/open_scene.hpp"
+
+#include <doctest/doctest.h>
+#include <tbb/global_control.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "detp/sim/files/file_error.hpp"
+#include "detp/sim/scene/built_in/mesh_pieces.hpp"
+#include "support/scratch_file.hpp"
+
+using namespace detp::sim;
+
+namespace {
+
+/// A closed box of side 2 around the centre, in units of `scale`, with a lamp in its middle.
+Scene closed_box(double scale = 1, const glm::dvec3& centre = glm::dvec3{0.0}) {
+  Scene scene;
+  scene.name = "closed box";
+  built_in::add_box(scene.mesh, centre - scale * glm::dvec3{1.0},
+                    {{{2 * scale, 0, 0}, {0, 2 * scale, 0}, {0, 0, 2 * scale}}}, 0.25 * scale);
+  for (const glm::dvec3& position : scene.mesh.positions) scene.box.include(position);
+  scene.light = PointLight{.position = centre};
+  return scene;
+}
+
+double diagonal(const Scene& scene) { return glm::length(scene.box.size()); }
+
+glm::dvec3 end_of(const Ray& ray) { return ray.origin + ray.length * ray.direction; }
+
+bool same(const std::vector<Ray>& first, const std::vector<Ray>& second) {
+  return std::ranges::equal(first, second, [](const Ray& a, const Ray& b) {
+    return a.origin == b.origin && a.direction == b.direction && a.length == b.length && a.power == b.power;
+  });
+}
+
+std::vector<Ray> paths_with_threads(const Scene& scene, std::size_t count, std::size_t threads) {
+  const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
+  return photon_paths(scene, count, 1);
+}
+
+/// Whether all rays are what rays should be; says which is not.
+void check_sound(const Scene& scene, const std::vector<Ray>& rays) {
+  const double longest = 2 * (1 + 2e-5) * diagonal(scene);
+  std::size_t unsound = 0;
+  for (const Ray& ray : rays) {
+    const bool finite = std::isfinite(glm::length((ray.origin - scene.box.centre()) / diagonal(scene)));
+    const bool length = ray.length > 0 && ray.length <= longest;
+    const bool unit = std::abs(glm::length(ray.direction) - 1) < 1e-12;
+    if (!finite || !length || !unit || ray.power != rays[0].power) ++unsound;
+  }
+  CHECK(unsound == 0);
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("there are exactly as many rays as asked for, each a sound segment, and power × photons = 1") {
+    for (const char* name : {"@tree", "@tree-coarse", "@courtyard", "@cornell"}) {
+      CAPTURE(name);
+      const Scene scene = open_scene({.name = name, .samples = {}});
+      for (const std::size_t count : {0U, 1U, 2U, 1000U, 5000U}) {
+        const std::vector<Ray> rays = photon_paths(scene, count, 1);
+        REQUIRE(rays.size() == count);
+        if (count == 0) continue;
+        check_sound(scene, rays);
+        const double photons = 1 / rays[0].power;
+        CHECK(photons == doctest::Approx(std::round(photons)).epsilon(1e-12));
+        CHECK(photons >= 1);
+      }
+    }
+  }
+
+  TEST_CASE("fewer rays are the first of more, but for their power") {
+    const Scene scene = open_scene({.name = "@cornell", .samples = {}});
+    const std::vector<Ray> few = photon_paths(scene, 500, 7);
+    const std::vector<Ray> many = photon_paths(scene, 5000, 7);
+    for (std::size_t i = 0; i < few.size(); ++i) {
+      CHECK(few[i].origin == many[i].origin);
+      CHECK(few[i].length == many[i].length);
+    }
+  }
+
+  TEST_CASE("in a closed box pieces start a gap after a wall and end a gap beyond one, at any scale and place") {
+    for (const double scale : {1e-13, 1.0, 1e12})
+      for (const double offset : {0.0, 5e6}) {
+        CAPTURE(scale);
+        CAPTURE(offset);
+        const glm::dvec3 centre = offset * scale * glm::dvec3{1, -1, 0.5};
+        const Scene scene = closed_box(scale, centre);
+        const double gap = 1e-5 * std::sqrt(12.0);
+        const double rounding = 1e-15 * offset + 1e-14;
+        std::size_t off = 0;
+        for (const Ray& ray : photon_paths(scene, 5000, 3)) {
+          const glm::dvec3 landing = (end_of(ray) - centre) / scale - gap * ray.direction;
+          const glm::dvec3 start = (ray.origin - centre) / scale - gap * ray.direction;
+          const auto out = [](const glm::dvec3& p) {
+            return std::max(std::max(std::abs(p.x), std::abs(p.y)), std::abs(p.z));
+          };
+          const bool lands = std::abs(out(landing) - 1) <= 4 * rounding;
+          const bool starts = std::abs(out(start) - 1) <= 4 * rounding || glm::length(start) <= 4 * rounding;
+          const bool short_piece = ray.length < 2 * gap * scale;
+          if (!lands || (!starts && !short_piece)) ++off;
+        }
+        CHECK(off == 0);
+      }
+  }
+
+  TEST_CASE("a photon that leaves ends on the sphere of twice the half diagonal") {
+    Scene scene;
+    built_in::add_quad(scene.mesh, {{{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}}}, 1);
+    for (const glm::dvec3& position : scene.mesh.positions) scene.box.include(position);
+    scene.light = PointLight{.position = {0, 0.5, 0}};
+    scene.albedo = 0;
+    std::size_t away = 0;
+    for (const Ray& ray : photon_paths(scene, 2000, 1)) {
+      const double radius = glm::length(end_of(ray));
+      const bool on_plane = std::abs(end_of(ray).y) < 1e-4 && radius < 1.5;
+      if (!on_plane) CHECK(radius == doctest::Approx(std::sqrt(8.0)).epsilon(1e-12));
+      if (!on_plane) ++away;
+    }
+    CHECK(away > 1000);
+    CHECK(away < 2000);
+  }
+
+  TEST_CASE("with albedo 1 a closed box still comes to an end: a photon has at most 1000 pieces") {
+    Scene scene = closed_box();
+    scene.albedo = 1;
+    CHECK(1 / photon_paths(scene, 10'000, 1)[0].power == doctest::Approx(10));
+  }
+
+  TEST_CASE("with albedo 0 every photon in a closed box has one piece") {
+    Scene scene = closed_box();
+    scene.albedo = 0;
+    CHECK(1 / photon_paths(scene, 1000, 1)[0].power == doctest::Approx(1000));
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("paths do not depend on the number of threads") {
+    for (const char* name : {"@tree", "@cornell"}) {
+      const Scene scene = open_scene({.name = name, .samples = {}});
+      CHECK(same(paths_with_threads(scene, 20'000, 1), paths_with_threads(scene, 20'000, 2)));
+    }
+  }
+
+  TEST_CASE("other seeds give other paths") {
+    const Scene scene = closed_box();
+    CHECK(same(photon_paths(scene, 10, 1), photon_paths(scene, 10, 1)));
+    CHECK_FALSE(same(photon_paths(scene, 10, 1), photon_paths(scene, 10, 2)));
+  }
+}
+
+TEST_SUITE("statistical") {
+  TEST_CASE("in a closed box a photon has 1 / (1 - albedo) pieces") {
+    constexpr double count = 200'000;
+    for (const double albedo : {0.2, 0.5, 0.8}) {
+      Scene scene = closed_box();
+      scene.albedo = albedo;
+      const double photons = 1 / photon_paths(scene, static_cast<std::size_t>(count), 5)[0].power;
+      const double expected = 1 / (1 - albedo);
+      const double error = std::sqrt(albedo) / (1 - albedo) / std::sqrt(photons);  // of a geometric distribution
+      CAPTURE(albedo);
+      CHECK(std::abs(count / photons - expected) < 5 * error);
+      CHECK_MESSAGE(std::abs(count / photons - 1.05 * expected) > 5 * error, "negative control: 5 % off must not pass");
+    }
+  }
+
+  TEST_CASE("photons leave a wall by the cosine law, into the room") {
+    const Scene scene = closed_box();
+    double sum = 0;
+    double bounced = 0;
+    for (const Ray& ray : photon_paths(scene, 200'000, 9)) {
+      if (std::abs(ray.origin.y + 1) > 3.5e-5) continue;  // starts at the floor
+      sum += ray.direction.y;
+      ++bounced;
+    }
+    const double error = std::sqrt(1.0 / 18) / std::sqrt(bounced);
+    CHECK(bounced > 10'000);
+    CHECK(std::abs(sum / bounced - 2.0 / 3) < 5 * error);
+    CHECK_MESSAGE(std::abs(sum / bounced - 1.05 * 2 / 3) > 5 * error, "negative control: 5 % off must not pass");
+  }
+
+  TEST_CASE("a lamp in the middle of a cube lights its six faces alike") {
+    Scene scene = closed_box();
+    scene.albedo = 0;
+    constexpr double count = 60'000;
+    glm::dvec3 low{0.0}, high{0.0};
+    for (const Ray& ray : photon_paths(scene, static_cast<std::size_t>(count), 4))
+      for (int axis = 0; axis < 3; ++axis) {
+        if (end_of(ray)[axis] < -1) ++low[axis];
+        if (end_of(ray)[axis] > 1) ++high[axis];
+      }
+    const double error = std::sqrt(count * 5 / 36);
+    for (int axis = 0; axis < 3; ++axis) {
+      CHECK(std::abs(low[axis] - count / 6) < 5 * error);
+      CHECK(std::abs(high[axis] - count / 6) < 5 * error);
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a scene without light, triangles or box is refused by name") {
+    CHECK_THROWS_WITH_AS((void)photon_paths(open_scene({.name = "@uniform", .samples = 10}), 1, 1),
+                         "photon paths need a light; @uniform has none", std::invalid_argument);
+    Scene empty;
+    empty.name = "empty";
+    empty.light = PointLight{};
+    CHECK_THROWS_WITH_AS((void)photon_paths(empty, 1, 1), "photon paths need triangles; empty has none",
+                         std::invalid_argument);
+    Scene boxless = closed_box();
+    boxless.box = Box{};
+    CHECK_THROWS_WITH_AS((void)photon_paths(boxless, 1, 1), doctest::Contains("the scene's box"),
+                         std::invalid_argument);
+    boxless.box = Box{glm::dvec3{1.0}, glm::dvec3{1.0}};
+    CHECK_THROWS_WITH_AS((void)photon_paths(boxless, 1, 1), doctest::Contains("diagonal of the scene's box"),
+                         std::invalid_argument);
+  }
+
+  TEST_CASE("an albedo that is no share and a light that is none are refused") {
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double albedo : {-0.1, 1.1, nan}) {
+      Scene scene = closed_box();
+      scene.albedo = albedo;
+      CHECK_THROWS_WITH_AS((void)photon_paths(scene, 1, 1), doctest::Contains("albedo must be in [0, 1]"),
+                           std::invalid_argument);
+    }
+    Scene scene = closed_box();
+    scene.light = AreaLight{.corner = {}, .edge_u = {1, 0, 0}, .edge_v = {2, 0, 0}};
+    CHECK_THROWS_WITH_AS((void)photon_paths(scene, 1, 1), doctest::Contains("area light has no area"),
+                         std::invalid_argument);
+    scene.light = PointLight{.position = {0, nan, 0}};
+    CHECK_THROWS_WITH_AS((void)photon_paths(scene, 1, 1), doctest::Contains("point light must be finite"),
+                         std::invalid_argument);
+  }
+
+  TEST_CASE("a light that meets nothing is given up after the stated number of photons") {
+    Scene scene = closed_box();
+    scene.light = AreaLight{.corner = {0, 50, 0}, .edge_u = {0, 0, 1}, .edge_v = {1, 0, 0}};  // shines up, far above
+    CHECK_THROWS_WITH_AS((void)photon_paths(scene, 100, 1), doctest::Contains("11000 photons gave 0 pieces"),
+                         std::invalid_argument);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("every test scene that can be read gives sound paths" * doctest::test_suite("scenes")) {
+    const std::string folder = support::scenes_folder();
+    if (folder.empty()) return;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+      const std::string path = entry.path().string();
+      if (!path.ends_with(".obj") && !path.ends_with(".ply")) continue;
+      CAPTURE(path);
+      try {
+        const Scene scene = open_scene({.name = path, .samples = {}});
+        const std::vector<Ray> rays = photon_paths(scene, 10'000, 1);
+        CHECK(rays.size() == 10'000);
+        check_sound(scene, rays);
+      } catch (const FileError&) {
+        CHECK((path.ends_with("no_faces.obj") || path.ends_with("nonfinite_vertices.obj")));
+      }
+    }
+  }
+}

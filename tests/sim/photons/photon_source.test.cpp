@@ -1,0 +1,56 @@
+#include "detp/sim/photons/photon_source.hpp"
+#include "detp/sim/scene/open/open_scene.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include "detp/sim/photons/photon_paths.hpp"
+
+using namespace detp::sim;
+
+TEST_SUITE("identity") {
+  TEST_CASE("photons by number are photon_paths, byte for byte, whatever the blocks") {
+    for (const char* name : {"@cornell", "@tree-coarse"}) {
+      const Scene scene = open_scene({.name = name, .samples = {}});
+      for (const std::size_t count : {1, 5001}) {
+        CAPTURE(name);
+        CAPTURE(count);
+        const std::vector<Ray> expected = photon_paths(scene, count, 3);
+        const PhotonSource source(scene, count, 3);
+        REQUIRE(source.size() == count);
+        for (const std::size_t block : {std::size_t{700}, count}) {
+          std::vector<Ray> rays(count);
+          for (std::size_t first = 0; first < count; first += block)
+            source.read(first, std::span(rays).subspan(first, std::min(block, count - first)));
+          CHECK(std::memcmp(rays.data(), expected.data(), count * sizeof(Ray)) == 0);
+        }
+      }
+    }
+  }
+}
+
+TEST_SUITE("limit") {
+  TEST_CASE("no photon's piece starts farther away than told") {
+    const Scene scene = open_scene({.name = "@cornell", .samples = {}});
+    const std::vector<Ray> rays = photon_paths(scene, 5000, 3);
+    const PhotonSource source(scene, rays.size(), 3);
+    for (const glm::dvec3& point : {scene.box.centre(), scene.box.low, scene.box.high + 3.0}) {
+      double farthest = 0;
+      for (const Ray& ray : rays) farthest = std::max(farthest, glm::distance(ray.origin, point));
+      CHECK(source.farthest_from(point) >= farthest);
+      CHECK(source.farthest_from(point) < 2 * farthest);
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a light that meets nothing is refused, not waited for") {
+    Scene scene = open_scene({.name = "@cornell", .samples = {}});
+    scene.light = PointLight{scene.box.high + 1000.0 * scene.box.size()};
+    CHECK_THROWS_WITH_AS(PhotonSource(scene, 50, 1), doctest::Contains("hardly meets"), std::invalid_argument);
+  }
+}

@@ -1,0 +1,91 @@
+#include "detp/sim/rays/line_field.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/predicates.hpp"
+#include "detp/sim/geometry/random.hpp"
+
+using namespace detp;
+using namespace detp::sim;
+
+TEST_SUITE("identity") {
+  TEST_CASE("a line is unit, unbounded, starts nearest to the centre and crosses the sphere") {
+    const Sphere sphere{{3, -2, 5}, 0.7};
+    for (const Ray& line : LineField(sphere, 11).lines(0, 1000)) {
+      CHECK(std::abs(glm::length(line.direction) - 1) < 4e-16);
+      CHECK(line.is_line());
+      CHECK(std::abs(glm::dot(line.origin - sphere.centre, line.direction)) < 1e-15);
+      CHECK(glm::distance(line.origin, sphere.centre) <= sphere.radius);
+    }
+  }
+
+  TEST_CASE("line i is the same however many are asked for, and another seed gives another") {
+    const LineField field({}, 5);
+    const auto lines = field.lines(10, 5);
+    CHECK(lines[3].origin == field.line(13).origin);
+    CHECK(LineField({}, 6).line(13).origin != field.line(13).origin);
+  }
+
+  TEST_CASE("a basis is orthonormal and right-handed for any axis, the poles included") {
+    for (std::uint64_t i = 0; i < 1000; ++i) {
+      const auto u = uniform4(3, Stream::tests, i);
+      const glm::dvec3 axis =
+          i == 0 ? glm::dvec3{0, 0, 1} : (i == 1 ? glm::dvec3{0, 0, -1} : uniform_direction(u[0], u[1]));
+      const auto [first, second] = basis_around(axis);
+      CHECK(glm::distance(glm::cross(first, second), axis) < 1e-14);
+      CHECK(std::abs(glm::dot(first, second)) < 1e-15);
+      CHECK(std::abs(glm::length(first) - 1) < 1e-14);
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a sphere that is none is refused by name") {
+    for (const double bad :
+         {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+      CHECK_THROWS_WITH_AS(LineField({{}, bad}, 1), doctest::Contains("sphere radius must be > 0"),
+                           std::invalid_argument);
+    CHECK_THROWS_WITH_AS(LineField({{std::nan(""), 0, 0}, 1}, 1), doctest::Contains("sphere centre"),
+                         std::invalid_argument);
+  }
+}
+
+TEST_SUITE("statistical") {
+  // Under the measure of lines, a share of (r1/r0)² crosses an inner sphere wherever it lies. A field that is not
+  // invariant under translation (as two-points-in-the-ball would be) gets some place wrong.
+  TEST_CASE("an inner sphere is hit equally often at the centre and at the rim") {
+    constexpr int lines = 400'000;
+    constexpr double radius = 0.3;
+    constexpr double p = radius * radius;
+    const double sigma = std::sqrt(p * (1 - p) / lines);
+    const LineField field({}, 77);
+    for (const double place : {0.0, 0.35, 0.7}) {
+      int hit = 0;
+      const Sphere inner{place * uniform_direction(0.3, 0.8), radius};
+      for (int i = 0; i < lines; ++i) hit += hits(field.line(static_cast<std::uint64_t>(i)), inner) ? 1 : 0;
+      const double share = static_cast<double>(hit) / lines;
+      CHECK_MESSAGE(std::abs(share - p) < 5 * sigma, "place ", place, ": share ", share, ", expected ", p);
+      CHECK_MESSAGE(std::abs(share - 1.05 * p) > 5 * sigma, "negative control: 5 % off must be seen");
+    }
+  }
+
+  TEST_CASE("cosine directions have mean cosine 2/3, uniform ones 1/2 over the hemisphere") {
+    constexpr int count = 200'000;
+    const glm::dvec3 axis = uniform_direction(0.2, 0.4);
+    double cosine = 0;
+    double uniform = 0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const auto u = uniform4(9, Stream::tests, i);
+      cosine += glm::dot(axis, cosine_direction(axis, u[0], u[1]));
+      uniform += std::abs(glm::dot(axis, uniform_direction(u[2], u[3])));
+    }
+    // Standard deviations of the cosine: sqrt(1/2 - 4/9) and sqrt(1/3 - 1/4).
+    CHECK(std::abs(cosine / count - 2.0 / 3) < 5 * std::sqrt(1.0 / 18 / count));
+    CHECK(std::abs(uniform / count - 0.5) < 5 * std::sqrt(1.0 / 12 / count));
+  }
+}

@@ -1,0 +1,145 @@
+#include "detp/sim/search/ray_search.hpp"
+
+#include <doctest/doctest.h>
+#include <oneapi/tbb/task_arena.h>
+
+#include <cmath>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/geometry/dominant_axis.hpp"
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/technique/technique.hpp"
+
+using namespace detp;
+using namespace detp::sim;
+
+namespace {
+
+const std::vector<Disc>& discs() {
+  static const std::vector<Disc> all = uniform_discs(Body::cube, 2, 500, 0.2, 3);
+  return all;
+}
+
+/// Lines whose powers range over ten decades, so that another order of adding gives another sum.
+const std::vector<Ray>& rays() {
+  static const std::vector<Ray> all = [] {
+    std::vector<Ray> lines = LineField(enclosing_sphere(discs()), 4).lines(0, 3000);
+    for (std::size_t i = 0; i < lines.size(); ++i) lines[i].power = std::pow(10, 10 * uniform4(5, Stream::tests, i)[0]);
+    return lines;
+  }();
+  return all;
+}
+
+/// Every ray hits disc number 0; what is to happen at ray number 1000 happens.
+class AllHit final : public RaySearch {
+ public:
+  explicit AllHit(std::function<void()> event) : event_(std::move(event)) {}
+
+  void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
+    for (std::uint32_t ray = first; ray < last; ++ray) {
+      if (ray == 1000) event_();
+      hits.push_back({ray, 0});
+    }
+  }
+
+  [[nodiscard]] Counts<std::uint64_t> counts() const override { return {}; }
+
+ private:
+  std::function<void()> event_;
+};
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("hits, irradiance, pairs and counts are the same bytes on 1, 2 and 3 threads") {
+    const Problem problem = make_problem(rays(), discs());
+    const Candidate brute{Technique::brute_force, BruteForceParameters{}};
+    const Outcome expected = run(problem, brute, {.pairs = true, .engine = Engine::plain});
+    for (const Candidate& candidate : {brute,
+                                       {Technique::sphere_cache, SphereCacheParameters{0.6, 5}},
+                                       {Technique::cell_spheres, CellSpheresParameters{3}},
+                                       {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                                       {Technique::box_tree, BoxTreeParameters{8, 4}},
+                                       {Technique::octree, OctreeParameters{4}},
+                                       {Technique::grid, GridParameters{12}},
+                                       {Technique::bvh, BvhParameters{}}}) {
+      CAPTURE(name(candidate.technique));
+      const Outcome alone = run(problem, candidate, {.pairs = true});
+      CHECK(alone.total_hits > 5000);
+      CHECK(alone.pairs == expected.pairs);
+      CHECK(alone.irradiance == expected.irradiance);
+      for (const int threads : {2, 3, 0}) {
+        const Outcome together = run(problem, candidate, {.pairs = true, .threads = threads});
+        CHECK(together.hits == alone.hits);
+        CHECK(together.irradiance == alone.irradiance);
+        CHECK(together.pairs == alone.pairs);
+        CHECK(together.counts == alone.counts);
+      }
+    }
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("each ray is searched once, and hits reach the totals in the rays' order, on any number of threads") {
+    const Problem problem = make_problem(rays(), discs());
+    glm::dvec3 power{0};
+    for (const Ray& ray : rays()) power[dominant_axis(ray.direction)] += ray.power;
+    for (const int threads : {1, 2, 3}) {
+      Totals totals;
+      Outcome outcome;
+      search_rays(
+          problem, {.threads = threads, .totals = &totals}, [] { return std::make_unique<AllHit>([] {}); }, outcome);
+      CHECK(outcome.total_hits == rays().size());
+      CHECK(totals[0].hits == rays().size());
+      CHECK(totals[0].power == power);
+      CHECK_FALSE(outcome.stopped);
+    }
+  }
+
+  TEST_CASE("asked to stop, it ends soon and keeps the hits of all rays before some ray") {
+    const Problem problem = make_problem(rays(), discs());
+    for (const int threads : {1, 2}) {
+      std::stop_source source;
+      Outcome outcome;
+      search_rays(
+          problem, {.pairs = true, .stop = source.get_token(), .threads = threads},
+          [&] { return std::make_unique<AllHit>([&] { source.request_stop(); }); }, outcome);
+      CHECK(outcome.stopped);
+      CHECK(outcome.total_hits > 1000);
+      CHECK(outcome.total_hits < 2000);
+      CHECK(outcome.progress.done == outcome.total_hits);  // one hit a ray
+      CHECK(outcome.progress.of == rays().size());
+      CHECK(outcome.pairs.empty());
+    }
+  }
+
+  TEST_CASE("what a search throws reaches the caller") {
+    const Problem problem = make_problem(rays(), discs());
+    for (const int threads : {1, 2}) {
+      Outcome outcome;
+      const auto search = [&] {
+        search_rays(
+            problem, {.threads = threads},
+            [] { return std::make_unique<AllHit>([] { throw std::length_error("too large"); }); }, outcome);
+      };
+      CHECK_THROWS_WITH_AS(search(), "too large", std::length_error);
+    }
+  }
+
+  TEST_CASE("work on N threads has N of them, more than cores if asked for") {
+    CHECK(thread_count(0) >= 1);
+    for (const int threads : {1, 2, 3, 5}) {
+      CHECK(thread_count(threads) == threads);
+      int found = 0;
+      on_threads(threads, [&] { found = oneapi::tbb::this_task_arena::max_concurrency(); });
+      CHECK(found == threads);
+    }
+  }
+}

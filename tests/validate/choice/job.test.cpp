@@ -1,0 +1,64 @@
+#include "detp/validate/choice/job.hpp"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+
+#include "detp/sim/technique/streamed.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+
+namespace {
+
+JobRequest three_discs(const char* scene, double rays) {
+  JobRequest request;
+  request.scene = scene;
+  request.rays = rays;
+  request.samples = 3;
+  request.disc_radius = Length{0.3};
+  return request;
+}
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("a job whose rays fill more than a block can be a stream, of the same rays and the same workload") {
+    JobRequest request = three_discs("@uniform", 0x1p20 + 1);
+    const Job in_memory = make_job(request);
+    request.stream = true;
+    const Job job = make_job(request);
+    REQUIRE(job.stream);
+    CHECK(job.rays.empty());
+    CHECK(job.stream->size() == in_memory.rays.size());
+    CHECK(job.workload.rays == in_memory.workload.rays);
+    CHECK(job.workload.path_length == in_memory.workload.path_length);
+    CHECK_THROWS_AS(static_cast<void>(job.problem()), std::invalid_argument);
+    const Candidate grid{Technique::grid, GridParameters{2}};
+    const sim::Streamed streamed = sim::run_streamed(job.discs, *job.stream, grid);
+    CHECK(streamed.block == 1U << 20);
+    CHECK(streamed.outcome.irradiance == sim::run(in_memory.problem(), grid).irradiance);
+  }
+
+  TEST_CASE("for the workload alone a block of rays is made, however many are asked for: the same workload") {
+    JobRequest request = three_discs("@uniform", 0x1p20 + 1);
+    request.stream = true;
+    const Job stream = make_job(request);
+    request.stream = false;
+    request.workload_only = true;
+    const Job job = make_job(request);
+    CHECK(job.rays.size() == 1U << 20);
+    CHECK(job.workload.rays == 0x1p20 + 1);
+    CHECK(job.workload.path_length == stream.workload.path_length);
+    request.rays = 1e15;
+    CHECK(make_job(request).workload.rays == 1e15);
+  }
+
+  TEST_CASE("rays that fill no more than a block are in memory") {
+    JobRequest request = three_discs("@uniform", 1000);
+    request.stream = true;
+    const Job job = make_job(request);
+    CHECK(job.rays.size() == 1000);
+    CHECK_FALSE(job.stream);
+  }
+}

@@ -1,0 +1,145 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "detp/model/rank/choose.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/choice/measure.hpp"
+#include "detp/validate/choice/unit_costs.hpp"
+#include "detp/validate/claims/experiments.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+
+namespace {
+
+Experiment asking(std::vector<sim::Disc> discs, std::vector<sim::Ray> rays) {
+  Experiment experiment;
+  const Workload workload = measure(sim::make_problem(rays, discs));
+  experiment.discs = std::move(discs);
+  experiment.choice = {workload, std::move(rays)};
+  return experiment;
+}
+
+std::vector<sim::Disc> discs_in_cube() { return sim::uniform_discs(sim::Body::cube, 2, 2000, 0.05, 3); }
+
+Experiment lines_in_a_cube() {
+  const auto discs = discs_in_cube();
+  return asking(discs, sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, 4000));
+}
+
+/// Segments that stay in a corner of the scene where there are no discs.
+Experiment rays_where_nothing_is() {
+  auto discs = discs_in_cube();
+  std::erase_if(discs, [](const sim::Disc& disc) { return disc.centre.x > 0.5; });
+  discs.push_back({.centre = {1, 1, 1}, .radius = 0.05});
+  auto rays = sim::LineField({{0.9, 0, 0}, 0.1}, 4).lines(0, 4000);
+  for (sim::Ray& ray : rays) ray.length = 0.1;
+  return asking(std::move(discs), std::move(rays));
+}
+
+/// The finding of that count, which must be there.
+const Finding& of(const std::vector<Finding>& findings, const model::Ranked& ranked, const std::string& term) {
+  const std::string id = "choice." + std::string(name(ranked.candidate.technique)) + "." + term;
+  CAPTURE(id);
+  const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& one) { return one.id == id; });
+  REQUIRE(found != findings.end());
+  return *found;
+}
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("each count that choose prices is a claim: predicted as choose does, observed as a run counts it") {
+    for (const Experiment& experiment : {lines_in_a_cube(), rays_where_nothing_is()}) {
+      const std::vector<Finding> findings = choice_findings(experiment);
+      const sim::Problem problem = sim::make_problem(experiment.choice->rays, experiment.discs);
+      const auto ranking = model::rank(experiment.choice->workload, built_in_unit_costs());
+      CHECK(ranking.size() >= 5);
+      for (const model::Ranked& ranked : ranking) {
+        const auto counts = as_expected(sim::run(problem, ranked.candidate).counts);
+        const auto check = [&](const char* term, double predicted, double counted) {
+          if (predicted == 0 && counted == 0) return;
+          const Finding& finding = of(findings, ranked, term);
+          CHECK(finding.predictions.at(0).value == predicted);
+          CHECK(finding.technique == name(ranked.candidate.technique));
+          CHECK(finding.parameters == describe(ranked.candidate));
+          CHECK(finding.observed.mean == doctest::Approx(counted).epsilon(1e-12));
+        };
+        check("cull-tests", ranked.counts.cull_tests, counts.cull_tests);
+        check("disc-tests", ranked.counts.disc_tests, counts.disc_tests);
+        check("steps", ranked.counts.steps, counts.steps);
+        check("nodes", ranked.counts.nodes, counts.nodes);
+        check("culls", ranked.counts.culls, counts.culls);
+        check("placements", ranked.counts.placements, counts.placements);
+        check("hits", ranked.counts.hits, counts.hits);
+      }
+    }
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("where the models hold, no prediction of the choice is refuted and the tests agree") {
+    for (const Claim& claim : judge_all(choice_findings(lines_in_a_cube()))) {
+      CAPTURE(claim.id);
+      CAPTURE(claim.relative_difference);
+      CHECK(claim.verdict == Verdict::agrees);
+      CHECK(claim.control_verdict == Verdict::refuted);
+    }
+  }
+
+  TEST_CASE("where rays go past the discs, the predicted tests and hits of every technique with an index are refuted") {
+    const std::vector<Claim> claims = judge_all(choice_findings(rays_where_nothing_is()));
+    int refuted = 0;
+    for (const Claim& claim : claims) {
+      CAPTURE(claim.id);
+      const bool brute_force = claim.id.starts_with("choice.brute-force.disc-tests");
+      const bool tests = claim.id.find(".disc-tests.") != std::string::npos;
+      const bool hits = claim.id.find(".hits.") != std::string::npos;
+      if (brute_force || !(tests || hits)) continue;
+      CHECK(claim.verdict == Verdict::refuted);
+      ++refuted;
+    }
+    CHECK(refuted >= 9);
+  }
+
+  TEST_CASE("where fronts alone count, half of the hits of lines are predicted and counted") {
+    const Experiment both = lines_in_a_cube();
+    Experiment fronts = both;
+    fronts.choice->workload =
+        measure(sim::make_problem(fronts.choice->rays, fronts.discs, true));  // as choose measures it
+    const std::vector<Claim> claims = judge_all(choice_findings(fronts));
+    const std::vector<Claim> of_both = judge_all(choice_findings(both));
+    REQUIRE(claims.size() == of_both.size());
+    int of_hits = 0;
+    for (std::size_t i = 0; i < claims.size(); ++i) {
+      const bool hits = claims[i].id.find(".hits.") != std::string::npos;
+      CAPTURE(claims[i].id);
+      CHECK(claims[i].verdict == Verdict::agrees);
+      CHECK(claims[i].predicted == (hits ? 0.5 : 1) * of_both[i].predicted);
+      if (!hits) continue;
+      ++of_hits;
+      CHECK(claims[i].observed.mean < 0.55 * of_both[i].observed.mean);
+      CHECK(claims[i].observed.mean > 0.45 * of_both[i].observed.mean);
+    }
+    CHECK(of_hits >= 5);
+  }
+
+  TEST_CASE("one ray decides nothing, none asked about claims nothing, a stop leaves nothing half counted") {
+    Experiment experiment = lines_in_a_cube();
+    experiment.choice->rays.resize(1);
+    for (const Claim& claim : judge_all(choice_findings(experiment)))
+      if (claim.id.find("culls") == std::string::npos && claim.id.find("placements") == std::string::npos)
+        CHECK(claim.verdict == Verdict::undecided);
+    std::stop_source source;
+    source.request_stop();
+    experiment.stop = source.get_token();
+    CHECK(choice_findings(experiment).empty());
+    experiment.choice.reset();
+    CHECK(choice_findings(experiment).empty());
+  }
+}

@@ -1,0 +1,145 @@
+#include "detp/validate/structural/structural.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/choice/job.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+using doctest::Approx;
+
+namespace {
+
+const std::vector<Candidate>& candidates() {
+  static const std::vector<Candidate> list{{Technique::brute_force, BruteForceParameters{}},
+                                           {Technique::sphere_cache, SphereCacheParameters{0.65, 4}},
+                                           {Technique::cell_spheres, CellSpheresParameters{4}},
+                                           {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                                           {Technique::octree, OctreeParameters{0}},
+                                           {Technique::octree, OctreeParameters{4, Traversal::front_to_back}},
+                                           {Technique::octree, OctreeParameters{6}},
+                                           {Technique::grid, GridParameters{5}},
+                                           {Technique::grid, GridParameters{40}},
+                                           {Technique::bsp, BspParameters{}}};
+  return list;
+}
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("what does not depend on the rays is what a run counts") {
+    const auto discs = sim::uniform_discs(sim::Body::cube_faces, 2, 2000, 0.03, 3);
+    const auto rays = sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, 10);
+    for (const Candidate& candidate : candidates()) {
+      const Counts<double> counted = as_expected(sim::run(sim::make_problem(rays, discs), candidate).counts);
+      const Counts<double> expected = structural_counts(discs, 10, candidate);
+      CAPTURE(name(candidate.technique));
+      CHECK(expected.references == counted.references);
+      CHECK(expected.placements == counted.placements);
+      if (candidate.technique == Technique::sphere_tree || candidate.technique == Technique::box_tree) continue;
+      CHECK(expected.culls == counted.culls);
+      CHECK(expected.visits == counted.visits);
+      CHECK(expected.sorted == counted.sorted);
+    }
+  }
+
+  TEST_CASE("brute force tests every disc with every ray; a disc is hit by d²/(2 r0²) of them") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 500, 0.05, 3);
+    const double outer = sim::enclosing_sphere(discs).radius;
+    const Counts<double> counts = structural_counts(discs, 1e6, candidates().front());
+    CHECK(counts.disc_tests == 5e8);
+    CHECK(counts.hits == Approx(5e8 * 0.05 * 0.05 / (2 * outer * outer)).epsilon(1e-12));
+    CHECK(structural_counts(discs, 1e6, candidates().front(), {}, true).hits == counts.hits / 2);
+  }
+
+  TEST_CASE("twice the rays, twice the tests; as many references") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 500, 0.05, 3);
+    for (const Candidate& candidate : candidates()) {
+      const Counts<double> once = structural_counts(discs, 1000, candidate);
+      const Counts<double> twice = structural_counts(discs, 2000, candidate);
+      CHECK(twice.disc_tests == Approx(2 * once.disc_tests).epsilon(1e-12));
+      CHECK(twice.cull_tests == Approx(2 * once.cull_tests).epsilon(1e-12));
+      CHECK(twice.references == once.references);
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("numbers out of range are refused, and so is what has no structural tier") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 10, 0.05, 3);
+    const Candidate brute = candidates().front();
+    CHECK_THROWS_AS((void)structural_counts(std::span<const sim::Disc>{}, 10, brute), std::invalid_argument);
+    for (const double rays : {0.0, -1.0, 0.5, std::nan("")})
+      CHECK_THROWS_AS((void)structural_counts(discs, rays, brute), std::invalid_argument);
+    CHECK_THROWS_AS((void)structural_counts(discs, 10, {Technique::octree, OctreeParameters{-1}}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS((void)structural_counts(discs, 10, {Technique::sphere_cache_published, SphereCacheParameters{}}),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(
+        (void)structural_counts(discs, 10, {Technique::sphere_cache, SphereCacheParameters{0.5, 2, SampleOrder::none}}),
+        std::invalid_argument);
+    for (const Traversal traversal : {Traversal::restart, Traversal::neighbour_links})
+      CHECK_THROWS_AS((void)structural_counts(discs, 10, {Technique::octree, OctreeParameters{3, traversal}}),
+                      std::invalid_argument);
+  }
+}
+
+TEST_SUITE("statistical") {
+  // Seeds are fixed. Where discs are clumped a line meets many or none: 150 000 lines leave up to 1 % of noise.
+  constexpr double rays = 150'000;
+
+  void check_scene(const std::string& scene, double radius) {
+    JobRequest request;
+    request.scene = scene;
+    request.rays = rays;
+    request.samples = 5000;
+    request.disc_radius = Length{radius, true};
+    request.field = sim::Field::isotropic;
+    const Job job = make_job(request);
+    for (const Candidate& candidate : {Candidate{Technique::octree, OctreeParameters{6}},
+                                       {Technique::grid, GridParameters{40}},
+                                       {Technique::bsp, BspParameters{}}}) {
+      const Counts<double> counted = as_expected(sim::run(job.problem(), candidate).counts);
+      const Counts<double> expected = structural_counts(job.discs, rays, candidate);
+      CAPTURE(scene);
+      CAPTURE(name(candidate.technique));
+      CAPTURE(describe(candidate));
+      const auto check = [](double of_structure, double of_run) {
+        CAPTURE(of_structure / of_run);
+        CHECK(std::abs(of_structure / of_run - 1) < 0.02);
+        CHECK_MESSAGE(std::abs(1.04 * of_structure / of_run - 1) > 0.02, "4 % off must show");
+      };
+      CHECK(expected.references == counted.references);
+      check(expected.disc_tests, counted.disc_tests);
+      check(expected.hits, counted.hits);
+      if (counted.nodes > 0) check(expected.nodes, counted.nodes);
+      if (counted.steps > 0) check(expected.steps, counted.steps);
+    }
+  }
+
+  TEST_CASE("the structure of an index says what a search does, in every built-in scene") {
+    check_scene("@uniform", 0.02);
+    check_scene("@tree", 0.02);
+    check_scene("@courtyard", 0.02);
+    check_scene("@cornell", 0.02);
+  }
+
+  TEST_CASE("the samples say what the sphere cache does") {
+    const auto discs = sim::uniform_discs(sim::Body::cube_faces, 2, 5000, 0.03, 3);
+    const auto lines = sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, 30'000);
+    const Candidate candidate = candidates()[1];
+    const Counts<double> counted = as_expected(sim::run(sim::make_problem(lines, discs), candidate).counts);
+    const Counts<double> expected = structural_counts(discs, 30'000, candidate);
+    CHECK(expected.cull_tests == Approx(counted.cull_tests).epsilon(0.02));
+    CHECK(expected.disc_tests == Approx(counted.disc_tests).epsilon(0.02));
+    CHECK(expected.listed == Approx(counted.listed).epsilon(0.02));
+    CHECK(1.04 * expected.cull_tests != Approx(counted.cull_tests).epsilon(0.02));
+  }
+}

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <type_traits>
+
+#include "detp/sim/geometry/geometry.hpp"
+#include "embree_mode.hpp"
+
+namespace detp::validate {
+
+struct ReleaseEmbree {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+  void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
+};
+template <class Handle>
+using EmbreeOwned = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree>;
+
+/// Throws std::runtime_error, with its number, if an Embree call of this thread has failed.
+void require_no_embree_error(RTCDevice device);
+
+/// A device that builds with that many threads, started before it is returned.
+[[nodiscard]] EmbreeOwned<RTCDevice> make_embree_device(int threads);
+
+/// A committed scene of oriented discs, in single precision; primitive i is disc i. A filter in the context is heeded.
+[[nodiscard]] EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs,
+                                                       EmbreeQuality quality, const std::stop_token& stop = {});
+
+}  // namespace detp::validate

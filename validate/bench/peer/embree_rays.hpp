@@ -1,0 +1,64 @@
+#pragma once
+
+#include <embree3/rtcore.h>
+
+#include <glm/geometric.hpp>
+
+#include "detp/sim/geometry/geometry.hpp"
+#include "sse_state.hpp"
+
+namespace detp::validate {
+
+/// Turns rays into Embree's, in single precision. Embree's rays go forwards only, so that a line, unbounded both ways,
+/// becomes the ray that starts before all discs.
+class EmbreeRayMaker {
+ public:
+  /// The sphere holds all discs.
+  explicit EmbreeRayMaker(const sim::Sphere& around) : around_(around) {}
+
+  /// A ray and its end.
+  struct Placed {
+    glm::vec3 origin;
+    float end;
+  };
+
+  [[nodiscard]] Placed place(const sim::Ray& ray) const {
+    if (!ray.is_line()) return {glm::vec3(ray.origin), static_cast<float>(ray.length)};
+    const double start = glm::dot(around_.centre - ray.origin, ray.direction) - around_.radius;
+    return {glm::vec3(ray.origin + start * ray.direction), static_cast<float>(2 * around_.radius)};
+  }
+
+  void put(const sim::Ray& ray, unsigned id, RTCRay& to) const {
+    const Placed placed = place(ray);
+    const glm::vec3 direction(ray.direction);
+    store_four(&to.org_x, placed.origin.x, placed.origin.y, placed.origin.z, 0);
+    store_four(&to.dir_x, direction.x, direction.y, direction.z, 0);
+    to.tfar = placed.end;
+    to.mask = 0xFFFFFFFFU;
+    to.id = id;
+    to.flags = 0;
+  }
+
+  /// Into one lane of a packet: RTCRay8 or RTCRay16.
+  template <class Packet>
+  void put(const sim::Ray& ray, unsigned id, Packet& to, std::size_t lane) const {
+    const Placed placed = place(ray);
+    to.org_x[lane] = placed.origin.x;
+    to.org_y[lane] = placed.origin.y;
+    to.org_z[lane] = placed.origin.z;
+    to.tnear[lane] = 0;
+    to.dir_x[lane] = static_cast<float>(ray.direction.x);
+    to.dir_y[lane] = static_cast<float>(ray.direction.y);
+    to.dir_z[lane] = static_cast<float>(ray.direction.z);
+    to.time[lane] = 0;
+    to.tfar[lane] = placed.end;
+    to.mask[lane] = 0xFFFFFFFFU;
+    to.id[lane] = id;
+    to.flags[lane] = 0;
+  }
+
+ private:
+  sim::Sphere around_;
+};
+
+}  // namespace detp::validate

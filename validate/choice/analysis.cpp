@@ -1,0 +1,153 @@
+#include "analysis.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "detp/sim/base/stopped.hpp"
+#include "detp/validate/base/in_turns.hpp"
+#include "detp/validate/base/stop_after.hpp"
+#include "detp/validate/statistics/statistics.hpp"
+#include "neighbours.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double least_patience = 0.02;  // seconds
+
+class Analyser {
+ public:
+  Analyser(const sim::Problem& problem, const AnalysisOptions& options) : problem_(problem), options_(options) {}
+
+  /// Counts those that are not there yet, one after another.
+  void count(const std::vector<Analysed>& wanted) {
+    const std::size_t first = all_.candidates.size();
+    for (const Analysed& one : wanted)
+      if (!has(one.candidate)) all_.candidates.push_back(one);
+    for (std::size_t i = first; i < all_.candidates.size() && !options_.stop.stop_requested(); ++i) {
+      show(i, 0.5 * static_cast<double>(i) / static_cast<double>(all_.candidates.size()));
+      count_one(all_.candidates[i]);
+    }
+  }
+
+  [[nodiscard]] std::vector<Candidate> leaders() const {
+    std::vector<std::size_t> places;
+    for (std::size_t i = 0; i < first_seconds_.size(); ++i)
+      if (all_.candidates[i].counted) places.push_back(i);
+    std::sort(places.begin(), places.end(),
+              [&](std::size_t a, std::size_t b) { return first_seconds_[a] < first_seconds_[b]; });
+    places.resize(std::min(places.size(), options_.leaders));
+    std::vector<Candidate> found;
+    for (const std::size_t place : places) found.push_back(all_.candidates[place].candidate);
+    return found;
+  }
+
+  [[nodiscard]] std::vector<Candidate> candidates() const {
+    std::vector<Candidate> found;
+    for (const Analysed& one : all_.candidates) found.push_back(one.candidate);
+    return found;
+  }
+
+  Analysis finish() && {
+    time_all();
+    for (std::size_t i = 0; i < all_.candidates.size(); ++i)
+      if (const auto& seconds = all_.candidates[i].seconds;
+          seconds && (!all_.best || *seconds < *all_.candidates[*all_.best].seconds))
+        all_.best = i;
+    if (all_.best && all_.candidates.front().seconds)
+      all_.regret = *all_.candidates.front().seconds / *all_.candidates[*all_.best].seconds - 1;
+    all_.stopped = options_.stop.stop_requested();
+    return std::move(all_);
+  }
+
+ private:
+  [[nodiscard]] bool has(const Candidate& candidate) const {
+    return std::any_of(all_.candidates.begin(), all_.candidates.end(),
+                       [&](const Analysed& one) { return one.candidate == candidate; });
+  }
+
+  void show(std::size_t place, double done) const {
+    if (options_.progress) options_.progress(name(all_.candidates[place].candidate.technique), done);
+  }
+
+  void count_one(Analysed& one) {
+    first_seconds_.push_back(std::numeric_limits<double>::infinity());
+    const bool choice = all_.tried == 0;
+    const double patience = std::max(least_patience, options_.patience * fastest_);
+    const sim::Outcome outcome = choice ? run(one, true, options_.stop) : run_for(one, patience);
+    if (options_.stop.stop_requested() || !one.refused.empty()) return;
+    ++all_.tried;
+    if (outcome.stopped) {
+      one.given_up_after = patience;
+      return;
+    }
+    one.counted = outcome.counts;
+    first_seconds_.back() = outcome.seconds.total();
+    fastest_ = std::min(fastest_, outcome.seconds.total());
+  }
+
+  sim::Outcome run_for(Analysed& one, double seconds) {
+    const StopAfter limit(options_.stop, seconds);
+    return run(one, true, limit.token());
+  }
+
+  sim::Outcome run(Analysed& one, bool counting, const std::stop_token& stop) {
+    sim::Outcome stopped;
+    stopped.stopped = true;
+    try {
+      return sim::run(problem_, one.candidate, {.count = counting, .stop = stop});
+    } catch (const sim::Stopped&) {
+    } catch (const std::length_error& error) {
+      one.refused = error.what();
+    }
+    return stopped;
+  }
+
+  void time_all() {
+    std::vector<std::vector<double>> seconds(all_.candidates.size());
+    in_turns(all_.candidates.size(), options_.repeats, [&](std::size_t i, int round) {
+      Analysed& one = all_.candidates[i];
+      const bool behind = one.counted && first_seconds_[i] > options_.far_behind * fastest_;
+      if (!one.counted || (behind && round > 0)) return true;
+      if (options_.stop.stop_requested()) return false;
+      show(i, 0.5 + 0.5 * round / options_.repeats);
+      const sim::Outcome outcome = run(one, false, options_.stop);
+      if (!outcome.stopped) seconds[i].push_back(outcome.seconds.total());
+      return true;
+    });
+    for (std::size_t i = 0; i < all_.candidates.size(); ++i)
+      if (!seconds[i].empty()) {
+        const auto [low, high] = std::minmax_element(seconds[i].begin(), seconds[i].end());
+        all_.candidates[i].seconds = median(seconds[i]);
+        all_.candidates[i].spread = 0.5 * (*high - *low);
+      }
+  }
+
+  const sim::Problem& problem_;
+  const AnalysisOptions& options_;
+  Analysis all_;
+  std::vector<double> first_seconds_;  ///< of the counting runs; infinite where there is none
+  double fastest_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& ranking,
+                 const AnalysisOptions& options) {
+  const auto predicted = [&](const std::vector<Candidate>& candidates) {
+    std::vector<Analysed> all;
+    for (const Candidate& candidate : candidates)
+      all.push_back({.candidate = candidate,
+                     .predicted = options.predict ? options.predict(candidate) : std::optional<model::Ranked>{}});
+    return all;
+  };
+  Analyser analyser(problem, options);
+  std::vector<Analysed> ranked;
+  for (const model::Ranked& one : ranking) ranked.push_back({.candidate = one.candidate, .predicted = one});
+  analyser.count(ranked);
+  analyser.count(predicted(techniques_left_out(analyser.candidates())));
+  for (const Candidate& leader : analyser.leaders()) analyser.count(predicted(neighbours(leader)));
+  return std::move(analyser).finish();
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,259 @@
+#include "job.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/files/disc_file.hpp"
+#include "detp/sim/files/ray_file.hpp"
+#include "detp/sim/photons/photon_paths.hpp"
+#include "detp/sim/photons/photon_source.hpp"
+#include "detp/sim/scene/open/open_scene.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/technique/streamed.hpp"
+#include "measure.hpp"
+#include "outliers.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double default_rays = 100'000;
+
+/// A count of things of that many bytes each, which must fit in memory.
+std::size_t count_in_memory(std::string_view what, double count, std::size_t bytes) {
+  require_count(fmt::format("number of {}", what), count, 1, 1e18);
+  sim::require_memory(fmt::format("{} {}", count, what), count * static_cast<double>(bytes));
+  return static_cast<std::size_t>(count);
+}
+
+double triangle_area(const sim::Mesh& mesh, const std::stop_token& stop) {
+  sim::StopCheck check(stop, "measuring triangles");
+  double area = 0;
+  sim::for_each_checked(std::span(mesh.triangles), check, [&](const auto& corners) {
+    const glm::dvec3& a = mesh.positions[corners[0]];
+    area += 0.5 * glm::length(glm::cross(mesh.positions[corners[1]] - a, mesh.positions[corners[2]] - a));
+  });
+  return area;
+}
+
+double longest_side(const sim::Box& box) {
+  const glm::dvec3 size = box.size();
+  return std::max({size.x, size.y, size.z});
+}
+
+double absolute(const Length& length, double side) { return length.relative ? length.value * side : length.value; }
+
+/// Half the distance between samples: of neighbouring vertices, or of points spread over a surface or a volume.
+double default_radius(const sim::Scene& scene, double side, double edge_length) {
+  const double root = scene.mesh.triangles.empty() ? 1.0 / 3 : 0.5;
+  const double spread = side / std::pow(static_cast<double>(scene.samples.size()), root);
+  return 0.5 * (edge_length > 0 ? edge_length : spread);
+}
+
+std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double radius, const std::stop_token& stop) {
+  require_positive("disc radius", radius);
+  sim::StopCheck check(stop, "making discs");
+  std::vector<sim::Disc> discs;
+  discs.reserve(samples.size());
+  sim::for_each_checked(std::span(samples), check, [&](const sim::Sample& sample) {
+    discs.push_back({sample.position, sample.normal, radius});
+  });
+  return discs;
+}
+
+/// Whether samples given by numbers lie on the faces of the cube, rather than fill it.
+bool on_faces(const Workload& workload) { return workload.dimension < 2.5; }
+
+class JobMaker {
+ public:
+  JobMaker(const JobRequest& request, std::stop_token stop) : request_(request), stop_(std::move(stop)) {}
+
+  Job make() {
+    const sim::Stopwatch watch;
+    sim::in_memory("reading the scene", [&] { request_.numbers_alone() ? from_numbers() : from_scene_and_files(); });
+    job_.front_facing = request_.front_facing;
+    sim::in_memory("making rays", [&] { make_rays(); });
+    job_.read_seconds = watch.seconds();
+    sim::in_memory("measuring rays and discs", [&] { measure_workload(); });
+    return std::move(job_);
+  }
+
+ private:
+  void from_numbers() {
+    const Workload workload = workload_of_numbers(request_);
+    job_.name = name_of_numbers(workload);
+    job_.discs =
+        sim::uniform_discs(on_faces(workload) ? sim::Body::cube_faces : sim::Body::cube, scene_side(workload),
+                           count_in_memory("samples", workload.samples, sizeof(sim::Sample) + sizeof(sim::Disc)),
+                           workload.disc_radius, request_.seed, stop_);
+  }
+
+  void from_scene_and_files() {
+    if (request_.scene) open_scene();
+    if (request_.disc_file) {
+      if (request_.samples) throw std::invalid_argument("--samples is for scenes; a disc file is taken whole");
+      std::optional<double> radius;
+      if (request_.disc_radius && !request_.disc_radius->relative) radius = request_.disc_radius->value;
+      if (request_.disc_radius && request_.disc_radius->relative)
+        throw std::invalid_argument("with --discs the disc radius must be a length, not a percentage");
+      job_.discs = sim::read_discs(*request_.disc_file, radius, stop_);
+      job_.name = request_.scene ? job_.name : *request_.disc_file;
+    }
+    if (job_.discs.empty()) throw std::invalid_argument("rays alone answer nothing: name a scene or --discs FILE");
+  }
+
+  void open_scene() {
+    std::optional<std::size_t> samples;
+    if (request_.samples)
+      samples = count_in_memory("samples", *request_.samples, sizeof(sim::Sample) + sizeof(sim::Disc));
+    scene_ = sim::open_scene({*request_.scene, samples, request_.seed}, stop_);
+    job_.name = scene_->name;
+    job_.notices = scene_->notices;
+    job_.triangles = scene_->mesh.triangles.size();
+    surface_ = {triangle_area(scene_->mesh, stop_), request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
+    const double side = longest_side(scene_->box);
+    const double radius = request_.disc_radius ? absolute(*request_.disc_radius, side)
+                                               : default_radius(*scene_, side, surface_.edge_length);
+    job_.discs = discs_at(scene_->samples, radius, stop_);
+  }
+
+  void make_rays() {
+    if (request_.ray_file) {
+      if (request_.rays) throw std::invalid_argument("--rays is for fields of rays; a ray file is taken whole");
+      job_.rays = sim::read_rays(*request_.ray_file, stop_);
+      job_.field = sim::Field::photons;
+      return;
+    }
+    const double rays = request_.rays.value_or(default_rays);
+    require_count("number of rays", rays, 1, 1e18);
+    job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
+    const auto block = static_cast<double>(sim::default_block(job_.discs.size()));
+    if (request_.stream && rays > block && rays < UINT32_MAX) return make_stream(static_cast<std::uint64_t>(rays));
+    const double made = request_.workload_only ? std::min(rays, block) : rays;
+    const std::size_t count = count_in_memory("rays", made, sizeof(sim::Ray));
+    if (job_.field == sim::Field::isotropic) {
+      make_lines(count);
+      return;
+    }
+    job_.rays = sim::photon_paths(scene_for_photons(), count, request_.seed, stop_);
+  }
+
+  void make_lines(std::size_t count) {
+    constexpr std::size_t at_once = std::size_t{1} << 18;
+    const sim::LinesOfField lines(sim::enclosing_sphere(job_.discs, stop_), request_.seed, count);
+    job_.rays.reserve(count);
+    for (std::size_t made = 0; made < count; made = job_.rays.size()) {
+      job_.rays.resize(std::min(count, made + at_once));
+      lines.read(made, std::span(job_.rays).subspan(made), stop_);
+    }
+  }
+
+  const sim::Scene& scene_for_photons() const {
+    if (!scene_) throw std::invalid_argument("photon paths take a scene; name one, or use --field isotropic");
+    return *scene_;
+  }
+
+  void make_stream(std::uint64_t count) {
+    if (job_.field == sim::Field::isotropic)
+      job_.stream = std::make_unique<sim::LinesOfField>(sim::enclosing_sphere(job_.discs, stop_), request_.seed, count);
+    else
+      job_.stream = std::make_unique<sim::PhotonSource>(scene_for_photons(), count, request_.seed, stop_);
+  }
+
+  /// Of a stream, on its first block.
+  Workload measure_rays_and_discs() {
+    if (!job_.stream) {
+      const sim::Problem problem = job_.problem(1, stop_);
+      job_.warnings = outlier_warnings(problem, stop_);
+      Workload workload = measure(problem, surface_, stop_);
+      if (request_.workload_only && !request_.ray_file)
+        workload.rays = std::max(workload.rays, request_.rays.value_or(default_rays));
+      return workload;
+    }
+    std::vector<sim::Ray> block(sim::default_block(job_.discs.size()));
+    job_.stream->read(0, block, stop_);
+    const sim::Problem problem = sim::make_problem(block, job_.discs, job_.front_facing, 1, stop_);
+    job_.warnings = outlier_warnings(problem, stop_);
+    Workload workload = measure(problem, surface_, stop_);
+    workload.rays = static_cast<double>(job_.stream->size());
+    return workload;
+  }
+
+  void measure_workload() {
+    job_.workload = measure_rays_and_discs();
+    if (request_.numbers_alone()) {
+      const Workload numbers = workload_of_numbers(request_);
+      job_.workload.dimension = numbers.dimension;
+      job_.workload.sample_extent = numbers.sample_extent;
+    }
+    if (request_.dimension) job_.workload.dimension = *request_.dimension;
+    if (request_.sample_extent) job_.workload.sample_extent = *request_.sample_extent;
+    check(job_.workload);
+  }
+
+  const JobRequest& request_;
+  std::stop_token stop_;
+  std::optional<sim::Scene> scene_;
+  SurfaceFacts surface_;
+  Job job_;
+};
+
+}  // namespace
+
+Length parse_length(std::string_view text) {
+  const bool relative = text.ends_with('%');
+  std::string_view digits = text;
+  if (relative) digits.remove_suffix(1);
+  double value = 0;
+  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (error != std::errc{} || end != digits.data() + digits.size())
+    throw std::invalid_argument(
+        fmt::format("disc radius must be a length or a percentage, as 0.02 or 4% (got {})", shortened(text)));
+  require_positive("disc radius", value);
+  const Length length{relative ? value / 100 : value, relative};
+  require_positive("disc radius", length.value);  // the hundredth of the least number is 0
+  return length;
+}
+
+Workload workload_of_numbers(const JobRequest& request) {
+  if (!request.samples) throw std::invalid_argument("without a scene, the number of samples is needed: --samples N");
+  if (!request.disc_radius) throw std::invalid_argument("without a scene, the disc radius is needed: --disc-radius d");
+  if (!request.sphere_radius && !request.scene_side)
+    throw std::invalid_argument("without a scene, its size is needed: --sphere-radius r0 or --scene-side s");
+  if (request.sphere_radius) require_positive("sphere radius", *request.sphere_radius);
+  if (request.scene_side) require_positive("scene side", *request.scene_side);
+  double d = request.disc_radius->value;
+  double side = request.scene_side.value_or(0);
+  if (request.disc_radius->relative) {
+    // s from r₀ = s√3/2 + xs.
+    if (!request.scene_side) side = *request.sphere_radius / (std::sqrt(0.75) + d);
+    d *= side;
+  }
+  const double outer = request.sphere_radius.value_or(enclosing_radius(side, d));
+  // A disc as large as S₀ leaves no room for the samples' cube: then the cube inscribed in S₀.
+  if (!(side > 0)) side = (d < outer ? outer - d : outer) / std::sqrt(0.75);
+  Workload workload =
+      cube_workload(request.rays.value_or(default_rays), *request.samples, d, side, request.dimension.value_or(3));
+  workload.sphere_radius = outer;
+  workload.sample_extent = request.sample_extent.value_or(0);
+  if (request.sample_extent) require_positive("sample extent", *request.sample_extent);
+  workload.front_facing = request.front_facing;
+  check(workload);
+  return workload;
+}
+
+std::string_view name_of_numbers(const Workload& workload) {
+  return on_faces(workload) ? "uniform samples on the faces of a cube" : "uniform samples in a cube";
+}
+
+Job make_job(const JobRequest& request, std::stop_token stop) { return JobMaker(request, std::move(stop)).make(); }
+
+}  // namespace detp::validate

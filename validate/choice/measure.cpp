@@ -1,0 +1,118 @@
+#include "measure.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/ray_box.hpp"
+
+namespace detp::validate {
+namespace {
+
+sim::Box box_of_centres(std::span<const sim::Disc> discs, sim::StopCheck& check) {
+  sim::Box box;
+  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) { box.include(disc.centre); });
+  return box;
+}
+
+/// Occupied cells at each level of halving, 0 … 16.
+std::vector<double> occupied_cells(std::span<const sim::Disc> discs, const std::stop_token& stop) {
+  sim::StopCheck check(stop, "measuring the samples");
+  const sim::Box box = box_of_centres(discs, check);
+  std::vector<std::uint64_t> codes;
+  codes.reserve(discs.size());
+  sim::for_each_checked(discs, check,
+                        [&](const sim::Disc& disc) { codes.push_back(sim::lebesgue_code(disc.centre, box)); });
+  std::sort(codes.begin(), codes.end(), [&](std::uint64_t a, std::uint64_t b) {
+    check.after(1);
+    return a < b;
+  });
+  std::vector<double> occupied;
+  for (int level = 0; level <= 16; ++level) {
+    const int shift = 48 - 3 * level;
+    double cells = 1;
+    sim::for_each_checked(1, codes.size(), check,
+                          [&](std::size_t i) { cells += codes[i] >> shift != codes[i - 1] >> shift ? 1 : 0; });
+    occupied.push_back(cells);
+  }
+  return occupied;
+}
+
+/// Mean length of the rays inside the samples' box grown by the disc radius; 0 where all are unbounded lines.
+double mean_path_length(const sim::Problem& problem, const sim::Box& box, double disc_radius,
+                        const std::stop_token& stop) {
+  sim::StopCheck check(stop, "measuring the rays");
+  const sim::Box grown{box.low - disc_radius, box.high + disc_radius};
+  double sum = 0;
+  bool segments = false;
+  sim::for_each_checked(problem.rays, check, [&](const sim::Ray& ray) {
+    segments = segments || !ray.is_line();
+    const sim::Stretch inside = sim::ClippedRay(ray).inside(grown);
+    if (!inside.empty()) sum += inside.to - inside.from;
+  });
+  return segments ? sum / static_cast<double>(problem.rays.size()) : 0;
+}
+
+/// The root of the mean square; exactly the discs' radius where all have the same.
+double rms_radius(std::span<const sim::Disc> discs, sim::StopCheck& check) {
+  double sum = 0;
+  bool same = true;
+  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) {
+    sum += disc.radius * disc.radius;
+    same = same && disc.radius == discs.front().radius;
+  });
+  return same ? discs.front().radius : std::sqrt(sum / static_cast<double>(discs.size()));
+}
+
+}  // namespace
+
+double sample_dimension(std::span<const sim::Disc> discs, const std::stop_token& stop) {
+  constexpr double least_points = 4096;
+  constexpr double points_per_cell = 4;
+  constexpr int levels = 3;
+  const auto points = static_cast<double>(discs.size());
+  if (points < least_points) return 3;
+  const std::vector<double> occupied = occupied_cells(discs, stop);
+  int last = levels;
+  while (last < 16 && occupied[static_cast<std::size_t>(last) + 1] * points_per_cell <= points) ++last;
+  Eigen::Matrix<double, levels, 2> line;
+  Eigen::Matrix<double, levels, 1> logs;
+  for (int i = 0; i < levels; ++i) {
+    line.row(i) << 1, i;
+    logs[i] = std::log2(occupied[static_cast<std::size_t>(last - levels + 1 + i)]);
+  }
+  const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(logs);
+  return std::clamp(fit[1], 1.0, 3.0);
+}
+
+Workload measure(const sim::Problem& problem, const SurfaceFacts& surface, const std::stop_token& stop) {
+  sim::StopCheck check(stop, "measuring the samples");
+  const sim::Box box = box_of_centres(problem.discs, check);
+  const glm::dvec3 size = box.size();
+  const double radius = rms_radius(problem.discs, check);
+  Workload workload{.rays = static_cast<double>(problem.rays.size()),
+                    .samples = static_cast<double>(problem.discs.size()),
+                    .disc_radius = radius,
+                    .sphere_radius = problem.enclosing.radius,
+                    .box = {size.x, size.y, size.z},
+                    .dimension = sample_dimension(problem.discs, stop),
+                    .sample_distance = surface.edge_length,
+                    .path_length = mean_path_length(problem, box, radius, stop),
+                    .front_facing = problem.front_facing};
+  // One sample, or all in one place: the disc itself is the only length there is.
+  if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
+  workload.sample_extent = sample_extent(workload);  // of their own: a scene's samples need not lie on its box
+  if (surface.area > 0) {
+    const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);
+    Workload volume = workload;
+    volume.dimension = 3;
+    volume.sample_extent = 0;
+    workload.sample_extent = std::pow(sample_extent(volume), weight) * std::pow(surface.area, 1 - weight);
+  }
+  return workload;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,146 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "batches.hpp"
+#include "detp/model/rank/choose.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/choice/unit_costs.hpp"
+#include "experiments.hpp"
+
+namespace detp::validate {
+namespace {
+
+/// The unit costs themselves explain times to a factor of 1.23 in the median: a count that is nearer than this to what
+/// was counted is not what makes a predicted time wrong.
+constexpr double tolerance = 0.25;
+
+/// A technique that takes each ray by itself is counted on a sample of the rays if it is predicted to take longer.
+constexpr double most_seconds = 3;
+
+std::size_t batches_of(std::size_t rays) { return std::min<std::size_t>(batch_count, rays); }
+
+/// Every ray goes to one of the batches, dealt out in short runs: neighbours (pieces of one photon's path) stay
+/// together, and each batch has rays from all over a sorted file.
+std::vector<std::vector<sim::Ray>> deal(const std::vector<sim::Ray>& rays) {
+  const std::size_t batches = batches_of(rays.size());
+  const std::size_t run = std::clamp<std::size_t>(rays.size() / batches, 1, 64);
+  std::vector<std::vector<sim::Ray>> dealt(batches);
+  for (std::size_t i = 0; i < rays.size(); ++i) dealt[i / run % batches].push_back(rays[i]);
+  return dealt;
+}
+
+/// Takes each ray by itself, so that a sample of the rays needs that share of the tests.
+bool searches_ray_by_ray(Technique technique) {
+  return technique == Technique::brute_force || record_of(technique).ray_by_ray;
+}
+
+struct Batch {
+  double rays = 0;
+  Counts<double> counts;
+};
+
+/// What a candidate did: in one run over its rays, and in runs over parts of them.
+struct Counted {
+  Batch all;
+  std::vector<Batch> batches = {};
+};
+
+std::optional<Counted> count(const Experiment& experiment, const model::Ranked& ranked) {
+  const ChoiceQuestion& question = *experiment.choice;
+  const double share =
+      searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
+  const auto taken = static_cast<std::size_t>(std::ceil(share * static_cast<double>(question.rays.size())));
+  // Evenly from all of them: the last one of each stride.
+  std::vector<sim::Ray> rays;
+  for (std::size_t i = 0; i < taken; ++i) rays.push_back(question.rays[(i + 1) * question.rays.size() / taken - 1]);
+  bool stopped = false;
+  const auto counts_of = [&](const std::vector<sim::Ray>& some) {
+    const sim::Problem problem = sim::make_problem(some, experiment.discs, question.workload.front_facing);
+    const sim::Outcome outcome = sim::run(problem, ranked.candidate, {.stop = experiment.stop});
+    if (outcome.stopped) stopped = true;
+    return Batch{static_cast<double>(some.size()), as_expected(outcome.counts)};
+  };
+  Counted counted{.all = counts_of(rays)};
+  for (const std::vector<sim::Ray>& batch : deal(rays)) counted.batches.push_back(counts_of(batch));
+  if (stopped) return std::nullopt;
+  return counted;
+}
+
+/// Whether the count depends on how many rays there are, and adds up over parts of them.
+bool adds_up_over_rays(std::string_view term) { return term != "culls" && term != "visits" && term != "placements"; }
+
+/// Of all the question's rays. The standard error is that between the batches, and no smaller than that of so many
+/// independent events; infinite where there is a single ray.
+Estimate observed(const Counted& counted, const CountTerm<double>& term, double predicted, double question_rays) {
+  const double all = counted.all.counts.*term.term;
+  if (!adds_up_over_rays(term.name)) return {all, 0};
+  const double scale = question_rays / counted.all.rays;
+  Estimate estimate{scale * all, std::numeric_limits<double>::infinity()};
+  if (counted.batches.size() < 2) return estimate;
+  std::vector<double> parts;
+  for (const Batch& batch : counted.batches) parts.push_back(question_rays / batch.rays * batch.counts.*term.term);
+  estimate.standard_error = std::max(batch_means(parts).standard_error, std::sqrt(scale * predicted));
+  return estimate;
+}
+
+/// What choose prices, and the hits.
+bool is_claimed(const CountTerm<double>& term, Technique technique) {
+  if (term.name == "sorted") return false;  // the number of discs, which is given
+  Counts<double> one;
+  one.*term.term = 1;
+  return term.name == "hits" || price(one, built_in_unit_costs(), technique).total() > 0;
+}
+
+std::string with_dashes(std::string_view text) {
+  std::string dashed(text);
+  std::replace(dashed.begin(), dashed.end(), '_', '-');
+  return dashed;
+}
+
+std::vector<Finding> candidate_findings(const Experiment& experiment, const model::Ranked& ranked) {
+  const sim::Stopwatch clock;
+  const auto counted = count(experiment, ranked);
+  if (!counted) return {};
+  const std::string_view technique = name(ranked.candidate.technique);
+  const std::string parameters = describe(ranked.candidate);
+  const std::string candidate = fmt::format("{}{}{}", technique, parameters.empty() ? "" : " ", parameters);
+  const double rays = static_cast<double>(experiment.choice->rays.size());
+  std::vector<Finding> findings;
+  for (const CountTerm<double>& count_term : count_terms<double>) {
+    const std::string_view term = count_term.name;
+    const double predicted = ranked.counts.*count_term.term;
+    if (!is_claimed(count_term, ranked.candidate.technique)) continue;
+    const Estimate found = observed(*counted, count_term, predicted, rays);
+    if (predicted == 0 && found.mean == 0) continue;
+    findings.push_back({.id = fmt::format("choice.{}.{}", technique, with_dashes(term)),
+                        .quantity = fmt::format("{} of {}, as choose predicts them", with_dashes(term), candidate),
+                        .technique = std::string(technique),
+                        .parameters = parameters,
+                        .predictions = {{model::Form::corrected, "the closed form that choose prices", predicted}},
+                        .observed = found,
+                        .batches = adds_up_over_rays(term) ? std::max(2, static_cast<int>(counted->batches.size())) : 0,
+                        .tolerance = tolerance,
+                        .lines = static_cast<std::uint64_t>(counted->all.rays)});
+  }
+  for (Finding& finding : findings) finding.seconds = clock.seconds();
+  return findings;
+}
+
+}  // namespace
+
+std::vector<Finding> choice_findings(const Experiment& experiment) {
+  std::vector<Finding> findings;
+  if (!experiment.choice) return findings;
+  for (const model::Ranked& ranked : model::rank(experiment.choice->workload, built_in_unit_costs())) {
+    if (experiment.stop.stop_requested()) break;
+    for (Finding& finding : candidate_findings(experiment, ranked)) findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
+}  // namespace detp::validate

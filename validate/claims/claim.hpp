@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "detp/model/vocabulary/form.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/geometry/geometry.hpp"
+#include "detp/validate/statistics/statistics.hpp"
+
+/// A formula against what was counted.
+namespace detp::validate {
+
+/// A formula's value.
+struct Prediction {
+  model::Form form;
+  std::string source;  ///< equation of the paper, or "our derivation"
+  double value = 0;
+};
+
+/// A quantity that was counted, and what the formulas say of it.
+struct Finding {
+  std::string id;               ///< "rebuild-time"
+  std::string quantity;         ///< "T_R per ray, t = 1: geometric mean over Q = 0.3, 0.5, 0.65, 0.8"
+  std::string technique = {};   ///< "sphere-cache"; empty where the claim is about lines alone
+  std::string parameters = {};  ///< "Q 0.65, k 9"; empty where it is about several of them, or none
+  std::vector<Prediction> predictions = {};
+  Estimate observed = {};
+  int batches = 0;       ///< independent batches behind the standard error; 0: exact
+  double tolerance = 0;  ///< relative deviation that still counts as agreement
+  std::uint64_t lines = 0;
+  double seconds = 0;
+};
+
+/// One prediction judged.
+struct Claim {
+  std::string id;  ///< "rebuild-time.corrected"
+  std::string quantity;
+  std::string technique;   ///< as in the finding
+  std::string parameters;  ///< as in the finding
+  model::Form form;
+  std::string source;
+  double predicted = 0;
+  Estimate observed = {};
+  double relative_difference = 0;  ///< observed/predicted - 1
+  double tolerance = 0;
+  double detectable = 0;  ///< relative deviation that would have been refuted
+  Verdict verdict = Verdict::undecided;
+  /// Relative error of the control, with its sign: the formula made wrong by what is just detectable (and by one count
+  /// more where the observation is exact), away from the observation. Towards it, a formula that is a little off would
+  /// come right.
+  double control_offset = 0;
+  double control = 0;
+  Verdict control_verdict = Verdict::undecided;  ///< should be refuted
+  std::uint64_t lines = 0;
+  double seconds = 0;
+};
+
+/// What choose was asked about: its predictions are claims too.
+struct ChoiceQuestion {
+  Workload workload;           ///< as choose measures it
+  std::vector<sim::Ray> rays;  ///< at least one
+};
+
+/// What an experiment works on.
+struct Experiment {
+  Workload workload;                          ///< what the formulas see; lines
+  std::vector<sim::Disc> discs;               ///< of a scene; empty: new ones are drawn, uniform as the workload says
+  std::optional<ChoiceQuestion> choice = {};  ///< of a scene
+  std::uint64_t seed = 1;
+  std::stop_token stop = {};
+};
+
+/// Judges all predictions of all findings, with one budget for a false verdict in the whole run.
+[[nodiscard]] std::vector<Claim> judge_all(const std::vector<Finding>& findings, double budget = 1e-3);
+
+}  // namespace detp::validate

@@ -1,0 +1,182 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "batches.hpp"
+#include "detp/model/disc_index/disc_index.hpp"
+#include "detp/model/disc_index/disc_index_published.hpp"
+#include "detp/model/lines/line_measure.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/geometry/ray_box.hpp"
+#include "detp/sim/index/indexed_search.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/structural/structural.hpp"
+#include "experiments.hpp"
+#include "samples.hpp"
+
+namespace detp::validate {
+namespace {
+
+using model::Form;
+
+constexpr double tolerance = 0.02;
+
+/// What one batch of lines did.
+struct Batch {
+  double lines = 0;
+  double hitting = 0;     ///< lines that hit the index's cube
+  double steps = 0;       ///< of a grid
+  double disc_tests = 0;  ///< of an octree
+  double hits = 0;
+};
+
+int tested_depth(const Workload& workload) {
+  return std::clamp(model::published::octree_depth({workload.disc_radius}, scene_side(workload)), 1, 7);
+}
+
+double lines_that_hit(const std::vector<sim::Ray>& lines, const sim::Box& box) {
+  return static_cast<double>(std::count_if(
+      lines.begin(), lines.end(), [&](const sim::Ray& line) { return !sim::ClippedRay(line).inside(box).empty(); }));
+}
+
+/// The cube that an octree cuts in halves: the index's box, its sides as long as the longest.
+sim::Box index_cube(const std::vector<sim::Disc>& discs) {
+  const sim::Box box = sim::index_box(discs);
+  const glm::dvec3 size = box.size();
+  return {box.low, box.low + std::max({size.x, size.y, size.z})};
+}
+
+/// Lines through S₀, run through one technique, and what of them the discs' cube sees.
+Batch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& discs, const Candidate& candidate, int part,
+                std::size_t count, int batch) {
+  const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch))
+                         .lines(0, count, experiment.stop);
+  const sim::Outcome outcome = sim::run(sim::make_problem(lines, discs), candidate, {.stop = experiment.stop});
+  return {.lines = static_cast<double>(count),
+          .hitting = lines_that_hit(lines, index_cube(discs)),
+          .steps = static_cast<double>(outcome.counts.steps),
+          .disc_tests = static_cast<double>(outcome.counts.disc_tests),
+          .hits = static_cast<double>(outcome.total_hits)};
+}
+
+Estimate ratio(const std::vector<Batch>& batches, double Batch::*above, double Batch::*below) {
+  std::vector<double> numerators;
+  std::vector<double> denominators;
+  for (const Batch& batch : batches) {
+    numerators.push_back(batch.*above);
+    denominators.push_back(batch.*below);
+  }
+  return batch_ratio(numerators, denominators);
+}
+
+/// Two small discs in opposite corners of a cube: nothing but cells.
+Finding cells_finding(const Experiment& experiment) {
+  const sim::Stopwatch clock;
+  const std::size_t lines = lines_a_batch(experiment, 20'000);
+  const int depth = tested_depth(experiment.workload);
+  const std::vector<sim::Disc> corners{{.centre = glm::dvec3{-1}, .radius = 1e-3},
+                                       {.centre = glm::dvec3{1}, .radius = 1e-3}};
+  const auto batches = for_each_batch(experiment, [&](int batch) {
+    return run_batch(experiment, corners, {Technique::grid, GridParameters{1 << depth}}, 20, lines, batch);
+  });
+  const double cells = model::published::cells_per_line(depth);
+  return {.id = "cells-per-line",
+          .quantity = fmt::format("cells of a 2^{} grid crossed by a line that hits its cube", depth),
+          .technique = std::string(name(Technique::grid)),
+          .predictions = {{Form::published, "section 4.2", cells}, {Form::corrected, "section 4.2, unchanged", cells}},
+          .observed = ratio(batches, &Batch::steps, &Batch::hitting),
+          .batches = batch_count,
+          .tolerance = tolerance,
+          .lines = lines * batch_count,
+          .seconds = clock.seconds()};
+}
+
+/// Where events are rare, batches may all see none: no standard error is below that of independent events, √(μ/N).
+void allow_for_rare_events(Finding& finding) {
+  const double least = std::sqrt(finding.predictions.back().value / static_cast<double>(finding.lines));
+  finding.observed.standard_error = std::max(finding.observed.standard_error, least);
+}
+
+/// Uniform samples fill their cube, which lies inside S₀: tests per line that hits it, by the closed form.
+Finding uniform_tests(const Workload& workload, const std::vector<Batch>& batches, int depth) {
+  const double overlapped = model::index_cells(workload, std::ldexp(1.0, depth)).overlapped;
+  return {.id = "octree-tests-per-line",
+          .quantity = fmt::format("ray-disc tests per line that hits the cube, octree of depth {}", depth),
+          .technique = std::string(name(Technique::octree)),
+          .predictions = {{Form::published, "eq (22), n_P / 4^k",
+                           model::published::tests_per_line(workload.samples, depth)},
+                          {Form::corrected, "n_P E(d/a) / 4^k, our derivation",
+                           workload.samples * overlapped / std::ldexp(1.0, 2 * depth)}},
+          .observed = ratio(batches, &Batch::disc_tests, &Batch::hitting)};
+}
+
+/// A flat scene's cube pokes out of S₀, so that fewer lines hit it than its area says: tests per line through S₀.
+/// P(line hits the cube) converts the paper's figure.
+Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches,
+                    int depth) {
+  const double side = index_cube(discs).size().x;
+  const double radius = sim::enclosing_sphere(discs).radius;
+  const double per_cube = 1.5 / std::numbers::pi * side * side / (radius * radius);
+  return {.id = "octree-tests-per-line",
+          .quantity = fmt::format("ray-disc tests per line through S0, octree of depth {}", depth),
+          .technique = std::string(name(Technique::octree)),
+          .predictions = {{Form::published, "eq (22), n_P / 4^k, times P(cube)",
+                           model::published::tests_per_line(workload.samples, depth) * per_cube},
+                          {Form::corrected, "n_P E(d/a) P(cell), our derivation",
+                           model::octree_counts(workload, {depth}).disc_tests / workload.rays}},
+          .observed = ratio(batches, &Batch::disc_tests, &Batch::lines)};
+}
+
+/// By an octree built of the discs for this purpose; the runs that were counted have no part in it.
+Finding structural_tests(const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches, int depth) {
+  const Counts<double> expected = structural_counts(discs, 1, {Technique::octree, OctreeParameters{depth}});
+  return {.id = "octree-tests-structural",
+          .quantity = fmt::format("ray-disc tests per line through S0, octree of depth {}, by its nodes' areas", depth),
+          .technique = std::string(name(Technique::octree)),
+          .predictions = {{Form::corrected, "eq (3) summed over the octree, our derivation", expected.disc_tests}},
+          .observed = ratio(batches, &Batch::disc_tests, &Batch::lines)};
+}
+
+Finding hits_finding(const Workload& workload, const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches) {
+  Workload one_line = workload;
+  one_line.rays = 1;
+  one_line.sphere_radius = sim::enclosing_sphere(discs).radius;
+  return {
+      .id = "hits-per-line",
+      .quantity = "discs that a line through S0 hits",
+      .predictions = {{Form::corrected, "eq (3) with F = 2 pi d^2, our derivation", model::expected_hits(one_line)}},
+      .observed = ratio(batches, &Batch::hits, &Batch::lines)};
+}
+
+}  // namespace
+
+std::vector<Finding> disc_index_findings(const Experiment& experiment) {
+  std::vector<Finding> findings{cells_finding(experiment)};
+  const sim::Stopwatch clock;
+  const Workload& workload = experiment.workload;
+  const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
+  const int depth = tested_depth(workload);
+  const std::size_t lines = std::max<std::size_t>(100, static_cast<std::size_t>(workload.rays) / batch_count);
+  const auto batches = for_each_batch(experiment, [&](int batch) {
+    return run_batch(experiment, discs, {Technique::octree, OctreeParameters{depth}}, 21, lines, batch);
+  });
+  if (experiment.stop.stop_requested()) return {};
+  std::vector<Finding> found{
+      experiment.discs.empty() ? uniform_tests(workload, batches, depth) : scene_tests(workload, discs, batches, depth),
+      structural_tests(discs, batches, depth), hits_finding(workload, discs, batches)};
+  for (Finding& finding : found) {
+    finding.batches = batch_count;
+    finding.tolerance = tolerance;
+    finding.lines = lines * batch_count;
+    finding.seconds = clock.seconds();
+    allow_for_rare_events(finding);
+    findings.push_back(std::move(finding));
+  }
+  return findings;
+}
+
+}  // namespace detp::validate

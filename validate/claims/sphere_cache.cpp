@@ -1,0 +1,204 @@
+#include "detp/model/sphere_cache/sphere_cache.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "detp/model/optimum/best_ratio.hpp"
+#include "detp/model/rank/predict.hpp"
+#include "detp/model/sphere_cache/sphere_cache_published.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/structural/structural_walk.hpp"
+#include "experiments.hpp"
+#include "samples.hpp"
+
+namespace detp::validate {
+namespace {
+
+using model::Form;
+
+constexpr std::array ratios{0.3, 0.5, 0.65, 0.8};
+constexpr std::string_view over_ratios = "geometric mean over Q = 0.3, 0.5, 0.65, 0.8";
+constexpr double tolerance = 0.025;
+constexpr double least_rebuilds = 30;
+
+/// Logarithms of per-ray costs and of rebuilds, one for each Q: counted, and as the two forms have them.
+struct Logs {
+  double rebuilds = 0;  ///< mean over the spheres compared
+  double rebuild_time = 0;
+  double intersect_time = 0;
+};
+
+struct SetResult {
+  std::array<Logs, ratios.size()> counted, published, corrected;
+  std::array<double, ratios.size()> time_ratio{};  ///< counted T_R over the structural one
+};
+
+SphereCacheParameters parameters_for(const Workload& workload, double ratio) {
+  const std::int64_t k =
+      model::sphere_count(Form::corrected, {ratio}, {workload.disc_radius}, {workload.sphere_radius});
+  return {ratio, std::max<std::int64_t>(1, k), SampleOrder::lebesgue};
+}
+
+/// Mean of ln m_i over the spheres for which the corrected law expects at least 30 rebuilds. Same spheres for all.
+template <class Rebuilds>
+double mean_log_rebuilds(const std::vector<model::SphereLevel>& levels, const Rebuilds& rebuilds) {
+  double sum = 0;
+  double count = 0;
+  for (std::size_t i = 0; i < levels.size(); ++i)
+    if (levels[i].rebuilds >= least_rebuilds) {
+      sum += std::log(std::max(1.0, rebuilds(i)));
+      ++count;
+    }
+  return count > 0 ? sum / count : 0;
+}
+
+/// One Q on one set of samples: a run of the technique, and the models of it.
+void compare(SetResult& result, std::size_t q, const Workload& workload, const sim::Problem& problem,
+             const Experiment& experiment) {
+  const SphereCacheParameters parameters = parameters_for(workload, ratios[q]);
+  const sim::Outcome run =
+      sim::run(problem, {Technique::sphere_cache, parameters}, {.engine = Engine::plain, .stop = experiment.stop});
+  if (run.stopped) return;
+  const auto rays = static_cast<double>(problem.rays.size());
+  const auto levels = model::sphere_levels(workload, parameters, parameters.spheres);
+  const auto of_published = [&](std::size_t i) {
+    return std::min(workload.samples, model::published::rebuilds({ratios[q]}, static_cast<std::int64_t>(i) + 1));
+  };
+  result.counted[q] = {mean_log_rebuilds(levels,
+                                         [&](std::size_t i) {  // spheres that no disc fitted in were never built
+                                           return i < run.spheres.size() ? static_cast<double>(run.spheres[i].rebuilds)
+                                                                         : 0;
+                                         }),
+                       std::log(static_cast<double>(run.counts.cull_tests) / rays),
+                       std::log(static_cast<double>(run.counts.disc_tests) / rays)};
+  const Counts<double> corrected = model::predict(workload, {Technique::sphere_cache, parameters});
+  result.corrected[q] = {mean_log_rebuilds(levels, [&](std::size_t i) { return levels[i].rebuilds; }),
+                         std::log(corrected.cull_tests / workload.rays),
+                         std::log(corrected.disc_tests / workload.rays)};
+  const std::int64_t k =
+      model::sphere_count(Form::published, {ratios[q]}, {workload.disc_radius}, {workload.sphere_radius});
+  const Counts<double> published = model::published::counts(workload, {ratios[q]}, k);
+  result.published[q] = {mean_log_rebuilds(levels, of_published), std::log(published.cull_tests / workload.rays),
+                         std::log(published.disc_tests / workload.rays)};
+  const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, parameters, experiment.stop);
+  result.time_ratio[q] = static_cast<double>(run.counts.cull_tests) / rays / walk.cull_tests;
+}
+
+/// The workload with S₀ as it is around this set of samples.
+Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
+  Workload workload = experiment.workload;
+  workload.sphere_radius = problem.enclosing.radius;
+  return workload;
+}
+
+std::vector<SetResult> run_all(const Experiment& experiment, std::size_t lines) {
+  return for_each_batch(experiment, [&](int set) {
+    SetResult result;
+    const std::vector<sim::Disc> discs = sample_discs(experiment, set);
+    const auto rays =
+        sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 11, set)).lines(0, lines, experiment.stop);
+    const sim::Problem problem = sim::make_problem(rays, discs);
+    for (std::size_t q = 0; q < ratios.size(); ++q)
+      compare(result, q, workload_of(experiment, problem), problem, experiment);
+    return result;
+  });
+}
+
+using Columns = std::array<Logs, ratios.size()> SetResult::*;
+
+/// Geometric mean over the Q's (and, of the predictions, over the sets): exp of the mean logarithm.
+double geometric_mean(const std::vector<SetResult>& sets, Columns columns, double Logs::*term) {
+  double sum = 0;
+  for (const SetResult& set : sets)
+    for (const Logs& logs : set.*columns) sum += logs.*term;
+  return std::exp(sum / static_cast<double>(sets.size() * ratios.size()));
+}
+
+/// The same of what was counted, with its standard error between sets (of the logarithm, carried over).
+Estimate counted(const std::vector<SetResult>& sets, double Logs::*term) {
+  std::vector<double> logs;
+  for (const SetResult& set : sets) {
+    double sum = 0;
+    for (const Logs& one : set.counted) sum += one.*term;
+    logs.push_back(sum / ratios.size());
+  }
+  const Estimate log = batch_means(logs);
+  return {std::exp(log.mean), std::exp(log.mean) * log.standard_error};
+}
+
+/// Lets the technique nest as many spheres as it finds room for.
+Finding count_finding(const Experiment& experiment) {
+  const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
+  const auto ray = sim::LineField(sim::enclosing_sphere(discs), experiment.seed).lines(0, 1);
+  const sim::Problem problem = sim::make_problem(ray, discs);
+  const Workload workload = workload_of(experiment, problem);
+  const sim::Outcome run =
+      sim::run(problem, {Technique::sphere_cache, SphereCacheParameters{model::published_ratio, 10'000}},
+               {.engine = Engine::plain});
+  const auto k = [&](Form form) {
+    return static_cast<double>(
+        model::sphere_count(form, {model::published_ratio}, {workload.disc_radius}, {workload.sphere_radius}));
+  };
+  return {
+      .id = "sphere-count",
+      .quantity = fmt::format("k at Q = {}: spheres that can hold a disc", model::published_ratio),
+      .predictions = {{Form::published, "eq (7)", k(Form::published)}, {Form::corrected, "eq (6)", k(Form::corrected)}},
+      .observed = {static_cast<double>(run.spheres.size()), 0},
+      .lines = 1};
+}
+
+Finding mean_finding(const std::vector<SetResult>& sets, double Logs::*term, Finding finding,
+                     std::string_view published, std::string_view corrected) {
+  finding.predictions = {{Form::published, std::string(published), geometric_mean(sets, &SetResult::published, term)},
+                         {Form::corrected, std::string(corrected), geometric_mean(sets, &SetResult::corrected, term)}};
+  finding.observed = counted(sets, term);
+  finding.batches = batch_count;
+  finding.tolerance = tolerance;
+  return finding;
+}
+
+Finding walk_finding(const std::vector<SetResult>& sets, std::size_t q) {
+  std::vector<double> values;
+  for (const SetResult& set : sets) values.push_back(set.time_ratio[q]);
+  return {.id = fmt::format("rebuild-time-structural-{}", ratios[q]),
+          .quantity = fmt::format("T_R counted over T_R from the sorted samples alone, Q = {}", ratios[q]),
+          .predictions = {{Form::corrected, "structural walk, our derivation", 1}},
+          .observed = batch_means(values),
+          .batches = batch_count,
+          .tolerance = tolerance};
+}
+
+}  // namespace
+
+std::vector<Finding> sphere_cache_findings(const Experiment& experiment) {
+  const sim::Stopwatch clock;
+  const std::size_t lines =
+      std::max<std::size_t>(100, static_cast<std::size_t>(experiment.workload.rays) / batch_count);
+  std::vector<Finding> findings{count_finding(experiment)};
+  const std::vector<SetResult> sets = run_all(experiment, lines);
+  if (experiment.stop.stop_requested()) return {};
+  const auto mean = [](std::string_view what) { return fmt::format("{}: {}", what, over_ratios); };
+  findings.push_back(mean_finding(sets, &Logs::rebuilds, {.id = "rebuilds", .quantity = mean("m_i >= 30")},
+                                  "eq (17), at most n_P", "tabulated law, our derivation"));
+  findings.push_back(mean_finding(sets, &Logs::rebuild_time,
+                                  {.id = "rebuild-time", .quantity = mean("T_R per ray, t = 1")}, "eq (12)",
+                                  "sum over the corrected m_i and lists"));
+  findings.push_back(mean_finding(sets, &Logs::intersect_time,
+                                  {.id = "intersect-time", .quantity = mean("T_I per ray, u = 1")}, "eq (8)",
+                                  "eq (8) with k by eq (6) and the list of S_k"));
+  for (std::size_t q = 0; q < ratios.size(); ++q) findings.push_back(walk_finding(sets, q));
+  for (Finding& finding : findings) {
+    finding.technique = name(Technique::sphere_cache);
+    finding.lines = std::max<std::uint64_t>(finding.lines, finding.batches > 0 ? lines * batch_count : 1);
+    finding.seconds = clock.seconds();
+  }
+  return findings;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,113 @@
+#include "structural_boxes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "detp/sim/base/stop_check.hpp"
+
+namespace detp::validate {
+namespace {
+
+using sim::stream::TreeNode;
+using std::numbers::pi;
+
+/// A line of one class, by its slopes and where in the listed parallelogram it passes, each from -1 to 1.
+struct PoolLine {
+  double a, b, u, v;
+  double weight;  ///< of its direction: (1 + a² + b²)^{-2}
+};
+
+constexpr std::size_t pool_size = 4096;
+
+/// Places of a lattice in four dimensions, whose projections are even too (Roberts's sequence).
+std::vector<PoolLine> make_pool() {
+  constexpr double root = 1.1673039782614187;  // x⁵ = x + 1
+  std::vector<PoolLine> pool;
+  pool.reserve(pool_size);
+  for (std::size_t i = 0; i < pool_size; ++i) {
+    const auto place = [i](int power) {
+      const double at = 0.5 + static_cast<double>(i + 1) * std::pow(root, -power);
+      return 2 * (at - std::floor(at)) - 1;
+    };
+    PoolLine line{place(1), place(2), place(3), place(4), 0};
+    const double stretch = 1 + line.a * line.a + line.b * line.b;
+    line.weight = 1 / (stretch * stretch);
+    pool.push_back(line);
+  }
+  return pool;
+}
+
+using Triple = std::array<double, 3>;
+
+/// Share of the lines listed for a box that cross the sphere around the origin.
+double share_through(double radius, const Triple& centre, const Triple& half, std::size_t lines) {
+  static const std::vector<PoolLine> pool = make_pool();
+  double all = 0;
+  double through = 0;
+  for (int k = 0; k < sim::stream::classes; ++k) {
+    const auto [x, y, z] = sim::stream::axes_of_class(k);
+    for (std::size_t i = 0; i < lines; ++i) {
+      const PoolLine& line = pool[i];
+      const double wide = half[x] + std::abs(line.a) * half[z];
+      const double high = half[y] + std::abs(line.b) * half[z];
+      const double weight = line.weight * wide * high;
+      const double p = centre[x] + line.u * wide - line.a * centre[z];
+      const double q = centre[y] + line.v * high - line.b * centre[z];
+      const double turn = p * line.b - q * line.a;
+      const double stretch = 1 + line.a * line.a + line.b * line.b;
+      all += weight;
+      if (p * p + q * q + turn * turn <= radius * radius * stretch) through += weight;
+    }
+  }
+  return all > 0 ? through / all : 1;
+}
+
+}  // namespace
+
+BoxCrossing::BoxCrossing(double outer_radius, double margin) : outer_(outer_radius), margin_(margin) {}
+
+double BoxCrossing::operator()(const TreeNode& box) const {
+  const Triple centre{box.centre[0], box.centre[1], box.centre[2]};
+  const Triple half{box.half[0] + margin_, box.half[1] + margin_, box.half[2] + margin_};
+  const double products = half[0] * half[1] + half[1] * half[2] + half[2] * half[0];
+  const double squares = half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
+  const double share = 2 / (pi * outer_ * outer_) * (products + std::log(4.0 / 3) / pi * squares);
+  // A listed line passes within (h_x + h_z, h_y + h_z) of the centre, whichever axis is z.
+  double reach = 0;
+  for (int z = 0; z < 3; ++z)
+    reach = std::max(reach, std::hypot(half[(z + 1) % 3] + half[z], half[(z + 2) % 3] + half[z]));
+  if (std::hypot(centre[0], centre[1], centre[2]) + reach <= outer_) return share;
+  const auto lines = static_cast<std::size_t>(std::clamp(16 * pool_size * share, 64.0, 1.0 * pool_size));
+  return std::min(1.0, share * share_through(outer_, centre, half, lines));
+}
+
+BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const BoxTreeParameters& parameters,
+                              const std::stop_token& stop) {
+  const sim::stream::Frame frame(problem);
+  const sim::stream::DiscTree tree = sim::stream::make_disc_tree(problem, frame, parameters, {.stop = stop});
+  const BoxCrossing crossing(problem.enclosing.radius * frame.scale, frame.margin);
+  const double blocks = blocks_of(rays, static_cast<double>(problem.discs.size()));
+  BoxTreeCounts counts;
+  sim::StopCheck check(stop, "counting boxes");
+  for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
+    const TreeNode& node = tree.nodes[i];
+    const double listed = i == 0 ? 1 : crossing(node);
+    check.after(pool_size);  // lines at most
+    if (i > 0) counts.listed += listed;
+    const auto count = static_cast<double>(node.count);
+    // A node's children are tested, and a leaf's discs visited, if its list holds any ray of the block.
+    const double none = listed < 1 ? std::exp(rays / blocks * std::log1p(-listed)) : 0;
+    if (node.leaf) {
+      counts.discs += listed * count;
+      counts.visits += blocks * count * (1 - none);
+      continue;
+    }
+    counts.tests += listed * count;
+    counts.culls += blocks * count * (1 - none);
+  }
+  return counts;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,163 @@
+#include "structural_registry.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/predicates.hpp"
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/index/disc_index.hpp"
+
+/// What a built index of discs says of its own search, before any ray.
+///
+/// Expected counts of an octree, a grid or a BSP tree on isotropic lines through S₀:
+///
+///     nodes or steps = n_R Σ P(node)        disc_tests = n_R Σ_leaves P(leaf) references(leaf)
+///     P(node) = F(node)/(4π r₀²) × share of the lines through the node that also cross S₀
+///
+///   where  F   surface area of the node, or of the part of a grid's cell inside the grid's box
+///
+/// The share is 1 for a node inside S₀. For one that pokes out it is integrated over a few lines of a fixed pool laid
+/// through the node: the more lines, the larger the node. References and placements are exact.
+///
+/// Source     eq (3), summed over the structure: the surface-area heuristic.
+/// Valid      lines of the measure μ_ℓ through S₀; discs of any radii.
+/// Throws     std::invalid_argument for a technique without an index, and for an octree whose nodes are not visited
+/// once
+///            each (restart, neighbour links); as sim::run does for parameters out of range and
+///            for an index that would not fit the memory.
+namespace detp::validate {
+namespace {
+
+using std::numbers::pi;
+
+constexpr std::size_t pool_size = 4096;
+constexpr std::uint64_t pool_seed = 1;
+
+double area_of(const glm::dvec3& size) { return 2 * (size.x * size.y + size.y * size.z + size.z * size.x); }
+
+/// A line that enters a box: numbers from 0 to 1 that pick the face and the place on it, and the direction inwards from
+/// a face across the third axis, cosine-distributed.
+struct Entry {
+  double face;
+  double first;
+  double second;
+  glm::dvec3 inwards;
+};
+
+std::vector<Entry> make_pool() {
+  std::vector<Entry> pool;
+  for (std::size_t i = 0; i < pool_size; ++i) {
+    const auto place = sim::uniform4(pool_seed, sim::Stream::tests, i);
+    const double angle = 2 * pi * sim::uniform4(pool_seed, sim::Stream::tests, i, 1)[0];
+    const double sine = std::sqrt(place[3]);
+    pool.push_back(
+        {place[0], place[1], place[2], {sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1 - place[3])}});
+  }
+  return pool;
+}
+
+/// The entry laid on a box: area-uniform over its surface, so that the lines are those of μ_ℓ that meet the box.
+sim::Ray line_into(const sim::Box& box, const Entry& entry) {
+  const glm::dvec3 size = box.size();
+  double pick = entry.face * area_of(size);
+  int axis = 0;
+  for (; axis < 2; ++axis) {
+    const double faces = 2 * size[(axis + 1) % 3] * size[(axis + 2) % 3];
+    if (pick < faces) break;
+    pick -= faces;
+  }
+  const int second = (axis + 1) % 3;
+  const int third = (axis + 2) % 3;
+  const bool low = pick < size[second] * size[third];
+  sim::Ray line{.origin = box.low};
+  line.origin[axis] = low ? box.low[axis] : box.high[axis];
+  line.origin[second] += entry.first * size[second];
+  line.origin[third] += entry.second * size[third];
+  line.direction[axis] = low ? entry.inwards.z : -entry.inwards.z;
+  line.direction[second] = entry.inwards.x;
+  line.direction[third] = entry.inwards.y;
+  return line;
+}
+
+/// P(node), for one node after another.
+class Crossing {
+ public:
+  explicit Crossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
+
+  double operator()(const sim::Box& box) {
+    const double share = area_of(box.size()) / (4 * pi * enclosing_.radius * enclosing_.radius);
+    const glm::dvec3 reach = glm::max(glm::abs(box.low - enclosing_.centre), glm::abs(box.high - enclosing_.centre));
+    lines_ = 0;
+    if (glm::dot(reach, reach) <= enclosing_.radius * enclosing_.radius) return share;
+    lines_ = static_cast<std::size_t>(std::clamp(16 * pool_size * share, 32.0, 1.0 * pool_size));
+    std::size_t crossing = 0;
+    for (std::size_t i = 0; i < lines_; ++i)
+      crossing += sim::hits(line_into(box, pool_[next_++ % pool_size]), enclosing_) ? 1 : 0;
+    return share * static_cast<double>(crossing) / static_cast<double>(lines_);
+  }
+
+  /// Drawn for the last node.
+  [[nodiscard]] std::size_t lines() const { return lines_; }
+
+ private:
+  sim::Sphere enclosing_;
+  std::vector<Entry> pool_ = make_pool();
+  std::size_t next_ = 0;
+  std::size_t lines_ = 0;
+};
+
+/// Counts of an index whose nodes `inspect(visit)` shows.
+template <class Inspect>
+Counts<double> index_counts(const sim::Problem& problem, double rays, double Counts<double>::*visited,
+                            const std::stop_token& stop, const Inspect& inspect) {
+  sim::StopCheck check(stop, "counting cells");
+  Crossing crossing(problem.enclosing);
+  double visits = 0;
+  double tests = 0;
+  const sim::IndexSize size = inspect([&](const sim::IndexNode& node) {
+    const double chance = crossing(node.box);
+    check.after(crossing.lines() + 1);
+    visits += chance;
+    tests += chance * static_cast<double>(node.references);
+  });
+  Counts<double> counts{.disc_tests = rays * tests,
+                        .references = static_cast<double>(size.references),
+                        .placements = static_cast<double>(size.placements)};
+  counts.*visited = rays * visits;
+  return counts;
+}
+
+}  // namespace
+
+Counts<double> structural_octree(const sim::Problem& problem, double rays, const Parameters& parameters,
+                                 const std::stop_token& stop) {
+  const auto& own = std::get<OctreeParameters>(parameters);
+  if (own.traversal != Traversal::top_down && own.traversal != Traversal::front_to_back)
+    throw std::invalid_argument(fmt::format(
+        "the structural tier knows an octree top-down or front-to-back only (got {})", name(own.traversal)));
+  return index_counts(problem, rays, &Counts<double>::nodes, stop,
+                      [&](const auto& visit) { return inspect_octree(problem, own, {}, visit, stop); });
+}
+
+Counts<double> structural_grid(const sim::Problem& problem, double rays, const Parameters& parameters,
+                               const std::stop_token& stop) {
+  const auto& own = std::get<GridParameters>(parameters);
+  return index_counts(problem, rays, &Counts<double>::steps, stop,
+                      [&](const auto& visit) { return inspect_grid(problem, own, {}, visit, stop); });
+}
+
+Counts<double> structural_bsp(const sim::Problem& problem, double rays, const Parameters& parameters,
+                              const std::stop_token& stop) {
+  const auto& own = std::get<BspParameters>(parameters);
+  return index_counts(problem, rays, &Counts<double>::nodes, stop,
+                      [&](const auto& visit) { return inspect_bsp(problem, own, visit, stop); });
+}
+
+}  // namespace detp::validate

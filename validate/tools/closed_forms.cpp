@@ -1,0 +1,92 @@
+/// Times of the closed forms: nanoseconds of one evaluation.
+
+#include <benchmark/benchmark.h>
+
+#include "detp/model/accuracy/estimate_error.hpp"
+#include "detp/model/disc_index/disc_index.hpp"
+#include "detp/model/disc_index/disc_index_published.hpp"
+#include "detp/model/lines/line_measure.hpp"
+#include "detp/model/optimum/best_published_ratio.hpp"
+#include "detp/model/optimum/best_ratio.hpp"
+#include "detp/model/optimum/optimal_ratio.hpp"
+#include "detp/model/rank/choose.hpp"
+#include "detp/model/rank/predict.hpp"
+#include "detp/model/sphere_cache/sphere_cache.hpp"
+#include "detp/model/sphere_cache/sphere_cache_published.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
+
+namespace {
+
+using namespace detp;
+using namespace detp::model;
+
+const Workload volume = cube_workload(1e6, 1e5, 0.01, 2);
+const Workload surface = cube_workload(1e6, 1e5, 0.01, 2, 2);
+
+/// A ratio that differs from call to call, so that nothing is computed once and kept.
+class Ratios {
+ public:
+  double next() { return last_ = last_ > 0.7 ? 0.6 : last_ + 1e-7; }
+
+ private:
+  double last_ = 0.6;
+};
+
+template <class Evaluate>
+void time(benchmark::State& state, const Evaluate& evaluate) {
+  Ratios ratios;
+  for (auto _ : state) benchmark::DoNotOptimize(evaluate(ratios.next()));
+}
+
+void add(const char* name, auto evaluate) {
+  benchmark::RegisterBenchmark(name, [evaluate](benchmark::State& state) { time(state, evaluate); });
+}
+
+void add_formulas() {
+  add("sphere_count", [](double q) { return sphere_count(Form::corrected, {q}, {0.01}, {1.7}); });
+  add("published::rays_in_sphere", [](double q) { return published::rays_in_sphere(1e6, {q}, 7); });
+  add("published::rebuild_time", [](double q) { return published::rebuild_time(volume, {q}, 10, 1); });
+  add("published::counts", [](double q) { return published::counts(volume, {q}, 10).cull_tests; });
+  add("both_hit_share", [](double q) { return both_hit_share(1, q, 0.5); });
+  add("optimal_ratio", [](double q) { return optimal_ratio(2 + q); });
+  add("optimal_ratio_with_copies", [](double q) { return optimal_ratio_with_copies(q); });
+  add("uniform_field_deviation", [](double q) { return uniform_field_deviation(1e6, {q}, {2}); });
+  add("octree_counts, depth 6", [](double q) {
+    Workload w = volume;
+    w.disc_radius = 0.01 * q;
+    return octree_counts(w, {6}).disc_tests;
+  });
+}
+
+void add_sphere_cache() {
+  for (const std::int64_t k : {1, 10, 100, 4096})
+    add(("sphere_cache_counts, volume, k " + std::to_string(k)).c_str(), [k](double q) {
+      return sphere_cache_counts(volume, {q, k}).cull_tests;
+    });
+  add("sphere_cache_counts, surface, k 10", [](double q) { return sphere_cache_counts(surface, {q, 10}).cull_tests; });
+}
+
+void add_choices() {
+  const auto vary = [](double q) {
+    Workload w = volume;
+    w.disc_radius = 0.01 * q;
+    return w;
+  };
+  add("published::best_ratio", [=](double q) { return published::best_ratio(vary(q), {}).time; });
+  add("best_ratio_and_stop", [=](double q) { return best_ratio_and_stop(vary(q), {}).time; });
+  add("good_ratio_and_stop", [=](double q) { return good_ratio_and_stop(vary(q), {}).time; });
+  add("best_stop, Q = 0.65", [=](double q) { return best_stop(vary(q), {}, {0.65}).time; });
+  add("rank all techniques", [=](double q) { return rank(vary(q), {}).size(); });
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  add_formulas();
+  add_sphere_cache();
+  add_choices();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  benchmark::Shutdown();
+}

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "sample_walk.hpp"
+
+/// The share of the lines through a sphere of the cache that cross all those around it, averaged over its builds.
+namespace detp::tables {
+
+inline constexpr std::array list_octaves{0.074, 0.152, 0.234, 0.322, 0.42, 0.515, 0.62, 0.737, 1.0, 1.32, 1.74, 2.32};
+inline constexpr std::array list_disc_shares{0.0, 0.1, 0.25, 0.45, 0.65, 0.85, 1.0};  ///< d/r_i
+inline constexpr std::array list_outer_disc_shares{0.0, 0.05, 0.2};                   ///< d/r₀
+
+/// Lines through the innermost of nested spheres, at some of its builds.
+class ListedShare {
+ public:
+  /// `radii` from the outermost inwards; the first stays around the origin if `fixed_outermost`.
+  ListedShare(std::vector<double> radii, double disc_radius, bool fixed_outermost)
+      : radii_(std::move(radii)), fixed_(fixed_outermost ? 1 : 0) {
+    for (std::size_t i = fixed_; i < radii_.size(); ++i) balls_.push_back(std::max(0.0, radii_[i] - disc_radius));
+  }
+
+  /// About `builds` builds of the walk, with as many lines each.
+  void walk(const Points& samples, double builds, int lines) {
+    const double share = std::min(1.0, builds / moves(samples, balls_).back());
+    Nest nest(balls_);
+    for (std::size_t n = 0; n < samples.size(); ++n) {
+      if (nest.visit(samples[n]) == balls_.size()) continue;
+      if (sim::uniform4(1, sim::Stream::tests, n)[0] < share) lay_lines(nest, lines);
+    }
+  }
+
+  [[nodiscard]] double lost() const { return 1 - crossing_ / laid_; }
+
+ private:
+  static bool crosses(const glm::dvec3& point, const glm::dvec3& direction, const glm::dvec3& centre, double radius) {
+    const glm::dvec3 w = point - centre;
+    const double along = glm::dot(w, direction);
+    return glm::dot(w, w) - along * along <= radius * radius;
+  }
+
+  void lay_lines(const Nest& nest, int lines) {
+    static const std::vector<sim::Ray> pool = sim::LineField({}, 1).lines(0, 65536);
+    for (int n = 0; n < lines; ++n) {
+      const sim::Ray& line = pool[next_++ % pool.size()];
+      const glm::dvec3 point = nest.centre(balls_.size() - 1) + radii_.back() * line.origin;
+      std::size_t outer = radii_.size() - 1;  // one inside the next to be crossed
+      while (outer > 0) {
+        const glm::dvec3 centre = outer > fixed_ ? nest.centre(outer - 1 - fixed_) : glm::dvec3{0.0};
+        if (!crosses(point, line.direction, centre, radii_[outer - 1])) break;
+        --outer;
+      }
+      crossing_ += outer == 0 ? 1 : 0;
+      ++laid_;
+    }
+  }
+
+  std::vector<double> radii_, balls_;
+  std::size_t fixed_;
+  std::size_t next_ = 0;
+  double crossing_ = 0, laid_ = 0;
+};
+
+/// Spheres of the ratio 2^{-u} around one of radius r, up to `largest`; outermost first.
+inline std::vector<double> spheres_around(double radius, double octaves, double largest) {
+  std::vector<double> radii;
+  for (double r = radius; r <= largest; r *= std::exp2(octaves)) radii.push_back(r);
+  std::reverse(radii.begin(), radii.end());
+  return radii;
+}
+
+/// Deep in the scene: mean over three sets a third of a halving apart, S₀ left out.
+inline void print_deep_lists() {
+  constexpr std::uint64_t seed = 900;
+  for (const int dimension : {2, 3})
+    for (int power = -12; power <= 12; power += 2) {
+      const double cells = std::exp2(power + 5.0 * dimension) * extent_of(dimension) / std::pow(side, dimension);
+      std::vector<Points> sets;
+      for (int third = 0; third < 3; ++third)
+        sets.push_back(sorted_samples(
+            dimension,
+            static_cast<std::size_t>(std::clamp(cells, 0x1p16, 0x1p22) * std::exp2(-dimension * third / 3.0)),
+            seed + static_cast<std::uint64_t>(third)));
+      for (const double octaves : list_octaves) {
+        for (const double disc : list_disc_shares) {
+          double lost = 0;
+          for (const Points& samples : sets) {
+            const double radius = std::pow(
+                std::exp2(power) * extent_of(dimension) / static_cast<double>(samples.size()), 1.0 / dimension);
+            ListedShare share(spheres_around(radius, octaves, side * std::sqrt(0.75)), std::min(disc, 0.9999) * radius,
+                              false);
+            share.walk(samples, 7000, 16);
+            lost += share.lost() / 3;
+          }
+          fmt::print("{:.4f},", lost);
+        }
+        fmt::print("\n");
+      }
+    }
+}
+
+/// Near S₀: among 10³ and 10⁵ samples, by d/r₀, then by log₂(r₀/r_i) from 0.25 to 4.
+inline void print_shallow_lists() {
+  constexpr std::uint64_t seed = 700;
+  for (const int dimension : {2, 3})
+    for (const std::size_t count : {1'000UL, 100'000UL}) {
+      std::vector<Points> sets;
+      for (std::uint64_t set = 0; set < (count == 1'000 ? 400 : 12); ++set)
+        sets.push_back(sorted_samples(dimension, count, seed + set));
+      for (const double outer_disc : list_outer_disc_shares)
+        for (int quarter = 1; quarter <= 16; ++quarter) {
+          for (const double octaves : list_octaves) {
+            const double outermost = side * std::sqrt(0.75) / (1 - outer_disc);
+            const double radius = outermost * std::exp2(-quarter / 4.0);
+            std::vector<double> radii = spheres_around(radius, octaves, outermost * std::exp2(-octaves / 2));
+            if (radii.empty()) radii.push_back(radius);
+            radii.insert(radii.begin(), outermost);
+            ListedShare share(radii, outer_disc * outermost, true);
+            for (const Points& samples : sets) share.walk(samples, 7200 / static_cast<double>(sets.size()), 16);
+            fmt::print("{:.4f},", share.lost());
+          }
+          fmt::print("\n");
+        }
+    }
+}
+
+inline void print_listed_rays() {
+  fmt::print("constexpr std::array<double, 2 * densities * octave_grid.size() * disc_shares.size()> deep_table{{{{\n");
+  print_deep_lists();
+  fmt::print(
+      "}}}};\n\nconstexpr std::array<double, 2 * shallow_samples.size() * outer_disc_shares.size() * depths * "
+      "octave_grid.size()> ");
+  fmt::print("shallow_table{{{{\n");
+  print_shallow_lists();
+  fmt::print("}}}};\n");
+}
+
+}  // namespace detp::tables

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <vector>
+
+#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+
+/// What the programs that tabulate the sphere cache share: samples along the curve, and balls walked along them.
+namespace detp::tables {
+
+using Points = std::vector<glm::dvec3>;
+
+/// The side of the samples' cube, and the volume or area that they fill.
+inline constexpr double side = 2;
+inline double extent_of(int dimension) { return dimension == 3 ? 8 : 24; }
+
+/// Samples uniform in the cube [-1, 1]³ (dimension 3) or on its faces (2), in the curve's order.
+inline Points sorted_samples(int dimension, std::size_t count, std::uint64_t seed) {
+  Points points;
+  points.reserve(count);
+  for (const sim::Disc& disc :
+       sim::uniform_discs(dimension == 3 ? sim::Body::cube : sim::Body::cube_faces, side, count, 1, seed))
+    points.push_back(disc.centre);
+  Points walk;
+  walk.reserve(count);
+  for (const std::uint32_t i : sim::lebesgue_order(points)) walk.push_back(points[i]);
+  return walk;
+}
+
+/// Balls nested around the samples, the outermost first: each stays where it is while it and all around it hold the
+/// samples that come.
+class Nest {
+ public:
+  explicit Nest(const std::vector<double>& radii) : centres_(radii.size()) {
+    for (const double radius : radii) squares_.push_back(radius * radius);
+  }
+
+  /// The outermost ball that moves to this sample; the number of balls where none does.
+  std::size_t visit(const glm::dvec3& sample) {
+    std::size_t i = 0;
+    if (visited_)
+      while (i < squares_.size() && holds(i, sample)) ++i;
+    visited_ = true;
+    for (std::size_t moved = i; moved < squares_.size(); ++moved) centres_[moved] = sample;
+    return i;
+  }
+
+  [[nodiscard]] const glm::dvec3& centre(std::size_t i) const { return centres_[i]; }
+
+ private:
+  [[nodiscard]] bool holds(std::size_t i, const glm::dvec3& sample) const {
+    const glm::dvec3 offset = sample - centres_[i];
+    return glm::dot(offset, offset) <= squares_[i];
+  }
+
+  std::vector<double> squares_;
+  Points centres_;
+  bool visited_ = false;
+};
+
+/// How often each ball of a nest moves.
+inline std::vector<double> moves(const Points& walk, const std::vector<double>& radii) {
+  Nest nest(radii);
+  std::vector<double> first(radii.size() + 1);
+  for (const glm::dvec3& sample : walk) ++first[nest.visit(sample)];
+  for (std::size_t i = 1; i < radii.size(); ++i) first[i] += first[i - 1];
+  first.pop_back();
+  return first;
+}
+
+}  // namespace detp::tables
