@@ -40,6 +40,7 @@ std::vector<std::uint64_t> count_hits(const Floats& floats, const sim::stream::F
                                        .first_ray = 0,
                                        .segments = floats.traits.segments,
                                        .pairs = false,
+                                       .vectors = false,
                                        .hits = hits.data(),
                                        .totals = nullptr};
   sim::stream::Worker worker;

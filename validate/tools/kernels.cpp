@@ -87,6 +87,7 @@ class Scene {
             .first_ray = 0,
             .segments = segments,
             .pairs = false,
+            .vectors = false,
             .hits = hits_.data(),
             .totals = nullptr};
   }

@@ -23,6 +23,7 @@ struct BlockSearch {
   std::uint32_t first_ray;  ///< the block's
   bool segments;            ///< its lists tell where rays end
   bool pairs;               ///< wanted
+  bool vectors;             ///< to be counted
   ClassCounts* hits;        ///< in the discs' order here; what is of one disc and one class is written by one thread
   DiscTotals* totals;       ///< likewise: powers are summed here; null where hits need only be counted
 };

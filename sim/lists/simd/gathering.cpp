@@ -65,6 +65,7 @@ BlockSearch Gathering::begin(const Frame& frame, std::size_t first_ray, const Ra
           .first_ray = static_cast<std::uint32_t>(first_ray),
           .segments = traits.segments,
           .pairs = options_.pairs,
+          .vectors = options_.count,
           .hits = hits_.data(),
           .totals = only_count ? nullptr : totals_.data()};
 }

@@ -31,6 +31,11 @@ HWY_INLINE std::size_t vectors_of(std::size_t rays) {
   return (rays + hn::Lanes(lanes) - 1) / hn::Lanes(lanes);
 }
 
+/// The same of the lists of all classes.
+HWY_INLINE std::size_t vectors_of(const RayLists& lists) {
+  return vectors_of(lists[0].size) + vectors_of(lists[1].size) + vectors_of(lists[2].size);
+}
+
 /// The lanes from `first` on that are in the list.
 HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
   const FloatLanes lanes;

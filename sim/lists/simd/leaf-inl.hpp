@@ -90,7 +90,6 @@ HWY_INLINE void gather_hits(const BlockSearch& block, const TreeNode& leaf, cons
 
 template <bool segments, bool counting_only, int k>
 HWY_INLINE void test_class(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
-  worker.vectors.test += leaf.count * vectors_of(rays.size);
   if constexpr (counting_only)
     count_hits<segments, k>(block, leaf, rays, worker);
   else if (block.problem.front_facing)

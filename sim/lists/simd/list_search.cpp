@@ -20,7 +20,7 @@ void cull_class(const BlockSearch& block, const FloatSphere& sphere, const RayLi
 
 void CullSphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside,
                 Worker& worker) {
-  worker.vectors.cull += vectors_of(around.size);
+  if (block.vectors) worker.vectors.cull += vectors_of(around.size);
   if (k == 0) return cull_class<0>(block, sphere, around, inside);
   if (k == 1) return cull_class<1>(block, sphere, around, inside);
   return cull_class<2>(block, sphere, around, inside);
@@ -39,6 +39,7 @@ void test_any(const BlockSearch& block, const TreeNode& leaf, const RayList& ray
 void TestDiscs(const BlockSearch& block, int k, std::uint32_t first, std::uint32_t count, const RayList& rays,
                Worker& worker) {
   const TreeNode leaf{.centre = {}, .half = {}, .first = first, .count = count & 0x7fff'ffff, .leaf = 1};
+  if (block.vectors) worker.vectors.test += count * vectors_of(rays.size);
   if (k == 0) return test_any<0>(block, leaf, rays, worker);
   if (k == 1) return test_any<1>(block, leaf, rays, worker);
   return test_any<2>(block, leaf, rays, worker);

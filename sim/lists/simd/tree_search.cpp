@@ -22,7 +22,7 @@ HWY_INLINE void cull(const BlockSearch& block, const TreeNode& node, const RayLi
   worker.counts.cull_tests += size(around);
   worker.counts.listed += size(inside);
   ++worker.counts.culls;
-  for (const RayList& list : around) worker.vectors.cull += vectors_of(list.size);
+  if (block.vectors) worker.vectors.cull += vectors_of(around);
 }
 
 /// Tests a leaf's discs, few enough at a time for the check between.
@@ -36,6 +36,7 @@ void visit_leaf(const BlockSearch& block, TreeNode leaf, const RayLists& lists, 
     if (worker.check.requested_after(test_work(size(lists), leaf.count)))
       return worker.skipped.push_back({leaf.first, left});
     test_leaf<segments, counting_only>(block, leaf, lists, worker);
+    if (block.vectors) worker.vectors.test += leaf.count * vectors_of(lists);
   }
 }
 
