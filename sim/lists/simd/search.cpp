@@ -42,7 +42,9 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
 bool can_search(const Problem& problem) { return Frame(problem).slack <= 0.01; }
 
 void search_boxes(const Searched& searched, int fan_out, const RunOptions& options, Outcome& outcome) {
-  const auto& [problem, frame, tree] = searched;
+  const Problem& problem = searched.problem;
+  const Frame& frame = searched.frame;
+  const DiscTree& tree = searched.tree;
   const SearchSize size = size_of(problem, options);
   const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
   need_memory("the tree of boxes and its lists of rays", boxes_bytes(size, fan_out, made), problem, outcome);

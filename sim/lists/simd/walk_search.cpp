@@ -88,7 +88,9 @@ void add(const std::vector<SphereCounts>& events, std::vector<SphereCounts>& sum
 
 void search_walk(const Searched& searched, const MakeWalk& make_walk, const ListRoom& room, const RunOptions& options,
                  Outcome& outcome) {
-  const auto& [problem, frame, discs] = searched;
+  const Problem& problem = searched.problem;
+  const Frame& frame = searched.frame;
+  const DiscTree& discs = searched.tree;
   const std::size_t floats = list_floats(size_of(problem, options), room);
   std::array workers{Worker(options.stop, floats), Worker(options.stop, floats), Worker(options.stop, floats)};
   std::array<std::vector<SphereCounts>, classes> events;
