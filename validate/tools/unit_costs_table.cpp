@@ -1,4 +1,4 @@
-// Measures the defaults of validate/unit_costs.cpp: times every technique on uniform samples and isotropic lines, over
+// Measures the defaults of validate/choice/unit_costs.cpp: times every technique on uniform samples and isotropic lines, over
 // radii, counts and parameters, on one thread and in time of the processor, and prints the unit costs fitted to the
 // runs, with how well they explain them. `list` as an argument lists the runs.
 //
