@@ -17,8 +17,8 @@ namespace detp::validate {
 /// the runs. Another machine's may differ by a factor of two, or by the width of its vectors; ratios between techniques
 /// hold better.
 ///
-/// The fit had one cost, 2.2e-8, for sorting a disc and for building a box tree over it. `sort` and `leaf` are half of it
-/// each: their sum, which is what a box tree pays, is measured; how it divides is not.
+/// The fit had one cost, 2.2e-8, for sorting a disc and for building a box tree over it. `sort` and `leaf` are half of
+/// it each: their sum, which is what a box tree pays, is measured; how it divides is not.
 [[nodiscard]] UnitCosts built_in_unit_costs();
 
 /// A run's counts and where its time went.

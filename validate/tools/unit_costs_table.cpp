@@ -1,6 +1,6 @@
-// Measures the defaults of validate/choice/unit_costs.cpp: times every technique on uniform samples and isotropic lines, over
-// radii, counts and parameters, on one thread and in time of the processor, and prints the unit costs fitted to the
-// runs, with how well they explain them. `list` as an argument lists the runs.
+// Measures the defaults of validate/choice/unit_costs.cpp: times every technique on uniform samples and isotropic
+// lines, over radii, counts and parameters, on one thread and in time of the processor, and prints the unit costs
+// fitted to the runs, with how well they explain them. `list` as an argument lists the runs.
 //
 //   cmake --build build --target unit_costs_table && build/unit_costs_table
 
