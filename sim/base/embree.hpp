@@ -11,7 +11,7 @@
 #include "memory.hpp"
 #include "stopped.hpp"
 
-/// Embree's handles, released when they go, and its errors, thrown.
+/// Owning handles for Embree's objects, and Embree's errors turned into exceptions.
 namespace detp::sim::embree {
 
 struct Release {
@@ -24,8 +24,8 @@ struct Release {
 template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
-/// Throws if anything failed on the device since this was last called: OutOfMemory, or std::runtime_error with Embree's
-/// number of the error. Without a device (rtcNewDevice made none) it looks up why.
+/// Throws OutOfMemory, or std::runtime_error with Embree's error number, if an operation on the device has failed since
+/// the last call. If there is no device (rtcNewDevice returned none), reports why it could not be made.
 inline void require_no_error(const Owned<RTCDevice>& device) {
   const RTCError error = rtcGetDeviceError(device.get());
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory("Embree builds its tree");
@@ -33,8 +33,8 @@ inline void require_no_error(const Owned<RTCDevice>& device) {
     throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
 }
 
-/// Builds the scene's tree. Embree calls us back while it builds: throws Stopped ("stopped while " + doing) if a stop
-/// was requested by then.
+/// Builds the scene's tree. Throws Stopped ("stopped while " + doing) if a stop is requested meanwhile: Embree calls
+/// back regularly while it builds.
 inline void commit(RTCDevice device, RTCScene scene, const std::stop_token& stop, const char* doing) {
   const auto go_on = [](void* token, double) { return !static_cast<const std::stop_token*>(token)->stop_requested(); };
   rtcSetSceneProgressMonitorFunction(scene, go_on, const_cast<std::stop_token*>(&stop));

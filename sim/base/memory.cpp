@@ -22,7 +22,7 @@ namespace {
 
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-std::atomic<double> limit_set{0};  // 0: none
+std::atomic<double> limit_set{0};  // 0: no limit set
 
 double physical_memory() {
   return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
@@ -34,14 +34,14 @@ double resource_limit(int resource) {
   return known && limit.rlim_cur != RLIM_INFINITY ? static_cast<double>(limit.rlim_cur) : no_limit;
 }
 
-/// The number in a file; no limit where there is no file, or no number ("max") in it.
+/// The number in a file. No limit if there is no file, or if it holds no number ("max").
 double limit_in(const std::filesystem::path& path) {
   std::ifstream file(path);
   double limit = 0;
   return file >> limit && limit > 0 ? limit : no_limit;
 }
 
-/// The least limit in files of that name, in the group's folder and those above it.
+/// The smallest limit in the files of that name, in the group's folder and in the folders above it.
 double least_limit(const std::filesystem::path& root, const std::filesystem::path& group, const char* file) {
   double least = limit_in(root / file);
   std::filesystem::path folder = root;
@@ -67,7 +67,7 @@ double environment_limit() {
   }
 }
 
-/// What was set, or 0.
+/// The limit that was set (by set_memory_limit or the environment), or 0.
 double explicit_limit() {
   static const double environment = environment_limit();
   const double set = limit_set;

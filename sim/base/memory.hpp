@@ -9,45 +9,46 @@
 
 namespace detp::sim {
 
-/// Bytes that this process may have: the machine's memory, or less where a cgroup (version 1 or 2), RLIMIT_AS or
-/// RLIMIT_DATA allows less. Read once.
+/// Bytes that this process may use: the machine's memory, or less if a cgroup (version 1 or 2), RLIMIT_AS or
+/// RLIMIT_DATA sets a smaller limit. Read once.
 [[nodiscard]] double machine_memory();
 
-/// Bytes that one piece of work may take, its rays and discs included: what set_memory_limit or the environment
-/// variable DETP_MEMORY_LIMIT says, else half of machine_memory. Throws std::invalid_argument where the variable is
-/// malformed.
+/// Bytes that one piece of work may use, including its rays and discs: the value of set_memory_limit or of the
+/// environment variable DETP_MEMORY_LIMIT, by default half of machine_memory. Throws std::invalid_argument if the
+/// variable is malformed.
 [[nodiscard]] double memory_budget();
 
-/// Sets the budget, for all threads of the process; nothing restores the default. Throws std::invalid_argument unless
+/// Sets the budget for all threads of the process. The default cannot be restored. Throws std::invalid_argument unless
 /// bytes > 0 and finite.
 void set_memory_limit(std::optional<double> bytes);
 
-/// Reads "4G", "512M" or a number of bytes: K, M, G and T are powers of 1024. Throws std::invalid_argument for anything
+/// Reads "4G", "512M" or a number of bytes. K, M, G and T are powers of 1024. Throws std::invalid_argument for anything
 /// else.
 [[nodiscard]] double parse_bytes(std::string_view text);
 
-/// Throws std::length_error, naming the bytes, where `bytes` is more than the budget.
+/// Throws std::length_error, which names the bytes, if `bytes` exceeds the budget.
 void require_memory(std::string_view what, double bytes);
 
-/// Bytes that an array takes at its peak which has grown, by doubling, to `count` elements: while it is copied, the old
-/// one is there too.
+/// Peak bytes of an array that has grown, by doubling, to `count` elements: while the elements are copied, the old
+/// array exists too.
 [[nodiscard]] double grown_bytes(std::size_t count, std::size_t element);
 
-/// The least limit of the memory cgroups in a text as of /proc/self/cgroup, with the files under `root`
-/// (/sys/fs/cgroup): of the process's own group and of those around it. Infinite where there is none.
+/// The smallest limit of the process's own memory cgroup and of the groups around it. `own_groups` is a text like
+/// /proc/self/cgroup; the groups' files are under `root` (/sys/fs/cgroup). Infinite if no limit is set.
 [[nodiscard]] double cgroup_limit(const std::string& own_groups, const std::string& root);
 
-/// Memory that was not to be had, and what for.
+/// Memory ran out. The message says during which work.
 class OutOfMemory : public std::bad_alloc {
  public:
   explicit OutOfMemory(std::string_view doing);
   [[nodiscard]] const char* what() const noexcept override { return message_; }
 
  private:
-  char message_[160];  // takes no memory
+  char message_[160];  // allocates no memory
 };
 
-/// Calls `work`; if memory runs out in it, says what for: throws OutOfMemory("reading the scene").
+/// Calls `work`. If memory runs out in it, throws OutOfMemory, whose message names the work: `doing`, such as "reading
+/// the scene".
 template <class Work>
 auto in_memory(std::string_view doing, Work&& work) -> decltype(work()) {
   try {

@@ -5,11 +5,11 @@
 
 namespace detp::sim {
 
-/// How far some work came: done of so many units.
+/// Progress of some work: `done` of `of` units.
 struct Progress {
   std::uint64_t done = 0;
   std::uint64_t of = 0;
-  std::string_view unit = "rays";  ///< of static storage
+  std::string_view unit = "rays";  ///< refers to a string of static storage
 };
 
 }  // namespace detp::sim

@@ -9,13 +9,13 @@
 
 namespace detp::sim {
 
-/// Something to sort: by a key, such as its place on a curve.
+/// An index with the key that it is sorted by, such as its place on a curve.
 struct KeyedIndex {
   std::uint64_t key;
   std::uint32_t index;
 };
 
-/// Stable sort by the digit of 8 bits at `shift`; false where all digits are equal and nothing was done.
+/// Stable sort by the 8-bit digit at `shift`. Returns false, and does nothing, if all digits are equal.
 inline bool sort_by_digit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& to, int shift,
                           StopCheck& check) {
   std::array<std::size_t, 256> place{};
@@ -28,9 +28,9 @@ inline bool sort_by_digit(const std::vector<KeyedIndex>& from, std::vector<Keyed
   return true;
 }
 
-/// Sorts by rising key; entries of the same key keep their order. Keys have at most `bits` bits. Cost O(n): a pass to
-/// count each digit of 8 bits, and one to move for each that is not the same throughout. Throws Stopped if a stop was
-/// requested: the entries are then in any order.
+/// Stable sort by rising key. Keys have at most `bits` bits. Cost O(n): for each 8-bit digit one pass that counts, and
+/// one that moves unless all digits are equal. Throws Stopped if a stop was requested; the entries are then in any
+/// order.
 inline void radix_sort(std::vector<KeyedIndex>& entries, int bits = 64, const std::stop_token& stop = {}) {
   if (entries.empty()) return;
   StopCheck check(stop, "sorting along a curve");

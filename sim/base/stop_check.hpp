@@ -10,14 +10,14 @@
 
 #include "stopped.hpp"
 
-/// Checks for a stop request from inside a loop, so often that the work between two checks is bounded.
+/// Checks for a stop request inside a loop, often enough to bound the work between two checks.
 namespace detp::sim {
 
-/// What a test sees of the checks.
+/// A log of the checks, for tests.
 struct WorkLog {
   std::atomic<std::uint64_t> total = 0;                ///< units of work reported
-  std::atomic<std::uint64_t> largest = 0;              ///< the most between two checks
-  std::function<void(std::uint64_t total)> seen = {};  ///< called at each check, before the stop request is looked at
+  std::atomic<std::uint64_t> largest = 0;              ///< largest amount of work between two checks
+  std::function<void(std::uint64_t total)> seen = {};  ///< called at each check, before it looks for a stop request
 
   void add(std::uint64_t work) {
     total += work;
@@ -28,20 +28,20 @@ struct WorkLog {
   }
 };
 
-/// Where checks are logged: null except in the tests that count work.
+/// Where checks are logged; null except in the tests that count work.
 inline std::atomic<WorkLog*> work_log = nullptr;
 
-/// Adds up the work that a loop reports, and checks for a stop request each time that `most_work` units have come
-/// together. A unit is what takes 1 ns to 1 µs: a test of a ray against a disc, a disc put into a cell, a photon's
-/// bounce, a vector of rays against a box. Loops report pieces of at most `most_work` units, so that there are fewer
-/// than twice as many between two checks.
+/// Adds up the work that a loop reports, and checks for a stop request whenever `most_work` units have accumulated. A
+/// unit of work takes 1 ns to 1 µs: testing a ray against a disc, inserting a disc into a cell, a photon's bounce,
+/// testing a vector of rays against a box. Loops report at most `most_work` units at once, so there are fewer than 2
+/// `most_work` units between two checks.
 ///
-/// For one thread; a loop on several threads has one for each.
+/// Not thread-safe: a loop on several threads has one StopCheck per thread.
 class StopCheck {
  public:
   static constexpr std::uint64_t most_work = std::uint64_t{1} << 16;
 
-  /// `doing` is for the message of Stopped: "building the octree".
+  /// `doing` appears in the message of Stopped, for instance "building the octree".
   explicit StopCheck(std::stop_token stop = {}, const char* doing = "working")
       : stop_(std::move(stop)), doing_(doing) {}
   StopCheck(const StopCheck&) = default;
@@ -50,10 +50,10 @@ class StopCheck {
     if (WorkLog* const log = work_log.load(std::memory_order_relaxed); log != nullptr && !stopped_) log->add(work_);
   }
 
-  /// Reports work; does not check.
+  /// Reports work without checking.
   void add(std::uint64_t work) { work_ += work; }
 
-  /// Reports work; whether a stop was requested, as far as is known: once true, always true.
+  /// Reports work. Returns whether a stop request has been seen; once true, always true.
   [[nodiscard]] bool requested_after(std::uint64_t work) {
     work_ += work;
     return work_ >= most_work && requested();
@@ -69,7 +69,7 @@ class StopCheck {
     if (stopped_) return true;
     if (WorkLog* const log = work_log.load(std::memory_order_relaxed)) log->add(work_);
     stopped_ = stop_.stop_requested();
-    work_ = stopped_ ? most_work : 0;  // the next report comes here again
+    work_ = stopped_ ? most_work : 0;  // makes the next report check again
     return stopped_;
   }
 
@@ -87,7 +87,8 @@ class StopCheck {
   bool stopped_ = false;
 };
 
-/// Calls visit(i) for i = first … last - 1, each a unit of work. Throws Stopped in between if a stop was requested.
+/// Calls visit(i) for i = first … last - 1; each call is a unit of work. Throws Stopped between calls if a stop was
+/// requested.
 template <class Visit>
 void for_each_checked(std::size_t first, std::size_t last, StopCheck& check, const Visit& visit) {
   while (first < last) {
@@ -97,7 +98,7 @@ void for_each_checked(std::size_t first, std::size_t last, StopCheck& check, con
   }
 }
 
-/// The same for all items.
+/// The same, calling visit(item) for each item.
 template <class T, class Visit>
 void for_each_checked(std::span<T> items, StopCheck& check, const Visit& visit) {
   for_each_checked(0, items.size(), check, [&](std::size_t i) { visit(items[i]); });

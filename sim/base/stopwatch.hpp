@@ -13,18 +13,19 @@ struct WallClock {
   }
 };
 
-/// Seconds of the processor that this process took, on all its threads: others on the machine have little part in it.
+/// Seconds of processor time that this process used on all its threads. Other processes on the machine hardly affect
+/// it.
 struct ProcessorClock {
   [[nodiscard]] static double now() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 };
 
-/// Seconds since it was made, or since its last lap.
+/// Seconds since construction or since the last lap.
 template <class Clock>
 class StopwatchOf {
  public:
   [[nodiscard]] double seconds() const { return Clock::now() - start_; }
 
-  /// The same, and starts again.
+  /// The seconds so far; restarts the stopwatch.
   [[nodiscard]] double lap() {
     const double now = Clock::now();
     return now - std::exchange(start_, now);

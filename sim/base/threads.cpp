@@ -15,14 +15,14 @@
 namespace detp::sim {
 namespace {
 
-/// How many threads can be started beside this one, `wanted` at most.
+/// The number of threads that can be started beside this one, at most `wanted`.
 int started_beside(int wanted) {
   std::latch end(1);
   std::vector<std::thread> threads;
   threads.reserve(static_cast<std::size_t>(wanted));
   try {
     while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([&end] { end.wait(); });
-  } catch (const std::exception&) {  // a limit of processes or memory is reached
+  } catch (const std::exception&) {  // a limit on processes or memory is reached
   }
   end.count_down();
   for (std::thread& thread : threads) thread.join();
@@ -37,7 +37,7 @@ int startable_threads(int threads) {
   static int started = 1;
   const std::lock_guard lock(mutex);
   if (threads > tried) {
-    // As many as are wanted beside this one, and one that the program may need for something else.
+    // Tries as many as are wanted beside this one, plus one that the program may need for something else.
     started = std::max(1, started_beside(threads));
     tried = threads;
   }

@@ -6,16 +6,16 @@ namespace detp::sim {
 
 inline constexpr int most_threads = 4096;
 
-/// How many threads are meant: 0 is all cores that this process may use.
+/// The number of threads that an option means: 0 means all cores that this process may use.
 [[nodiscard]] int thread_count(int asked);
 
-/// As many of these threads as the system lets this process start, at least 1. (oneTBB ends the process where it cannot
-/// start one: a limit of processes or of memory may forbid that.) Starts threads to find out, once for each number
-/// larger than those before.
+/// The number of these threads that the system lets this process start, at least 1. A limit on processes or memory may
+/// prevent a start, and oneTBB then ends the process. To find out, starts threads: once for each number larger than all
+/// before.
 [[nodiscard]] int startable_threads(int threads);
 
-/// Calls `work`, whose oneTBB algorithms then run on that many threads, this one among them. On fewer, where the
-/// program has limited oneTBB to fewer, or no more can be started.
+/// Calls `work`, whose oneTBB algorithms then run on `threads` threads, including this one. They run on fewer if the
+/// program has limited oneTBB to fewer, or if no more can be started.
 void on_threads(int threads, const std::function<void()>& work);
 
 }  // namespace detp::sim

@@ -42,7 +42,7 @@ class CsvReader {
     return std::find(order_.begin(), order_.end(), column) != order_.end();
   }
 
-  /// To the next line that is not blank; false at the end.
+  /// Goes to the next line that is not blank; false at the end.
   bool next_line() {
     while (lines_.next())
       if (!trimmed(lines_.line()).empty()) return true;
@@ -90,7 +90,7 @@ class CsvReader {
 
   InputFile file_;
   TextLines lines_;
-  std::vector<std::size_t> order_;  ///< of the file's columns: their places among the known ones
+  std::vector<std::size_t> order_;  ///< for each of the file's columns, its place among the known ones
   TableRow row_;
 };
 

@@ -4,13 +4,13 @@
 
 namespace detp::sim {
 
-/// Reads numbers from CSV: a header, its columns in any order, then rows, each handed on as it is read. Returns their
-/// number.
+/// Reads numbers from CSV: a header with the columns in any order, then rows. Passes each row to `sink` as it is read.
+/// Returns the number of rows.
 ///
-/// Fields end at commas; blanks around them, blank lines, any line ends and a byte order mark are accepted; quotes and
-/// comments are not. Numbers are read whatever the locale, "inf" and "nan" among them. Throws FileError with the line:
-/// a header missing, with unknown columns or one twice; a required column missing; too few or too many fields; a field
-/// that is no number; and as TextLines does.
+/// Fields end at commas. Blanks around them, blank lines, any line ends and a byte order mark are accepted; quotes and
+/// comments are not. Numbers are read independently of the locale, including "inf" and "nan". Throws FileError with the
+/// line if the header is missing, or has an unknown or a repeated column; if a required column is missing; if a row has
+/// too few or too many fields; if a field is not a number; and as TextLines does.
 std::size_t read_csv(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
                      std::stop_token stop = {});
 

@@ -12,14 +12,14 @@ namespace detp::sim {
 /// Reads discs: CSV with the header x,y,z,nx,ny,nz and optionally radius (columns in any order), or PLY with those
 /// vertex properties. Normals are normalised.
 ///
-/// default_radius serves where the file gives none. Throws FileError with the line (CSV) or the element's number (PLY):
-/// unreadable or malformed, no disc at all, a number that is not finite, a zero normal, a radius <= 0 or none anywhere.
-/// The first bad row is refused before the next is read. Throws std::length_error where the discs would not fit in
-/// memory, and Stopped within 0.1 s of a stop request.
+/// default_radius applies if the file has no radius. Throws FileError with the line (CSV) or the element's number (PLY)
+/// if the file is unreadable or malformed, or has no disc; for a number that is not finite, a zero normal, a radius <=
+/// 0, or no radius in the file nor by default. Checks each row before it reads the next. Throws std::length_error if
+/// the discs would not fit in memory, and Stopped within 0.1 s of a stop request.
 [[nodiscard]] std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius,
                                            std::stop_token stop = {});
 
-/// Writes discs as CSV with the header x,y,z,nx,ny,nz,radius, in digits that read back to the same doubles.
+/// Writes discs as CSV with the header x,y,z,nx,ny,nz,radius, with enough digits to read back the same doubles.
 void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -17,12 +17,12 @@ namespace detp::sim {
 namespace {
 
 constexpr std::size_t piece_size = 1 << 16;
-constexpr int wait_milliseconds = 50;  // between two looks at the stop request
+constexpr int wait_milliseconds = 50;  // time between two checks for a stop request
 
 }  // namespace
 
 InputFile::InputFile(std::string path, std::stop_token stop) : path_(std::move(path)), stop_(std::move(stop)) {
-  // Without O_NONBLOCK, a pipe that nobody writes would keep us here.
+  // Without O_NONBLOCK, opening a pipe that has no writer would block.
   descriptor_ = ::open(path_.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (descriptor_ < 0) throw FileError(path_, std::string("cannot be opened: ") + std::strerror(errno));
   struct stat status {};
@@ -34,7 +34,7 @@ InputFile::InputFile(std::string path, std::stop_token stop) : path_(std::move(p
 InputFile::~InputFile() { ::close(descriptor_); }
 
 std::optional<std::uint64_t> InputFile::rest() const {
-  if (size_ == 0) return std::nullopt;  // files of /proc say 0, too
+  if (size_ == 0) return std::nullopt;  // files of /proc report 0, too
   return ahead().size() + (size_ > read_ ? size_ - read_ : 0);
 }
 

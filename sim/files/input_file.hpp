@@ -9,11 +9,11 @@
 
 namespace detp::sim {
 
-/// A file read piece by piece. Pipes and devices too: where one delivers nothing, the wait for it ends within 0.1 s of
+/// Reads a file piece by piece; also a pipe or a device. If one delivers nothing, the wait for it ends within 0.1 s of
 /// a stop request.
 class InputFile {
  public:
-  /// Opens. Throws FileError with the system's reason: missing, unreadable.
+  /// Opens the file. Throws FileError with the system's reason if it is missing or unreadable.
   explicit InputFile(std::string path, std::stop_token stop = {});
   ~InputFile();
   InputFile(const InputFile&) = delete;
@@ -21,22 +21,22 @@ class InputFile {
 
   [[nodiscard]] const std::string& path() const { return path_; }
 
-  /// What has been read and not skipped. Valid until the next fetch.
+  /// The bytes that have been read and not skipped. Valid until the next fetch.
   [[nodiscard]] std::string_view ahead() const { return {buffer_.data() + begin_, end_ - begin_}; }
 
-  /// Reads until at least `bytes` bytes are ahead; false if the file ends before. Throws FileError with the system's
-  /// reason (a folder, say), and Stopped.
+  /// Reads until at least `bytes` bytes are in ahead(). Returns false if the file ends before. Throws FileError with
+  /// the system's reason (for instance if it is a folder), and Stopped.
   bool fetch(std::size_t bytes) { return end_ - begin_ >= bytes || fetch_more(bytes); }
 
-  /// Goes past bytes that are ahead.
+  /// Skips bytes of ahead().
   void skip(std::size_t bytes) { begin_ += bytes; }
 
-  /// Bytes after the position; unknown for pipes and devices.
+  /// Number of bytes after the position; unknown for pipes and devices.
   [[nodiscard]] std::optional<std::uint64_t> rest() const;
 
  private:
   bool fetch_more(std::size_t bytes);
-  /// False at the end of the file.
+  /// Reads once; false at the end of the file.
   bool read_once();
   void wait_for_input() const;
   void check_stop() const;
@@ -45,18 +45,17 @@ class InputFile {
   std::stop_token stop_;
   int descriptor_ = -1;
   bool regular_ = false;
-  std::uint64_t size_ = 0;  ///< of a regular file; 0: unknown
+  std::uint64_t size_ = 0;  ///< size of a regular file; 0: unknown
   std::uint64_t read_ = 0;  ///< bytes read so far
   std::vector<char> buffer_;
   std::size_t begin_ = 0;
   std::size_t end_ = 0;
 };
 
-/// The whole content of a file that has at most that many bytes. Throws FileError if it has more, and as InputFile
-/// does.
+/// The whole content of a file of at most `most` bytes. Throws FileError if it has more, and as InputFile does.
 [[nodiscard]] std::string read_file(const std::string& path, std::size_t most, std::stop_token stop = {});
 
-/// Whether the path ends in `ending` (in lower case, such as ".ply"), in any case.
+/// Whether the path has this ending, ignoring case. `ending` is in lower case, such as ".ply".
 [[nodiscard]] bool has_ending(std::string_view path, std::string_view ending);
 
 }  // namespace detp::sim

@@ -24,7 +24,7 @@ std::uint32_t checked_index(const std::string& path, std::uint64_t face, double 
                             ": index out of range; wanted are whole numbers from 0 to " + std::to_string(vertices - 1));
 }
 
-/// The places of three properties; none where the element lacks one of them.
+/// The places of three properties in the element; empty if it lacks one of them.
 std::vector<std::size_t> places_of(const PlyElement& element, const std::array<const char*, 3>& names) {
   std::vector<std::size_t> places;
   for (const char* name : names)
@@ -83,10 +83,10 @@ class PlyMeshReader {
   PlyFile file_;
   KeptMemory memory_;
   Mesh mesh_;
-  std::uint64_t vertices_ = 0;  ///< that the header promises
+  std::uint64_t vertices_ = 0;  ///< number that the header declares
 };
 
-/// Refuses vectors that are not finite and that a face uses.
+/// Throws FileError if a vector that a face uses is not finite.
 void check_used(const Mesh& mesh, const std::vector<glm::dvec3>& vectors, const std::string& path,
                 const std::string& what) {
   for (const auto& triangle : mesh.triangles)

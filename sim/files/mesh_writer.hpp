@@ -6,8 +6,8 @@
 
 namespace detp::sim {
 
-/// Writes a mesh as binary little-endian PLY: positions (and normals where it has them) as doubles, so that read_mesh
-/// gives back the same mesh. Throws FileError where it cannot be written.
+/// Writes a mesh as binary little-endian PLY. Positions (and normals, if it has any) are doubles, so read_mesh returns
+/// the same mesh. Throws FileError if the file cannot be written.
 void write_ply(const std::string& path, const Mesh& mesh, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

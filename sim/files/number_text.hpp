@@ -5,19 +5,20 @@
 
 namespace detp::sim {
 
-/// The double nearest to the number that the whole text spells, whatever the locale; nothing where it spells none.
+/// The double nearest to the number that the whole text spells, independent of the locale; nullopt if it spells none.
 ///
-/// Accepts a leading '+', "inf", "infinity" and "nan" in any case. Numbers too large for a double become infinite,
-/// numbers too small zero. Surrounding spaces are not accepted.
+/// Accepts a leading '+', and "inf", "infinity" and "nan" in any case. Numbers too large for a double become infinite;
+/// numbers too small become zero. Surrounding spaces are not accepted.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
 
-/// The text without spaces and tabs at its ends.
+/// The text without leading and trailing spaces and tabs.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// The text up to the first of `separators`, which is cut off the front of `text` together with that separator.
+/// Returns the text up to the first of `separators`; removes it and that separator from the front of `text`.
 [[nodiscard]] std::string_view cut_until(std::string_view& text, std::string_view separators);
 
-/// The next run of characters that are no blanks (space, tab), cut off the front of `text`; empty at its end.
+/// Returns the next word, a run of characters other than space and tab, and removes it from the front of `text`; empty
+/// at the end.
 [[nodiscard]] std::string_view cut_word(std::string_view& text);
 
 }  // namespace detp::sim

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// Below this share of its terms, a sum of unit normals is what cancellation left.
+/// If a sum of unit normals is below this share of their number, it is a residue of cancellation.
 constexpr double least_sum = 1e-6;
 
 /// The sum of the unit normals of the corners at a position.
@@ -33,11 +33,12 @@ struct CornerNormals {
     ++count;
   }
 
-  /// The sum, or where the normals cancel, as those of a leaf that is there once for each face, the first.
+  /// The sum. If the normals cancel, for instance those of a leaf that has one triangle for each face, the first
+  /// normal.
   [[nodiscard]] glm::dvec3 vector() const { return glm::length(sum) < least_sum * count ? first : sum; }
 };
 
-/// Indices of a face's corner as the file gives them; 0: none.
+/// Indices of a face's corner as the file has them; 0: none.
 struct Corner {
   long long vertex = 0;
   long long normal = 0;
@@ -97,7 +98,7 @@ class ObjReader {
     lines_.fail(quoted(word) + " is not a number");
   }
 
-  /// 1, 1/2, 1//3 or 1/2/3: the vertex, its texture, which is not used, and its normal.
+  /// Reads 1, 1/2, 1//3 or 1/2/3: the vertex, its texture (ignored) and its normal.
   [[nodiscard]] Corner corner_in(std::string_view word) const {
     std::string_view parts = word;
     Corner corner{.vertex = index_in(cut_until(parts, "/"), word)};
@@ -116,7 +117,7 @@ class ObjReader {
     lines_.fail(quoted(word) + " is no corner of a face; wanted are corners such as 1, 1/2, 1//3 or 1/2/3");
   }
 
-  /// Of an index as the file gives it: from 1, or from the last one so far backwards as a negative number.
+  /// Resolves an index of the file: positive ones count from 1, negative ones backwards from the latest one.
   [[nodiscard]] std::size_t resolve(long long index, std::size_t count, const char* what) const {
     const auto size = static_cast<long long>(count);
     const bool in_range = index != 0 && index >= -size && index <= size;

@@ -7,15 +7,15 @@
 
 namespace detp::sim {
 
-/// Reads the triangles of an OBJ file, with the normals of its corners where every used vertex has some.
+/// Reads the triangles of an OBJ file, and the normals of its corners if every used vertex has at least one.
 ///
-/// A vertex at which corners have different normals gets the sum of their unit vectors. Positions and normals may be
-/// infinite or NaN: the caller decides about them. A backslash at the end of a line joins the next one to it, except in
-/// comments. Lines of a kind that OBJ does not have are left out, with a notice.
+/// A vertex whose corners have different normals gets the sum of their unit vectors. Positions and normals may be
+/// infinite or NaN: the caller decides about them. A backslash at the end of a line joins the next line to it, except
+/// in comments. Lines with a keyword unknown to OBJ are skipped, with a notice.
 ///
-/// Throws FileError with the line (the first of joined lines): malformed numbers or faces, indices out of range, a file
-/// most of whose lines are of no kind that OBJ has; and as TextLines does. Throws std::length_error where the mesh
-/// would not fit in memory, and Stopped.
+/// Throws FileError with the line (the first of joined lines) for malformed numbers or faces, indices out of range, a
+/// file most of whose lines have unknown keywords; and as TextLines does. Throws std::length_error if the mesh would
+/// not fit in memory, and Stopped.
 [[nodiscard]] Mesh read_obj(const std::string& path, Notices& notices, std::stop_token stop = {});
 
 }  // namespace detp::sim

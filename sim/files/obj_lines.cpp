@@ -9,14 +9,14 @@
 namespace detp::sim {
 namespace {
 
-/// All statements of OBJ, of which only v, vn and f matter here.
+/// All keywords of OBJ. Only v, vn and f matter here.
 constexpr std::array<std::string_view, 44> keywords{
     "v",      "vn",         "f",         "vt",     "vp",    "g",    "o",     "s",    "usemtl", "mtllib",   "l",
     "p",      "fo",         "mg",        "cstype", "deg",   "bmat", "step",  "curv", "curv2",  "surf",     "parm",
     "trim",   "hole",       "scrv",      "sp",     "end",   "con",  "bevel", "lod",  "usemap", "c_interp", "d_interp",
     "maplib", "shadow_obj", "trace_obj", "ctech",  "stech", "call", "csh",   "bsp",  "bzp",    "cdc",      "res"};
 
-/// Statements of no kind that a file may begin with before it is refused.
+/// Number of statements with unknown keywords that are always accepted, before the file may be rejected.
 constexpr std::uint64_t unknown_allowed = 100;
 
 }  // namespace
@@ -39,7 +39,7 @@ bool ObjLines::next() {
   return false;
 }
 
-/// The line and those that follow it, with a blank in place of each backslash.
+/// The line and its continuation lines, with a blank in place of each backslash.
 std::string_view ObjLines::joined() {
   joined_.clear();
   bool more = true;

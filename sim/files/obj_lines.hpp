@@ -11,23 +11,23 @@
 
 namespace detp::sim {
 
-/// The statements of an OBJ file, without comments and blank lines; joined where a backslash ends a line.
+/// The statements of an OBJ file, without comments and blank lines. Lines that a backslash continues are joined.
 class ObjLines {
  public:
   ObjLines(const std::string& path, std::stop_token stop);
 
-  /// Goes to the next statement of a kind that OBJ has; false at the end of the file. Throws FileError where most
-  /// statements are of none, and as TextLines does.
+  /// Goes to the next statement with a keyword of OBJ; false at the end of the file. Throws FileError if most
+  /// statements have unknown keywords, and as TextLines does.
   bool next();
 
   [[nodiscard]] std::string_view keyword() const { return keyword_; }
-  /// What follows the keyword. Valid until next().
+  /// The text after the keyword. Valid until next().
   [[nodiscard]] std::string_view rest() const { return rest_; }
 
-  /// Throws FileError with the line, the first of joined ones.
+  /// Throws FileError with the line, the first of joined lines.
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// Adds a notice of statements left out.
+  /// Adds a notice of the statements that were skipped.
   void note_unknown(Notices& notices) const;
 
  private:
@@ -39,7 +39,7 @@ class ObjLines {
   std::string joined_;
   std::string_view keyword_;
   std::string_view rest_;
-  std::size_t number_ = 0;  ///< of the statement's first line
+  std::size_t number_ = 0;  ///< line number of the statement's first line
   std::uint64_t known_ = 0;
   std::uint64_t unknown_ = 0;
   std::string first_unknown_;

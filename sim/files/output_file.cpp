@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t buffer_size = 1 << 16;
 
-/// An open file without a name in the folder of the target; -1 where the system has none, or no way to name it later.
+/// Opens a nameless file in the target's folder. Returns -1 if the system has none, or no way to name it later.
 int open_unnamed(const std::string& target) {
   const std::string folder = target.substr(0, target.rfind('/') + 1);
   if (::access("/proc/self/fd", X_OK) != 0) return -1;
@@ -35,7 +35,7 @@ OutputFile::OutputFile(const std::string& path, Aside aside) : path_(path) {
     descriptor_ = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
     if (descriptor_ < 0) fail("cannot be written");
   } else {
-    // Renaming would replace even a file that must not be written.
+    // A rename would replace even a write-protected file, so check first.
     if (exists && ::access(path.c_str(), W_OK) != 0) fail("cannot be written");
     open_aside(aside);
     if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0) fail("cannot be written");
@@ -85,7 +85,8 @@ void OutputFile::commit() {
   part_.clear();
 }
 
-/// A file without a name can be given one that is free; to replace another, it becomes a part file first.
+/// Gives the nameless file its name. If the name is taken, the file becomes a part file first, because only a rename
+/// can replace a file.
 void OutputFile::name_unnamed() {
   const std::string link = "/proc/self/fd/" + std::to_string(descriptor_);
   if (::linkat(AT_FDCWD, link.c_str(), AT_FDCWD, target_.c_str(), AT_SYMLINK_FOLLOW) == 0) return;

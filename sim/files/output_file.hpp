@@ -5,18 +5,18 @@
 
 namespace detp::sim {
 
-/// A file being written, which takes its place only when it is complete.
+/// A file being written, which replaces the target only when it is complete.
 ///
-/// Writes aside in the same folder, and takes its place on commit(): until then a file of that name stays as it was,
-/// and a writer that fails or is destroyed without commit() leaves nothing behind. Until commit() the file has no name
-/// where the file system can do that, so that nothing is left even where the program is killed. A link is followed; an
-/// existing file's permissions are kept. What is no regular file (/dev/stdout, /dev/full, a pipe) is written directly.
-/// Every failure throws FileError with the system's reason. (SIGPIPE and SIGXFSZ must be ignored for it to get that
-/// far.)
+/// Writes to another file in the same folder and moves it to the target on commit(). Until then an existing target
+/// stays unchanged; a writer that fails, or is destroyed without commit(), leaves nothing behind. If the file system
+/// supports it, the file has no name until commit(), so nothing is left even if the program is killed. Follows links
+/// and keeps an existing file's permissions. Anything but a regular file (/dev/stdout, /dev/full, a pipe) is written
+/// directly. Every failure throws FileError with the system's reason. (SIGPIPE and SIGXFSZ must be ignored for this to
+/// work.)
 class OutputFile {
  public:
   enum class Aside {
-    unnamed,  ///< where the file system can do it, else named
+    unnamed,  ///< a nameless file, if the file system supports it; else `named`
     named     ///< a part file (part_files.hpp)
   };
 
@@ -25,10 +25,10 @@ class OutputFile {
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Adds the text; buffered, so a full disk may show only later or in commit().
+  /// Appends the text. Output is buffered, so an error such as a full disk may only appear later or in commit().
   void write(std::string_view text);
 
-  /// Puts the file in its place. Nothing may be written after it.
+  /// Moves the file to its target. Nothing may be written after it.
   void commit();
 
  private:
@@ -38,9 +38,9 @@ class OutputFile {
   void discard();
   [[noreturn]] void fail(const std::string& what);
 
-  std::string path_;    ///< as given: for messages
-  std::string target_;  ///< with links followed; empty where it is written directly
-  std::string part_;    ///< what is renamed to the target; empty for a file without a name
+  std::string path_;    ///< as the caller spelled it, for messages
+  std::string target_;  ///< with links followed; empty if it is written directly
+  std::string part_;    ///< the file to be renamed to the target; empty for a nameless file
   std::string buffer_;
   int descriptor_ = -1;
 };

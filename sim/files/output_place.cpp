@@ -24,7 +24,7 @@ std::string folder_of(const std::string& place) {
   return folder.empty() ? "." : folder;
 }
 
-/// What tells a place from others: the file where there is one, else its folder and its name there.
+/// What identifies a place: the file if it exists, else its folder and its name there.
 struct Identity {
   dev_t device = 0;
   ino_t file = 0;
@@ -65,7 +65,7 @@ std::optional<std::string> followed(const std::string& path) {
     const ssize_t length = ::readlink(place.c_str(), target, sizeof target);
     if (length < 0) return place;
     const std::string next(target, static_cast<std::size_t>(length));
-    const std::size_t folder_end = place.rfind('/') + 1;  // 0 where there is none
+    const std::size_t folder_end = place.rfind('/') + 1;  // 0 if the path has no folder
     place = next.starts_with('/') ? next : place.substr(0, folder_end) + next;
   }
   return std::nullopt;

@@ -17,19 +17,19 @@ struct PartFiles {
   unsigned last = 0;
 };
 
-/// Never destroyed: a thread may end the program while others end it in the usual way.
+/// Never destroyed, because one thread may end the program at once while another ends it normally.
 PartFiles& part_files() {
   static PartFiles& all = *new PartFiles;
   return all;
 }
 
-/// A name in the same folder that no other writer, here or in another process, takes.
+/// A file name in the same folder that no other writer uses, in this process or another.
 std::string next_name(PartFiles& all, const std::string& target) {
   const std::string folder = target.substr(0, target.rfind('/') + 1);
   return folder + ".detp-" + std::to_string(::getpid()) + "-" + std::to_string(++all.last) + ".part";
 }
 
-/// `create` makes the file of a name and returns -1 where it cannot.
+/// `create` creates the file of that name; it returns -1 if it cannot.
 template <class Create>
 int create_under_new_name(const std::string& target, std::string& name, const Create& create) {
   PartFiles& all = part_files();
@@ -73,7 +73,7 @@ void remove_part_file(const std::string& name) {
 
 void remove_all_part_files_for_good() noexcept {
   PartFiles& all = part_files();
-  all.mutex.lock();  // and never unlocked
+  all.mutex.lock();  // never unlocked
   for (const std::string& name : all.names) ::unlink(name.c_str());
 }
 

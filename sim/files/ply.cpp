@@ -20,7 +20,7 @@ class BodyReader {
     check_size(element);
     if (element.properties.empty()) return;
     PlyValues values(wish == nullptr ? 0 : wish->properties.size());
-    std::vector<std::vector<double>*> places(element.properties.size());  // null: read over
+    std::vector<std::vector<double>*> places(element.properties.size());  // null: skipped
     for (std::size_t i = 0; i < values.size(); ++i) places[wish->properties[i]] = &values[i];
     for (row_ = 1; row_ <= element.rows; ++row_) {
       for (std::vector<double>& entries : values) entries.clear();
@@ -39,7 +39,7 @@ class BodyReader {
                                std::to_string(element.rows) + source_.where() + ": " + what);
   }
 
-  /// Where the size of the file is known, a header that promises too much is refused before anything is read.
+  /// If the size of the file is known, rejects a header that declares more data before anything is read.
   void check_size(const PlyElement& element) const {
     std::uint64_t least = 0;
     for (const PlyProperty& property : element.properties)

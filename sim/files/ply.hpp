@@ -13,30 +13,31 @@
 /// PLY files: ascii, binary of both byte orders, all number types, lists.
 namespace detp::sim {
 
-/// Of one row, the entries of each wanted property: one number, or those of a list. All types of PLY fit a double
+/// One row's values of each wanted property: one number, or the entries of a list. A double holds every PLY number
 /// exactly.
 using PlyValues = std::vector<std::vector<double>>;
 
-/// What is wanted of an element.
+/// The properties wanted of one element.
 struct PlyWish {
   std::string element;
-  std::vector<std::size_t> properties;                                   ///< their places in the element
-  std::function<void(std::uint64_t row, const PlyValues& values)> take;  ///< takes each row, from 0; may throw
+  std::vector<std::size_t> properties;  ///< their places in the element
+  /// receives each row, numbered from 0; may throw
+  std::function<void(std::uint64_t row, const PlyValues& values)> take;
 };
 
-/// A PLY file, whose rows are handed on one by one.
+/// A PLY file. Its rows are passed on one by one.
 class PlyFile {
  public:
-  /// Opens and reads the header. Throws FileError with the line: unreadable, malformed; and Stopped.
+  /// Opens the file and reads the header. Throws FileError with the line if it is unreadable or malformed; and Stopped.
   explicit PlyFile(const std::string& path, std::stop_token stop = {});
 
   /// The element of that name; null if the file has none.
   [[nodiscard]] const PlyElement* element(std::string_view name) const;
 
-  /// Reads the body, in its order; what is not wanted is read over. Can be called once.
+  /// Reads the body in its order, and skips elements that are not wanted. Can be called once.
   ///
-  /// Throws FileError with the element and its row counting from 1 ("vertex 17 of 100"): unreadable, malformed,
-  /// truncated, or an ascii file with more numbers than its header says. Throws Stopped.
+  /// Throws FileError with the element and its row counted from 1 ("vertex 17 of 100") if the file is unreadable,
+  /// malformed or truncated, or is an ascii file with more numbers than its header declares. Throws Stopped.
   void read(const std::vector<PlyWish>& wishes);
 
  private:

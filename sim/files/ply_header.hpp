@@ -9,7 +9,7 @@
 
 #include "input_file.hpp"
 
-/// The header of a PLY file: what its body holds, and how.
+/// The header of a PLY file: what its body contains, in which format.
 namespace detp::sim {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -22,27 +22,27 @@ enum class PlyFormat { ascii, little_endian, big_endian };
 struct PlyProperty {
   std::string name;
   PlyType type = PlyType::float32;
-  std::optional<PlyType> count_type;  ///< of the number of entries in front of a list; none: a single number
+  std::optional<PlyType> count_type;  ///< type of the entry count in front of a list; none: a single number
 };
 
-/// One kind of rows.
+/// One kind of row.
 struct PlyElement {
   std::string name;
   std::uint64_t rows = 0;
   std::vector<PlyProperty> properties;
 
-  /// The place of the property of that name, if the element has it and it is a list, or not, as wanted.
+  /// The place of the property of that name. None unless the element has it, and it is a list or not as `list` says.
   [[nodiscard]] std::optional<std::size_t> property(std::string_view wanted, bool list) const;
 };
 
 struct PlyHeader {
   PlyFormat format = PlyFormat::ascii;
   std::vector<PlyElement> elements;
-  std::size_t lines = 0;  ///< lines up to the body
+  std::size_t lines = 0;  ///< number of lines before the body
 };
 
-/// Reads the header at the front of a file, and leaves the file at its body. Throws FileError with the line: malformed,
-/// or longer than 256 KiB; and as TextLines does.
+/// Reads the header from the front of a file, and leaves the position at the body. Throws FileError with the line if it
+/// is malformed or longer than 256 KiB; and as TextLines does.
 [[nodiscard]] PlyHeader read_ply_header(InputFile& file);
 
 }  // namespace detp::sim

@@ -11,24 +11,24 @@
 #include "number_text.hpp"
 #include "ply_header.hpp"
 
-/// The numbers of a PLY file's body, one after another.
+/// The numbers of a PLY file's body in sequence.
 namespace detp::sim {
 
-/// Numbers written as text, between any blanks and line ends.
+/// Numbers as text, separated by blanks and line ends.
 class PlyText {
  public:
   PlyText(InputFile& file, std::size_t lines_before) : file_(file), line_(lines_before + 1) {}
 
-  /// The fewest bytes that a number takes: a digit and a separator.
+  /// The minimum number of bytes of a number: a digit and a separator.
   static std::uint64_t least_size(PlyType) { return 2; }
 
-  /// Most bytes that can follow, if known. The last number needs no separator.
+  /// The maximum number of bytes that can follow, if known. The last number needs no separator.
   [[nodiscard]] std::optional<std::uint64_t> rest() const {
     const auto bytes = file_.rest();
     return bytes ? std::optional(*bytes + 1) : std::nullopt;
   }
 
-  /// The next number; nothing at the end of the file or before what is no number.
+  /// The next number; nullopt at the end of the file or if the next word is not a number.
   std::optional<double> next(PlyType) {
     if (at_end()) return std::nullopt;
     std::size_t size = 0;
@@ -42,12 +42,12 @@ class PlyText {
     return number;
   }
 
-  /// Why there was no next number.
+  /// The reason that there was no next number.
   [[nodiscard]] std::string why_none(const std::string& name) const {
     return file_.ahead().empty() ? "the file ends early" : "its " + name + " is not a number";
   }
 
-  /// Skips blanks first.
+  /// Whether only blanks are left; skips blanks.
   [[nodiscard]] bool at_end() {
     while (file_.fetch(1)) {
       const std::string_view text = file_.ahead();
@@ -69,7 +69,7 @@ class PlyText {
   std::size_t line_;
 };
 
-/// Numbers as bytes.
+/// Numbers in binary.
 class PlyBytes {
  public:
   PlyBytes(InputFile& file, std::endian order) : file_(file), swapped_(order != std::endian::native) {}
@@ -102,7 +102,7 @@ class PlyBytes {
 
   [[nodiscard]] static std::string why_none(const std::string&) { return "the file ends early"; }
 
-  /// What follows the last element is no concern of a binary file: many writers end it with a line feed.
+  /// A binary file may have bytes after its last element: many writers append a line feed.
   [[nodiscard]] static bool at_end() { return true; }
   [[nodiscard]] static std::string where() { return {}; }
 

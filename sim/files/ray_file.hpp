@@ -9,13 +9,15 @@
 namespace detp::sim {
 
 /// Reads rays: CSV with the header ox,oy,oz,dx,dy,dz and optionally length and power (columns in any order), or PLY
-/// with those vertex properties. Directions are normalised (the length is not scaled: it is a length in scene units).
+/// with those vertex properties. Directions are normalised. `length` is not scaled with them: it is a length in scene
+/// units.
 ///
-/// length: absent, empty or "inf" means the line unbounded both ways; else > 0 and finite: the segment from the origin.
-/// power: absent means 1; else finite and >= 0. Throws FileError as read_discs does; a zero direction is an error.
+/// length: absent, empty or "inf" means a line unbounded both ways; else it must be > 0 and finite, and the ray is the
+/// segment from the origin. power: absent means 1; else it must be finite and >= 0. Throws FileError as read_discs
+/// does, and for a zero direction.
 [[nodiscard]] std::vector<Ray> read_rays(const std::string& path, std::stop_token stop = {});
 
-/// Writes rays as CSV with the header ox,oy,oz,dx,dy,dz,length,power, in digits that read back to the same doubles.
+/// Writes rays as CSV with the header ox,oy,oz,dx,dy,dz,length,power, with enough digits to read back the same doubles.
 void write_rays(const std::string& path, const std::vector<Ray>& rays, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

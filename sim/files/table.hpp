@@ -12,12 +12,12 @@
 /// Files of numbers in named columns: CSV, or the vertices of a PLY file.
 namespace detp::sim {
 
-/// A column that a file may or must have.
+/// A column that a file may have or must have.
 struct TableColumn {
   std::string_view name;
-  std::optional<double> absent;  ///< stands for a column that the file does not have; none: it must have it
-  std::optional<double> empty;   ///< stands for an empty field of a CSV file; none: no field may be empty
-  std::string_view remedy = {};  ///< what a message about its lack says further: ", and none is given"
+  std::optional<double> absent;  ///< value if the file has no such column; none: the column is required
+  std::optional<double> empty;   ///< value of an empty field in a CSV file; none: no field may be empty
+  std::string_view remedy = {};  ///< ends the message about a missing column: ", and none is given"
 };
 
 /// One row of such a file.
@@ -31,19 +31,19 @@ class TableRow {
 
   void set(std::size_t column, double value) { values_[column] = value; }
 
-  /// Where the row is: its line; or in a PLY file its number among `rows` vertices, from 1.
+  /// Sets where the row is: its line, or in a PLY file its number among `rows` vertices, from 1.
   void place(std::size_t number, std::size_t rows = 0) {
     number_ = number;
     rows_ = rows;
   }
 
-  /// Throws FileError that names the place.
+  /// Throws FileError with the place.
   [[noreturn]] void fail(const std::string& what) const;
 
-  /// Throws FileError where the number is infinite or NaN.
+  /// The number in the column. Throws FileError if it is infinite or NaN.
   [[nodiscard]] double finite(std::size_t column) const;
 
-  /// The three columns from the given one on, likewise.
+  /// The numbers in this column and the next two. Throws FileError if one is infinite or NaN.
   [[nodiscard]] glm::dvec3 finite_vector(std::size_t first_column) const;
 
  private:
@@ -51,15 +51,15 @@ class TableRow {
   const std::vector<TableColumn>& columns_;
   std::vector<double> values_;
   std::size_t number_ = 0;
-  std::size_t rows_ = 0;  ///< 0: the number is that of a line
+  std::size_t rows_ = 0;  ///< 0: number_ is a line number
 };
 
-/// Takes each row as it is read; may throw.
+/// Receives each row as it is read; may throw.
 using TableSink = std::function<void(const TableRow&)>;
 
-/// Reads a table row by row, in bounded memory: PLY where the path ends in .ply, in any case, else CSV. Returns the
-/// number of rows. Throws FileError with the line (CSV) or the vertex (PLY): unreadable, malformed, a column missing;
-/// see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
+/// Reads a table row by row, in bounded memory: PLY if the path ends in .ply, in any case, else CSV. Returns the number
+/// of rows. Throws FileError with the line (CSV) or the vertex (PLY) if the file is unreadable or malformed, or a
+/// column is missing; see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
 std::size_t read_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
                        std::stop_token stop = {});
 

@@ -6,16 +6,16 @@
 
 namespace detp::sim {
 
-/// Checks for a stop request while things are written to a file.
+/// Checks for a stop request while a file is written.
 class WritingCheck {
  public:
-  /// `unit` says what the `things` are, in the plural; of static storage.
+  /// `unit` names the `things` in the plural; it refers to a string of static storage.
   WritingCheck(const std::string& path, std::uint64_t things, const char* unit, const std::stop_token& stop)
       : path_(path), check_(stop), written_{0, things, unit} {}
 
-  /// Before each thing is written. Throws Stopped if a stop was requested.
+  /// To be called before each thing is written. Throws Stopped if a stop was requested.
   void next() {
-    constexpr std::uint64_t work = 8;  // a line of numbers takes most of a microsecond
+    constexpr std::uint64_t work = 8;  // a line of numbers takes nearly a microsecond
     if (check_.requested_after(work))
       throw Stopped("stopped while writing " + path_ + " after " + std::to_string(written_.done) + " of " +
                         std::to_string(written_.of) + " " + std::string(written_.unit),

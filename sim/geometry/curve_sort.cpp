@@ -22,11 +22,11 @@ std::uint32_t spread(std::uint32_t bits) {
   return bits;
 }
 
-/// How finely the curve is followed.
+/// Resolution of the curve.
 struct Resolution {
-  int digits;                                                                  ///< of the code
-  int digit_bits;                                                              ///< of each
-  [[nodiscard]] double cells() const { return 1 << digits * digit_bits / 3; }  ///< along the longest side
+  int digits;                                                                  ///< digits in a code
+  int digit_bits;                                                              ///< bits in a digit
+  [[nodiscard]] double cells() const { return 1 << digits * digit_bits / 3; }  ///< cells along the longest side
   [[nodiscard]] std::uint32_t digit(CurvePlace place, int number) const {
     return place_code(place) >> (digit_bits * number) & ((1U << digit_bits) - 1);
   }
@@ -44,7 +44,8 @@ std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells, con
   const Box box = box_of_centres(discs);
   const glm::dvec3 size = box.size();
   const double side = std::max({size.x, size.y, size.z});
-  constexpr double least_side = 1e-290;  // smaller, the scale might not be finite: all are in one cell then
+  // with a smaller side the scale might not be finite: then all discs are in one cell
+  constexpr double least_side = 1e-290;
   const double scale = side > least_side ? cells / side : 0;
   const auto last = static_cast<std::uint32_t>(cells) - 1;
   const auto cell = [&](double above) { return spread(std::min(static_cast<std::uint32_t>(above * scale), last)); };
@@ -61,7 +62,7 @@ std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells, con
   return places;
 }
 
-/// One pass of a radix sort: stretches of the words are counted, and moved, side by side.
+/// One pass of a radix sort. Counts, and moves, stretches of the words in parallel.
 class Pass {
  public:
   Pass(const Resolution& resolution, int digit, std::span<const CurvePlace> from, const std::stop_token& stop)
@@ -98,7 +99,7 @@ class Pass {
   std::span<const CurvePlace> from_;
   const std::stop_token& stop_;
   std::size_t stretches_;
-  std::vector<std::uint32_t> starts_;  ///< for each stretch, each value of the digit: where its next word goes
+  std::vector<std::uint32_t> starts_;  ///< where the next word goes, for each stretch and each value of the digit
 };
 
 }  // namespace

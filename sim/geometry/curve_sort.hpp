@@ -7,18 +7,18 @@
 
 #include "geometry.hpp"
 
-/// The discs along the Lebesgue curve, coarsely and fast.
+/// Sorts discs along the Morton curve (the paper: Lebesgue curve), coarsely and fast.
 namespace detp::sim::stream {
 
-/// A place on the curve (10 bits a coordinate at most, in the upper 32 bits) and a disc's number: sorted as one word.
+/// A place on the curve (at most 10 bits a coordinate, in the upper 32 bits) and a disc's number, sorted as one word.
 using CurvePlace = std::uint64_t;
 
 [[nodiscard]] constexpr std::uint32_t place_code(CurvePlace place) { return static_cast<std::uint32_t>(place >> 32); }
 [[nodiscard]] constexpr std::uint32_t place_index(CurvePlace place) { return static_cast<std::uint32_t>(place); }
 
-/// By radix: one pass over the discs, two or three over the words. Cells are cubes, 1/1024 of the longest side of the
-/// discs' box; 1/64 for fewer than 8192 discs. Discs in one cell keep their order. Throws Stopped if
-/// a stop was requested.
+/// Radix sort: one pass over the discs, two or three over the words. Cells are cubes with 1/1024 of the longest side of
+/// the discs' box, 1/64 for fewer than 8192 discs. Discs in one cell keep their order. Throws Stopped if a stop was
+/// requested.
 [[nodiscard]] std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs, const std::stop_token& stop = {});
 
 }  // namespace detp::sim::stream

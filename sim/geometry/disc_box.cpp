@@ -61,7 +61,7 @@ bool within(const Polygon& polygon, double radius) {
 }  // namespace
 
 Box bounds(const Disc& disc, double slack) {
-  // From the other two components: 1 - n² would lose the tilt of a normal within 1e-8 of the axis.
+  // Computed from the other two components: 1 - n² would lose the tilt of a normal within 1e-8 of the axis.
   const glm::dvec3 square = disc.normal * disc.normal;
   const glm::dvec3 tilt{std::sqrt(square.y + square.z), std::sqrt(square.z + square.x), std::sqrt(square.x + square.y)};
   const glm::dvec3 extent = disc.radius * tilt + slack;

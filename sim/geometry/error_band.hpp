@@ -6,19 +6,20 @@
 
 #include "geometry.hpp"
 
-/// How near to its boundary a predicate may decide wrongly. Proved in sim/README.md, "Geometry"; valid where no square
-/// under- or overflows (make_problem's limits) and for directions and normals of length 1 to 1e-12.
+/// How near to its boundary a predicate may decide wrongly. Proved in sim/README.md, "Geometry". Valid if no square
+/// under- or overflows (make_problem's limits), and for directions and normals whose length is 1 to within 1e-12.
 namespace detp::sim {
 
 /// u = 2⁻⁵³: half the distance from 1 to the next double.
 inline constexpr double rounding_unit = 0.5 * std::numeric_limits<double>::epsilon();
 
-/// How far the nearest point on a ray, at `distance`, is displaced along it: by rounding, and for D not quite unit.
+/// How far the computed nearest point on a ray, at `distance` from the origin, may be displaced along the ray: by
+/// rounding, and because D is not exactly of unit length.
 [[nodiscard]] inline double displacement(const Ray& ray, double distance) {
   return (std::abs(glm::dot(ray.direction, ray.direction) - 1) + 8 * rounding_unit) * distance;
 }
 
-/// hits(ray, sphere) is right where the true distance of the centre from the ray differs from the radius by more than
+/// hits(ray, sphere) is right if the true distance of the centre from the ray differs from the radius by more than
 ///   u(2.2|f| + 4r) + s min(1, 2s/r),   s = (| |D|² - 1 | + 8u) |f|.
 ///
 /// | symbol | unit   | meaning                                              |
@@ -32,20 +33,21 @@ inline constexpr double rounding_unit = 0.5 * std::numeric_limits<double>::epsil
   return rounding_unit * (2.2 * f + 4 * sphere.radius) + s * std::min(1.0, 2 * s / sphere.radius);
 }
 
-/// Where hits(ray, disc) may be wrong.
+/// Bounds within which hits(ray, disc) may be wrong.
 struct DiscBand {
-  double rim;   ///< | |n × (w × D)| - d |n·D| | is no more than this, length: over |n·D| it is that of the crossing
-  double ends;  ///< of segments: |n·w| or |n·w + length n·D| is no more than this, length: an end this near the plane
+  /// bound on | |n × (w × D)| - d |n·D| |, length; divided by |n·D| it bounds the crossing's distance from the rim
+  double rim;
+  double ends;  ///< segments only: bound on |n·w| and |n·w + length n·D|, length: how near an end is to the plane
 };
 
-/// hits(ray, disc) is right where both of these are exceeded:
-///   rim = u(3|w| + 10d), and of segments s min(1, 2s/d) more;   ends = 4.01 u(|w| + length).
+/// hits(ray, disc) is right if both of these bounds are exceeded:
+///   rim = u(3|w| + 10d), plus s min(1, 2s/d) for segments;   ends = 4.01 u(|w| + length).
 ///
 /// | symbol | unit   | meaning                                              |
 /// |--------|--------|------------------------------------------------------|
 /// | w      | length | from the disc's centre to the ray's origin           |
 /// | d, n   |        | radius; normal                                       |
-/// | s      | length | (| |D|² - 1 | + 8u) |w|: it tells beyond |w| = 5·10⁷ d |
+/// | s      | length | (| |D|² - 1 | + 8u) |w|: matters if |w| > 5·10⁷ d    |
 [[nodiscard]] inline DiscBand error_band(const Ray& ray, const Disc& disc) {
   const double w = glm::distance(ray.origin, disc.centre);
   const double rim = rounding_unit * (3 * w + 10 * disc.radius);

@@ -4,20 +4,20 @@
 #include <glm/vec3.hpp>
 #include <limits>
 
-/// The shapes the simulation works on, in double precision and scene units.
+/// The shapes of the simulation, in double precision and scene units.
 namespace detp::sim {
 
 inline constexpr double unbounded = std::numeric_limits<double>::infinity();
 
-/// No coordinate, and no distance in a problem, is larger: squares must not overflow.
+/// Bound on every coordinate and every distance in a problem, so that squares do not overflow.
 inline constexpr double largest_coordinate = 1e100;
 
 /// A photon path or a line.
 struct Ray {
   glm::dvec3 origin{0.0};
   glm::dvec3 direction{0.0, 0.0, 1.0};  ///< unit length
-  double length = unbounded;            ///< of the segment from the origin; unbounded: the whole line, both ways
-  double power = 1;                     ///< flux it carries; irradiance is the sum of powers over the disc's area
+  double length = unbounded;            ///< of the segment from the origin; `unbounded` means the whole line, both ways
+  double power = 1;  ///< flux that the ray carries; irradiance is the sum of powers divided by the disc's area
 
   [[nodiscard]] bool is_line() const { return length == unbounded; }
 };
@@ -34,7 +34,7 @@ struct Sphere {
   double radius = 1;
 };
 
-/// Axis-aligned box. Starts empty; grows by `include`.
+/// Axis-aligned box. Starts empty; `include` grows it.
 struct Box {
   glm::dvec3 low{unbounded};
   glm::dvec3 high{-unbounded};

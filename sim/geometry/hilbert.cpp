@@ -18,7 +18,7 @@ constexpr unsigned turn(unsigned visit) {
   return ones % 3;
 }
 
-/// One octal digit of the code, and the state in the octant.
+/// One octal digit of the code, and the state inside that octant.
 struct Step {
   std::uint8_t digit;
   std::uint8_t state;  ///< 3 corner + axis

@@ -4,15 +4,16 @@
 
 #include "geometry.hpp"
 
-/// The one definition of what hits what. Every technique decides by these, so that all find the same pairs.
+/// The one definition of what hits what. Every technique decides by these predicates, so all find the same pairs.
 namespace detp::sim {
 
-/// Whether the ray comes within the closed sphere.
+/// Whether the ray meets the closed sphere.
 ///
-/// By the distance of the centre from the ray, perpendicular to it: the error is about ε|f|, f the vector from the
-/// ray's origin to the centre, where the discriminant b² - 4ac would have ε|f|²/r. It is decided rightly, for the line
-/// that the direction spans or the segment origin + [0, length] direction, wherever the true distance differs from the
-/// radius by more than error_band(ray, sphere), about 2.2u|f| + 4ur (u = 2⁻⁵³).
+/// Compares the distance of the centre from the ray, measured perpendicular to it, with the radius. The distance's
+/// error is about ε|f|, where f is the vector from the ray's origin to the centre; the discriminant b² - 4ac would have
+/// an error of ε|f|²/r. The decision is right, for the line that the direction spans or the segment origin + [0,
+/// length] direction, if the true distance differs from the radius by more than error_band(ray, sphere), about 2.2u|f|
+/// + 4ur (u = 2⁻⁵³).
 [[nodiscard]] inline bool hits(const Ray& ray, const Sphere& sphere) {
   const glm::dvec3 f = sphere.centre - ray.origin;
   double along = glm::dot(f, ray.direction);
@@ -21,22 +22,22 @@ namespace detp::sim {
   return glm::dot(off, off) <= sphere.radius * sphere.radius;
 }
 
-/// How far, in radii, a ray may pass a disc's centre and still be looked at: 1, and more than a direction that is unit
-/// to 1e-12 can mistake.
+/// A ray is rejected early if it passes a disc's centre at more than this many radii: 1, plus a margin for directions
+/// whose length is 1 only to within 1e-12.
 inline constexpr double reach = 1 + 2e-12;
 
 /// Whether the ray crosses the disc: the point where it crosses the disc's plane lies within the closed disc and on the
 /// ray. A ray parallel to the plane does not hit.
 ///
-/// Without division: with D the direction, n the normal and w the vector from the disc's centre to the origin, the
-/// crossing lies w - D (n·w)/(n·D) = (n × (w × D)) / (n·D) from the centre: neither n nor D need be unit. It is decided
-/// rightly wherever the crossing's distance from the centre differs from d by more than error_band(ray, disc).rim /
-/// |n·D|, about u(3|w| + 10d)/|n·D|, and no end of a segment lies within error_band(ray, disc).ends of the plane, about
-/// 4u(|w| + length). The bounds are derived in sim/README.md, "Geometry".
+/// Needs no division. With D the direction, n the normal and w the vector from the disc's centre to the origin, the
+/// vector from the centre to the crossing is w - D (n·w)/(n·D) = (n × (w × D)) / (n·D); neither n nor D need have unit
+/// length. The decision is right if the crossing's distance from the centre differs from d by more than error_band(ray,
+/// disc).rim / |n·D|, about u(3|w| + 10d)/|n·D|, and no end of a segment lies within error_band(ray, disc).ends of the
+/// plane, about 4u(|w| + length). The bounds are derived in sim/README.md, "Geometry".
 ///
-/// Near the edge-on view rounding decides, and could decide for a hit far from the disc. Two questions forbid that.
-/// |w × D| is the distance of the whole line from the centre: more than d, and nothing more need be asked. A segment
-/// that is about to be taken must itself come as near as d to the centre, which only hits are asked.
+/// If the disc is seen almost edge-on, rounding decides, and could report a hit far from the disc. Two checks prevent
+/// this. First, |w × D| is the distance of the whole line from the centre; if it exceeds d, the ray misses. Second, a
+/// candidate hit on a segment must also lie within d of the centre; this check runs last, on candidate hits only.
 [[nodiscard]] inline bool hits(const Ray& ray, const Disc& disc) {
   const glm::dvec3 w = ray.origin - disc.centre;
   const glm::dvec3 moment = glm::cross(w, ray.direction);
@@ -55,7 +56,7 @@ inline constexpr double reach = 1 + 2e-12;
   return glm::dot(off, off) <= square * (reach * reach);
 }
 
-/// Whether the ray arrives at the face that the disc's normal points out of.
+/// Whether the ray arrives on the side that the disc's normal points to.
 [[nodiscard]] inline bool arrives_in_front(const Ray& ray, const Disc& disc) {
   return glm::dot(disc.normal, ray.direction) < 0;
 }

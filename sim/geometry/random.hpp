@@ -3,11 +3,11 @@
 #include <array>
 #include <cstdint>
 
-/// Counter-based random numbers: a pure function of (seed, stream, index), so that results do not depend on threads,
-/// ranks or order. Philox4x64-10 of Random123.
+/// Counter-based random numbers: a pure function of (seed, stream, index). So results do not depend on threads, ranks
+/// or order. Philox4x64-10 of Random123.
 namespace detp::sim {
 
-/// Which use the numbers are for; one stream never overlaps another.
+/// The purpose of the numbers. Streams never overlap.
 enum class Stream : std::uint64_t { line_field = 1, samples, thinning, photons, scene, tests };
 
 /// Four independent uniform numbers in [0, 1) with 53 bits.

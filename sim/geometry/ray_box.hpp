@@ -7,23 +7,23 @@
 
 namespace detp::sim {
 
-/// A stretch of a ray, by the distance from its origin (negative behind it, on a line).
+/// An interval on a ray, by the distance from its origin (negative behind the origin, on a line).
 struct Stretch {
   double from;
   double to;
   [[nodiscard]] bool empty() const { return !(from <= to); }
 };
 
-/// A ray ready to be clipped against boxes.
+/// A ray prepared for clipping against boxes.
 struct ClippedRay {
   explicit ClippedRay(const Ray& ray)
       : origin(ray.origin), inverse(1.0 / ray.direction), whole{ray.is_line() ? -unbounded : 0.0, ray.length} {}
 
   glm::dvec3 origin;
-  glm::dvec3 inverse;  ///< 1 / direction, infinite where the ray keeps its coordinate
+  glm::dvec3 inverse;  ///< 1 / direction; infinite along an axis to which the ray is perpendicular
   Stretch whole;
 
-  /// The stretch inside the closed box.
+  /// The interval inside the closed box.
   [[nodiscard]] Stretch inside(const Box& box) const {
     Stretch stretch = whole;
     for (int axis = 0; axis < 3; ++axis) {

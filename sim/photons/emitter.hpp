@@ -6,19 +6,19 @@
 
 namespace detp::sim {
 
-/// Where a photon starts, and which way.
+/// Origin and direction of a photon.
 struct Departure {
   glm::dvec3 origin{0.0};
   glm::dvec3 direction{0.0, 0.0, 1.0};  ///< unit length
 };
 
-/// Draws photons from a light, each with the same power.
+/// Samples photons from a light. All have the same power.
 class Emitter {
  public:
   /// Throws std::invalid_argument for a light that is not finite, or an area light without area.
   explicit Emitter(const Light& light);
 
-  /// The photon of four uniform numbers in [0, 1).
+  /// The photon that four uniform numbers in [0, 1) determine.
   [[nodiscard]] Departure photon(const std::array<double, 4>& random) const;
 
  private:

@@ -8,15 +8,15 @@ namespace detp::sim {
 namespace {
 
 constexpr int drops_along_edge = 5;
-constexpr double step = 0.01;   // of the box's height, between the heights tried
-constexpr int most_steps = 20;  // below the top
+constexpr double step = 0.01;   // distance between the heights tried, as a share of the box's height
+constexpr int most_steps = 20;  // of `step`, below the top
 
 double longest_side(const Box& box) {
   const glm::dvec3 size = box.size();
   return std::max({size.x, size.y, size.z});
 }
 
-/// The light without its height.
+/// The light, not yet at its height.
 AreaLight level_light(const Box& box) {
   const glm::dvec3 size = box.size();
   const double least = 0.05 * longest_side(box);
@@ -28,20 +28,20 @@ AreaLight level_light(const Box& box) {
           .edge_v = {0, 0, along_z}};
 }
 
-/// A drop that falls from the light, and the depths below the top of the box where it meets the mesh.
+/// A vertical line below the light, and the depths below the box's top at which it meets the mesh.
 struct Drop {
   double x, z;
   std::vector<double> depths;
 
-  /// How far it falls from a depth until it lands; 0 if it never does.
+  /// Distance from a depth down to the next surface; 0 if there is none.
   [[nodiscard]] double fall(double depth) const {
     const auto floor = std::upper_bound(depths.begin(), depths.end(), depth);
     return floor == depths.end() ? 0 : *floor - depth;
   }
 };
 
-/// Adds where the drop meets the triangle, its corners given relative to the top of the box's middle. Upright triangles
-/// stop no drop.
+/// Adds the depth at which the drop meets the triangle. Corners are relative to the centre of the box's top. Upright
+/// triangles are ignored.
 void meet(Drop& drop, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   if (drop.x < std::min({a.x, b.x, c.x}) || drop.x > std::max({a.x, b.x, c.x})) return;
   if (drop.z < std::min({a.z, b.z, c.z}) || drop.z > std::max({a.z, b.z, c.z})) return;
@@ -55,7 +55,7 @@ void meet(Drop& drop, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3
   if (u >= 0 && v >= 0 && u + v <= 1) drop.depths.push_back(-(a.y + u * (b.y - a.y) + v * (c.y - a.y)));
 }
 
-/// All coordinates in units of the box's longest side.
+/// All coordinates are in units of the box's longest side.
 std::vector<Drop> drops(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
   const double unit = longest_side(box);
   const glm::dvec3 top{box.centre().x, box.high.y, box.centre().z};
@@ -75,12 +75,12 @@ std::vector<Drop> drops(const Mesh& mesh, const Box& box, const AreaLight& light
   return all;
 }
 
-/// Depth of the light below the top of the box, as a share of the box's height.
+/// Depth of the light below the box's top, as a share of the box's height.
 double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
   const double height = box.size().y / longest_side(box);
   const std::vector<Drop> all = drops(mesh, box, light, stop);
   for (int i = 1; i <= most_steps; ++i) {
-    // From half a step higher, so that the light cannot lie in the ceiling.
+    // The fall starts half a step higher, so that the light cannot lie in the ceiling.
     const auto falls_far = [&](const Drop& drop) { return drop.fall((i - 0.5) * step * height) >= 0.5 * height; };
     if (2 * std::count_if(all.begin(), all.end(), falls_far) > std::ssize(all)) return i * step;
   }

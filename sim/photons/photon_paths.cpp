@@ -11,7 +11,7 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::uint64_t block_size = 256;  // photons that one thread traces at a time
+constexpr std::uint64_t block_size = 256;  // number of photons that one thread traces at a time
 
 std::vector<PhotonPieces> trace_round(const PhotonTracer& tracer, std::uint64_t first, std::uint64_t photons,
                                       const std::stop_token& stop) {

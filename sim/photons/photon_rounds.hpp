@@ -9,15 +9,16 @@
 
 namespace detp::sim {
 
-/// How many photons to trace for a number of pieces of path: round by round, for how many pieces a photon gives is
-/// known only from those traced. Rounds decide how much is traced in vain, not what comes out.
+/// Decides how many photons to trace for a wanted number of path pieces. Works in rounds, because the number of pieces
+/// per photon is known only from photons already traced. The rounds affect how much is traced in vain, but not the
+/// result.
 class PhotonRounds {
  public:
   PhotonRounds(std::string scene, std::uint64_t pieces)
       : scene_(std::move(scene)), pieces_(pieces), limit_(1000 + 100 * pieces) {}
 
-  /// The photons of the next round: about as many as give the missing pieces. `found`: pieces of all rounds before.
-  /// Throws std::invalid_argument if the limit is reached.
+  /// Number of photons in the next round: about as many as yield the missing pieces. `found`: pieces of all rounds so
+  /// far. Throws std::invalid_argument if the limit is reached.
   [[nodiscard]] std::uint64_t next(std::uint64_t found) {
     if (traced_ >= limit_)
       throw std::invalid_argument("the light of " + scene_ + " hardly meets its surfaces: " + std::to_string(traced_) +
@@ -28,7 +29,7 @@ class PhotonRounds {
     return photons;
   }
 
-  /// Photons after which to give up.
+  /// Number of photons after which to give up.
   [[nodiscard]] std::uint64_t limit() const { return limit_; }
 
  private:
@@ -49,7 +50,7 @@ class PhotonRounds {
   std::uint64_t traced_ = 0;
 };
 
-/// Throws Stopped, which says how many of the rays have been traced.
+/// Throws Stopped; the message says how many of the rays have been traced.
 [[noreturn]] inline void stopped_tracing(std::uint64_t rays, std::uint64_t of) {
   throw Stopped("stopped while tracing photons after " + std::to_string(rays) + " of " + std::to_string(of) + " rays",
                 {rays, of, "rays"});

@@ -7,11 +7,11 @@
 
 namespace detp::sim {
 
-/// The rays of photon_paths by their number, bit for bit, without holding them.
+/// The rays of photon_paths by number, bit for bit, without storing them.
 ///
-/// A photon gives as many rays as it has pieces of path. So when made, it traces all photons once, and keeps how many
-/// rays there are before each group of 1024 of them; a block that starts amid a group traces that group again and
-/// leaves out what comes before. Rays are thus traced twice: once to be counted, once to be read.
+/// Each photon yields as many rays as its path has pieces. So the constructor traces all photons once, in groups of
+/// 1024, and keeps the number of rays before each group. A block that starts in the middle of a group traces that group
+/// again and discards the rays before the block. So rays are traced twice: once to count them, once to read them.
 class PhotonSource final : public RaySource {
  public:
   /// Throws as photon_paths does.
@@ -24,13 +24,13 @@ class PhotonSource final : public RaySource {
  private:
   [[nodiscard]] PhotonPieces trace_group(std::uint64_t group, const std::stop_token& stop) const;
   void count_rays(std::uint64_t groups, const std::stop_token& stop);
-  /// Photons up to the one that gives the last ray.
+  /// Number of photons up to the one that yields the last ray.
   [[nodiscard]] std::uint64_t emitted(const std::stop_token& stop) const;
 
   PhotonTracer tracer_;
   std::uint64_t count_;
-  std::uint64_t limit_;                ///< photons
-  std::vector<std::uint64_t> starts_;  ///< of each group its first ray's number; then that of all rays found
+  std::uint64_t limit_;                ///< in photons
+  std::vector<std::uint64_t> starts_;  ///< number of each group's first ray; last, the number of all rays found
   Box origins_;
   double power_ = 0;
 };

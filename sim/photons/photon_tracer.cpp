@@ -13,11 +13,11 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::uint64_t most_pieces = 1000;     // of one photon: an albedo of 1 must come to an end
+constexpr std::uint64_t most_pieces = 1000;     // per photon, so that an albedo of 1 terminates
 constexpr std::uint64_t work_of_a_bounce = 64;  // for StopCheck: a bounce takes microseconds
-constexpr double gap_share = 1e-5;              // of the box's diagonal
+constexpr double gap_share = 1e-5;              // share of the box's diagonal
 
-/// Checks first, so that nothing else need cope with what cannot be traced.
+/// Checks the scene first, so that no later code need handle scenes that cannot be traced.
 const Scene& checked(const Scene& scene) {
   if (!scene.light) throw std::invalid_argument("photon paths need a light; " + scene.name + " has none");
   if (scene.mesh.triangles.empty())
@@ -70,7 +70,7 @@ void PhotonTracer::add_path(std::uint64_t photon, std::vector<Ray>& rays) const 
   }
 }
 
-/// Of a photon that leaves the scene.
+/// Adds the last piece of a photon that leaves the scene.
 void PhotonTracer::add_last_piece(const Departure& from, std::vector<Ray>& rays) const {
   const double along = glm::dot(from.origin, from.direction);
   const double inside = reach_ * reach_ - glm::dot(from.origin, from.origin);

@@ -9,17 +9,17 @@
 
 namespace detp::sim {
 
-/// The straight pieces of some photons' paths, in order, each with the number of its photon.
+/// The straight pieces of some photons' paths, in order, and the photon's number for each.
 struct PhotonPieces {
   std::vector<Ray> rays;
   std::vector<std::uint64_t> photons;
 };
 
-/// Follows photons through a scene as photon_paths (photon_paths.hpp) tells; each is a function of the seed and its
-/// number alone. May be used by several threads at once.
+/// Traces photons through a scene as photon_paths (photon_paths.hpp) describes. Each photon is a function of the seed
+/// and its number alone. Several threads may use one tracer.
 class PhotonTracer {
  public:
-  /// Throws std::invalid_argument for a scene that photon paths cannot be traced in; Stopped if a stop was requested.
+  /// Throws std::invalid_argument for a scene in which photon paths cannot be traced; Stopped if a stop was requested.
   PhotonTracer(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
 
   /// Pieces of photons first … last - 1, each of power 1. Throws Stopped if a stop was requested.
@@ -34,8 +34,8 @@ class PhotonTracer {
   Emitter emitter_;
   double albedo_;
   std::uint64_t seed_;
-  double reach_ = 0;  ///< radius of the sphere around the box where photons leave, own units
-  double gap_ = 0;    ///< own units
+  double reach_ = 0;  ///< radius of the sphere around the box at which photons leave, in the caster's own units
+  double gap_ = 0;    ///< in the caster's own units
 };
 
 }  // namespace detp::sim

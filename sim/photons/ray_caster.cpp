@@ -10,20 +10,20 @@
 namespace detp::sim {
 namespace {
 
-// In the caster's own units, where coordinates are below 1. Rays start inside start_radius, so that single precision
-// misplaces no point of a ray by more than 1e-6.
+// In the caster's own units, in which coordinates are below 1. Rays start inside start_radius, so single precision
+// displaces no point of a ray by more than 1e-6.
 constexpr float box_slack = 2e-6F;
 constexpr float distance_slack = 1e-5F;
 constexpr double start_radius = 1.5;
 
-/// What Embree hands back to us with each candidate; the context proper must come first.
+/// Data that Embree passes to our callback with each candidate. Embree's own context must come first.
 struct Query {
   RTCIntersectContext context;
   glm::dvec3 origin;
   glm::dvec3 direction;
-  double skipped;                                   ///< from the origin to where Embree's ray starts
-  std::uint32_t from;                               ///< facet, or no_facet
-  std::uint32_t nearest = RTC_INVALID_GEOMETRY_ID;  ///< facet
+  double skipped;                                   ///< distance from the ray's origin to the start of Embree's ray
+  std::uint32_t from;                               ///< facet that the ray starts from, or no_facet
+  std::uint32_t nearest = RTC_INVALID_GEOMETRY_ID;  ///< nearest facet so far
   double distance = unbounded;
 };
 static_assert(std::is_standard_layout_v<Query>);
@@ -53,13 +53,13 @@ void meet(const RTCIntersectFunctionNArguments* arguments) {
   if (!nearer || distance == unbounded) return;
   query.distance = distance;
   query.nearest = facet;
-  // Embree shall still show what lies as far as this to within its own rounding.
+  // Embree must still report facets at the same distance within its own rounding error.
   const float limit = static_cast<float>(distance - query.skipped) + distance_slack;
   RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = limit;
 }
 
-/// Distance to where the ray enters the sphere around the origin that holds all; 0 if it starts within; negative if it
-/// never enters.
+/// Distance at which the ray enters the sphere around the origin that contains the whole mesh; 0 if it starts inside;
+/// negative if it never enters.
 double entry(const glm::dvec3& origin, const glm::dvec3& direction) {
   if (glm::dot(origin, origin) <= start_radius * start_radius) return 0;
   const double along = -glm::dot(origin, direction);
@@ -68,7 +68,7 @@ double entry(const glm::dvec3& origin, const glm::dvec3& direction) {
   return along < 0 || rest < 0 ? -1 : along - std::sqrt(rest);
 }
 
-/// The least power of two above half the box's diagonal: scaling by it is exact.
+/// The smallest power of two above half the box's diagonal: scaling by it is exact.
 double own_unit(const Box& box) {
   const glm::dvec3 half = 0.5 * box.size();
   return std::exp2(std::ilogb(std::hypot(half.x, half.y, half.z)) + 1);

@@ -8,25 +8,25 @@
 
 namespace detp::sim {
 
-/// Finds what a ray meets first. Embree finds the candidates in single precision; which of them is met, and where, is
-/// decided in double precision, so that a point found lies on the surface to within rounding, however small the
-/// triangle, and a ray that starts on a surface does not meet it again.
+/// Finds the first triangle that a ray meets. Embree finds the candidates in single precision. Double precision decides
+/// which of them is met, and where: so the point found lies on the surface within rounding, however small the triangle,
+/// and a ray that starts on a surface does not meet it again.
 ///
-/// Works in coordinates of the mesh's own, in which its box has a half diagonal of 0.5 … 1 around the origin; so
-/// neither a tiny scale nor a great distance from the origin does harm. Safe to use from many threads.
+/// Works in coordinates of its own, in which the mesh's box is centred at the origin with a half diagonal of 0.5 … 1.
+/// So a tiny scale or a great distance from the origin does no harm. Safe to use from many threads.
 class RayCaster {
  public:
-  /// Keeps what it needs of the mesh. Triangles without area are never met. The box holds every used vertex and is not
+  /// Copies what it needs of the mesh. Triangles without area are never met. The box holds every used vertex and is not
   /// a single point. Throws std::runtime_error if Embree fails; Stopped if a stop was requested.
   RayCaster(const Mesh& mesh, const Box& box, const std::stop_token& stop = {});
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  /// From scene coordinates to the caster's own and back.
+  /// Convert from scene coordinates to the caster's own, and back.
   [[nodiscard]] glm::dvec3 to_own(const glm::dvec3& point) const { return (point - centre_) / scale_; }
   [[nodiscard]] glm::dvec3 to_scene(const glm::dvec3& point) const { return centre_ + scale_ * point; }
-  /// Scene units in one of its own; a power of two.
+  /// One of the caster's own units, in scene units; a power of two.
   [[nodiscard]] double scale() const { return scale_; }
 
   struct Meeting {
@@ -35,8 +35,8 @@ class RayCaster {
     std::uint32_t triangle;
   };
 
-  /// The first triangle that the ray meets, other than the one it starts from; if two are met at the same distance, the
-  /// one of the lower number. Origin and unit direction in the caster's own coordinates.
+  /// The first triangle that the ray meets, except the one it starts from. If two are met at the same distance, the one
+  /// with the lower number. Origin and unit direction are in the caster's own coordinates.
   [[nodiscard]] std::optional<Meeting> first_meeting(const glm::dvec3& origin, const glm::dvec3& direction,
                                                      std::optional<std::uint32_t> from = std::nullopt) const;
 

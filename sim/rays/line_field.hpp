@@ -14,10 +14,11 @@ namespace detp::sim {
 /// (Santaló, Integral Geometry, II.12). Line i is a function of (seed, i) alone.
 class LineField {
  public:
-  /// Throws std::invalid_argument unless the radius is > 0 and it and the centre are within 1e100.
+  /// Throws std::invalid_argument unless the radius is > 0, and the radius and the centre's coordinates are at most
+  /// 1e100.
   LineField(const Sphere& sphere, std::uint64_t seed);
 
-  /// Line number `index`: unbounded, power 1, its origin the point nearest to the sphere's centre.
+  /// Line number `index`: unbounded, of power 1. Its origin is its point nearest to the sphere's centre.
   [[nodiscard]] Ray line(std::uint64_t index) const;
 
   /// Lines first … first + count - 1.

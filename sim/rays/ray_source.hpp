@@ -7,25 +7,26 @@
 #include "detp/sim/geometry/geometry.hpp"
 #include "line_field.hpp"
 
-/// Rays by their number, so that a block of them can be in memory at a time.
+/// Rays by number, so that only a block of them need be in memory at a time.
 namespace detp::sim {
 
-/// Many rays, each a function of its number alone: whoever reads one, in whatever block, gets the same bytes.
+/// A sequence of rays. Each is a function of its number alone: every read of a ray returns the same bytes, whichever
+/// block it is in.
 class RaySource {
  public:
   virtual ~RaySource() = default;
 
   [[nodiscard]] virtual std::uint64_t size() const = 0;
 
-  /// Rays first, first + 1, … as many as the block holds. Callers ask for none beyond the last. May use oneTBB's
-  /// threads. Throws Stopped if a stop was requested: what is in the block is then any rays.
+  /// Fills the block with the rays first, first + 1, …. Callers must not read beyond the last ray. May use oneTBB's
+  /// threads. Throws Stopped if a stop was requested; the block's contents are then unspecified.
   virtual void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const = 0;
 
-  /// No ray's origin is farther from the point.
+  /// An upper bound on the distance of a ray's origin from the point.
   [[nodiscard]] virtual double farthest_from(const glm::dvec3& point) const = 0;
 };
 
-/// Rays in memory. Borrowed: they must outlive the source.
+/// Rays in memory. They are not copied, and must outlive the source.
 class RaysInMemory final : public RaySource {
  public:
   explicit RaysInMemory(std::span<const Ray> rays) : rays_(rays) {}

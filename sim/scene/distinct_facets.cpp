@@ -9,7 +9,8 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::size_t numbers = 9;  // that make a facet, at its front; its normal follows from them
+// numbers that define a facet, at the front of its record; the normal follows from them
+constexpr std::size_t numbers = 9;
 
 bool same_bits(const Facet& a, const Facet& b) { return std::memcmp(&a, &b, numbers * sizeof(double)) == 0; }
 
@@ -31,8 +32,8 @@ DistinctFacets distinct_facets(std::vector<Facet> all, const std::stop_token& st
   DistinctFacets distinct;
   distinct.places.reserve(all.size());
   distinct.triangles.reserve(all.size());
-  std::vector<std::uint32_t> table(std::bit_ceil(2 * all.size() + 1), no_facet);  // of places, by hash
-  std::uint32_t count = 0;                                                        // the front of `all` that is kept
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * all.size() + 1), no_facet);  // hash table of places
+  std::uint32_t count = 0;  // facets kept so far, at the front of `all`
   for (std::uint32_t triangle = 0; triangle < all.size(); ++triangle) {
     const Facet facet = all[triangle];
     check.after(1);

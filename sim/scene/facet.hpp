@@ -5,25 +5,26 @@
 
 #include "detp/sim/geometry/geometry.hpp"
 
-/// Where a ray crosses a triangle, in double precision. All coordinates are below about 1.
+/// Intersection of a ray with a triangle, in double precision. All coordinates are below about 1.
 namespace detp::sim {
 
-/// As a share of a triangle's height: rounding shall not let rays through between two triangles.
+/// Slack at a triangle's edges, as a share of its height, so that rounding lets no ray through between two triangles.
 inline constexpr double facet_edge_slack = 1e-10;
-/// A ray that starts this near a triangle's plane starts on the triangle or beside it, and does not meet it.
+/// A ray that starts this close to a triangle's plane does not meet the triangle: it starts on it or beside it.
 inline constexpr double facet_plane_slack = 1e-13;
-/// Below this share of the square of its longest edge, twice the area of a triangle is rounding error.
+/// A triangle whose doubled area is below this share of its longest edge squared has no area: the value is rounding
+/// error.
 inline constexpr double least_facet_area = 1e-14;
 
-/// A triangle made ready for crossings.
+/// A triangle prepared for intersection.
 struct Facet {
   glm::dvec3 corner;
   glm::dvec3 first;   ///< edge from the corner
-  glm::dvec3 second;  ///< likewise
+  glm::dvec3 second;  ///< the other edge from the corner
   glm::dvec3 normal;  ///< unit length, or zero for a triangle without area
 };
 
-/// The facet between three corners in order.
+/// The facet with three corners in this order.
 [[nodiscard]] inline Facet make_facet(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   const glm::dvec3 across = glm::cross(b - a, c - a);
   const double area = glm::length(across);
@@ -31,7 +32,7 @@ struct Facet {
   return {a, b - a, c - a, area > least_facet_area * longest ? across / area : glm::dvec3{0.0}};
 }
 
-/// How far along the ray it crosses the facet; unbounded where it does not.
+/// Distance along the ray to the facet; unbounded if the ray does not cross it.
 [[nodiscard]] inline double crossing(const glm::dvec3& origin, const glm::dvec3& direction, const Facet& facet) {
   const glm::dvec3 back = origin - facet.corner;
   const double height = -glm::dot(facet.normal, back);

@@ -10,10 +10,11 @@
 namespace detp::sim {
 namespace {
 
-/// Below this share of the product of two edges, their cross product is rounding error: the triangle has no area.
+/// If the cross product of two edges is below this share of the product of their lengths, it is rounding error: the
+/// triangle has no area.
 constexpr double least_area = 8 * std::numeric_limits<double>::epsilon();
 
-/// Below this share of the areas that went into it, a sum of normals is what cancellation left.
+/// If a sum of normals is below this share of the summed areas, it is a residue of cancellation.
 constexpr double least_sum = 1e-12;
 
 std::vector<bool> used_vertices(const Mesh& mesh) {
@@ -23,8 +24,8 @@ std::vector<bool> used_vertices(const Mesh& mesh) {
   return used;
 }
 
-/// The exponent of a power of two that brings the largest used coordinate near 1, so that areas can neither vanish nor
-/// overflow; scaling by it is exact.
+/// The exponent of a power of two that scales the largest used coordinate to about 1. Then areas can neither vanish nor
+/// overflow, and the scaling is exact.
 int scale_exponent(const Mesh& mesh) {
   double largest = 0;
   for (const auto& triangle : mesh.triangles)
@@ -37,7 +38,7 @@ glm::dvec3 scaled(const glm::dvec3& point, int exponent) {
   return {std::scalbn(point.x, exponent), std::scalbn(point.y, exponent), std::scalbn(point.z, exponent)};
 }
 
-/// Twice the triangle's area times its unit normal; zero where it has no area. Taken at the corner between the two
+/// Twice the triangle's area times its unit normal; zero if it has no area. Computed at the corner between the two
 /// shorter edges, where the rounding error is least.
 glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
   const std::array edges{corners[1] - corners[0], corners[2] - corners[1], corners[0] - corners[2]};
@@ -63,8 +64,8 @@ struct Fan {
     if (length > glm::length(largest)) largest = vector;
   }
 
-  /// Unit length, or zero where no triangle has an area. Where the triangles cancel, as those of a leaf that is there
-  /// once for each face, it is the largest one's.
+  /// Unit length, or zero if no triangle has an area. If the triangles cancel, for instance those of a leaf that has
+  /// one triangle for each face, it is the normal of the largest.
   [[nodiscard]] glm::dvec3 normal() const { return unit_or_zero(glm::length(sum) > least_sum * area ? sum : largest); }
 };
 
@@ -137,7 +138,7 @@ double mean_edge_length(const Mesh& mesh, const std::stop_token& stop) {
   std::size_t count = 0;
   for_each_checked(std::span(edges), check, [&](const auto& ends) {
     const glm::dvec3 edge = mesh.positions[ends[1]] - mesh.positions[ends[0]];
-    if (edge == glm::dvec3{0.0}) return;  // joins no two neighbours
+    if (edge == glm::dvec3{0.0}) return;  // the edge joins no two distinct positions
     sum += std::hypot(edge.x, edge.y, edge.z);
     ++count;
   });

@@ -15,29 +15,29 @@ struct PointLight {
   glm::dvec3 position{0.0};
 };
 
-/// A parallelogram that shines from one face, diffusely (cosine-distributed).
+/// A parallelogram that emits from one face, diffusely (cosine-distributed).
 struct AreaLight {
   glm::dvec3 corner{0.0};
   glm::dvec3 edge_u{1.0, 0.0, 0.0};
-  glm::dvec3 edge_v{0.0, 1.0, 0.0};  ///< it shines towards edge_u × edge_v
+  glm::dvec3 edge_v{0.0, 1.0, 0.0};  ///< it emits towards edge_u × edge_v
 };
 
 using Light = std::variant<PointLight, AreaLight>;
 
-/// What the rays of a scene are by default.
+/// The default rays of a scene.
 enum class Field {
   isotropic,  ///< uniform isotropic lines through S₀
   photons     ///< photon paths from the light
 };
 
-/// A scene: where irradiance is wanted, and what light meets.
+/// A scene: the samples at which irradiance is wanted, the surfaces and the light.
 struct Scene {
   std::string name;             ///< "@tree", or the file's path
   Mesh mesh;                    ///< no triangles in @uniform
   std::vector<Sample> samples;  ///< at the mesh's vertices, or @uniform's points
-  Box box;                      ///< of the samples and the mesh's used vertices; of @uniform, its cube
+  Box box;                      ///< of the samples and of the mesh's used vertices; in @uniform its cube
   std::optional<Light> light;   ///< none in @uniform
-  double albedo = 0.5;          ///< share of a photon's meetings with a surface after which it goes on, diffusely
+  double albedo = 0.5;          ///< probability that a photon that meets a surface is reflected, diffusely
   Field field = Field::photons;
   Notices notices;
 };

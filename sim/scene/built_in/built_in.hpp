@@ -6,11 +6,11 @@
 
 #include "detp/sim/scene/scene.hpp"
 
-/// The built-in scenes. Each is the same on every call: what is random in them has a fixed seed of its own.
-/// Y points up; @tree and @courtyard are in metres.
+/// The built-in scenes. Each is the same on every call: its random parts have a fixed seed. Y points up; @tree and
+/// @courtyard are in metres.
 namespace detp::sim::built_in {
 
-/// A mesh and the light that shines on it.
+/// A mesh and its light.
 struct Setting {
   Mesh mesh;
   Light light;
@@ -20,17 +20,18 @@ struct Setting {
 /// in the paper's first scene. An area light as wide as the ground hangs over the tree.
 [[nodiscard]] Setting tree();
 
-/// A conifer on hilly ground, with edges about twice as long: 18 000 triangles. Lit as tree().
+/// A conifer on hilly ground: 18 000 triangles, with edges about twice as long as those of tree(). Lit like tree().
 [[nodiscard]] Setting tree_coarse();
 
 /// Two storeys of rooms behind arcades around an open court: about 120 000 triangles, mean edge 0.0133 of the scene's
-/// length, as in the paper's third scene. The light is the sky: an area as wide as the court, at the roof's ridge.
+/// length, as in the paper's third scene. The sky is an area light as wide as the court, at the height of the roof's
+/// ridge.
 [[nodiscard]] Setting courtyard();
 
-/// A box of side 1, open in front (+Z), with two blocks in it; an area light just under the ceiling shines down.
+/// A box of side 1, open in front (+Z), with two blocks in it. An area light just under the ceiling shines down.
 [[nodiscard]] Setting cornell();
 
-/// `count` points uniform in the cube [-1, 1]³ with isotropic normals; a function of the seed and each point's number.
+/// `count` points uniform in the cube [-1, 1]³ with isotropic normals. Each is a function of the seed and its number.
 /// Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed,
                                                   const std::stop_token& stop = {});

@@ -9,12 +9,12 @@ namespace {
 constexpr double cell = 1.0 / 28;
 
 struct Block {
-  double x, z;    ///< of the centre of its base
+  double x, z;    ///< centre of its base
   double height;  ///< its base is a square of side 0.3
-  double turn;    ///< about the vertical, radians
+  double turn;    ///< rotation about the vertical, radians
 };
 
-/// Four sides and a top: the bottom stands on the floor.
+/// Four sides and a top. The block stands on the floor and has no bottom.
 void add_block(Mesh& mesh, const Block& block) {
   constexpr double side = 0.3;
   const glm::dvec3 u = side * glm::dvec3{std::cos(block.turn), 0, -std::sin(block.turn)};

@@ -10,8 +10,8 @@ constexpr double court = 10;     // half the width of the open court
 constexpr double rooms = 13;     // from the middle to the wall between gallery and rooms
 constexpr double outside = 20;   // from the middle to the outer face
 constexpr double storey = 4.2;   // from floor to floor
-constexpr double ceiling = 3.9;  // above its floor
-constexpr double ridge = 10.9;   // above the court
+constexpr double ceiling = 3.9;  // height above the storey's floor
+constexpr double ridge = 10.9;   // height above the court
 constexpr double arcade = 0.4;   // thickness of the piers
 constexpr double partition = 0.3;
 constexpr double outer_wall = 0.4;
@@ -36,7 +36,7 @@ struct Square {
   double y;
 };
 
-/// What lies between two squares, as a picture frame; it looks up where `second` is the outer one.
+/// The area between two squares, like a picture frame. It faces up if `second` is the outer square.
 void add_frame(Mesh& mesh, const Square& first, const Square& second) {
   for (const Side& side : sides)
     add_quad(mesh,
@@ -58,7 +58,7 @@ void add_partitions(Mesh& mesh, const Side& side, double floor) {
   }
 }
 
-/// Arcade, wall of the rooms, partitions and outer wall of one storey on one side.
+/// One storey on one side: arcade, wall of the rooms, partitions and outer wall.
 void add_storey(Mesh& mesh, const Side& side, int level) {
   const double floor = level * storey;
   const auto wall = [&](double half, double z, double height, double thickness) {

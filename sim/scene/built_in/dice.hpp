@@ -4,7 +4,7 @@
 
 namespace detp::sim::built_in {
 
-/// Uniform numbers in sequence, for growing a scene: its fixed seed makes it the same each time.
+/// A sequence of uniform random numbers for building a scene. The seed is fixed, so the scene is always the same.
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : seed_(seed) {}

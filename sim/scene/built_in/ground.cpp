@@ -8,7 +8,7 @@
 namespace detp::sim::built_in {
 namespace {
 
-/// Uniform in [-1/2, 1/2) at each point of the lattice of whole numbers.
+/// Random height at each lattice point (integer coordinates), uniform in [-1/2, 1/2).
 double lattice_noise(std::uint64_t seed, double x, double z) {
   const auto place = [](double coordinate) {
     return static_cast<std::uint64_t>(static_cast<std::int64_t>(coordinate));
@@ -16,7 +16,7 @@ double lattice_noise(std::uint64_t seed, double x, double z) {
   return uniform4(seed, Stream::scene, place(x), place(z))[0] - 0.5;
 }
 
-/// Between the points of the lattice: as smooth as a cubic, and no higher than the highest of the four around.
+/// Interpolates the lattice noise with a cubic; never exceeds the highest of the four lattice points around.
 double smooth_noise(std::uint64_t seed, double x, double z) {
   const auto ease = [](double t) { return t * t * (3 - 2 * t); };
   const double left = std::floor(x);

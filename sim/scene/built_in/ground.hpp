@@ -6,19 +6,19 @@
 
 namespace detp::sim::built_in {
 
-/// A square of land around the origin, as high as smooth noise says.
+/// A square of land around the origin. Smooth noise gives its height.
 struct Ground {
   double side;       ///< length
-  int cells;         ///< along a side; each is cut into two triangles
+  int cells;         ///< number along a side; each cell is cut into two triangles
   double relief;     ///< heights lie in [-relief / 2, relief / 2], a length
   double hill_size;  ///< distance between neighbouring hills and hollows, a length
   std::uint64_t seed;
 
-  /// How high the land lies at (x, z).
+  /// Height of the land at (x, z).
   [[nodiscard]] double height(double x, double z) const;
 };
 
-/// Its triangles face up.
+/// Adds the ground's triangles, which face up.
 void add_ground(Mesh& mesh, const Ground& ground);
 
 }  // namespace detp::sim::built_in

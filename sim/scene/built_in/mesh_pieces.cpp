@@ -68,7 +68,7 @@ void add_tube(Mesh& mesh, const Tube& tube) {
   const std::uint32_t sides = static_cast<std::uint32_t>(tube.sides);
   glm::dvec3 first = basis_around(path_direction(tube.path, 0))[0];
   for (std::size_t i = 0; i < tube.path.size(); ++i) {
-    // The frame is carried along the path, not chosen anew: the tube must not twist.
+    // Carries the frame along the path. A frame chosen independently at each point would twist the tube.
     const glm::dvec3 axis = path_direction(tube.path, i);
     first = glm::normalize(first - glm::dot(first, axis) * axis);
     add_ring(mesh, tube.path[i], first, glm::cross(axis, first), tube.radii[i], tube.sides);

@@ -13,7 +13,7 @@ namespace {
 
 constexpr glm::dvec3 up{0, 1, 0};
 
-/// What a limb is at its foot.
+/// The state of a limb at its foot.
 struct Shoot {
   glm::dvec3 foot;
   glm::dvec3 direction;
@@ -26,14 +26,14 @@ glm::dvec3 any_direction(Dice& dice) {
   return uniform_direction(u, dice.between(0, 1));
 }
 
-/// How long the pieces of a tube are whose edges have the mean length `edge`, when an edge around it has length a: of
-/// edges around, along and across a piece of length L there are equally many, so a + L + √(L² + a²) = 3 edge.
+/// Length L of the pieces of a tube whose edges have the mean length `edge`, if an edge around the tube has length a.
+/// Edges around, along and across a piece are equally many, so a + L + √(L² + a²) = 3 edge.
 double piece_length(double edge, double around) {
   const double rest = 3 * edge - around;
   return (rest * rest - around * around) / (2 * rest);
 }
 
-/// Towards its end a limb has 0.35 of its radius.
+/// A limb's radius, relative to its foot; it decreases to 0.35 at the end.
 double taper(double share) { return 1 - 0.65 * share; }
 
 Limb grow_limb(const Shoot& shoot, double lift, double wobble, double edge, Dice& dice) {
@@ -57,7 +57,7 @@ double length_of(const Limb& limb) {
   return static_cast<double>(limb.path.size() - 1) * glm::length(limb.path[1] - limb.path[0]);
 }
 
-/// The shoot number i of those that a limb bears. Each is turned from the last by the golden angle, as on most plants.
+/// Shoot number i on a limb. Each shoot is turned from the previous one by the golden angle, as on most plants.
 Shoot shoot_of(const Limb& limb, const Generation& generation, int i, double first_turn, Dice& dice) {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   const double order = generation.limbs == 1 ? 1.0 : static_cast<double>(i) / (generation.limbs - 1);
@@ -76,7 +76,7 @@ Shoot shoot_of(const Limb& limb, const Generation& generation, int i, double fir
           .radius = limb.radii[before] * generation.thickness};
 }
 
-/// Base, direction and a tilted upward direction of a leaf on a twig.
+/// Adds a leaf on a twig: chooses its base, its direction and a tilted upward direction.
 void add_leaf(Mesh& mesh, const Limb& twig, const Foliage& foliage, Dice& dice) {
   const std::size_t last = twig.path.size() - 1;
   const double place = dice.between(0.15, 1) * static_cast<double>(last);

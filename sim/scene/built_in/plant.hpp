@@ -5,19 +5,19 @@
 
 #include "detp/sim/scene/mesh.hpp"
 
-/// Trees: limbs that bear limbs, and leaves on the last of them.
+/// Trees: limbs that bear limbs. The last generation bears leaves.
 namespace detp::sim::built_in {
 
-/// How the limbs of one generation sit on those of the generation before. The trunk is the first.
+/// How the limbs of one generation grow on those of the generation before. The trunk is the first generation.
 struct Generation {
   int limbs;          ///< on each limb of the generation before
   double from, to;    ///< shares of that limb's length between which they sit
-  double length;      ///< of the lowest of them, over that limb's length
+  double length;      ///< of the lowest of them, divided by that limb's length
   double shortening;  ///< share by which the topmost is shorter than the lowest
-  double thickness;   ///< radius over that limb's radius there
-  double angle;       ///< away from that limb, radians
-  double lift;        ///< how far it bends to the sky (negative: to the ground) along its length; 1 is about 45°
-  double wobble;      ///< how crooked it is: random turn of each of its pieces
+  double thickness;   ///< radius divided by that limb's radius at that point
+  double angle;       ///< angle to that limb, radians
+  double lift;        ///< how far it bends towards the sky (negative: the ground) along its length; 1 is about 45°
+  double wobble;      ///< random turn of each of its pieces
 };
 
 struct Plant {
@@ -25,7 +25,7 @@ struct Plant {
   double height;  ///< of the trunk, a length
   double radius;  ///< of the trunk at its foot, a length
   std::vector<Generation> generations;
-  double edge;  ///< mean length that the edges of the limbs' triangles shall have
+  double edge;  ///< intended mean edge length of the limbs' triangles
   std::uint64_t seed;
 };
 
@@ -38,20 +38,20 @@ struct Limb {
 /// The limbs of each generation, the trunk's first.
 [[nodiscard]] std::vector<std::vector<Limb>> grow(const Plant& plant);
 
-/// Tubes with a tip.
+/// Adds each limb as a tube with a pointed tip.
 void add_limbs(Mesh& mesh, const std::vector<Limb>& limbs);
 
 struct Foliage {
   std::size_t leaves;
   double length;  ///< of a leaf, or of a spray of small leaves
   double width;
-  double droop;  ///< how far its end hangs down, over its length
+  double droop;  ///< how far its end hangs down, divided by its length
   std::uint64_t seed;
 };
 
 inline constexpr std::size_t triangles_of_a_leaf = 4;
 
-/// Leaves in turn on each of the twigs, all along them; they face up, more or less.
+/// Distributes the leaves over the twigs in turn, along their whole length. Leaves face roughly up.
 void add_foliage(Mesh& mesh, const std::vector<Limb>& twigs, const Foliage& foliage);
 
 }  // namespace detp::sim::built_in

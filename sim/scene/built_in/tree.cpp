@@ -5,13 +5,13 @@
 namespace detp::sim::built_in {
 namespace {
 
-/// Shines down from above the whole ground.
+/// An area light above the whole ground that shines down.
 AreaLight light_over(const Ground& ground, double height) {
   const double half = 0.5 * ground.side;
   return {.corner = {-half, height, -half}, .edge_u = {ground.side, 0, 0}, .edge_v = {0, 0, ground.side}};
 }
 
-/// The ground, the limbs, and as many leaves as bring the mesh to its number of triangles.
+/// The ground, the limbs, and enough leaves to bring the mesh to the requested number of triangles.
 Mesh landscape(const Ground& ground, const Plant& plant, Foliage foliage, std::size_t triangles) {
   Mesh mesh;
   add_ground(mesh, ground);

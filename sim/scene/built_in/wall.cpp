@@ -35,7 +35,7 @@ class Bay {
     return start_ + x * wall_.along + y * glm::dvec3{0, 1, 0} + z * wall_.out;
   }
 
-  /// The lower edge of what is over the opening: a parabola.
+  /// A point on the underside of the arch over the opening, which is a parabola.
   [[nodiscard]] glm::dvec3 arch(double share, double z) const {
     return place(left_ + share * opening_.width, opening_.springing + 4 * opening_.rise * share * (1 - share), z);
   }
@@ -62,7 +62,7 @@ class Bay {
     });
   }
 
-  /// Its two sides, what is overhead, and the sill.
+  /// Adds the inner faces of the opening: its two sides, its top and its sill.
   void add_depth(Mesh& mesh, double cell) const {
     const double t = wall_.thickness;
     const double low = opening_.sill;

@@ -15,7 +15,7 @@ constexpr std::size_t default_uniform_samples = 100'000;
 
 struct BuiltIn {
   std::string name;
-  built_in::Setting (*make)();  ///< null: samples without a mesh
+  built_in::Setting (*make)();  ///< null for samples without a mesh
 };
 
 const std::vector<BuiltIn>& built_ins() {
@@ -44,7 +44,7 @@ Box box_of(const Scene& scene) {
   return box;
 }
 
-/// The samples of a mesh; `scene` has its mesh and name.
+/// Adds the samples to a scene that already has its mesh and name.
 void put_samples(Scene& scene, const SceneRequest& request, const std::stop_token& stop) {
   scene.samples = samples_at_vertices(scene.mesh, scene.notices, stop);
   if (scene.samples.empty())
@@ -63,7 +63,8 @@ Scene uniform_scene(const SceneRequest& request, const std::stop_token& stop) {
   Scene scene;
   scene.name = request.name;
   scene.samples = built_in::uniform_samples(request.samples.value_or(default_uniform_samples), request.seed, stop);
-  scene.box = {glm::dvec3(-1), glm::dvec3(1)};  // not the samples' own: 1 % of it is 0.02 whatever their number
+  // a fixed cube, not the box of the samples, so that 1 % of it is 0.02 for any number of samples
+  scene.box = {glm::dvec3(-1), glm::dvec3(1)};
   scene.field = Field::isotropic;
   return scene;
 }

@@ -11,7 +11,7 @@ namespace detp::sim {
 
 struct SceneRequest {
   std::string name;                    ///< "@tree" or a path
-  std::optional<std::size_t> samples;  ///< how many; default: the vertices (@uniform: 100 000)
+  std::optional<std::size_t> samples;  ///< number of samples; default: the number of vertices (@uniform: 100 000)
   std::uint64_t seed = 1;
 };
 
@@ -20,12 +20,11 @@ struct SceneRequest {
 
 /// Opens a built-in scene or a mesh file.
 ///
-/// With `samples` fewer than the vertices, keeps a random subset of them in vertex order; with more, adds points
-/// distributed by area over the triangles, with the triangles' normals. Either is a function of the seed alone.
-/// The light of a mesh file hangs where light_for (mesh_light.hpp) says.
-/// Throws FileError as read_mesh does, and for a mesh that gives no sample or too few; std::invalid_argument for 0
-/// samples and for an unknown built-in name (the message lists the known ones). Throws Stopped within 0.1 s of a
-/// stop request.
+/// If `samples` is less than the number of vertices, keeps a random subset of them in vertex order. If it is greater,
+/// adds points distributed by area over the triangles, with the triangles' normals. Both are functions of the seed
+/// alone. light_for (mesh_light.hpp) places the light of a mesh file. Throws FileError as read_mesh does, and for a
+/// mesh that yields no sample or too few; std::invalid_argument for 0 samples and for an unknown built-in name (the
+/// message lists the known ones). Throws Stopped within 0.1 s of a stop request.
 [[nodiscard]] Scene open_scene(const SceneRequest& request, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -9,8 +9,7 @@
 namespace detp::sim {
 namespace {
 
-/// Running sum of the triangles' areas, in units of twice the square of `scale`: so that they neither vanish nor
-/// overflow.
+/// Running sum of the triangles' doubled areas, in units of scale², so that the areas neither vanish nor overflow.
 std::vector<double> running_areas(const Mesh& mesh, double scale) {
   std::vector<double> sums;
   sums.reserve(mesh.triangles.size());
@@ -31,7 +30,7 @@ double longest_side(const Mesh& mesh) {
   return std::max({size.x, size.y, size.z});
 }
 
-/// Uniform in the triangle: the square of uniform numbers, folded along its diagonal.
+/// A uniform point in the triangle: a uniform point of the unit square, folded along its diagonal.
 Sample sample_in(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle, double u, double v, double scale) {
   if (u + v > 1) {
     u = 1 - u;

@@ -6,8 +6,8 @@
 
 namespace detp::sim {
 
-/// A random subset of `count` <= samples.size(), each subset as likely as any other, in the same order.
-/// Throws Stopped if a stop was requested.
+/// A random subset of `count` <= samples.size(), in the same order. All subsets are equally likely. Throws Stopped if a
+/// stop was requested.
 [[nodiscard]] std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t count, std::uint64_t seed,
                                           const std::stop_token& stop = {});
 
