@@ -4,8 +4,8 @@
 
 namespace detp::validate {
 
-/// Rounds of timed runs, of each contender once a round, so that a disturbance of the machine hits all alike: run(i,
-/// round) says whether to go on.
+/// Calls run(i, round) for each contender i, round after round, until it returns false. A disturbance of the machine
+/// then affects all contenders alike.
 template <class Run>
 void in_turns(std::size_t contenders, int rounds, const Run& run) {
   for (int round = 0; round < rounds; ++round)

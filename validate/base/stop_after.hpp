@@ -8,7 +8,7 @@
 
 namespace detp::validate {
 
-/// A stop request that comes after so many seconds, or with another one.
+/// Requests a stop after so many seconds, or as soon as `other` does.
 class StopAfter {
  public:
   StopAfter(const std::stop_token& other, double seconds)

@@ -37,7 +37,7 @@ class Benchmark {
       share_ = static_cast<double>(i) / static_cast<double>(workloads_.size());
       try {
         if (run(workloads_[i])) ++result_.done;
-      } catch (const sim::Stopped&) {  // while rays were made
+      } catch (const sim::Stopped&) {  // stopped while making rays
       }
     }
     result_.stopped = result_.done < workloads_.size();
@@ -50,8 +50,8 @@ class Benchmark {
       options_.progress(fmt::format("{} {:g} rays, {}", workload.scene, workload.rays, what), share_);
   }
 
-  /// Skips what would have too many hits, as few rays have shown (`hits_per_ray_`, 0 where they have not been tried) or
-  /// the model expects.
+  /// Skips a workload that is expected to have too many hits. The expectation is from a run with fewer rays, or from
+  /// the model.
   bool too_many_hits(const BenchWorkload& workload, double expected) {
     if (expected <= options_.most_hits) return false;
     result_.skipped.push_back(
@@ -59,7 +59,7 @@ class Benchmark {
     return true;
   }
 
-  /// False where a stop request ended it.
+  /// False if a stop request ended it.
   bool run(const BenchWorkload& workload) {
     if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return true;
     show(workload, "making rays");

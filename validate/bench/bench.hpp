@@ -10,36 +10,37 @@
 #include "race.hpp"
 #include "workload.hpp"
 
-/// Ours against peers over a set of workloads.
+/// Benchmarks our techniques against peers over a set of workloads.
 namespace detp::validate {
 
 struct BenchOptions {
-  std::vector<Technique> techniques;     ///< of ours; empty: all exact ones
+  std::vector<Technique> techniques;     ///< our techniques to run; empty: all exact ones
   std::vector<EmbreeMode> embree_modes;  ///< at least one
-  std::vector<int> threads = {1};        ///< each workload is run with each of these
+  std::vector<int> threads = {1};        ///< each workload is run with each of these numbers of threads
   int repeats = 5;
-  double enough = 2;       ///< seconds after which no round of a race beyond the third is begun
-  double most_hits = 5e6;  ///< a workload for which more are expected is skipped
-  double hopeless = 30;    ///< one of ours predicted slower than this times our fastest prediction is not run
-  double checkable = 2e7;  ///< rays x discs up to which brute force says which hits are right
+  double enough = 2;       ///< seconds after which a race starts no further round, once it has had three
+  double most_hits = 5e6;  ///< a workload is skipped if more hits are expected
+  /// a technique of ours is left out if its predicted time exceeds this many times our fastest prediction
+  double hopeless = 30;
+  double checkable = 2e7;  ///< largest rays x discs at which brute force decides which hits are right
   std::uint64_t seed = 1;
   std::stop_token stop = {};
   std::function<void(std::string_view next, double share)> progress = {};
 };
 
-/// One race of one workload.
+/// The race on one workload.
 struct BenchEntry {
   BenchWorkload workload;
-  double samples = 0;      ///< as many as there are
+  double samples = 0;      ///< actual number
   double disc_radius = 0;  ///< length
   int threads = 1;
-  Technique judge = Technique::brute_force;  ///< whose hits are taken for right
+  Technique judge = Technique::brute_force;  ///< the technique whose hits count as right
   Race race;
 
-  /// The fastest of a side; null if none of it has run.
+  /// The fastest competitor of a side (ours or Embree); null if none of it has run.
   [[nodiscard]] const Finish* best(bool ours) const;
 
-  /// How many times as long Embree took at its best as the best of ours; 0 where not both are known.
+  /// Embree's best time divided by our best time; 0 if either is unknown.
   [[nodiscard]] double ratio() const;
 };
 
@@ -51,18 +52,18 @@ struct BenchSkip {
 struct BenchResult {
   std::vector<BenchEntry> entries;
   std::vector<BenchSkip> skipped;
-  std::size_t workloads = 0;  ///< asked for
-  std::size_t done = 0;       ///< of them, raced to the end or skipped
+  std::size_t workloads = 0;  ///< requested
+  std::size_t done = 0;       ///< of them, the number raced to the end or skipped
   bool stopped = false;       ///< a stop request came before the end
 };
 
-/// Races on all workloads. Throws what make_job throws for a scene or a number that is wrong.
+/// Runs a race on each workload. Throws as make_job does for a wrong scene or number.
 [[nodiscard]] BenchResult run_bench(std::span<const BenchWorkload> workloads, const BenchOptions& options);
 
-/// Six modes. On the seven workloads where all 60 were measured (CPU time, 10³ … 10⁵ rays), one of these was the
-/// fastest on five, within 1 % of it on one, and 5 % behind on one where each ran only once. All 60 lie close together:
-/// on discs neither the quality nor the coherent flag nor packets change much; rtcOccluded, which keeps no nearest hit,
-/// is ahead of rtcIntersect by 1 to 5 %.
+/// Six modes. All 60 modes were measured on seven workloads (CPU time, 10³ … 10⁵ rays): one of these six was the
+/// fastest on five workloads, within 1 % of the fastest on one, and 5 % behind on one where each mode ran only once.
+/// All 60 are close together: on discs the quality, the coherent flag and packets matter little. rtcOccluded, which
+/// keeps no nearest hit, is 1 to 5 % faster than rtcIntersect.
 [[nodiscard]] std::vector<EmbreeMode> best_embree_modes();
 
 }  // namespace detp::validate

@@ -5,17 +5,17 @@
 
 #include "detp/model/rank/choose.hpp"
 
-/// Which of our techniques are worth running on a workload, and with which parameters.
+/// Selects the techniques of ours that are worth running on a workload, and their parameters.
 namespace detp::validate {
 
 struct Contenders {
-  std::vector<Candidate> candidates;  ///< the one expected to be the fastest first; empty if none fits the memory
-  double hits = 0;                    ///< expected, by the closed forms
+  std::vector<Candidate> candidates;  ///< fastest prediction first; empty if none fits in memory
+  double hits = 0;                    ///< expected number, by the closed forms
 };
 
-/// The exact techniques, or those of them that are named, each with the parameters that the closed forms find best;
-/// those that have no closed form with their defaults, last. Left out is what is predicted to be slower than `hopeless`
-/// times the first.
+/// The exact techniques, or those of them that `named` lists, each with the parameters that the closed forms find best.
+/// Techniques without a closed form come last, with their defaults. Leaves out candidates predicted to take more than
+/// `hopeless` times as long as the first.
 [[nodiscard]] Contenders contenders(const Workload& workload, std::span<const Technique> named, double hopeless);
 
 }  // namespace detp::validate

@@ -11,7 +11,7 @@
 namespace detp::validate {
 namespace {
 
-/// As many as a median needs to be worth the name.
+/// The smallest number of rounds for a meaningful median.
 constexpr int least_rounds = 3;
 
 class Runner {
@@ -40,7 +40,7 @@ class Runner {
   }
 
  private:
-  /// One run; whether it came to its end.
+  /// One run. Returns whether it was completed.
   bool run(Finish& finish) const {
     const sim::Stopwatch watch;
     if (const auto* mode = std::get_if<EmbreeMode>(&finish.competitor)) {
@@ -62,7 +62,7 @@ class Runner {
     return true;
   }
 
-  /// The first round's time of the last finalist of a side.
+  /// The first-round time of the slowest finalist of a side.
   [[nodiscard]] double slowest_finalist(bool ours) const {
     std::vector<double> first;
     for (const Finish& finish : race_.finishes)

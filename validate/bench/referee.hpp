@@ -11,7 +11,7 @@
 
 namespace detp::validate {
 
-/// The right hits of each disc, and who says so.
+/// The right hits of each disc, and the technique that determined them.
 struct RightHits {
   Technique judge = Technique::brute_force;
   std::vector<std::uint64_t> hits;
@@ -20,7 +20,7 @@ struct RightHits {
   [[nodiscard]] std::uint64_t wrong(std::span<const std::uint64_t> others) const;
 };
 
-/// Brute force's, or where rays x discs are more than `checkable` those of the exact candidate; nothing if stopped.
+/// The hits of brute force; if rays x discs exceeds `checkable`, those of the exact candidate. Nothing if stopped.
 [[nodiscard]] std::optional<RightHits> right_hits(const Job& job, const Candidate& exact, double checkable,
                                                   const std::stop_token& stop = {});
 

@@ -7,22 +7,22 @@
 
 namespace detp::validate {
 
-/// Ours against Embree over many races, as ratios of medians: how many times as long Embree took.
+/// Summary of many races against Embree: ratios of Embree's median time to ours.
 struct AgainstEmbree {
   int threads = 1;
   std::size_t races = 0;
   double geometric_mean = 0;
-  double worst = 0;         ///< the least ratio
-  std::size_t worst_entry;  ///< whose
+  double worst = 0;         ///< the smallest ratio
+  std::size_t worst_entry;  ///< the entry that has the smallest ratio
 };
 
-/// Over the complete races with that many threads; nothing where there is none.
+/// Summary over the complete races with that many threads; nothing if there is none.
 [[nodiscard]] std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries, int threads);
 
-/// Whether all of ours found the right hits, always.
+/// Whether all our techniques found the right hits in all races.
 [[nodiscard]] bool ours_agree(std::span<const BenchEntry> entries);
 
-/// Of Embree's hits in all its runs, those that are wrong.
+/// Number of wrong hits, and of all hits, in all of Embree's runs.
 struct WrongHits {
   std::uint64_t wrong = 0;
   std::uint64_t hits = 0;

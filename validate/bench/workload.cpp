@@ -11,7 +11,7 @@ constexpr std::array built_in{"@uniform", "@tree", "@courtyard", "@cornell"};
 constexpr std::array meshes{"stanford_bunny.obj", "stanford_dragon.ply", "sponza.ply",     "bedroom.ply",
                             "mountain.obj",       "tangerine_fine.ply",  "grove_fine.ply", "tree.obj"};
 
-/// A million rays are run at these radii only, lest they take most of the time.
+/// A million rays are run at these radii only, because otherwise they would take most of the time.
 constexpr double most_rays = 1e6;
 bool of_most_rays(const Length& radius) { return radius.value == 0.005 || radius.value == 0.02; }
 
@@ -37,7 +37,7 @@ std::vector<sim::Field> fields_of(const BenchAxes& axes, const std::string& scen
   return {sim::Field::isotropic, sim::Field::photons};
 }
 
-/// All combinations on one scene.
+/// Adds all combinations on one scene.
 void add_scene(BenchEffort effort, const BenchAxes& axes, const std::string& scene, const std::string& path,
                BenchSet& set) {
   const std::vector<Length> radii = axes.disc_radii.empty() ? default_radii(effort) : axes.disc_radii;
@@ -67,7 +67,7 @@ BenchSet bench_set(BenchEffort effort, const BenchAxes& axes, const std::string&
     return set;
   }
   for (const char* scene : built_in)
-    // Photon paths alone leave out the scene that has no light.
+    // If only photon paths are requested, the scene without a light is left out.
     if (scene != std::string("@uniform") || axes.fields != std::vector{sim::Field::photons}) {
       BenchAxes own = axes;
       if (scene == std::string("@uniform")) own.fields.clear();

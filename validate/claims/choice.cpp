@@ -15,17 +15,18 @@
 namespace detp::validate {
 namespace {
 
-/// The unit costs themselves explain times to a factor of 1.23 in the median: a count that is nearer than this to what
-/// was counted is not what makes a predicted time wrong.
+/// The unit costs explain times only to a factor of 1.23 in the median. So a predicted count that is within 25 % of the
+/// observed one is not the main cause of a wrong predicted time.
 constexpr double tolerance = 0.25;
 
-/// A technique that takes each ray by itself is counted on a sample of the rays if it is predicted to take longer.
+/// Techniques that process each ray separately are counted on a sample of the rays if they are predicted to take
+/// longer.
 constexpr double most_seconds = 3;
 
 std::size_t batches_of(std::size_t rays) { return std::min<std::size_t>(batch_count, rays); }
 
-/// Every ray goes to one of the batches, dealt out in short runs: neighbours (pieces of one photon's path) stay
-/// together, and each batch has rays from all over a sorted file.
+/// Distributes all rays over the batches in short runs: neighbours (pieces of one photon's path) stay together, and
+/// each batch has rays from all over a sorted file.
 std::vector<std::vector<sim::Ray>> deal(const std::vector<sim::Ray>& rays) {
   const std::size_t batches = batches_of(rays.size());
   const std::size_t run = std::clamp<std::size_t>(rays.size() / batches, 1, 64);
@@ -34,7 +35,7 @@ std::vector<std::vector<sim::Ray>> deal(const std::vector<sim::Ray>& rays) {
   return dealt;
 }
 
-/// Takes each ray by itself, so that a sample of the rays needs that share of the tests.
+/// Whether the technique processes each ray separately, so that a sample of the rays needs that share of the tests.
 bool searches_ray_by_ray(Technique technique) {
   return technique == Technique::brute_force || record_of(technique).ray_by_ray;
 }
@@ -44,7 +45,7 @@ struct Batch {
   Counts<double> counts;
 };
 
-/// What a candidate did: in one run over its rays, and in runs over parts of them.
+/// The counts of a candidate: in one run over its rays, and in runs over parts of them.
 struct Counted {
   Batch all;
   std::vector<Batch> batches = {};
@@ -55,7 +56,7 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
   const double share =
       searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
   const auto taken = static_cast<std::size_t>(std::ceil(share * static_cast<double>(question.rays.size())));
-  // Evenly from all of them: the last one of each stride.
+  // An evenly spaced sample: the last ray of each stride.
   std::vector<sim::Ray> rays;
   for (std::size_t i = 0; i < taken; ++i) rays.push_back(question.rays[(i + 1) * question.rays.size() / taken - 1]);
   bool stopped = false;
@@ -71,11 +72,11 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
   return counted;
 }
 
-/// Whether the count depends on how many rays there are, and adds up over parts of them.
+/// Whether the count is additive over parts of the rays.
 bool adds_up_over_rays(std::string_view term) { return term != "culls" && term != "visits" && term != "placements"; }
 
-/// Of all the question's rays. The standard error is that between the batches, and no smaller than that of so many
-/// independent events; infinite where there is a single ray.
+/// The count for all the question's rays. The standard error is that between the batches, but at least that of as many
+/// independent events; infinite if there is a single ray.
 Estimate observed(const Counted& counted, const CountTerm<double>& term, double predicted, double question_rays) {
   const double all = counted.all.counts.*term.term;
   if (!adds_up_over_rays(term.name)) return {all, 0};
@@ -88,9 +89,9 @@ Estimate observed(const Counted& counted, const CountTerm<double>& term, double 
   return estimate;
 }
 
-/// What choose prices, and the hits.
+/// Whether the count is a claim: choose prices it, or it is the hits.
 bool is_claimed(const CountTerm<double>& term, Technique technique) {
-  if (term.name == "sorted") return false;  // the number of discs, which is given
+  if (term.name == "sorted") return false;  // the number of discs, which is an input
   Counts<double> one;
   one.*term.term = 1;
   return term.name == "hits" || price(one, built_in_unit_costs(), technique).total() > 0;

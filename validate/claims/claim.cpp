@@ -5,8 +5,8 @@
 namespace detp::validate {
 namespace {
 
-/// The tolerance is a share of the value that is judged: one too large by o is refuted where o - tolerance (1 + o)
-/// exceeds the interval's reach, one too small where o - tolerance (1 - o) does. `away` is 1 or -1.
+/// The tolerance is a share of the judged value. A value too large by o is refuted if o - tolerance (1 + o) exceeds the
+/// half width of the interval; one too small by o if o - tolerance (1 - o) does. `away` is 1 or -1.
 double control_offset(const Claim& claim, const Finding& finding, double away) {
   const double one_count = finding.batches == 0 ? 1 / std::abs(claim.predicted) : 0;
   return away * (claim.detectable + one_count) / (1 - away * finding.tolerance);

@@ -11,7 +11,7 @@
 #include "detp/sim/geometry/geometry.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
-/// A formula against what was counted.
+/// Claims: predictions of formulas, compared with counts.
 namespace detp::validate {
 
 /// A formula's value.
@@ -21,12 +21,12 @@ struct Prediction {
   double value = 0;
 };
 
-/// A quantity that was counted, and what the formulas say of it.
+/// A counted quantity, and the formulas' predictions of it.
 struct Finding {
   std::string id;               ///< "rebuild-time"
   std::string quantity;         ///< "T_R per ray, t = 1: geometric mean over Q = 0.3, 0.5, 0.65, 0.8"
-  std::string technique = {};   ///< "sphere-cache"; empty where the claim is about lines alone
-  std::string parameters = {};  ///< "Q 0.65, k 9"; empty where it is about several of them, or none
+  std::string technique = {};   ///< "sphere-cache"; empty if the claim is about lines alone
+  std::string parameters = {};  ///< "Q 0.65, k 9"; empty if the claim is about several candidates or none
   std::vector<Prediction> predictions = {};
   Estimate observed = {};
   int batches = 0;       ///< independent batches behind the standard error; 0: exact
@@ -35,7 +35,7 @@ struct Finding {
   double seconds = 0;
 };
 
-/// One prediction judged.
+/// One judged prediction.
 struct Claim {
   std::string id;  ///< "rebuild-time.corrected"
   std::string quantity;
@@ -47,34 +47,34 @@ struct Claim {
   Estimate observed = {};
   double relative_difference = 0;  ///< observed/predicted - 1
   double tolerance = 0;
-  double detectable = 0;  ///< relative deviation that would have been refuted
+  double detectable = 0;  ///< relative deviation that would be refuted
   Verdict verdict = Verdict::undecided;
-  /// Relative error of the control, with its sign: the formula made wrong by what is just detectable (and by one count
-  /// more where the observation is exact), away from the observation. Towards it, a formula that is a little off would
-  /// come right.
+  /// Relative error of the negative control, with its sign. The control is the formula made wrong by the detectable
+  /// deviation (and by one count more if the observation is exact), in the direction away from the observation. In the
+  /// other direction, a slightly wrong formula would become right.
   double control_offset = 0;
   double control = 0;
-  Verdict control_verdict = Verdict::undecided;  ///< should be refuted
+  Verdict control_verdict = Verdict::undecided;  ///< should be `refuted`
   std::uint64_t lines = 0;
   double seconds = 0;
 };
 
-/// What choose was asked about: its predictions are claims too.
+/// The question that choose was asked. Its predictions are claims too.
 struct ChoiceQuestion {
   Workload workload;           ///< as choose measures it
   std::vector<sim::Ray> rays;  ///< at least one
 };
 
-/// What an experiment works on.
+/// The input of an experiment.
 struct Experiment {
-  Workload workload;                          ///< what the formulas see; lines
-  std::vector<sim::Disc> discs;               ///< of a scene; empty: new ones are drawn, uniform as the workload says
-  std::optional<ChoiceQuestion> choice = {};  ///< of a scene
+  Workload workload;                          ///< the formulas' input; the rays are lines
+  std::vector<sim::Disc> discs;               ///< of a scene; empty: uniform ones are drawn as the workload says
+  std::optional<ChoiceQuestion> choice = {};  ///< if the experiment is on a scene
   std::uint64_t seed = 1;
   std::stop_token stop = {};
 };
 
-/// Judges all predictions of all findings, with one budget for a false verdict in the whole run.
+/// Judges all predictions of all findings, with one budget for false verdicts in the whole run.
 [[nodiscard]] std::vector<Claim> judge_all(const std::vector<Finding>& findings, double budget = 1e-3);
 
 }  // namespace detp::validate

@@ -25,7 +25,7 @@ using model::Form;
 
 constexpr double tolerance = 0.02;
 
-/// What one batch of lines did.
+/// The counts of one batch of lines.
 struct Batch {
   double lines = 0;
   double hitting = 0;     ///< lines that hit the index's cube
@@ -43,14 +43,14 @@ double lines_that_hit(const std::vector<sim::Ray>& lines, const sim::Box& box) {
       lines.begin(), lines.end(), [&](const sim::Ray& line) { return !sim::ClippedRay(line).inside(box).empty(); }));
 }
 
-/// The cube that an octree cuts in halves: the index's box, its sides as long as the longest.
+/// The cube that an octree subdivides: the index's box, with all sides as long as its longest.
 sim::Box index_cube(const std::vector<sim::Disc>& discs) {
   const sim::Box box = sim::index_box(discs);
   const glm::dvec3 size = box.size();
   return {box.low, box.low + std::max({size.x, size.y, size.z})};
 }
 
-/// Lines through S₀, run through one technique, and what of them the discs' cube sees.
+/// Runs lines through S₀ with one technique, and counts those that hit the discs' cube.
 Batch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& discs, const Candidate& candidate, int part,
                 std::size_t count, int batch) {
   const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch))
@@ -73,7 +73,7 @@ Estimate ratio(const std::vector<Batch>& batches, double Batch::*above, double B
   return batch_ratio(numerators, denominators);
 }
 
-/// Two small discs in opposite corners of a cube: nothing but cells.
+/// Two small discs in opposite corners of a cube, so that almost only cells are counted.
 Finding cells_finding(const Experiment& experiment) {
   const sim::Stopwatch clock;
   const std::size_t lines = lines_a_batch(experiment, 20'000);
@@ -95,13 +95,14 @@ Finding cells_finding(const Experiment& experiment) {
           .seconds = clock.seconds()};
 }
 
-/// Where events are rare, batches may all see none: no standard error is below that of independent events, √(μ/N).
+/// If events are rare, all batches may see none. So raises the standard error to that of independent events, √(μ/N), if
+/// it is below.
 void allow_for_rare_events(Finding& finding) {
   const double least = std::sqrt(finding.predictions.back().value / static_cast<double>(finding.lines));
   finding.observed.standard_error = std::max(finding.observed.standard_error, least);
 }
 
-/// Uniform samples fill their cube, which lies inside S₀: tests per line that hits it, by the closed form.
+/// For uniform samples, whose cube lies inside S₀: tests per line that hits the cube, by the closed form.
 Finding uniform_tests(const Workload& workload, const std::vector<Batch>& batches, int depth) {
   const double overlapped = model::index_cells(workload, std::ldexp(1.0, depth)).overlapped;
   return {.id = "octree-tests-per-line",
@@ -114,8 +115,8 @@ Finding uniform_tests(const Workload& workload, const std::vector<Batch>& batche
           .observed = ratio(batches, &Batch::disc_tests, &Batch::hitting)};
 }
 
-/// A flat scene's cube pokes out of S₀, so that fewer lines hit it than its area says: tests per line through S₀.
-/// P(line hits the cube) converts the paper's figure.
+/// For a scene: tests per line through S₀. The cube of a flat scene extends outside S₀, so fewer lines hit it than its
+/// area predicts. P(line hits the cube) converts the paper's figure.
 Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches,
                     int depth) {
   const double side = index_cube(discs).size().x;
@@ -131,7 +132,7 @@ Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& disc
           .observed = ratio(batches, &Batch::disc_tests, &Batch::lines)};
 }
 
-/// By an octree built of the discs for this purpose; the runs that were counted have no part in it.
+/// Predicted by an octree built from the discs for this purpose only; the counted runs are not used.
 Finding structural_tests(const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches, int depth) {
   const Counts<double> expected = structural_counts(discs, 1, {Technique::octree, OctreeParameters{depth}});
   return {.id = "octree-tests-structural",

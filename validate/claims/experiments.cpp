@@ -11,7 +11,7 @@ namespace {
 
 using Run = std::vector<Finding> (*)(const Experiment&);
 
-/// False where a stop request ended the experiment.
+/// False if a stop request ended the experiment.
 bool add_findings(Run run, const Experiment& experiment, std::vector<Finding>& findings) {
   try {
     std::vector<Finding> found = run(experiment);
@@ -29,7 +29,7 @@ std::vector<Finding> all_findings(const Experiment& experiment, const Progress& 
   struct Step {
     std::string_view name;
     Run run;
-    double share;  ///< of the whole time, roughly
+    double share;  ///< approximate share of the whole time
   };
   constexpr std::array steps{
       Step{"predictions of the choice", choice_findings, 0},

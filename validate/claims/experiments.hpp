@@ -9,14 +9,14 @@
 
 /// The experiments behind the claims. Each counts by simulation; none uses a formula to count.
 ///
-/// All are determined by the seed, whatever the number of threads. After a stop request they return nothing, or throw
-/// sim::Stopped.
+/// The seed determines all results; the number of threads does not affect them. After a stop request they return
+/// nothing, or throw sim::Stopped.
 namespace detp::validate {
 
-/// P(sphere), n_i and P(disc): lines through S₀ against spheres and discs placed at random inside it.
+/// P(sphere), n_i and P(disc): lines through S₀ are tested against spheres and discs placed at random inside it.
 [[nodiscard]] std::vector<Finding> line_hit_findings(const Experiment& experiment);
 
-/// k, m_i, T_R and T_I: the sphere cache on sorted samples, at several Q.
+/// k, m_i, T_R and T_I of the sphere cache on sorted samples, at several Q.
 [[nodiscard]] std::vector<Finding> sphere_cache_findings(const Experiment& experiment);
 
 /// Sphere and disc tests of cell spheres and of the sphere tree.
@@ -25,14 +25,15 @@ namespace detp::validate {
 /// Cells per line, ray-disc tests per line of an octree, and the hits of all discs.
 [[nodiscard]] std::vector<Finding> disc_index_findings(const Experiment& experiment);
 
-/// Every count that choose prices, and the hits, of each candidate that it ranks: predicted by model::rank on the
-/// question's workload, counted on its rays and discs. Nothing where there is no question.
+/// All counts that choose prices, and the hits, of each candidate that it ranks. model::rank predicts them from the
+/// question's workload; they are counted on the question's rays and discs. Nothing if there is no question.
 [[nodiscard]] std::vector<Finding> choice_findings(const Experiment& experiment);
 
-/// Called between experiments with what comes next and the share of the work that is done.
+/// Called before each experiment with its name and the share of the work that is done.
 using Progress = std::function<void(std::string_view next, double done)>;
 
-/// All experiments, or those that were done when a stop was requested. `done`, if given: how many.
+/// The findings of all experiments, or of those finished before a stop request. Sets `done`, if not null, to their
+/// number.
 [[nodiscard]] std::vector<Finding> all_findings(const Experiment& experiment, const Progress& progress = {},
                                                 sim::Progress* done = nullptr);
 

@@ -20,16 +20,16 @@ namespace {
 
 using model::Form;
 
-constexpr int positions = 8;  ///< spheres or discs of each kind, at random places
+constexpr int positions = 8;  ///< number of random places of each kind of sphere or disc
 constexpr double tolerance = 0.015;
 constexpr double sphere_radius = 0.4;
 constexpr double disc_radius = 0.3;
 constexpr int most_levels = 3;
 
-/// Of S_i at the published Q.
+/// Radius of S_i at the published Q.
 double level_radius(int i) { return std::pow(model::published_ratio, static_cast<double>(i)); }
 
-/// A body of that reach, at a random place inside S₀ = unit sphere.
+/// A sphere of radius `reach` at a random place inside S₀, which is the unit sphere.
 sim::Sphere place_inside(double reach, std::uint64_t seed, int number) {
   const auto u = sim::uniform4(seed, sim::Stream::tests, static_cast<std::uint64_t>(number));
   return {(1 - reach) * std::cbrt(u[0]) * sim::uniform_direction(u[1], u[2]), reach};
@@ -50,7 +50,7 @@ std::vector<sim::Disc> discs_inside(double radius, std::uint64_t seed) {
   return discs;
 }
 
-/// The bodies of the claims.
+/// The spheres and discs of the claims.
 struct Bodies {
   std::vector<sim::Sphere> spheres;                          ///< of radius sphere_radius
   std::vector<sim::Disc> discs;                              ///< of radius disc_radius
@@ -79,8 +79,8 @@ double hits_of(const sim::Ray& line, const std::vector<Body>& bodies) {
       std::count_if(bodies.begin(), bodies.end(), [&](const Body& body) { return sim::hits(line, body); }));
 }
 
-/// The same lines serve every claim: drawing a line takes longer than testing it. The claims are then dependent, which
-/// the budget for false verdicts, a sum over the claims, allows for.
+/// All claims use the same lines, because drawing a line takes longer than testing it. So the claims are dependent,
+/// which the budget for false verdicts, a sum over the claims, allows for.
 std::vector<Shares> shares_of_batches(const Experiment& experiment, const Bodies& bodies, std::size_t lines) {
   return for_each_batch(experiment, [&](int batch) {
     const sim::LineField field({}, batch_seed(experiment, 1, batch));

@@ -27,16 +27,16 @@ constexpr std::string_view over_ratios = "geometric mean over Q = 0.3, 0.5, 0.65
 constexpr double tolerance = 0.025;
 constexpr double least_rebuilds = 30;
 
-/// Logarithms of per-ray costs and of rebuilds, one for each Q: counted, and as the two forms have them.
+/// Mean logarithms of per-ray costs and of rebuilds for one Q: counted, or predicted by one of the two forms.
 struct Logs {
-  double rebuilds = 0;  ///< mean over the spheres compared
+  double rebuilds = 0;  ///< mean over the compared spheres
   double rebuild_time = 0;
   double intersect_time = 0;
 };
 
 struct SetResult {
   std::array<Logs, ratios.size()> counted, published, corrected;
-  std::array<double, ratios.size()> time_ratio{};  ///< counted T_R over the structural one
+  std::array<double, ratios.size()> time_ratio{};  ///< counted T_R divided by the structural T_R
 };
 
 SphereCacheParameters parameters_for(const Workload& workload, double ratio) {
@@ -45,7 +45,8 @@ SphereCacheParameters parameters_for(const Workload& workload, double ratio) {
   return {ratio, std::max<std::int64_t>(1, k), SampleOrder::lebesgue};
 }
 
-/// Mean of ln m_i over the spheres for which the corrected law expects at least 30 rebuilds. Same spheres for all.
+/// Mean of ln m_i over the spheres for which the corrected law expects at least 30 rebuilds. These are the same for
+/// counts and predictions.
 template <class Rebuilds>
 double mean_log_rebuilds(const std::vector<model::SphereLevel>& levels, const Rebuilds& rebuilds) {
   double sum = 0;
@@ -58,7 +59,7 @@ double mean_log_rebuilds(const std::vector<model::SphereLevel>& levels, const Re
   return count > 0 ? sum / count : 0;
 }
 
-/// One Q on one set of samples: a run of the technique, and the models of it.
+/// Runs the technique, and the models of it, for one Q on one set of samples.
 void compare(SetResult& result, std::size_t q, const Workload& workload, const sim::Problem& problem,
              const Experiment& experiment) {
   const SphereCacheParameters parameters = parameters_for(workload, ratios[q]);
@@ -71,7 +72,7 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
     return std::min(workload.samples, model::published::rebuilds({ratios[q]}, static_cast<std::int64_t>(i) + 1));
   };
   result.counted[q] = {mean_log_rebuilds(levels,
-                                         [&](std::size_t i) {  // spheres that no disc fitted in were never built
+                                         [&](std::size_t i) {  // spheres in which no disc fitted were never built
                                            return i < run.spheres.size() ? static_cast<double>(run.spheres[i].rebuilds)
                                                                          : 0;
                                          }),
@@ -90,7 +91,7 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
   result.time_ratio[q] = static_cast<double>(run.counts.cull_tests) / rays / walk.cull_tests;
 }
 
-/// The workload with S₀ as it is around this set of samples.
+/// The workload with the actual S₀ of this set of samples.
 Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
   Workload workload = experiment.workload;
   workload.sphere_radius = problem.enclosing.radius;
@@ -112,7 +113,7 @@ std::vector<SetResult> run_all(const Experiment& experiment, std::size_t lines) 
 
 using Columns = std::array<Logs, ratios.size()> SetResult::*;
 
-/// Geometric mean over the Q's (and, of the predictions, over the sets): exp of the mean logarithm.
+/// Geometric mean of the predictions over the Q's and the sets: exp of the mean logarithm.
 double geometric_mean(const std::vector<SetResult>& sets, Columns columns, double Logs::*term) {
   double sum = 0;
   for (const SetResult& set : sets)
@@ -120,7 +121,8 @@ double geometric_mean(const std::vector<SetResult>& sets, Columns columns, doubl
   return std::exp(sum / static_cast<double>(sets.size() * ratios.size()));
 }
 
-/// The same of what was counted, with its standard error between sets (of the logarithm, carried over).
+/// Geometric mean of the counts over the Q's. The standard error between sets is computed for the logarithm, and
+/// converted.
 Estimate counted(const std::vector<SetResult>& sets, double Logs::*term) {
   std::vector<double> logs;
   for (const SetResult& set : sets) {
@@ -132,7 +134,7 @@ Estimate counted(const std::vector<SetResult>& sets, double Logs::*term) {
   return {std::exp(log.mean), std::exp(log.mean) * log.standard_error};
 }
 
-/// Lets the technique nest as many spheres as it finds room for.
+/// The number of spheres that the technique nests until no more fit.
 Finding count_finding(const Experiment& experiment) {
   const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
   const auto ray = sim::LineField(sim::enclosing_sphere(discs), experiment.seed).lines(0, 1);

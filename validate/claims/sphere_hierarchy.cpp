@@ -19,16 +19,16 @@ using model::Form;
 
 constexpr double tolerance = 0.025;
 
-/// The claims on one technique.
+/// The claims about one technique.
 struct Subject {
   std::string_view id;
   std::vector<Candidate> candidates;
-  std::string over;         ///< what the mean is over
-  std::string_view source;  ///< of the closed form
+  std::string over;         ///< the candidates that the mean is over
+  std::string_view source;  ///< source of the closed form
 };
 
 Subject cell_spheres(const Workload& workload) {
-  // Down to cells that a disc fits in, as far as the curve's bits reach.
+  // Down to the smallest cells that a disc fits in, within the resolution of the curve.
   const double halvings = std::floor(std::log2(scene_side(workload) / (2 * workload.disc_radius)));
   const int deepest = static_cast<int>(std::clamp(halvings, 2.0, 16.0));
   Subject subject{"cell-spheres",
@@ -50,7 +50,7 @@ Subject sphere_tree() {
   return subject;
 }
 
-/// Mean logarithms over the candidates: of sphere and of disc tests per ray.
+/// Mean logarithms over the candidates, of sphere tests and disc tests per ray.
 struct Logs {
   double cull_tests = 0;
   double disc_tests = 0;
@@ -61,12 +61,12 @@ struct Logs {
   }
 };
 
-/// One set of samples and lines.
+/// The results of one set of samples and lines.
 struct SetResult {
   Logs counted, closed, structural;
 };
 
-/// The workload with the box and S₀ as they are around this set of samples.
+/// The workload with the actual S₀ of this set of samples.
 Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
   Workload workload = experiment.workload;
   workload.sphere_radius = problem.enclosing.radius;
@@ -101,7 +101,8 @@ double geometric_mean(const std::vector<SetResult>& sets, Column column, Term te
   return std::exp(sum / static_cast<double>(sets.size()));
 }
 
-/// Of what was counted, and its standard error between sets (of the logarithm, carried over); less that of `below`.
+/// Geometric mean of the counts, divided by `below` if set. The standard error between sets is computed for the
+/// logarithm, and converted.
 Estimate counted(const std::vector<SetResult>& sets, Term term, Column below = nullptr) {
   std::vector<double> logs;
   for (const SetResult& set : sets) logs.push_back(set.counted.*term - (below == nullptr ? 0 : set.*below.*term));

@@ -13,24 +13,25 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// An x >= 0 and the unknowns in it that are free to be positive.
+/// An x >= 0, and the list of unknowns that are free to be positive.
 struct Fit {
   VectorXd x;
   std::vector<Index> free;
 };
 
-/// The least squares of the free unknowns, whatever their signs; the others are 0.
+/// The least-squares fit of the free unknowns without sign constraint; the others are 0.
 VectorXd joint_fit(const MatrixXd& a, const VectorXd& b, const std::vector<Index>& free) {
   VectorXd x = VectorXd::Zero(a.cols());
   if (!free.empty()) x(free) = a(Eigen::all, free).colPivHouseholderQr().solve(b);
   return x;
 }
 
-/// Goes from x towards the joint fit of its free unknowns; each that becomes 0 on the way stays there, no longer free.
+/// Moves from x towards the joint fit of the free unknowns. An unknown that becomes 0 on the way stays 0 and is no
+/// longer free.
 void go_to_joint_fit(const MatrixXd& a, const VectorXd& b, Fit& fit) {
   for (;;) {
     const VectorXd goal = joint_fit(a, b, fit.free);
-    auto first = fit.free.end();  // to become 0
+    auto first = fit.free.end();  // the first to become 0
     double step = 1;
     for (auto i = fit.free.begin(); i != fit.free.end(); ++i) {
       if (goal[*i] > 0) continue;
@@ -49,7 +50,7 @@ void go_to_joint_fit(const MatrixXd& a, const VectorXd& b, Fit& fit) {
   }
 }
 
-/// Of columns of length 1.
+/// Fits with columns of length 1.
 VectorXd fit_unit_columns(const MatrixXd& a, const VectorXd& b) {
   Fit best{VectorXd::Zero(a.cols()), {}};
   double error = b.norm();
@@ -63,7 +64,7 @@ VectorXd fit_unit_columns(const MatrixXd& a, const VectorXd& b) {
     next.free.push_back(entering);
     go_to_joint_fit(a, b, next);
     const double next_error = (b - a * next.x).norm();
-    if (!(next_error < error)) return best.x;  // but for rounding, each step lowers it
+    if (!(next_error < error)) return best.x;  // each step lowers the error, except for rounding
     error = next_error;
     best = std::move(next);
   }

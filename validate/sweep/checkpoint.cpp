@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "detp.sweep-checkpoint";
-constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a whole sweep takes less than a hundredth of it
+constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a whole sweep takes less than a hundredth of this
 
 Json to_json(const Deviation& row) {
   return Json::array({row.dimension, row.samples, row.disc_share, row.technique, row.parameters, row.quantity,
@@ -42,7 +42,7 @@ Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t seed, std::uint
     : path_(std::move(path)), seed_(seed), fingerprint_(fingerprint) {}
 
 void Checkpoint::read(std::stop_token stop) {
-  std::error_code unknown;  // what else is wrong, reading tells
+  std::error_code unknown;  // other errors appear when the file is read
   if (!std::filesystem::exists(path_, unknown) && !unknown) return;
   try {
     const Json json = Json::parse(sim::read_file(path_.string(), most_bytes, std::move(stop)));

@@ -11,17 +11,18 @@
 
 namespace detp::validate {
 
-/// What a sweep has measured so far, by the name of the point, kept in a file (JSON).
+/// The measurements of a sweep so far, by name of the point, kept in a JSON file.
 class Checkpoint {
  public:
-  /// Empty. `fingerprint` is of the formulas and points: what was measured with others is not to be continued.
+  /// An empty checkpoint. `fingerprint` identifies the formulas and points; measurements with another fingerprint
+  /// cannot be continued.
   Checkpoint(std::filesystem::path path, std::uint64_t seed, std::uint64_t fingerprint);
 
-  /// Reads the file. Throws sim::FileError where it is malformed, or was made with another seed or fingerprint. A
-  /// missing file is an empty checkpoint. Throws sim::Stopped within 0.1 s of a stop request.
+  /// Reads the file. Throws sim::FileError if it is malformed, or was made with another seed or fingerprint. A missing
+  /// file is an empty checkpoint. Throws sim::Stopped within 0.1 s of a stop request.
   void read(std::stop_token stop = {});
 
-  /// Adds a point and writes all, aside first, so that the file is whole at any moment.
+  /// Adds a point and rewrites the file. The file is replaced as a whole, so it is valid at any moment.
   void add(const std::string& point, const std::vector<Deviation>& deviations);
 
   [[nodiscard]] const std::map<std::string, std::vector<Deviation>>& points() const { return points_; }

@@ -20,7 +20,7 @@ namespace {
 
 constexpr double least_rebuilds = 30;
 
-/// What one candidate did on all sets.
+/// The counts of one candidate on all sets.
 struct Observed {
   std::vector<Counts<double>> counts;
   std::vector<std::vector<sim::SphereCounts>> spheres;
@@ -28,10 +28,10 @@ struct Observed {
 
 struct Observations {
   std::vector<Observed> of_candidates;
-  double sphere_radius = 0;  ///< of S₀, mean over the sets
+  double sphere_radius = 0;  ///< radius of S₀, mean over the sets
 };
 
-/// The rows of one candidate.
+/// Collects the rows of one candidate.
 class Rows {
  public:
   Rows(const SweepPoint& point, const Candidate& candidate) {
@@ -60,7 +60,7 @@ class Rows {
   std::vector<Deviation> rows_;
 };
 
-/// Terms of one name, over the sets.
+/// The values of one term over the sets.
 std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_view wanted) {
   std::vector<double> values;
   for (const Counts<double>& counts : sets)
@@ -70,7 +70,7 @@ std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_
   return values;
 }
 
-/// A mean over so many events is no surer than if they were independent: two sets may agree by chance.
+/// Raises the standard error to that of `events` independent events, if it is smaller: few sets may agree by chance.
 Estimate allow_for_few(Estimate estimate, double events) {
   if (events > 0) estimate.standard_error = std::max(estimate.standard_error, estimate.mean / std::sqrt(events));
   return estimate;
@@ -80,7 +80,7 @@ bool depends_on_lines(std::string_view term) {
   return term != "culls" && term != "visits" && term != "references" && term != "placements";
 }
 
-/// Every count of the whole run.
+/// Adds a row for each count of the whole run.
 void compare_counts(Rows& rows, std::string_view tier, const Counts<double>& predicted,
                     const std::vector<Counts<double>>& counted) {
   for_each_term(predicted, [&](std::string_view term, double value) {
@@ -91,7 +91,7 @@ void compare_counts(Rows& rows, std::string_view tier, const Counts<double>& pre
   });
 }
 
-/// The paper's counts, where it has any.
+/// The paper's counts, if it has a formula for them.
 std::optional<Counts<double>> published_counts(const Workload& workload, const Candidate& candidate) {
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters)) {
     const std::int64_t k =
@@ -101,7 +101,8 @@ std::optional<Counts<double>> published_counts(const Workload& workload, const C
   if (const auto* octree = std::get_if<OctreeParameters>(&candidate.parameters)) {
     const double side = scene_side(workload) + 2 * workload.disc_radius;
     const double radius = workload.sphere_radius;
-    const double cube = 1.5 / std::numbers::pi * side * side / (radius * radius);  // share of lines that hit it
+    // share of the lines that hit the cube
+    const double cube = 1.5 / std::numbers::pi * side * side / (radius * radius);
     return Counts<double>{.disc_tests =
                               workload.rays * cube * model::published::tests_per_line(workload.samples, octree->depth)};
   }
@@ -142,7 +143,7 @@ std::vector<Deviation> compare(const SweepPoint& point, const Workload& workload
   return std::move(rows).give();
 }
 
-/// All candidates on one set. False where a stop was asked for.
+/// Runs all candidates on one set. Returns false if a stop was requested.
 bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidates, std::uint64_t seed, int set,
                  const std::stop_token& stop, Observations& all) {
   const std::vector<sim::Disc> discs = point.discs(seed, set, stop);

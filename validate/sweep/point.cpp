@@ -18,7 +18,7 @@ constexpr double side = 2;
 constexpr std::array disc_shares{1e-4, 1e-3, 1e-2, 0.05, 0.2};
 constexpr std::array ratios{0.3, 0.5, 0.65, 0.8, 0.9};
 
-/// Sets and lines for a number of samples: few samples scatter much from set to set.
+/// Numbers of sets and lines for a number of samples. With few samples, sets differ much, so there are more of them.
 struct Amount {
   double samples;
   int sets;
@@ -28,7 +28,7 @@ struct Amount {
 constexpr std::array amounts{Amount{1e7, 2, 1500}, Amount{1e6, 4, 2000}, Amount{1e5, 16, 500}, Amount{1e4, 64, 300},
                              Amount{1e3, 256, 250}};
 
-/// More tests than that, on one set, take too long: such a candidate is hopeless anyway.
+/// Candidates with more tests on one set are left out: they take too long, and would be far too slow to be chosen.
 constexpr double most_tests = 1e9;
 
 std::vector<Candidate> caches(const SweepPoint& point) {
@@ -55,7 +55,7 @@ std::vector<Candidate> indices(const SweepPoint& point) {
   return candidates;
 }
 
-/// Cells down to as many levels as leave some samples to a cell.
+/// Hierarchies whose cells go down to as many levels as leave several samples in a cell.
 std::vector<Candidate> hierarchies(const SweepPoint& point) {
   const int levels = std::clamp(static_cast<int>(std::log2(point.samples) / point.dimension) - 1, 1, 6);
   return {{Technique::cell_spheres, CellSpheresParameters{levels}},

@@ -9,11 +9,10 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 
-/// The workloads over which the formulas are held against counting: samples uniform in a cube of side 2 or on its
-/// faces.
+/// The workloads on which the formulas are compared with counts: uniform samples in a cube of side 2 or on its faces.
 namespace detp::validate {
 
-/// One workload of the sweep, and how much of it is simulated.
+/// One workload of the sweep, and how many sets and lines are simulated.
 struct SweepPoint {
   int dimension = 3;
   double samples = 0;     ///< n_P
@@ -25,18 +24,18 @@ struct SweepPoint {
   [[nodiscard]] Workload workload() const;
   [[nodiscard]] std::vector<sim::Disc> discs(std::uint64_t seed, int set, const std::stop_token& stop = {}) const;
 
-  /// Where it lies in the sweep: "D=3 n=1000 d/r0=0.01".
+  /// Its name, from its place in the sweep: "D=3 n=1000 d/r0=0.01".
   [[nodiscard]] std::string name() const;
 
-  /// Roughly in proportion to the time it takes.
+  /// Roughly proportional to the time that the point takes.
   [[nodiscard]] double effort() const { return sets * (samples + 3e4); }
 };
 
-/// n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3; the largest first, so that two cores end together.
+/// n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3. The largest come first, so that two cores finish at about the same time.
 [[nodiscard]] std::vector<SweepPoint> sweep_points();
 
-/// What is run on a point: sphere caches at five Q, indices and hierarchies at two resolutions, but for
-/// those of more than 10⁹ tests on one set.
+/// The candidates run on a point: sphere caches at five Q, and indices and hierarchies at two resolutions. Candidates
+/// with more than 10⁹ tests on one set are left out.
 [[nodiscard]] std::vector<Candidate> sweep_candidates(const SweepPoint& point);
 
 }  // namespace detp::validate

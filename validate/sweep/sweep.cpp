@@ -15,7 +15,8 @@
 namespace detp::validate {
 namespace {
 
-/// A number that changes with the points, their amounts and any formula's value (FNV-1a over all of them).
+/// A hash (FNV-1a) of the points, their numbers of sets and lines, and the value of every formula; it changes with any
+/// of them.
 std::uint64_t fingerprint(std::span<const SweepPoint> points) {
   std::uint64_t hash = 14695981039346656037ULL;
   const auto mix = [&hash](double value) { hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211ULL; };
@@ -30,7 +31,7 @@ std::uint64_t fingerprint(std::span<const SweepPoint> points) {
   return hash;
 }
 
-/// What the options name, read where it is to be resumed.
+/// The checkpoint that the options name, already read if the sweep is to be resumed.
 std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options,
                                         std::stop_token stop) {
   if (!options.checkpoint) return std::nullopt;
@@ -39,7 +40,7 @@ std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, cons
   return checkpoint;
 }
 
-/// Where the threads put what they have measured.
+/// Collects the measurements of all threads.
 class Collector {
  public:
   Collector(std::span<const SweepPoint> points, const SweepOptions& options)
@@ -53,7 +54,7 @@ class Collector {
     resumed_ = measured_.size();
   }
 
-  /// The next point to measure, the largest first; none where all are taken or a stop was asked for.
+  /// The next point to measure, largest first; null if none is left or a stop was requested.
   [[nodiscard]] const SweepPoint* take() {
     const std::scoped_lock lock(mutex_);
     while (next_ < points_.size() && measured_.contains(points_[next_].name())) ++next_;

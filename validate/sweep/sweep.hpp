@@ -16,27 +16,27 @@ namespace detp::validate {
 struct SweepOptions {
   std::uint64_t seed = 1;
   std::optional<std::filesystem::path> checkpoint{};  ///< written, atomically, after each point
-  bool resume = false;                                ///< takes from the checkpoint what it holds; it may be missing
+  bool resume = false;  ///< reuse the measurements in the checkpoint, which may be missing
   std::stop_token stop = {};
   std::function<void(std::string_view done, double share)> progress = {};
 };
 
 struct SweepResult {
-  std::vector<Deviation> deviations;  ///< by point, in their order
-  std::size_t points = 0;             ///< asked for
-  std::size_t measured = 0;           ///< of them: fewer where it was stopped
-  std::size_t resumed = 0;            ///< taken from the checkpoint
+  std::vector<Deviation> deviations;  ///< by point, in the order of the points
+  std::size_t points = 0;             ///< requested
+  std::size_t measured = 0;           ///< of the requested points; fewer if the sweep was stopped
+  std::size_t resumed = 0;            ///< read from the checkpoint
 };
 
-/// Measures the points, in parallel, one thread each, the first ones first. The same seed gives the same result, in one
-/// go or resumed.
+/// Measures the points in parallel, one thread for each, in their order. The same seed gives the same result, whether
+/// or not the sweep was resumed.
 ///
-/// Throws sim::FileError for a checkpoint that cannot be read or written, was made with another seed or another version
-/// of the sweep, or is malformed: it is left as it is.
+/// Throws sim::FileError if the checkpoint cannot be read or written, is malformed, or was made with another seed or
+/// another version of the sweep. The checkpoint is then left unchanged.
 [[nodiscard]] SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options = {});
 
-/// Throws as run_sweep does for the checkpoint that the options name, without any measuring;
-/// and sim::Stopped within 0.1 s of a stop request.
+/// Throws as run_sweep does for the checkpoint that the options name, without measuring anything; and sim::Stopped
+/// within 0.1 s of a stop request.
 void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& options);
 
 }  // namespace detp::validate

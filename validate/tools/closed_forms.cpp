@@ -1,4 +1,4 @@
-/// Times of the closed forms: nanoseconds of one evaluation.
+/// Times the closed forms: nanoseconds for one evaluation.
 
 #include <benchmark/benchmark.h>
 
@@ -23,7 +23,7 @@ using namespace detp::model;
 const Workload volume = cube_workload(1e6, 1e5, 0.01, 2);
 const Workload surface = cube_workload(1e6, 1e5, 0.01, 2, 2);
 
-/// A ratio that differs from call to call, so that nothing is computed once and kept.
+/// A ratio that changes from call to call, so that the compiler cannot reuse a result.
 class Ratios {
  public:
   double next() { return last_ = last_ > 0.7 ? 0.6 : last_ + 1e-7; }

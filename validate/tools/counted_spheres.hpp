@@ -7,8 +7,8 @@
 #include "listed_rays_table.hpp"
 #include "sample_walk.hpp"
 
-/// Counted answers for the tests of the model: what some spheres of some caches did, over samples of other seeds than
-/// the tables' own.
+/// Counted reference values for the tests of the model: rebuilds and listed rays of some spheres of some caches, with
+/// other seeds than those of the tables.
 namespace detp::tables {
 
 /// {D, n_P, d/r₀, Q, i, m_i, share of the rays through S_i that its list has}

@@ -21,7 +21,7 @@ double flops() {
   return measured;
 }
 
-/// Of that working set, measured once each.
+/// Bandwidth for that working set; measured once, then remembered.
 double bandwidth(double (*measure)(std::size_t), std::size_t bytes) {
   static std::map<std::pair<double (*)(std::size_t), std::size_t>, double> known;
   const auto [place, is_new] = known.try_emplace({measure, bytes});
@@ -54,7 +54,7 @@ std::vector<Row>& rows() {
   return all;
 }
 
-/// Keeps the best repeat of each row, and prints it when the row is done.
+/// Keeps the best repeat of each row, and prints it when the row is complete.
 class BestOfRepeats final : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override {
@@ -64,7 +64,7 @@ class BestOfRepeats final : public benchmark::BenchmarkReporter {
   }
 
   void ReportRuns(const std::vector<Run>& runs) override {
-    if (runs.empty() || runs.front().run_type != Run::RT_Iteration) return;  // means and the like
+    if (runs.empty() || runs.front().run_type != Run::RT_Iteration) return;  // skips aggregates such as means
     for (const Run& run : runs) {
       Row& row = rows()[static_cast<std::size_t>(run.counters.at("row").value)];
       row.seconds = std::min(row.seconds, run.cpu_accumulated_time / static_cast<double>(run.iterations));

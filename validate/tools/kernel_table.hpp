@@ -4,26 +4,26 @@
 #include <functional>
 #include <string>
 
-/// Rows of kernels beside what the machine allows.
+/// A table of kernel times beside the machine's limits.
 namespace detp::benchmarks {
 
-/// What one call of a kernel does.
+/// The work of one call of a kernel.
 struct Work {
-  double tests;             ///< rays against shapes
+  double tests;             ///< ray-shape tests
   double flops;             ///< floating-point operations
   double loaded;            ///< bytes
   double stored;            ///< bytes that are kept
-  std::size_t working_set;  ///< bytes: which level of the cache they come from
-  double packing;           ///< seconds that packing and storing alone take, if the kernel does
+  std::size_t working_set;  ///< bytes; decides from which cache level they are loaded
+  double packing;           ///< seconds for packing and storing alone, if the kernel packs
 };
 
-/// A row to be measured by Google Benchmark.
+/// Adds a row, to be measured by Google Benchmark.
 void add_row(const std::string& name, const Work& work, std::function<void()> kernel);
 
-/// What machine_peak measures, as text.
+/// Prints the measurements of machine_peak.
 void print_peaks();
 
-/// Measures all rows (five times each) and prints the best of each as a line of a table.
+/// Measures each row five times and prints the best as a line of a table.
 void run_rows();
 
 }  // namespace detp::benchmarks

@@ -1,10 +1,10 @@
-/// Times of the float kernels of sim/stream beside what the machine can do: for lists of lines and of segments, as long
-/// as fit each level of the cache.
+/// Compares the times of the float kernels of sim/stream with the machine's limits, for lists of lines and of segments
+/// that just fit each cache level.
 ///
-/// Per row, the best of the repeats (CPU time): nanoseconds a test; bytes and operations a second; the time that the
-/// machine's own limits would allow, and its share of what was taken. Limits are measured at the start (machine_peak):
-/// operations at peak_flops, bytes loaded at the load_bandwidth of that working set, and for culls also the packing of
-/// those vectors that keep a lane. The largest of the three is the limit; it is not their sum.
+/// Each row holds the best of the repeats (CPU time): nanoseconds per test; bytes and operations per second; the time
+/// that the machine's limits allow, and its share of the measured time. Limits are measured at the start
+/// (machine_peak): operations at peak_flops; bytes at the load_bandwidth of that working set; for culls also the
+/// packing of those vectors that keep a lane. The limit is the largest of the three, not their sum.
 
 #include <benchmark/benchmark.h>
 
@@ -32,12 +32,13 @@ using namespace detp::benchmarks;
 
 struct Level {
   const char* name;
-  std::size_t rays;  ///< in a list which, with what is culled from it, fits this level
+  std::size_t rays;  ///< in a list which, together with its culled copy, fits this level
 };
 constexpr Level levels[] = {{"L1", 512}, {"L2", 12'288}, {"L3", 262'144}, {"memory", 4'194'304}};
 
-// Floating-point operations of one test in kernels-inl.hpp: a multiply-add is two, a comparison, minimum or maximum
-// one, what only moves signs none. Of load_rays: operations on doubles, which count as two.
+// Floating-point operations of one test in kernels-inl.hpp. A multiply-add counts as two; a comparison, minimum or
+// maximum as one; operations that only change signs as none. Operations of load_rays are on doubles, which count as
+// two.
 constexpr double box_flops[] = {12, 14};
 constexpr double sphere_flops[] = {20, 22};
 constexpr double disc_flops[] = {33, 42};
@@ -46,7 +47,7 @@ constexpr double load_flops = 2 * 30;
 double tested_bytes(bool segments) { return segments ? 6 * sizeof(float) : 4 * sizeof(float); }
 int arrays(bool segments) { return segments ? 7 : 5; }
 
-/// Discs of 1 % in the unit cube, lines around them, and the lines' segments: what the lists are made of.
+/// Discs of 1 % in the unit cube, and lines around them or segments of these lines: the content of the lists.
 class Scene {
  public:
   explicit Scene(bool segments)
@@ -60,7 +61,8 @@ class Scene {
     load_rays(rays_, frame_, lists_);
   }
 
-  /// As many rays of class 0, one after another as they were loaded; from the first again when there are no more.
+  /// A list of `size` rays of class 0 in the order in which they were loaded; starts again from the first if there are
+  /// too few.
   stream::RayList list(std::size_t size, bool segments) {
     stream::RayList list = memory_.take(size, segments);
     list.size = size;
@@ -116,8 +118,8 @@ class Scene {
   stream::RayLists lists_;
 };
 
-/// Boxes (spheres) of one size about random places: one after another, so that no branch is foreseen because it has
-/// been taken the same way before.
+/// Number of boxes (spheres) of one size at random places. They are used in turn, so that branch prediction cannot
+/// learn the outcome.
 constexpr std::size_t shapes = 1024;
 
 struct Shapes {
@@ -128,7 +130,7 @@ struct Shapes {
 using Cull =
     std::function<void(const std::array<float, 3>& centre, float size, const stream::RayList&, stream::RayList&)>;
 
-/// The share of rays that are kept, on average.
+/// The mean share of rays that are kept.
 double kept_share(const Cull& cull, const Shapes& tried, const stream::RayList& list, stream::RayList& inside) {
   double kept = 0;
   for (std::size_t i = 0; i < 64; ++i) {
@@ -138,7 +140,7 @@ double kept_share(const Cull& cull, const Shapes& tried, const stream::RayList& 
   return kept;
 }
 
-/// Shapes which keep that share.
+/// Shapes of such a size that this share of the rays is kept.
 Shapes shapes_keeping(double share, const Cull& cull, const stream::RayList& list, stream::RayList& inside) {
   Shapes found;
   std::mt19937 draw(3);
@@ -158,7 +160,7 @@ Shapes shapes_keeping(double share, const Cull& cull, const stream::RayList& lis
   return found;
 }
 
-/// The share of vectors that keep a ray. A list's numbers rise, so a vector's are found one after another.
+/// The share of vectors that keep at least one ray. A list's ray numbers rise, so those of one vector are consecutive.
 double kept_vectors(const Cull& cull, const Shapes& tried, const stream::RayList& list, stream::RayList& inside) {
   const std::size_t n = vector_length();
   std::size_t kept = 0;
@@ -181,12 +183,12 @@ double best_packing(int count, std::size_t size, double share) {
                   packing_time(Packing::permute, count, size, share));
 }
 
-/// What is measured of a cull.
+/// Adds the row of a cull.
 void add_cull(const std::string& name, bool segments, const Level& level, double share, double flops, Scene& scene,
               const Cull& cull) {
   const stream::RayList list = scene.list(level.rays, segments);
   stream::RayList inside = scene.room(level.rays);
-  // Shares are those of a list of middle length: any part of the rays is as good.
+  // Shares are measured on a list of medium length; any part of the rays would do.
   stream::RayList sample = list;
   sample.size = std::min<std::size_t>(list.size, 12'288);
   const Shapes tried = shapes_keeping(share, cull, sample, inside);

@@ -10,23 +10,24 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "sample_walk.hpp"
 
-/// The share of the lines through a sphere of the cache that cross all those around it, averaged over its builds.
+/// The share of the lines through a sphere of the cache that also cross all spheres around it, averaged over its
+/// builds.
 namespace detp::tables {
 
 inline constexpr std::array list_octaves{0.074, 0.152, 0.234, 0.322, 0.42, 0.515, 0.62, 0.737, 1.0, 1.32, 1.74, 2.32};
 inline constexpr std::array list_disc_shares{0.0, 0.1, 0.25, 0.45, 0.65, 0.85, 1.0};  ///< d/r_i
 inline constexpr std::array list_outer_disc_shares{0.0, 0.05, 0.2};                   ///< d/r₀
 
-/// Lines through the innermost of nested spheres, at some of its builds.
+/// Counts lines through the innermost of nested spheres, at some of its builds.
 class ListedShare {
  public:
-  /// `radii` from the outermost inwards; the first stays around the origin if `fixed_outermost`.
+  /// `radii` from the outermost inwards. The outermost sphere stays around the origin if `fixed_outermost`.
   ListedShare(std::vector<double> radii, double disc_radius, bool fixed_outermost)
       : radii_(std::move(radii)), fixed_(fixed_outermost ? 1 : 0) {
     for (std::size_t i = fixed_; i < radii_.size(); ++i) balls_.push_back(std::max(0.0, radii_[i] - disc_radius));
   }
 
-  /// About `builds` builds of the walk, with as many lines each.
+  /// Counts over about `builds` builds of the walk, with `lines` lines each.
   void walk(const Points& samples, double builds, int lines) {
     const double share = std::min(1.0, builds / moves(samples, balls_).back());
     Nest nest(balls_);
@@ -50,7 +51,7 @@ class ListedShare {
     for (int n = 0; n < lines; ++n) {
       const sim::Ray& line = pool[next_++ % pool.size()];
       const glm::dvec3 point = nest.centre(balls_.size() - 1) + radii_.back() * line.origin;
-      std::size_t outer = radii_.size() - 1;  // one inside the next to be crossed
+      std::size_t outer = radii_.size() - 1;  // the sphere just inside the next one to test
       while (outer > 0) {
         const glm::dvec3 centre = outer > fixed_ ? nest.centre(outer - 1 - fixed_) : glm::dvec3{0.0};
         if (!crosses(point, line.direction, centre, radii_[outer - 1])) break;
@@ -67,7 +68,8 @@ class ListedShare {
   double crossing_ = 0, laid_ = 0;
 };
 
-/// Spheres of the ratio 2^{-u} around one of radius r, up to `largest`; outermost first.
+/// A sphere of radius r and the spheres around it, each 2^octaves times as large as the next, up to `largest`;
+/// outermost first.
 inline std::vector<double> spheres_around(double radius, double octaves, double largest) {
   std::vector<double> radii;
   for (double r = radius; r <= largest; r *= std::exp2(octaves)) radii.push_back(r);
@@ -75,7 +77,8 @@ inline std::vector<double> spheres_around(double radius, double octaves, double 
   return radii;
 }
 
-/// Deep in the scene: mean over three sets a third of a halving apart, S₀ left out.
+/// Prints the table for spheres deep in the scene: the mean over three sets whose sizes differ by a third of a halving,
+/// without S₀.
 inline void print_deep_lists() {
   constexpr std::uint64_t seed = 900;
   for (const int dimension : {2, 3})
@@ -105,7 +108,7 @@ inline void print_deep_lists() {
     }
 }
 
-/// Near S₀: among 10³ and 10⁵ samples, by d/r₀, then by log₂(r₀/r_i) from 0.25 to 4.
+/// Prints the table for spheres near S₀: for 10³ and 10⁵ samples, by d/r₀, then by log₂(r₀/r_i) from 0.25 to 4.
 inline void print_shallow_lists() {
   constexpr std::uint64_t seed = 700;
   for (const int dimension : {2, 3})

@@ -1,22 +1,25 @@
 // Makes model/sphere_cache/rebuild_law_tables.inc and model/sphere_cache/listed_rays_tables.inc: how often the spheres
-// of a cache are rebuilt along the Lebesgue curve, and which share of their rays they list.
+// of a cache are rebuilt along the Morton curve (the paper: Lebesgue curve), and which share of their rays they list.
 //
 //   cmake --build build --target rebuild_law_table
 //   build/rebuild_law_table rebuilds > model/sphere_cache/rebuild_law_tables.inc      (fifteen minutes)
-//   build/rebuild_law_table coarse       (five minutes: of the rebuilds' tables the second alone)
+//   build/rebuild_law_table coarse       (five minutes: only the second of the tables of rebuilds)
 //   build/rebuild_law_table lists > model/sphere_cache/listed_rays_tables.inc         (ten minutes)
 //   build/rebuild_law_table counted      (half a minute: the rows of tests/model/sphere_cache.test.cpp)
 //
 // Walks as the sphere cache does, with samples uniform in the cube [-1, 1]³ (D = 3) or on its faces (D = 2), sorted
-// along the curve: a ball is centred at a sample and kept while it and those around it hold the next samples. Tables of
-// rebuilds hold, for D = 2 and then D = 3, with h = log₂(2/ρ) the halvings from the cube's side to the radius ρ,
+// along the curve. A ball is centred at a sample, and kept while it and the balls around it contain the next samples.
+// The tables of rebuilds are for D = 2 and then D = 3; h = log₂(2/ρ) is the number of halvings from the cube's side to
+// the radius ρ:
 //   single   ln(m/n) of small balls alone, by 32 phases φ of h, in rows of λ 2^{Dφ} = 2⁻⁹ … 2¹³, λ = n ρ^D/extent
-//   coarse   ln m of large balls alone, for n = 10³, 10^3¼ … 10⁷ by h from -1 to 4.5 in steps of 1/64; printed is
-//            500 ln m in two digits of base 90. Four columns a decade: where a ball just holds a cell of the curve,
-//            its count doubles within little more than a decade of n
-//   chain    for n = 10³ … 10⁷ by h from 0.5 in steps of 1/32, then by u (log₂ of the ratio to the ball around): what
-//            becomes of a ball's own rebuilds inside a nest of the ratio 2^{-u}. Of s alone, all of the nest's m_{i-1}
-//            and a share exp(-b m_{i-1}/s) (1 - m_{i-1}/n) remain; b is printed as the digit 90 b/(1 + b).
+//   coarse   ln m of large balls alone, for n = 10³, 10^3¼ … 10⁷ by h from -1 to 4.5 in steps of 1/64; printed as
+//            500 ln m in two digits of base 90. There are four columns a decade, because where a ball just contains a
+//            cell of the curve, its count doubles within little more than a decade of n
+//   chain    for n = 10³ … 10⁷ by h from 0.5 in steps of 1/32, then by u (log₂ of the ratio to the ball around): the
+//            rebuilds of a ball inside a nest of the ratio 2^{-u}. If s are the ball's rebuilds when alone, it is
+//            rebuilt
+//            with each of the m_{i-1} rebuilds of the ball around it, and for a share exp(-b m_{i-1}/s) (1 - m_{i-1}/n)
+//            of s besides; b is printed as the digit 90 b/(1 + b).
 //
 // Digits of base 90 are the characters from '#' on, without the question mark and the backslash.
 
@@ -40,9 +43,9 @@ constexpr int phases = 32;
 constexpr std::uint64_t seed = 20261121;
 constexpr std::array sample_counts{1'000UL, 10'000UL, 100'000UL, 1'000'000UL, 10'000'000UL};
 constexpr std::array chain_steps{2,  3,  4,  5,  6,  7,  8,  10, 12, 14, 16, 18,
-                                 20, 22, 24, 26, 28, 30, 32, 36, 40, 48, 56, 72};  // 32 u
+                                 20, 22, 24, 26, 28, 30, 32, 36, 40, 48, 56, 72};  // u, in units of 1/32
 
-/// 0 … 89 as a character.
+/// The digit 0 … 89 as a character.
 char digit(long value) {
   const auto plain = static_cast<char>('#' + value);
   const auto place = static_cast<char>(plain < '?' ? plain : plain + 1);
@@ -51,7 +54,7 @@ char digit(long value) {
 
 double balls(const Points& walk, double radius) { return moves(walk, {radius}).front(); }
 
-/// Sets of samples: the fewer in each, the more.
+/// Sets of samples, `in_all` samples in total: the fewer in each set, the more sets.
 std::vector<Points> sets_of(int dimension, std::size_t samples, std::size_t in_all) {
   std::vector<Points> sets;
   for (std::size_t set = 0; set < std::clamp<std::size_t>(in_all / samples, 1, 400); ++set)
@@ -59,7 +62,8 @@ std::vector<Points> sets_of(int dimension, std::size_t samples, std::size_t in_a
   return sets;
 }
 
-/// ln(m/n): a ball of at most 1/8 of the cube's side, so that its faces matter little, and at least 2²⁰ samples.
+/// ln(m/n) of a ball alone. The ball is at most 1/8 of the cube's side, so that the cube's faces matter little, and
+/// there are at least 2²⁰ samples.
 class Single {
  public:
   double log_share(int dimension, int row, int phase) {
@@ -88,7 +92,7 @@ void print_single() {
 }
 
 void print_coarse() {
-  constexpr int steps = 64;  // a halving: the counts jump where a ball just holds a cell of the curve
+  constexpr int steps = 64;  // per halving: the counts jump where a ball just contains a cell of the curve
   for (const int dimension : {2, 3})
     for (int column = 0; column <= 16; ++column) {
       const auto samples = static_cast<std::size_t>(std::llround(std::pow(10, 3 + column / 4.)));
@@ -104,7 +108,7 @@ void print_coarse() {
     }
 }
 
-/// What is left of each ball's own rebuilds, by the ball's size and the ratio of its nest.
+/// The rebuilds that remain of those of each ball alone, by the ball's size and the ratio of its nest.
 class Chain {
  public:
   Chain(int dimension, std::size_t samples)
@@ -125,7 +129,7 @@ class Chain {
     for (int step = 0; step < steps_; ++step) {
       fmt::print("\"");
       for (std::size_t u = 0; u < chain_steps.size(); ++u) {
-        int known = step;  // the largest balls have none around them: as the next smaller ones
+        int known = step;  // the largest balls have none around them: they use the values of the next smaller ones
         while (outer_[static_cast<std::size_t>(known)][u] == 0 && known + 1 < steps_) ++known;
         fmt::print("{}", character(static_cast<std::size_t>(known), u));
       }
@@ -136,10 +140,10 @@ class Chain {
 
  private:
   static constexpr int first_step = phases / 2;
-  /// The largest ball that a cache can have, short of S₀ itself: √3/2 of the side.
+  /// Halvings of the largest ball that a cache can have inside S₀; S₀ has the radius √3/2 of the side.
   static constexpr double least_halvings = 0.2075;
 
-  /// To 4.5 halvings; among the most samples, on to balls of less than one sample.
+  /// Number of steps: up to 4.5 halvings; for the largest number of samples, on to balls with less than one sample.
   static int steps_of(int dimension, std::size_t samples) {
     const int half_halvings = samples < sample_counts.back() ? 9 : dimension == 3 ? 20 : 26;
     return half_halvings * phases / 2 + 1 - first_step;
@@ -148,7 +152,7 @@ class Chain {
   static double halvings(int step) { return (first_step + step) / double(phases); }
   static double radius(int step) { return side * std::exp2(-halvings(step)); }
 
-  /// A nest has no ball larger than one step of its ratio inside S₀ (to half a step).
+  /// Adds a nest. Its largest ball is at least one step of its ratio (to half a step) smaller than S₀.
   void add_nest(const Points& walk, std::size_t u, int offset) {
     const int apart = chain_steps[u];
     int first = offset - first_step;

@@ -5,12 +5,13 @@
 #include "detp/sim/geometry/lebesgue.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 
-/// What the programs that tabulate the sphere cache share: samples along the curve, and balls walked along them.
+/// Shared by the programs that make the tables of the sphere cache: samples along the curve, and balls moved along
+/// them.
 namespace detp::tables {
 
 using Points = std::vector<glm::dvec3>;
 
-/// The side of the samples' cube, and the volume or area that they fill.
+/// Side of the samples' cube, and the volume or area that the samples fill.
 inline constexpr double side = 2;
 inline double extent_of(int dimension) { return dimension == 3 ? 8 : 24; }
 
@@ -27,15 +28,15 @@ inline Points sorted_samples(int dimension, std::size_t count, std::uint64_t see
   return walk;
 }
 
-/// Balls nested around the samples, the outermost first: each stays where it is while it and all around it hold the
-/// samples that come.
+/// Balls nested around the samples, the outermost first. Each keeps its place while it and all balls around it contain
+/// the next samples.
 class Nest {
  public:
   explicit Nest(const std::vector<double>& radii) : centres_(radii.size()) {
     for (const double radius : radii) squares_.push_back(radius * radius);
   }
 
-  /// The outermost ball that moves to this sample; the number of balls where none does.
+  /// Index of the outermost ball that moves to this sample; the number of balls if none does.
   std::size_t visit(const glm::dvec3& sample) {
     std::size_t i = 0;
     if (visited_)
@@ -58,7 +59,7 @@ class Nest {
   bool visited_ = false;
 };
 
-/// How often each ball of a nest moves.
+/// Number of moves of each ball of a nest.
 inline std::vector<double> moves(const Points& walk, const std::vector<double>& radii) {
   Nest nest(radii);
   std::vector<double> first(radii.size() + 1);

@@ -1,16 +1,17 @@
-// Makes model/hierarchy/sphere_tree_tables.inc: how large the spheres around runs of samples along the Lebesgue curve
-// are.
+// Makes model/hierarchy/sphere_tree_tables.inc: the sizes of the spheres around runs of samples along the Morton curve
+// (the paper: Lebesgue curve).
 //
 //   cmake --build build --target sphere_tree_table && build/sphere_tree_table > model/hierarchy/sphere_tree_tables.inc
 //
-// Builds sphere trees over samples uniform in a cube of side 1 (D = 3) or on its faces (D = 2), discs of no size, with
-// no rays. It takes some minutes. Printed are, for D = 2 and then D = 3, of the spheres' radii ρ first the square of
-// the mean, then the mean square, times N^{2/D} in both:
+// Builds sphere trees, without rays, over discs of radius 0 at samples uniform in a cube of side 1 (D = 3) or on its
+// faces (D = 2). Takes some minutes. Prints, for D = 2 and then D = 3, first the squared mean and then the mean square
+// of the spheres' radii ρ, both times N^{2/D}:
 //   single   spheres around N runs of c = 2, 4, 8, 16, 32, 64, 256, 4096, 65536 samples each, by log₂N = 0, ¼, … 14
-//   nested   spheres around spheres over those of a tree around the same runs alone: fan-out 2, 4, 8, 16, each 1, 2, 4
-//            and 8 levels above the leaves, by log₂N = 0, ½, … 12
+//   nested   spheres that enclose spheres, relative to those of a tree around the same runs alone: fan-out 2, 4, 8, 16,
+//            each 1, 2, 4 and 8 levels above the leaves, by log₂N = 0, ½, … 12
 //
-// Where trees would be too large, the row or column before stands in; of single, times how the rows last compared.
+// If a tree would be too large, the row or column before is used instead; for `single`, times the last ratio of the
+// rows.
 
 #include <fmt/format.h>
 
@@ -30,7 +31,7 @@ using namespace detp::sim;
 
 constexpr std::uint64_t seed = 20261121;
 constexpr double most_samples = 0x1p20;
-constexpr double no_radius = 1e-12;  // of the discs
+constexpr double no_radius = 1e-12;  // of the discs; almost 0
 
 struct Samples {
   std::vector<Disc> discs;
@@ -45,14 +46,14 @@ Samples samples_of(int dimension, std::size_t count, std::uint64_t set) {
   return samples;
 }
 
-/// Of radii, scaled by N^{1/D}.
+/// Moments of the radii, scaled by N^{1/D}.
 struct Moments {
   double mean = 0;
   double square = 0;
 };
 
-/// Of one level of a tree over n samples, each node weighing as many samples as it holds (the last may hold fewer),
-/// averaged over enough sets of them.
+/// Moments of one level of a tree, averaged over several sets of samples. Each node is weighted by its number of
+/// samples (the last node may hold fewer).
 Moments radii(int dimension, double runs, std::size_t in_a_run, const SphereTreeParameters& tree, std::size_t level) {
   const auto count = static_cast<std::size_t>(std::round(runs * static_cast<double>(in_a_run)));
   const auto sets = static_cast<std::size_t>(std::clamp(0x1p19 / static_cast<double>(count), 2.0, 64.0));
@@ -105,7 +106,8 @@ void print_single(int dimension) {
   print(rows, "{:.4f},");
 }
 
-/// Spheres around runs of at least 64 samples, a level's own over those that a leaf so large would have.
+/// Spheres around runs of at least 64 samples: the ratio of a level's spheres to those that leaves of that size would
+/// have.
 std::vector<Moments> nested_row(int dimension, int fan_out, std::size_t level) {
   const auto spread = static_cast<std::size_t>(std::pow(fan_out, level));
   const std::size_t leaf = std::max<std::size_t>(2, 64 / spread);

@@ -1,6 +1,6 @@
-// Measures the defaults of validate/choice/unit_costs.cpp: times every technique on uniform samples and isotropic
-// lines, over radii, counts and parameters, on one thread and in time of the processor, and prints the unit costs
-// fitted to the runs, with how well they explain them. `list` as an argument lists the runs.
+// Measures the default unit costs of validate/choice/unit_costs.cpp. Times every technique on uniform samples and
+// isotropic lines, over radii, counts and parameters, on one thread, in processor time. Prints the unit costs fitted to
+// the runs, and how well they explain the times. With `list` as argument it also lists the runs.
 //
 //   cmake --build build --target unit_costs_table && build/unit_costs_table
 
@@ -41,7 +41,8 @@ std::vector<Candidate> candidates(double radius, double outer, double pairs) {
 
 constexpr double longest = 0.1;  ///< seconds: runs that take longer are left out
 
-/// The phases of a run in time of the processor, which others have no part in: in proportion to those by the clock.
+/// The phases of a run in processor time, which other processes do not affect. The processor time of the whole run is
+/// divided in proportion to the phases' wall-clock times.
 sim::Phases run_alone(const sim::Problem& problem, const Candidate& candidate) {
   const sim::ProcessorStopwatch watch;
   sim::Phases phases = sim::run(problem, candidate, {.count = false}).seconds;

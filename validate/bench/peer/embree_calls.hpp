@@ -6,11 +6,11 @@
 #include <cstddef>
 #include <iterator>
 
-/// Embree's calls under one name each, told apart by the kind of ray: RTCRay (rtcOccluded) and RTCRayHit
-/// (rtcIntersect), alone or in packets of 8 or 16.
+/// Overloads of Embree's calls, selected by the kind of ray: RTCRay (rtcOccluded) or RTCRayHit (rtcIntersect), single
+/// or in packets of 8 or 16.
 namespace detp::validate::embree {
 
-/// The ray, or packet of rays, in what a call takes.
+/// The ray, or packet of rays, in a call's argument.
 template <class Packet>
 auto& ray_of(Packet& packet) {
   if constexpr (requires { packet.ray; })
@@ -22,7 +22,7 @@ auto& ray_of(Packet& packet) {
 template <class Packet>
 inline constexpr std::size_t width = sizeof(ray_of(*static_cast<Packet*>(nullptr)).id) / sizeof(unsigned);
 
-/// As rtcIntersect wants it before a call.
+/// Resets the hit, as rtcIntersect requires before a call.
 inline void clear_hit(RTCRayHit& ray) { ray.hit.geomID = RTC_INVALID_GEOMETRY_ID; }
 template <class Packet>
 void clear_hit(Packet& packet) {

@@ -20,13 +20,13 @@ struct ReleaseEmbree {
 template <class Handle>
 using EmbreeOwned = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree>;
 
-/// Throws std::runtime_error, with its number, if an Embree call of this thread has failed.
+/// Throws std::runtime_error, with Embree's error number, if an Embree call of this thread has failed.
 void require_no_embree_error(RTCDevice device);
 
-/// A device that builds with that many threads, started before it is returned.
+/// A device that builds with that many threads. They have been started before it is returned.
 [[nodiscard]] EmbreeOwned<RTCDevice> make_embree_device(int threads);
 
-/// A committed scene of oriented discs, in single precision; primitive i is disc i. A filter in the context is heeded.
+/// A committed scene of oriented discs in single precision; primitive i is disc i. It calls the filter of the context.
 [[nodiscard]] EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs,
                                                        EmbreeQuality quality, const std::stop_token& stop = {});
 

@@ -3,14 +3,14 @@
 #include <string>
 #include <vector>
 
-/// The ways in which Embree can be asked for all hits.
+/// The ways to make Embree find all hits.
 namespace detp::validate {
 
-/// With a filter that refuses every hit both kinds of query visit every hit. They differ in the order in which nodes
-/// are visited (nearest first, or any) and in what a ray carries.
+/// A filter rejects every hit, so both kinds of query visit every hit. They differ in the order in which nodes are
+/// visited (nearest first, or any) and in what a ray stores.
 enum class EmbreeQuery { intersect, occluded };
 
-/// How many rays a call takes.
+/// Number of rays in a call.
 enum class EmbreeRays {
   one,               ///< rtcIntersect1
   packet_8,          ///< rtcIntersect8
@@ -25,11 +25,11 @@ struct EmbreeMode {
   EmbreeQuery query = EmbreeQuery::intersect;
   EmbreeRays rays = EmbreeRays::one;
   EmbreeQuality quality = EmbreeQuality::medium;
-  bool coherent = false;  ///< the context's flag
+  bool coherent = false;  ///< RTC_INTERSECT_CONTEXT_FLAG_COHERENT
   bool operator==(const EmbreeMode&) const = default;
 };
 
-/// The function called: "rtcIntersect8".
+/// The name of the function called: "rtcIntersect8".
 [[nodiscard]] std::string call_of(const EmbreeMode& mode);
 
 /// "low", "medium" or "high".
@@ -38,7 +38,7 @@ struct EmbreeMode {
 /// "rtcIntersect8, low, coherent".
 [[nodiscard]] std::string describe(const EmbreeMode& mode);
 
-/// All 60.
+/// All 60 modes.
 [[nodiscard]] std::vector<EmbreeMode> all_embree_modes();
 
 }  // namespace detp::validate

@@ -17,8 +17,8 @@ namespace {
 using Tallies = std::vector<DiscTally>;
 using Range = oneapi::tbb::blocked_range<std::size_t>;
 
-/// Rays, or discs, that one thread takes at a time: few enough to share the work out and to heed a stop, a multiple of
-/// a stream.
+/// Number of rays, or discs, that one thread processes at a time. Small enough to balance the load and to react to a
+/// stop request; a multiple of a stream's rays.
 constexpr std::size_t block = 4096;
 
 sim::Sphere sphere_around(RTCScene scene) {
@@ -58,7 +58,7 @@ EmbreePeer::~EmbreePeer() = default;
 
 PeerOutcome EmbreePeer::run(std::span<const sim::Ray> rays, std::span<const sim::Disc> discs, const EmbreeMode& mode,
                             const std::stop_token& stop) const try {
-  // A device builds with as many threads as the largest of all devices alive may have, whatever was asked of it.
+  // A device builds with the largest number of threads of any existing device, even if it was created with fewer.
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads_->count));
   const auto scene = build_embree_discs(threads_->device.get(), discs, mode.quality, stop);

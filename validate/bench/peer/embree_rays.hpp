@@ -9,14 +9,14 @@
 
 namespace detp::validate {
 
-/// Turns rays into Embree's, in single precision. Embree's rays go forwards only, so that a line, unbounded both ways,
-/// becomes the ray that starts before all discs.
+/// Converts rays to Embree's, in single precision. Embree's rays only go forwards, so a line, unbounded both ways,
+/// becomes a ray that starts in front of all discs.
 class EmbreeRayMaker {
  public:
-  /// The sphere holds all discs.
+  /// `around` must contain all discs.
   explicit EmbreeRayMaker(const sim::Sphere& around) : around_(around) {}
 
-  /// A ray and its end.
+  /// A ray as origin, direction and end.
   struct Placed {
     glm::vec3 origin;
     float end;
@@ -39,7 +39,7 @@ class EmbreeRayMaker {
     to.flags = 0;
   }
 
-  /// Into one lane of a packet: RTCRay8 or RTCRay16.
+  /// Writes the ray into one lane of a packet, RTCRay8 or RTCRay16.
   template <class Packet>
   void put(const sim::Ray& ray, unsigned id, Packet& to, std::size_t lane) const {
     const Placed placed = place(ray);

@@ -9,7 +9,7 @@
 namespace detp::validate {
 namespace {
 
-/// What Embree hands back to the filter; the context proper must come first.
+/// Data that Embree passes to the filter. Embree's own context must come first.
 struct Collecting {
   RTCIntersectContext context;
   const sim::Ray* rays;
@@ -22,9 +22,9 @@ struct Collecting {
 };
 static_assert(std::is_standard_layout_v<Collecting>);
 
-/// Takes note of every hit and refuses it, so that the search goes on: collecting all hits of a ray is what the
-/// documentation gives the context's filter for. Rays may come in other packets and orders than they were sent in, so a
-/// ray is told by its id.
+/// Records every hit and rejects it, so that the search continues: Embree's documentation recommends the context's
+/// filter for collecting all hits of a ray. Rays may arrive in other packets and another order than they were sent, so
+/// a ray is identified by its id.
 void collect_and_refuse(const RTCFilterFunctionNArguments* arguments) {
   const auto& collecting = *reinterpret_cast<const Collecting*>(arguments->context);
   if (arguments->N == 1) {
@@ -40,13 +40,13 @@ void collect_and_refuse(const RTCFilterFunctionNArguments* arguments) {
   }
 }
 
-// The documentation: a coherent stream should be of around 64 rays.
+// Embree's documentation recommends coherent streams of around 64 rays.
 constexpr std::size_t stream = 64;
 
 }  // namespace
 
-/// The rays from `first` on into a packet; lanes past `count` are made inactive, as streams know it: they end before
-/// they start.
+/// Writes the rays from `first` on into a packet. Lanes from `count` on are made inactive in the way that streams
+/// require: their rays end before they start.
 template <class Packet>
 void EmbreeTracer::put(std::size_t first, std::size_t count, Packet& packet) const {
   auto& rays = embree::ray_of(packet);

@@ -9,19 +9,20 @@
 
 namespace detp::validate {
 
-/// What one disc has received. Both in one cache line: a hit touches one.
+/// The sums of one disc. Both are in one cache line, so a hit touches only one.
 struct DiscTally {
   double power = 0;
   std::uint32_t hits = 0;
 };
 
-/// Traces rays through a scene of discs and adds up what each disc receives.
+/// Traces rays through a scene of discs and adds up the power and hits of each disc.
 class EmbreeTracer {
  public:
   EmbreeTracer(RTCScene scene, std::span<const sim::Ray> rays, const sim::Sphere& around, const EmbreeMode& mode)
       : scene_(scene), rays_(rays), maker_(around), mode_(mode) {}
 
-  /// Rays first … last - 1 into the tallies, one a disc. Safe from many threads with tallies of their own.
+  /// Traces rays first … last - 1 and adds their hits to `tallies`, one for each disc. Thread-safe if each thread has
+  /// its own tallies.
   void trace(std::size_t first, std::size_t last, std::vector<DiscTally>& tallies) const;
 
  private:

@@ -6,8 +6,8 @@
 
 namespace detp::validate {
 
-/// While it lives, this thread takes denormal numbers for zero: Embree's documentation strongly recommends it. What was
-/// set before is restored, for the exact techniques count on denormals.
+/// While it exists, this thread treats denormal numbers as zero, as Embree's documentation strongly recommends. The
+/// destructor restores the previous state, because the exact techniques rely on denormals.
 class FlushDenormals {
  public:
   FlushDenormals(const FlushDenormals&) = delete;
@@ -26,8 +26,8 @@ class FlushDenormals {
 #endif
 };
 
-/// Four floats in one store, to an address divisible by 16. Embree loads them as four; its documentation warns of the
-/// stall that four stores of one would cause.
+/// Stores four floats at once, to an address divisible by 16. Embree loads them as a vector of four; its documentation
+/// warns that four single stores would stall that load.
 inline void store_four(float* to, float a, float b, float c, float d) {
 #if defined(__SSE2__)
   _mm_store_ps(to, _mm_setr_ps(a, b, c, d));
