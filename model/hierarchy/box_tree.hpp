@@ -53,7 +53,7 @@ inline constexpr int box_tree_largest_leaf = 256;
 ///            `visits` are off by less than 0.1 % in the median, by 40 % at the 95th percentile, and up to 13 times
 ///            too many for one sample a leaf and few rays: boxes of one level are taken as equal.
 ///            With n_P 2⁵ … 2¹⁰ sets differ more: of 200, off by 1.8, 3.0, 5.6, 3.5 % in the median against one set
-///            each; against means over sets at worst by 7.5, 13.1, 28.4, 16.6 %. In scenes see README.md.
+///            each; against means over sets at worst by 7.5, 13.1, 28.4, 16.6 %. In scenes: validate/choice/README.md.
 /// Limits     n_P <= leaf: one leaf, every ray tested with every disc.
 /// Costs      10 … 90 µs for D = 3, 30 … 190 µs for D = 2, the more the smaller the leaf; 4 ms once for a table.
 /// Throws     std::invalid_argument for a workload or parameters out of range.

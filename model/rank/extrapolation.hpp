@@ -9,7 +9,7 @@
 
 /// Where a prediction leaves the range in which its formula was compared with counts.
 ///
-/// What was counted (README.md, the sweep): isotropic lines through S₀, samples uniform in a cube or on its faces, n_P
+/// What was counted (validate/sweep/results.md): isotropic lines through S₀, samples uniform in a cube or on its faces, n_P
 /// 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3; of each technique the parameters below. Outside, the closed forms go on as
 /// they end, which nobody has checked.
 ///

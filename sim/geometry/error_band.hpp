@@ -6,7 +6,7 @@
 
 #include "geometry.hpp"
 
-/// How near to its boundary a predicate may decide wrongly. Proved in sim/README.md, "Geometry". Valid if no square
+/// How near to its boundary a predicate may decide wrongly. Proved in sim/geometry/proofs.md. Valid if no square
 /// under- or overflows (make_problem's limits), and for directions and normals whose length is 1 to within 1e-12.
 namespace detp::sim {
 

@@ -25,7 +25,7 @@ namespace detp::sim {
 ///          turn(w)   the axis along which the curve leaves that octant: trailing ones of w, or of w - 1 for even w
 ///
 /// Along the Hilbert curve a sphere cache is rebuilt 0.76 to 0.89 times as often as along the Morton curve (Q 0.5 …
-/// 0.8, a volume and two scenes of 10⁵ samples: sim/README.md, "Trees"); a single sphere among 10⁶ samples 0.65 to 0.84
+/// 0.8, a volume and two scenes of 10⁵ samples: sim/geometry/README.md); a single sphere among 10⁶ samples 0.65 to 0.84
 /// times as often.
 ///
 /// Source     C. Hamilton, A. Rau-Chaplin: Compact Hilbert indices (2008), for three dimensions. The 24 states are

@@ -33,7 +33,7 @@ inline constexpr double reach = 1 + 2e-12;
 /// vector from the centre to the crossing is w - D (n·w)/(n·D) = (n × (w × D)) / (n·D); neither n nor D need have unit
 /// length. The decision is right if the crossing's distance from the centre differs from d by more than error_band(ray,
 /// disc).rim / |n·D|, about u(3|w| + 10d)/|n·D|, and no end of a segment lies within error_band(ray, disc).ends of the
-/// plane, about 4u(|w| + length). The bounds are derived in sim/README.md, "Geometry".
+/// plane, about 4u(|w| + length). The bounds are derived in sim/geometry/proofs.md.
 ///
 /// If the disc is seen almost edge-on, rounding decides, and could report a hit far from the disc. Two checks prevent
 /// this. First, |w × D| is the distance of the whole line from the centre; if it exceeds d, the ray misses. Second, a

@@ -47,7 +47,7 @@ struct BspNodes {
 ///                         smaller than itself is split just if it holds more than `leaf`
 ///
 /// Discs that are in both halves alike, as coincident ones are, end the splitting. Placing the planes by the heuristic
-/// too, at the best of 15 places along each axis, saves tests but no time (sim/README.md, "Trees").
+/// too, at the best of 15 places along each axis, saves tests but no time (sim/index/experiments.md).
 ///
 /// Throws Stopped if a stop was requested, and std::length_error, naming the bytes, before it would take
 /// more than the memory budget.

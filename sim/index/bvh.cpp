@@ -17,7 +17,7 @@
 namespace detp::sim {
 namespace {
 
-/// What single precision may misplace, in own units, several times over: sim/README.md, "The culls".
+/// What single precision may misplace, in own units, several times over: sim/geometry/proofs.md, "The culls".
 constexpr double margin = 0x1p-18;
 /// More than S₀ and the slack reach from where a ray passes their centre, in own units.
 constexpr double half_stretch = 1.5;
@@ -172,7 +172,7 @@ class BvhSearch final : public RaySearch, private DiscTest {
 };
 
 /// Bounding volume hierarchy over the discs by Embree. It shows the discs whose box a ray meets (and others of the same
-/// leaf where discs are few); each is a disc test in double precision. None is missed: sim/README.md, "The culls".
+/// leaf where discs are few); each is a disc test in double precision. None is missed: sim/geometry/proofs.md, "The culls".
 /// Embree does not report the nodes it visits. It advises to flush tiny numbers to zero; the decision's doubles are
 /// left as they are.
 ///

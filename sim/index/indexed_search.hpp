@@ -124,7 +124,7 @@ class TracedIndex final : public Index {
 }
 
 /// What the cells of an index fill: over 2 slack beyond the discs, so that a ray along an outer face, or just outside
-/// it, is still among the cells when it passes the discs that touch that face (sim/README.md, "The culls").
+/// it, is still among the cells when it passes the discs that touch that face (sim/geometry/proofs.md, "The culls").
 ///
 /// Discs of man-made scenes lie just where the box is halved or quartered. The planes there move by a part of the
 /// margin that depends on their place; were it one slack for any j/N of small N, rounding would tell which cells they

@@ -42,7 +42,7 @@ double most_power_for(double smallest_radius) {
   return 0.99 * std::numeric_limits<double>::max() * 0x1p-64 * std::min(1.0, area);
 }
 
-/// What make_problem promises. sim/README.md proves it enough for every cull.
+/// What make_problem promises. sim/geometry/proofs.md proves it enough for every cull.
 double cull_slack(const Problem& problem, double largest_radius) {
   double offset = 0;
   for (int axis = 0; axis < 3; ++axis) offset = std::max(offset, std::abs(problem.enclosing.centre[axis]));

@@ -45,7 +45,7 @@ struct Problem {
 /// overflow). Throws std::length_error for 2³² or more rays or discs, and Stopped on a stop request.
 ///
 /// The slack is 16e-12 E + ∛(2d κ²) + 1e-15 M: a ray taken for a hit comes nearer than this to the disc, whatever
-/// rounding did, with room for that of the culls (proof: sim/README.md, "Geometry"). E is the distance of the farthest
+/// rounding did, with room for that of the culls (proof: sim/geometry/proofs.md). E is the distance of the farthest
 /// ray origin from the farthest point of S₀, d the largest disc radius, κ = 2e-15 E the rounding of a predicate, M the
 /// largest coordinate of the centre of S₀. The first term is for directions and normals unit to 1e-12; the second for
 /// rays that graze a disc near its rim, where rounding moves the crossing farthest; the third for cells far from the

@@ -56,7 +56,7 @@ FloatBox box_of(const FloatDisc& disc) {
   return box;
 }
 
-/// What a ray costs, in disc tests: measured on lists of some hundred rays (sim/README.md).
+/// What a ray costs, in disc tests: measured on lists of some hundred rays.
 constexpr float cull_cost = 1.6F;  ///< one test of a ray against a box, with its share of the list that is made
 constexpr float list_cost = 1.0F;  ///< each ray that is listed
 

@@ -16,7 +16,7 @@ struct FloatSphere {
   float radius;
 };
 
-/// Coordinates of the float kernels, and how far they may be off. The bounds are proved in sim/README.md, "Floats".
+/// Coordinates of the float kernels, and how far they may be off. The bounds are proved in sim/lists/simd/floats.md.
 struct Frame {
   glm::dvec3 centre{0.0};  ///< of S₀
   double scale = 1;        ///< a power of two: r₀ scale is in [½, 1)

@@ -202,7 +202,7 @@ struct RayVector {
 ///
 /// With w = (P, Q, 0) from the disc's centre to the ray at the centre's z, D = (a, b, 1), φ = n·D and g = n·w, the
 /// crossing lies (wφ - Dg)/φ from the centre: a hit if |wφ - Dg| <= d|φ|, and of segments from <= c_z - g/φ <= to.
-/// Within `band` of the rim, `ends` of an end, it is not certain (sim/README.md, "Floats").
+/// Within `band` of the rim, `ends` of an end, it is not certain (sim/lists/simd/floats.md).
 template <bool segments, bool front_facing, int k>
 HWY_INLINE Decision decide(const RayVector<segments>& rays, const SpreadDisc<k>& disc) {
   const FloatLanes lanes;
