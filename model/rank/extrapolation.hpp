@@ -9,9 +9,9 @@
 
 /// Where a prediction leaves the range in which its formula was compared with counts.
 ///
-/// What was counted (validate/sweep/results.md): isotropic lines through S₀, samples uniform in a cube or on its faces, n_P
-/// 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3; of each technique the parameters below. Outside, the closed forms go on as
-/// they end, which nobody has checked.
+/// What was counted (validate/sweep/results.md): isotropic lines through S₀, samples uniform in a cube or on its faces,
+/// n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3; of each technique the parameters below. Outside, the closed forms are
+/// extended as they end, and this has not been checked.
 ///
 ///     sphere-cache (both)   Q 0.3 … 0.9, no more spheres than hold a disc, samples sorted
 ///     cell-spheres          depth 1 … 6

@@ -28,8 +28,8 @@ namespace detp::model::published {
 /// m_i = Q^{-3i}: how often S_i is rebuilt (eqs 10, 11, 17). Saturates at the largest double.
 ///
 /// Far off: it takes r_i for r_i - d and the radius for the side of a cell, ignores the jumps of the curve, and holds
-/// only for samples that fill a volume. Counted, over min(n_P, m_i), in the sweep (validate/sweep/results.md): 0.7 to 35 000
-/// times as many in a volume, the most where r_i is near d; 0.1 to 3100 times on surfaces. See rebuild_law.hpp.
+/// only for samples that fill a volume. Counted, over min(n_P, m_i), in the sweep (validate/sweep/results.md): 0.7 to
+/// 35 000 times as many in a volume, the most where r_i is near d; 0.1 to 3100 times on surfaces. See rebuild_law.hpp.
 [[nodiscard]] double rebuilds(RadiusRatio ratio, std::int64_t i);
 
 /// t_i = t n_{i-1}: the time of one rebuild of S_i (eqs 5, 16).

@@ -172,8 +172,8 @@ class BvhSearch final : public RaySearch, private DiscTest {
 };
 
 /// Bounding volume hierarchy over the discs by Embree. It shows the discs whose box a ray meets (and others of the same
-/// leaf where discs are few); each is a disc test in double precision. None is missed: sim/geometry/proofs.md, "The culls".
-/// Embree does not report the nodes it visits. It advises to flush tiny numbers to zero; the decision's doubles are
+/// leaf where discs are few); each is a disc test in double precision. None is missed: sim/geometry/proofs.md,
+/// "The culls". Embree does not report the nodes it visits. It advises to flush tiny numbers to zero; the decision's doubles are
 /// left as they are.
 ///
 /// Boxes are a user geometry, whose callback decides. Beside them Embree's own points of inflated radius, with the same
