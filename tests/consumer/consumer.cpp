@@ -1,4 +1,4 @@
-// A stranger's program: finds the installed package, asks for the best technique, and runs it.
+// An external program: uses the installed package, chooses the best technique, and runs it.
 #include <cstdio>
 #include <detp/detp.hpp>
 

@@ -1,4 +1,5 @@
-// Checkpoint files of the sweep: read or refused by FileError; what was read can be written and read again.
+// Checkpoint files of the sweep: reading either succeeds or throws FileError. A checkpoint that was read can be written
+// and read again.
 
 #include "detp/validate/sweep/checkpoint.hpp"
 #include "detp/sim/files/file_error.hpp"

@@ -1,4 +1,4 @@
-// Numbers in text: number_in reads what strtod reads, to the bit; parse_length accepts positive lengths only.
+// Numbers in text: number_in returns the same bits as strtod; parse_length accepts positive lengths only.
 
 #include <bit>
 #include <cmath>
@@ -14,7 +14,7 @@ void require(bool promise) {
   if (!promise) std::abort();
 }
 
-/// What strtod accepts beyond number_in: blanks in front, hexadecimal digits, and NaNs with a payload.
+/// Text that strtod accepts and number_in does not: leading blanks, hexadecimal digits, and NaNs with a payload.
 bool only_strtod_reads(const std::string& text) {
   return text.empty() || text.find_first_of(" \t\n\v\f\rxX(") != std::string::npos ||
          text.find('\0') != std::string::npos;

@@ -1,4 +1,4 @@
-// The command line: arguments, one a line, are parsed or refused. Nothing is run.
+// The command line: arguments, one a line, are parsed or refused. No command is run.
 
 #include <stdexcept>
 #include <vector>

@@ -12,7 +12,7 @@
 #include "detp/sim/geometry/geometry.hpp"
 #include "detp/sim/geometry/unit_vector.hpp"
 
-/// Small problems made of a fuzzer's bytes. Degenerate ones are likely: most bytes choose among special cases.
+/// Makes small problems from a fuzzer's bytes. Degenerate problems are likely: most bytes select special cases.
 namespace detp::fuzz {
 
 struct SmallProblem {
@@ -45,7 +45,7 @@ class ProblemMaker {
  private:
   bool one_in(int n) { return bytes_.ConsumeIntegralInRange(0, n - 1) == 0; }
 
-  /// A multiple of 1/8 (planes between cells), a value beside one, or anything from -1 to 1.
+  /// A multiple of 1/8 (a plane between cells), a value next to one, or any value from -1 to 1.
   double coordinate() {
     const double grid = bytes_.ConsumeIntegralInRange(-8, 8) / 8.0;
     switch (bytes_.ConsumeIntegralInRange(0, 4)) {
@@ -70,7 +70,7 @@ class ProblemMaker {
       case 2:
         for (int axis = 0; axis < 3; ++axis) made[axis] = bytes_.ConsumeIntegralInRange(-2, 2);
         break;
-      case 3:  // all but along an axis
+      case 3:  // almost along an axis
         made[bytes_.ConsumeIntegralInRange(0, 2)] = 1;
         made[bytes_.ConsumeIntegralInRange(0, 2)] +=
             bytes_.PickValueInArray({1e-17, -1e-9, 1e-200, 5e-324, -1e-16, 1e-3});
@@ -82,7 +82,7 @@ class ProblemMaker {
     return made == glm::dvec3{0} ? glm::dvec3{0, 0, 1} : made;
   }
 
-  /// Unit to rounding, as floats have it, or of any length.
+  /// Scales a unit vector: to length 1 within float rounding, or to any length.
   glm::dvec3 stretched(const glm::dvec3& unit) {
     if (one_in(16)) return bytes_.PickValueInArray({1e-300, 2.0, 1e200, 1 + 1e-12, 1 - 0.9e-12}) * unit;
     return one_in(8) ? glm::dvec3(glm::vec3(unit)) : unit;
@@ -99,7 +99,7 @@ class ProblemMaker {
     return made;
   }
 
-  /// A point of the disc where decisions are hard: its centre, its rim, or beside them.
+  /// A point of the disc at which decisions are hard: its centre, its rim, or next to them.
   glm::dvec3 point_of(const sim::Disc& disc, const glm::dvec3& normal) {
     const auto [u, v] = sim::basis_around(normal);
     const double angle = bytes_.PickValueInArray({0.0, 1.5707963267948966, 0.7, 2.2, 3.9});
@@ -120,7 +120,7 @@ class ProblemMaker {
     return made;
   }
 
-  /// In the plane, or nearly.
+  /// A direction in the plane, or nearly.
   glm::dvec3 in_plane_of(const glm::dvec3& normal, const glm::dvec3& heading) {
     glm::dvec3 made = heading - glm::dot(heading, normal) * normal;
     made += bytes_.PickValueInArray({0.0, 0.0, 1e-17, 1e-12, 1e-7, 1e-4}) * normal;
@@ -132,7 +132,7 @@ class ProblemMaker {
     return scale_ * bytes_.PickValueInArray({0.0, 1.0, 0.5, 2.0, 1e-8, 1e3, 1e9, -1.0, 1e-17, 1.7320508075688772});
   }
 
-  /// Of a segment that crosses the disc's plane `before` from its origin: often it just reaches it.
+  /// Length of a segment whose origin is at distance `before` from the disc's plane: it often just reaches the plane.
   double length(double before) {
     const double whole = std::abs(before) > 0 ? std::abs(before) : radius_;
     switch (bytes_.ConsumeIntegralInRange(0, 7)) {

@@ -11,7 +11,7 @@
 
 namespace detp::fuzz {
 
-/// A file in memory that holds what a fuzzer made up; gone with the object.
+/// A file in memory with the fuzzer's bytes; the destructor removes it.
 class Scratch {
  public:
   explicit Scratch(std::string_view ending) : path_(fmt::format("/dev/shm/detp-fuzz-{}{}", getpid(), ending)) {}

@@ -1,5 +1,5 @@
-// All exact techniques, in floats and in doubles, whole and in blocks, against the predicate: the same pairs, and the
-// same bits of irradiance.
+// All exact techniques, in floats and in doubles, in one run and in blocks, compared with the predicate: the same
+// pairs, and the same bits of irradiance.
 
 #include <fmt/format.h>
 
@@ -41,7 +41,7 @@ void compare(const fuzz::SmallProblem& small, const Candidate& candidate, const 
   if (!same) report(small, candidate, how);
 }
 
-/// A small value of a parameter, of the bytes' choice.
+/// A small parameter value, selected by the bytes.
 ParameterValue value_of(const Parameter& parameter, FuzzedDataProvider& bytes) {
   if (!parameter.choices.empty())
     return parameter.choices[bytes.ConsumeIntegralInRange<std::size_t>(0, parameter.choices.size() - 1)];
@@ -50,8 +50,8 @@ ParameterValue value_of(const Parameter& parameter, FuzzedDataProvider& bytes) {
   return bytes.ConsumeIntegralInRange<std::int64_t>(least, least + std::get<std::int64_t>(parameter.small));
 }
 
-/// Every exact technique, with parameters of the bytes' choice. Embree takes a hundred times as long as the others for
-/// so few discs: it comes in one problem of eight.
+/// Every exact technique, with parameters selected by the bytes. For so few discs Embree takes a hundred times as long
+/// as the others, so it is only in one problem of eight.
 std::vector<Candidate> candidates(FuzzedDataProvider& bytes) {
   std::vector<Candidate> list;
   for (const TechniqueRecord& record : technique_records) {
@@ -81,7 +81,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     problem = make_problem(small.rays, small.discs, small.front_facing);
   } catch (const std::invalid_argument&) {
-    return -1;  // too far apart, or too small
+    return -1;  // coordinates too large, or sizes too small
   }
   const Candidate brute{Technique::brute_force, BruteForceParameters{}};
   const Outcome truth = run(problem, brute, {.pairs = true, .engine = Engine::plain});
@@ -89,7 +89,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!std::isfinite(irradiance)) report(small, brute, "irradiance is not finite");
   const std::vector<Candidate> list = candidates(bytes);
   const bool count = bytes.ConsumeBool();
-  const bool pairs = bytes.ConsumeBool();  // without them hits may be counted, and powers added up at the end
+  const bool pairs = bytes.ConsumeBool();  // without pairs, a search may count hits and add up the powers at the end
   const int threads = bytes.ConsumeIntegralInRange(0, 63) == 0 ? 2 : 1;
   const Candidate& in_blocks = list[bytes.ConsumeIntegralInRange<std::size_t>(0, 4 * list.size()) % list.size()];
   compare_streamed(small, in_blocks, bytes.ConsumeIntegralInRange<std::size_t>(1, 5), truth);

@@ -20,7 +20,7 @@ using namespace detp::support;
 
 namespace {
 
-/// All exact techniques: those that decide in floats with several parameters.
+/// All exact techniques; those that decide in floats with several parameters.
 std::vector<Candidate> all_exact() {
   std::vector<Candidate> list = float_candidates();
   list.insert(list.end(), {{Technique::sphere_tree, SphereTreeParameters{8, 8}},
@@ -33,12 +33,12 @@ std::vector<Candidate> all_exact() {
   return list;
 }
 
-/// What was tried so far.
+/// Totals of the comparisons so far.
 struct Tried {
   double pairs = 0;
   std::uint64_t hits = 0;
   std::uint64_t runs = 0;
-  std::size_t different = 0;  ///< pairs
+  std::size_t different = 0;  ///< pairs that differ
   int other_sums = 0;         ///< runs whose irradiance is not the same bytes
 
   void add(const Outcome& outcome, const Outcome& expected) {
@@ -55,7 +55,7 @@ struct Tried {
   }
 };
 
-/// Every pair decided by the canonical predicate, and by all techniques.
+/// Compares the decision of every pair by the canonical predicate with that of all techniques.
 void compare(const HardScene& scene, bool front, Tried& tried) {
   const Problem problem = make_problem(scene.rays, scene.discs, front);
   const Outcome expected =
@@ -82,7 +82,7 @@ Tried hard_pairs(std::size_t family) {
   return tried;
 }
 
-/// Isotropic lines, half of them cut to segments; more of them than a block holds.
+/// Isotropic lines, half of them cut to segments. There are more of them than fit in one block.
 Tried isotropic_pairs(Body body) {
   HardScene scene{uniform_discs(body, 2, 1500, 0.04, 5), {}};
   scene.rays = LineField(enclosing_sphere(scene.discs), 6).lines(0, 160'000);

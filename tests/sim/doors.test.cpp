@@ -16,7 +16,8 @@
 #include "support/exact_candidates.hpp"
 #include "support/not_a_length.hpp"
 
-// Numbers at the doors of sim that make no problem: what they return is finite, or they refuse by name.
+// Public functions of sim that take numbers and do not make a problem: their result is finite, or they throw an error
+// that names the number.
 
 using namespace detp;
 using namespace detp::sim;
@@ -60,7 +61,7 @@ bool all_finite(const std::vector<Item>& items) {
 struct Door {
   const char* name;
   const char* complaint;
-  std::function<bool(double)> open;  ///< true if what it returns is sound
+  std::function<bool(double)> open;  ///< true if the result is valid
 };
 
 Scene lit_scene() {
@@ -108,7 +109,7 @@ const std::vector<Door>& doors() {
 }  // namespace
 
 TEST_SUITE("bad input") {
-  TEST_CASE("no door of sim lets a number in that makes what it returns infinite or no number") {
+  TEST_CASE("no function of sim accepts a number that makes its result infinite or NaN") {
     for (const Door& door : doors())
       for (const double number : numbers) {
         CAPTURE(std::string(door.name));
@@ -138,7 +139,7 @@ TEST_SUITE("bad input") {
           "ray 57: length must be > 0 and finite (got -inf)", std::invalid_argument);
   }
 
-  TEST_CASE("numbers of threads out of range are refused, by every door that takes one") {
+  TEST_CASE("numbers of threads out of range are refused by every function that takes one") {
     const std::vector<Disc> discs(1);
     const std::vector<Ray> rays(1);
     Problem problem = make_problem(rays, discs);
@@ -153,7 +154,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("more discs than the memory holds are refused before any is made") {
+  TEST_CASE("more discs than fit in memory are refused before any is made") {
     CHECK_THROWS_WITH_AS((void)uniform_discs(Body::cube, 1, std::size_t{1} << 60, 1, 1), doctest::Contains("GB"),
                          std::length_error);
   }

@@ -14,13 +14,13 @@ using namespace detp::support;
 
 namespace {
 
-/// What became of the cases of a family.
+/// Totals over the cases of a family.
 struct Tried {
   std::uint64_t cases = 0;
-  std::uint64_t hits = 0;     ///< in truth
-  std::uint64_t wrong = 0;    ///< decided otherwise
-  std::uint64_t outside = 0;  ///< wrong, and not within the band
-  double widest = 0;          ///< of those wrong, the largest distance from the boundary, in bands
+  std::uint64_t hits = 0;     ///< exact hits
+  std::uint64_t wrong = 0;    ///< wrong decisions
+  std::uint64_t outside = 0;  ///< wrong decisions outside the error band
+  double widest = 0;          ///< largest distance of a wrong decision from the boundary, in bands
 
   void add(bool truth, bool decided, double bands) {
     ++cases;
@@ -32,14 +32,14 @@ struct Tried {
   }
 };
 
-/// How many bands the case is from the nearest boundary that it could be decided wrongly for.
+/// Distance, in bands, from the nearest boundary at which a wrong decision is possible.
 double bands_off(const DiscBand& band, const ExactDisc& exact, bool line) {
   const double rim = std::abs(exact.beyond_rim()) / band.rim;
   if (line) return rim;
   return std::min(rim, std::min(std::abs(exact.ahead()), std::abs(exact.beyond_end())) / band.ends);
 }
 
-/// `judge` decides.
+/// `judge` makes the decision.
 template <class Judge>
 Tried try_discs(std::size_t family, std::uint64_t cases, const Judge& judge) {
   Tried tried;
@@ -81,7 +81,7 @@ void check_all_families(std::uint64_t cases, bool told) {
     INFO(families[family].name);
     const Tried discs = try_discs(family, cases, disc_predicate);
     CHECK(discs.outside == 0);
-    CHECK(std::min(discs.hits, discs.cases - discs.hits) > cases / 20);  // both answers are common
+    CHECK(std::min(discs.hits, discs.cases - discs.hits) > cases / 20);  // both answers are frequent
     widest_disc = std::max(widest_disc, discs.widest);
     const Tried spheres = try_spheres(family, cases, sphere_predicate);
     CHECK(spheres.outside == 0);
@@ -89,18 +89,18 @@ void check_all_families(std::uint64_t cases, bool told) {
     widest_sphere = std::max(widest_sphere, spheres.widest);
     if (told) report("disc", family, discs), report("sphere", family, spheres);
   }
-  CHECK(widest_disc > 0.1);  // the bands are not much wider than need be
+  CHECK(widest_disc > 0.1);  // the bands are not much wider than necessary
   CHECK(widest_sphere > 0.1);
 }
 
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("no hard ray is decided wrongly outside the error band, by exact integers") {
+  TEST_CASE("by exact integers, no hard ray is decided wrongly outside the error band") {
     check_all_families(6'000, false);
   }
 
-  TEST_CASE("predicates a little wrong are caught outside the band") {
+  TEST_CASE("predicates with a small error are detected outside the band") {
     const auto larger_disc = [](const Ray& ray, Disc disc) {
       disc.radius *= 1 + 1e-13;
       return hits(ray, disc);
@@ -120,8 +120,8 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("ties of whole numbers are hits, and an ulp further misses") {
-    // (3, 4, 0) lies on the rim of radius 5, and each number here is exact.
+  TEST_CASE("ties of whole numbers are hits, and one ulp beyond is a miss") {
+    // (3, 4, 0) lies on the rim of radius 5. Each number here is exact.
     const Disc disc{{0, 0, 0}, {0, 0, 1}, 5};
     const Ray tie{.origin = {3, 4, -2}, .direction = {0, 0, 1}, .length = 2};
     CHECK(hits(tie, disc));
@@ -139,7 +139,7 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(ExactSphere(to_sphere, {{0, 0, 0}, std::nextafter(5.0, 4.0)}).hit());
   }
 
-  TEST_CASE("a segment in the plane of a disc, that ends short of it, does not hit") {
+  TEST_CASE("a segment in a disc's plane that ends before the disc does not hit") {
     for (std::uint64_t i = 0; i < 20'000; ++i) {
       Dice dice(50, i);
       const Disc disc{{dice.uniform(), dice.uniform(), dice.uniform()}, dice.normal(), 1};
@@ -152,7 +152,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("statistical") {
-  TEST_CASE("ten million exact decisions of hard rays: none wrong outside the error band") {
+  TEST_CASE("ten million exact decisions of hard rays: none is wrong outside the error band") {
     check_all_families(500'000, true);
   }
 }

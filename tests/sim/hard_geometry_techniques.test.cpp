@@ -17,7 +17,7 @@ using namespace detp::support;
 
 namespace {
 
-/// Every pair decided by the canonical predicate.
+/// Decides every pair by the canonical predicate.
 Outcome truth_of(const Problem& problem) {
   return run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
 }
@@ -45,7 +45,7 @@ const std::vector<Candidate>& exact_candidates() {
   return list;
 }
 
-/// Pairs that one technique finds and the canonical predicate does not, or the other way round.
+/// Number of pairs that only one of the technique and the canonical predicate finds.
 std::size_t differences(const Outcome& outcome, const Outcome& expected) {
   std::vector<Pair> different;
   std::set_symmetric_difference(expected.pairs.begin(), expected.pairs.end(), outcome.pairs.begin(),
@@ -53,7 +53,7 @@ std::size_t differences(const Outcome& outcome, const Outcome& expected) {
   return different.size();
 }
 
-/// Runs `scenes` of every family, each ray hard for one disc.
+/// Runs `scenes` scenes of every family; each ray is hard for one disc.
 void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, bool told) {
   for (std::size_t family = 0; family < families.size(); ++family) {
     std::uint64_t hits = 0;
@@ -110,7 +110,7 @@ TEST_SUITE("identity") {
     check_all_agree(12, 20, 500, false);
   }
 
-  TEST_CASE("rays along the outer faces of the index, or just outside them, hit the discs that touch these") {
+  TEST_CASE("rays along the outer faces of the index, or just outside them, hit the discs that touch these faces") {
     std::uint64_t hits = 0;
     for (std::uint64_t i = 0; i < 30; ++i) {
       const HardScene scene = scene_at_faces(i);

@@ -37,7 +37,7 @@ std::map<double, double> losses(Body body) {
 }  // namespace
 
 TEST_SUITE("statistical") {
-  // Of 165 000 hits a share is known to a standard deviation of 0.12 % of all at most: 1 % is eight of them.
+  // Of 165 000 hits, any share has a standard deviation of at most 0.12 %: 1 % is eight of them.
   TEST_CASE("the paper's walk loses a tenth of all hits at Q = 0.6 and over two fifths at 0.8; on surfaces more") {
     const std::map<double, double> volume = losses(Body::cube);
     const std::map<double, double> surface = losses(Body::cube_faces);
@@ -46,7 +46,7 @@ TEST_SUITE("statistical") {
     CHECK(std::abs(surface.at(0.6) - 0.17) < 0.01);
     CHECK(std::abs(surface.at(0.8) - 0.49) < 0.01);
     for (const auto& [ratio, lost] : volume) CHECK(surface.at(ratio) > lost);
-    for (const auto* lost : {&volume, &surface})  // the nearer Q is to 1, the more
+    for (const auto* lost : {&volume, &surface})  // losses grow with Q
       for (auto at = std::next(lost->begin()); at != lost->end(); ++at) CHECK(at->second > std::prev(at)->second);
   }
 }

@@ -31,14 +31,14 @@ using support::LoggedWork;
 
 constexpr std::uint64_t block = StopCheck::most_work;
 
-/// Something that takes a while, and the least work it must report.
+/// Some long work, and the minimum amount of work that it must report.
 struct Phase {
   std::string name;
   std::function<void(const std::stop_token&)> run;
   std::uint64_t least_work;
 };
 
-/// Its work between two checks is bounded; a stop request half way ends it there, with Stopped.
+/// Checks that the work between two checks is bounded, and that a stop request half way throws Stopped there.
 void check_phase(const Phase& phase) {
   CAPTURE(phase.name);
   std::uint64_t total = 0;
@@ -184,7 +184,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("tracing that is stopped says after how many of the rays") {
+  TEST_CASE("stopped tracing says how many of the rays had been traced") {
     std::stop_source source;
     const LoggedWork logged([&](std::uint64_t done) {
       if (done > 100 * block) source.request_stop();

@@ -4,7 +4,7 @@
 
 namespace detp::support {
 
-/// Less address space for this process, and for those it starts, as long as the object lives.
+/// Limits the address space of this process, and of processes that it starts, while the object exists.
 class AddressLimit {
  public:
   explicit AddressLimit(double bytes) {

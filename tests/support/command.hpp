@@ -22,7 +22,7 @@
 
 #include "scratch_file.hpp"
 
-/// The command `detp` run as a user runs it: a process of its own.
+/// Runs the command `detp` as a user does: as a process of its own.
 namespace detp::support {
 
 using Arguments = std::vector<std::string>;
@@ -31,13 +31,13 @@ using Clock = std::chrono::steady_clock;
 
 /// How a process ended.
 struct Finished {
-  int code = -1;   ///< exit code; -1 where a signal ended it
-  int signal = 0;  ///< that signal, or 0
+  int code = -1;   ///< exit code; -1 if a signal ended it
+  int signal = 0;  ///< number of that signal, or 0
   std::string out;
   std::string err;
   double seconds = 0;
 
-  /// The result. Fails the test where stdout is no JSON.
+  /// The JSON result. Fails the test if stdout is not JSON.
   [[nodiscard]] Json json() const {
     const Json parsed = Json::parse(out, nullptr, false);
     REQUIRE_MESSAGE(!parsed.is_discarded(), "not JSON: ", out, err);
@@ -45,10 +45,10 @@ struct Finished {
   }
 };
 
-/// A started detp, its stdout and stderr in files. One that hangs is killed after a minute.
+/// A running detp, whose stdout and stderr go to files. It is killed after a minute.
 class Process {
  public:
-  /// With so many bytes of addresses, if that is not 0: a limit of the new process alone.
+  /// `addresses`, if not 0, limits the address space of the new process in bytes.
   explicit Process(const Arguments& arguments, double addresses = 0) {
     std::vector<std::string> words{DETP_COMMAND};
     if (addresses > 0) {
@@ -76,7 +76,7 @@ class Process {
 
   void send(int signal) const { ::kill(id_, signal); }
 
-  /// Waits until the command watches for signals: before, one would just end it. A minute at most.
+  /// Waits until the command handles signals, a minute at most. An earlier signal would just kill it.
   void wait_until_it_listens() const {
     const std::string status = "/proc/" + std::to_string(id_) + "/status";
     while (Clock::now() - start_ < std::chrono::seconds(60)) {
@@ -112,7 +112,7 @@ class Process {
   pid_t id_ = -1;
 };
 
-/// "run @uniform" as two arguments.
+/// Splits "run @uniform" into two arguments.
 inline Arguments words(const std::string& line) {
   std::istringstream stream(line);
   return {std::istream_iterator<std::string>(stream), {}};
@@ -123,7 +123,7 @@ inline Arguments operator+(Arguments left, const Arguments& right) {
   return left;
 }
 
-/// The line with a time limit that lets it come far enough: 0.1 s, or longer on a slow machine.
+/// Runs the line with a time limit that lets it get far enough: 0.1 s, or longer on a slow machine.
 template <class FarEnough>
 Finished stopped_in_time(const std::string& line, const FarEnough& far_enough) {
   for (double limit = 0.1;; limit *= 2) {
@@ -152,7 +152,7 @@ inline Json result_of(const Arguments& arguments) {
 }
 inline Json result_of(const std::string& line) { return result_of(words(line)); }
 
-/// A command line that must be refused, and what the message must name.
+/// A command line that must be refused, and the text that the message must contain.
 struct Refusal {
   Arguments arguments;
   std::string named;
@@ -162,7 +162,7 @@ struct Refusal {
 };
 
 /// Fails the test unless each is refused as the contract says: exit code 2, nothing on stdout, and on stderr one line
-/// that holds what is `named`. Several run at a time.
+/// that contains `named`. Runs several at a time.
 inline void check_refused(const std::vector<Refusal>& refusals) {
   constexpr std::size_t at_a_time = 8;
   std::vector<std::unique_ptr<Process>> processes(refusals.size());
@@ -181,13 +181,13 @@ inline void check_refused(const std::vector<Refusal>& refusals) {
   }
 }
 
-/// Whether "nan" or "inf" stands in the text as a number would, be it with a sign before or an x after it.
+/// Whether the text contains "nan" or "inf" in place of a number, perhaps with a sign before it or an x after it.
 inline bool has_no_number(const std::string& text) {
   static const std::regex no_number("(^|[^a-z])(nan|inf)(x?)($|[^a-z])", std::regex::icase);
   return std::regex_search(text, no_number);
 }
 
-/// A result without what differs from run to run by nature: times and the number of threads.
+/// A result without the values that differ from run to run: times and the number of threads.
 inline Json without_times(const Json& json) {
   if (!json.is_structured()) return json;
   Json rest = json.is_array() ? Json::array() : Json::object();

@@ -6,12 +6,12 @@
 
 #include "command.hpp"
 
-/// Answers as CSV, read as RFC 4180 says.
+/// Reads CSV results according to RFC 4180.
 namespace detp::support {
 
 using CsvRow = std::map<std::string, std::string>;
 
-/// The fields of each record. Fails the test where a quote is not closed.
+/// The fields of each record. Fails the test if a quote is not closed.
 inline std::vector<std::vector<std::string>> csv_records(const std::string& csv) {
   std::vector<std::vector<std::string>> records;
   std::string field;
@@ -40,7 +40,7 @@ inline std::vector<std::vector<std::string>> csv_records(const std::string& csv)
   return records;
 }
 
-/// The rows by column. Fails the test unless every row has as many fields as the header, whose names differ.
+/// The rows by column. Fails the test unless the header's names are distinct and every row has as many fields.
 inline std::vector<CsvRow> csv_rows(const std::string& csv) {
   const auto records = csv_records(csv);
   REQUIRE_FALSE(records.empty());
@@ -55,7 +55,7 @@ inline std::vector<CsvRow> csv_rows(const std::string& csv) {
   return rows;
 }
 
-/// The CSV answer of a command that must succeed.
+/// The CSV result of a command that must succeed.
 inline std::vector<CsvRow> csv_of(const Arguments& arguments) {
   const Finished finished = detp(arguments + words("--format csv"));
   CAPTURE(line_of(arguments));

@@ -6,7 +6,7 @@
 
 namespace detp::support {
 
-/// The small variants of every exact technique.
+/// Variants of every exact technique with small parameters.
 inline const std::vector<Candidate>& exact_candidates() {
   static const std::vector<Candidate> list = [] {
     std::vector<Candidate> all;

@@ -10,22 +10,22 @@
 
 #include "detp/sim/geometry/geometry.hpp"
 
-/// What hits what, exactly. Every double is an integer times a power of 2, and each question is the sign of a
-/// polynomial in them, so integers of enough bits decide it. Directions and normals are taken as they are: the ray is
-/// the line that the direction spans, or the points origin + t direction, 0 <= t <= length; the normal only spans the
-/// plane.
+/// Exact versions of the predicates. Every double is an integer times a power of 2, and each predicate is the sign of a
+/// polynomial in doubles, so integers with enough bits decide it. Directions and normals are used without normalising:
+/// the ray is the line that the direction spans, or the points origin + t direction, 0 <= t <= length; the normal only
+/// defines the plane.
 namespace detp::support {
 
-/// Up to 4096 bits on the stack; throws where they do not do.
+/// Integers of up to 4096 bits on the stack; throws if a result needs more.
 using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_backend<
     4096, 4096, boost::multiprecision::signed_magnitude, boost::multiprecision::checked, void>>;
 
-/// number · 2^bits: of negative numbers too, which << refuses.
+/// number · 2^bits; also for negative numbers, for which << throws.
 inline Integer shifted(const Integer& number, int bits) {
   return number < 0 ? Integer{-(Integer{-number} << bits)} : Integer{number << bits};
 }
 
-/// mantissa · 2^exponent, the mantissa odd, or 0.
+/// mantissa · 2^exponent, with an odd mantissa or 0.
 struct Dyadic {
   explicit Dyadic(double value) {
     mantissa = static_cast<std::int64_t>(std::ldexp(std::frexp(value, &exponent), 53));
@@ -39,7 +39,7 @@ struct Dyadic {
   int exponent;
 };
 
-/// Numbers in units of one power of 2, the largest that divides them all.
+/// Represents numbers as integers in units of one power of 2, the largest that divides them all.
 class Units {
  public:
   Units(std::initializer_list<double> values) {
@@ -76,13 +76,13 @@ inline double rounded(const Integer& number, int exponent) {
   return number < 0 ? -value : value;
 }
 
-/// √a - √b where a and b are in units of 2^(2 exponent), without cancellation.
+/// √a - √b without cancellation; a and b are in units of 2^(2 exponent).
 inline double difference_of_roots(const Integer& a, const Integer& b, int exponent) {
   const double sum = std::sqrt(rounded(a, 2 * exponent)) + std::sqrt(rounded(b, 2 * exponent));
   return sum == 0 ? 0 : rounded(a - b, 2 * exponent) / sum;
 }
 
-/// A ray and a disc. Lengths in units of 2^p, directions of 2^q, normals of 2^r.
+/// A ray and a disc. Lengths are in units of 2^p, directions of 2^q, normals of 2^r.
 class ExactDisc {
  public:
   ExactDisc(const sim::Ray& ray, const sim::Disc& disc)
@@ -136,7 +136,7 @@ class ExactSphere {
     const Integer radius = lengths_(sphere.radius);
     const Integer along = dot(f, direction);
     const Integer square = dot(direction, direction);
-    if (!ray.is_line() && along < 0) {  // nearest at the origin
+    if (!ray.is_line() && along < 0) {  // the ray's origin is nearest
       distance_ = dot(f, f);
       radius_ = radius * radius;
       exponent_ = lengths_.exponent();
@@ -144,7 +144,7 @@ class ExactSphere {
     }
     exponent_ = lengths_.exponent() + directions_.exponent();
     const int one = -directions_.exponent();
-    if (!ray.is_line() && shifted(along, one) > lengths_(ray.length) * square) {  // nearest at the end
+    if (!ray.is_line() && shifted(along, one) > lengths_(ray.length) * square) {  // the ray's end is nearest
       const Vector off = shifted(1, one) * f - lengths_(ray.length) * direction;
       distance_ = dot(off, off);
       radius_ = shifted(radius * radius, 2 * one);
@@ -155,7 +155,7 @@ class ExactSphere {
   }
 
   [[nodiscard]] bool hit() const { return distance_ <= radius_; }
-  /// distance of the centre from the ray - radius (times |D|, 1 to 1e-12, of a line)
+  /// distance of the centre from the ray, minus the radius (for a line times |D|, which is 1 to within 1e-12)
   [[nodiscard]] double beyond() const { return difference_of_roots(distance_, radius_, exponent_); }
 
  private:

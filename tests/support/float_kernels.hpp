@@ -5,8 +5,8 @@
 
 #include "detp/sim/lists/simd/disc_tree.hpp"
 
-/// What the float kernels compute (sim/lists/simd/kernels-inl.hpp), written once more for one ray and any kind of
-/// number: in floats, with and without fused operations, and in long double, where it serves as the truth.
+/// A second implementation of the float kernels (sim/lists/simd/kernels-inl.hpp), for one ray and any number type:
+/// floats, with and without fused operations, and long double as the reference.
 namespace detp::support {
 
 /// A ray and a disc in the coordinates of the ray's class.
@@ -27,14 +27,14 @@ struct Kernel {
       return a * b + c;
   }
 
-  /// What a disc is decided by.
+  /// The values that decide whether the ray hits the disc.
   struct Disc {
     Real rim;      ///< |V| - d|φ|: <= 0 for hits
     Real facing;   ///< φ
     Real after;    ///< >= 0: crosses above the segment's lower end
-    Real before;   ///< >= 0: crosses below its upper end
+    Real before;   ///< >= 0: crosses below the segment's upper end
     Real beside;   ///< |w|
-    Real highest;  ///< the ends' largest distance in z from the centre
+    Real highest;  ///< the largest distance in z of an end from the centre
   };
 
   explicit Kernel(const KernelCase<Real>& of) : ray(of) {
@@ -67,7 +67,7 @@ struct Kernel {
     return static_cast<double>(std::sqrt(static_cast<long double>(moment) / static_cast<long double>(stretch)));
   }
 
-  /// By how much a box around `centre` must be grown for the ray to be listed.
+  /// By how much a box around `centre` must grow for the ray to be listed.
   [[nodiscard]] Real beyond_box(const Real (&half)[3], bool segment) const {
     const Real x = mul_add(-std::abs(ray.a), half[2], std::abs(P)) - half[0];
     const Real y = mul_add(-std::abs(ray.b), half[2], std::abs(Q)) - half[1];

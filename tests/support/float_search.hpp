@@ -8,10 +8,10 @@
 #include "detp/sim/lists/simd/load_rays.hpp"
 #include "detp/sim/lists/simd/tree_search.hpp"
 
-/// The float kernels by themselves, so that tests may narrow their bands and margins.
+/// Calls the float kernels directly, so that tests may narrow their bands and margins.
 namespace detp::support {
 
-/// A problem's rays and discs, as the kernels see them.
+/// A problem's rays and discs in the form that the kernels use.
 struct Floats {
   explicit Floats(const sim::Problem& of) : problem(of), frame(of) {
     std::vector<std::uint32_t> order(problem.discs.size());
@@ -23,13 +23,13 @@ struct Floats {
 
   const sim::Problem& problem;
   sim::stream::Frame frame;
-  sim::stream::DiscTree discs;  ///< no tree
+  sim::stream::DiscTree discs;  ///< the discs only; no tree
   sim::stream::ListArena arena;
   sim::stream::RayLists lists;
   sim::stream::RayTraits traits;
 };
 
-/// Hits of each disc, as `search(block, worker)` finds them in those discs.
+/// Hits of each disc, found by `search(block, worker)`.
 template <class Search>
 std::vector<std::uint64_t> count_hits(const Floats& floats, const sim::stream::Frame& frame,
                                       const sim::stream::DiscTree& discs, const Search& search) {
@@ -51,7 +51,7 @@ std::vector<std::uint64_t> count_hits(const Floats& floats, const sim::stream::F
   return sums;
 }
 
-/// Every ray against every disc, with bands so many times as wide.
+/// Tests every ray against every disc, with bands `times` as wide.
 inline std::vector<std::uint64_t> hits_with_band(const Floats& floats, float times) {
   sim::stream::DiscTree discs = floats.discs;
   for (sim::stream::FloatDisc& disc : discs.discs) disc.band *= times;
@@ -62,7 +62,7 @@ inline std::vector<std::uint64_t> hits_with_band(const Floats& floats, float tim
   });
 }
 
-/// Down a binary tree of boxes with one disc a leaf, with margins so many times as wide.
+/// Searches a binary tree of boxes with one disc a leaf, with margins `times` as wide.
 inline std::vector<std::uint64_t> hits_in_boxes(const Floats& floats, float times) {
   sim::stream::Frame frame = floats.frame;
   frame.margin *= times;
@@ -72,7 +72,7 @@ inline std::vector<std::uint64_t> hits_in_boxes(const Floats& floats, float time
   });
 }
 
-/// Each disc with the rays that come within the sphere around it, with margins so many times as wide.
+/// Tests each disc with the rays that meet the sphere around it, with margins `times` as wide.
 inline std::vector<std::uint64_t> hits_in_spheres(const Floats& floats, float times) {
   return count_hits(floats, floats.frame, floats.discs, [&](const auto& block, auto& worker) {
     for (std::uint32_t place = 0; place < floats.discs.discs.size(); ++place) {

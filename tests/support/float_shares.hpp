@@ -9,23 +9,24 @@
 #include "float_kernels.hpp"
 #include "float_search.hpp"
 
-/// How much of their bounds the float kernels use up.
+/// Measures how much of their error bounds the float kernels use.
 namespace detp::support {
 
-/// Largest errors of the kernels, as shares of what frame.hpp allows for.
+/// The kernels' largest errors, as shares of the bounds in frame.hpp.
 struct Shares {
-  double rim = 0;     ///< of |V| - d|φ|, of the band
-  double ends = 0;    ///< of where a segment ends, of half the band
-  double box = 0;     ///< the growth that hits needed of their discs' boxes, of the margin
-  double sphere = 0;  ///< … of spheres that the ray touches
+  double rim = 0;     ///< error of |V| - d|φ|, as a share of the band
+  double ends = 0;    ///< error at a segment's end, as a share of half the band
+  double box = 0;     ///< growth of the discs' boxes that hits needed, as a share of the margin
+  double sphere = 0;  ///< growth of spheres that the ray touches, likewise
   std::uint64_t decisions = 0;
   std::uint64_t hits = 0;
-  std::uint64_t wrong = 0;    ///< what floats alone would decide otherwise than the canonical predicate
-  double widest = 0;          ///< of those, the farthest from the rim, of the band, or from an end, of half the band
-  std::uint64_t outside = 0;  ///< wrong, and not within the band
+  std::uint64_t wrong = 0;  ///< decisions in which floats alone differ from the canonical predicate
+  /// among those, the largest distance from the rim (share of the band) or from an end (share of half the band)
+  double widest = 0;
+  std::uint64_t outside = 0;  ///< wrong decisions that are not within the band
 };
 
-/// A ray and a disc in long double: as good as exact to a kernel of floats.
+/// A ray and a disc in long double, which is practically exact compared with a float kernel.
 inline KernelCase<long double> truly(const sim::stream::Frame& frame, const sim::Ray& ray, const sim::Disc& disc,
                                      int k) {
   const auto axes = sim::stream::axes_of_class(k);
@@ -68,7 +69,7 @@ inline KernelCase<float> as_listed(const sim::stream::RayList& list, std::size_t
   return floats;
 }
 
-/// The leaf of a tree that holds the disc at each place of the problem.
+/// For each disc, by its number in the problem, the tree's leaf that contains it.
 inline std::vector<sim::stream::TreeNode> boxes_of(const Floats& floats) {
   const sim::stream::DiscTree tree = make_disc_tree(floats.problem, floats.frame, {2, 1});
   std::vector<sim::stream::TreeNode> boxes(tree.order.size());
@@ -117,14 +118,15 @@ class Measure {
     ++shares_.decisions;
     shares_.hits += hit ? 1 : 0;
     if (decided == hit) return;
-    // How far it is from where the answer would change: a false hit the nearest boundary, a false miss the farthest.
+    // Distance from where the decision would change: the nearest boundary for a false hit, the farthest for a false
+    // miss.
     const double bands = hit ? std::max(floats.rim > 0 ? rim : 0, end) : (line ? rim : std::min(rim, -end));
     ++shares_.wrong;
     shares_.outside += bands <= 1 ? 0 : 1;
     shares_.widest = std::max(shares_.widest, bands);
   }
 
-  /// The sphere around the disc's centre that the ray touches.
+  /// Tests the sphere around the disc's centre that the ray just touches.
   void sphere(const Kernel<float, fused>& floats, const Kernel<long double, false>& truth) {
     const double distance = truth.distance();
     if (distance > 1) return;

@@ -12,10 +12,10 @@
 #include "detp/sim/geometry/geometry.hpp"
 #include "detp/sim/geometry/random.hpp"
 
-/// Rays that only just hit or miss a disc or a sphere, in every way we could think of.
+/// Rays that just hit or just miss a disc or a sphere, in every way we could think of.
 namespace detp::support {
 
-/// Numbers for one case, one after the other.
+/// A sequence of random numbers for one case.
 class Dice {
  public:
   Dice(std::uint64_t family, std::uint64_t index) : family_(family), index_(index) {}
@@ -28,7 +28,7 @@ class Dice {
   /// Log-uniform.
   double magnitude(double low, double high) { return std::pow(10.0, between(low, high)); }
   bool one_in(double n) { return uniform() * n < 1; }
-  /// 0, or log-uniform from 1e-17 to 1e-12, of either sign: what rounding can hide, and a little more.
+  /// 0, or log-uniform from 1e-17 to 1e-12 with either sign: offsets about as small as rounding errors.
   double whisker() {
     const double side = one_in(4) ? 0 : sign();
     return side * magnitude(-17, -12);
@@ -37,7 +37,7 @@ class Dice {
     const double u = uniform();
     return sim::uniform_direction(u, uniform());
   }
-  /// An axis, a direction within 1e-8 of one, or any.
+  /// An axis, a direction within 1e-8 of one, or any direction.
   glm::dvec3 normal() {
     const double kind = uniform();
     if (kind > 0.4) return glm::normalize(direction());
@@ -54,16 +54,16 @@ class Dice {
   std::array<double, 4> four_{};
 };
 
-/// How the cases of a family are drawn: exponents of 10, in radii of the disc or sphere.
+/// The distribution of a family's cases: exponents of 10; lengths are in radii of the disc or sphere.
 struct Family {
   std::string_view name;
   double cosine_low = -1, cosine_high = 0;  ///< |n·D|
   double from_low = -1, from_high = 2;      ///< from the ray's origin to where it crosses the plane
-  double radius_low = -3, radius_high = 0;  ///< of the disc, of the scene's size
+  double radius_low = -3, radius_high = 0;  ///< of the disc, relative to the scene's size
   double scale = 1;                         ///< size of the scene
-  double offset = 0;                        ///< from the coordinates' origin, in sizes of the scene
-  double length_low = -1, length_high = 3;  ///< of segments
-  double unit = 0;                          ///< by how much a direction's length may differ from 1
+  double offset = 0;  ///< distance of the scene from the coordinates' origin, in sizes of the scene
+  double length_low = -1, length_high = 3;  ///< length of segments
+  double unit = 0;                          ///< largest difference of a direction's length from 1
 };
 
 inline const std::array families{
@@ -80,7 +80,7 @@ inline const std::array families{
     Family{.name = "not unit", .cosine_low = -12, .from_low = -1, .from_high = 9, .unit = 0.99e-12},
 };
 
-/// A direction across the plane of n with |n·D| as asked; parallel to the plane, to rounding, for less than 1e-17.
+/// A direction with |n·D| = cosine; if that is less than 1e-17, parallel to the plane within rounding.
 inline glm::dvec3 slanting(Dice& dice, const glm::dvec3& normal, double cosine) {
   const auto [u, v] = sim::basis_around(normal);
   const double angle = dice.between(0, 2 * std::numbers::pi);
@@ -93,12 +93,12 @@ struct DiscCase {
   sim::Disc disc;
 };
 
-/// A ray towards the rim of the disc (or, one in four, anywhere on it), that if a segment ends near its plane, or near
-/// the disc, or far from it.
+/// A ray towards the rim of the disc (one in four: anywhere on it). If it is a segment, it ends near the disc's plane,
+/// near the disc, or far from it.
 inline sim::Ray hard_ray(const Family& family, Dice& dice, const sim::Disc& disc) {
   const double cosine = std::min(1.0, dice.magnitude(family.cosine_low, family.cosine_high));
   const glm::dvec3 direction = slanting(dice, disc.normal, cosine);
-  // Where it crosses: near the rim, for grazing rays often where the rim is parallel to them.
+  // The crossing is near the rim. For grazing rays it is often where the rim is parallel to them.
   const glm::dvec3 sideways = glm::normalize(glm::cross(disc.normal, direction));
   const glm::dvec3 forwards = glm::cross(sideways, disc.normal);
   const double angle = dice.one_in(2) ? dice.whisker() * 1e7 : dice.between(0, 2 * std::numbers::pi);
@@ -123,13 +123,13 @@ inline DiscCase hard_disc(const Family& family, std::uint64_t number, std::uint6
   const glm::dvec3 offset{family.offset, -0.3 * family.offset, 0.7 * family.offset};
   disc.centre = family.scale * (offset + glm::dvec3{dice.uniform(), dice.uniform(), dice.uniform()});
   disc.normal = dice.normal();
-  if (dice.one_in(8)) {  // numbers of few bits, so that exact ties come up
+  if (dice.one_in(8)) {  // numbers with few bits, so that exact ties occur
     disc.centre = family.scale * glm::floor(8.0 * disc.centre / family.scale) / 8.0;
     disc.radius = family.scale / 4;
   }
   sim::Ray ray = hard_ray(family, dice, disc);
   if (!ray.is_line() && dice.one_in(20)) ray.length = 0;
-  // What coordinates far from 0 round away: the radius brought to where the ray did cross.
+  // Far from the coordinates' origin rounding moves the ray. So set the radius to where the ray now crosses.
   const glm::dvec3 moment = glm::cross(ray.origin - disc.centre, ray.direction);
   const double crossed = glm::length(glm::cross(disc.normal, moment)) / std::abs(glm::dot(disc.normal, ray.direction));
   if (dice.one_in(2) && std::abs(crossed - disc.radius) < 0.1 * disc.radius)
@@ -142,8 +142,8 @@ struct SphereCase {
   sim::Sphere sphere;
 };
 
-/// A ray that passes a sphere at about its radius, abreast of the centre or with an end that near; a sphere brought to
-/// the distance of a ray.
+/// A ray that passes a sphere at about its radius, beside the centre or with an end near that point. Or a sphere whose
+/// radius is set to its distance from the ray.
 inline SphereCase hard_sphere(const Family& family, std::uint64_t number, std::uint64_t index) {
   Dice dice(100 + number, index);
   const sim::Disc disc = hard_disc(family, number, index).disc;

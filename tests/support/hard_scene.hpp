@@ -11,14 +11,14 @@
 /// Scenes of hard rays and discs, for all techniques.
 namespace detp::support {
 
-/// Discs that touch, just, the planes between cells, and rays that just hit or miss them.
+/// Discs that just touch the planes between cells, and rays that just hit or miss these discs.
 struct HardScene {
   std::vector<sim::Disc> discs;
   std::vector<sim::Ray> rays;
 };
 
-/// Two discs of radius 1/8 fix the scene's box to `centre` ± 1, so that halves of halves are planes between cells. The
-/// others have their centre, or a point of their rim, within rounding of one, two or three such planes.
+/// Two discs of radius 1/8 fix the scene's box to `centre` ± 1, so that repeated halving gives planes between cells.
+/// The other discs have their centre, or a point of their rim, within rounding of one, two or three such planes.
 inline sim::Disc disc_at_cells(Dice& dice, const glm::dvec3& centre, double scale) {
   const auto on_plane = [&](double x) { return std::floor(8 * x) / 4 - 1 + dice.whisker() * 1e2; };
   sim::Disc disc;
@@ -36,7 +36,7 @@ inline sim::Disc disc_at_cells(Dice& dice, const glm::dvec3& centre, double scal
   return disc;
 }
 
-/// Ray number i is hard for disc number i modulo their number.
+/// Ray number i is hard for disc number i modulo the number of discs.
 inline HardScene hard_scene(std::size_t family_number, std::uint64_t index, std::size_t discs, std::size_t rays) {
   const Family& family = families[family_number];
   Dice dice(200 + family_number, index);
@@ -49,12 +49,12 @@ inline HardScene hard_scene(std::size_t family_number, std::uint64_t index, std:
   return scene;
 }
 
-/// Discs that touch an edge of their own box, and rays that touch the disc there, or just miss it: nothing that holds
-/// such a disc may be a little too small.
+/// Discs that touch an edge of their own bounding box, and rays that touch the disc there or just miss it. No bounding
+/// volume of such a disc may be even slightly too small.
 inline HardScene scene_at_corners(std::uint64_t index, std::size_t discs, std::size_t rays) {
   Dice dice(400, index);
   HardScene scene;
-  std::vector<glm::dvec3> ends;  // where a disc touches
+  std::vector<glm::dvec3> ends;  // points where a disc touches its box
   for (const double side : {-0.875, 0.875})
     scene.discs.push_back({glm::dvec3{side}, {0, 0, 1}, 0.125}), ends.push_back({1, 0, 0});
   while (scene.discs.size() < discs) {

@@ -6,15 +6,15 @@
 #include <cstdint>
 #include <limits>
 
-/// 100-digit arithmetic, to test formulas in double precision against.
+/// 100-digit arithmetic, the reference for formulas in double precision.
 namespace detp::support {
 
 using Exact = boost::multiprecision::cpp_bin_float_100;
 
-/// |value - exact| / |exact|, or |value| where exact is 0; infinite where the value is no finite number.
+/// |value - exact| / |exact|, or |value| if exact is 0; infinite if the value is not finite.
 ///
-/// Beyond the largest double, that double is the right value. Below the smallest normal one, where doubles are evenly
-/// spaced, a value within one such space is right: 0.
+/// If exact exceeds the largest double, that double is right. Below the smallest normal double, where doubles are
+/// evenly spaced, a value within one spacing is right: 0.
 inline double relative_error(double value, Exact exact) {
   using Limits = std::numeric_limits<double>;
   static const Exact largest = Limits::max();
@@ -39,7 +39,7 @@ inline Exact power(const Exact& base, std::int64_t n) {
   return result;
 }
 
-/// ∛x by Newton's method, x >= 0 and within the range of doubles, or its reciprocal.
+/// ∛x by Newton's method. x >= 0; x or its reciprocal must be within the range of doubles.
 inline Exact cube_root(const Exact& x) {
   if (x == 0) return 0;
   int exponent = 0;
@@ -51,8 +51,8 @@ inline Exact cube_root(const Exact& x) {
   return ldexp(root, thirds);
 }
 
-/// √x by Newton's method on 1/√x, x >= 0 and within the range of doubles, or its square. Boost's takes five times as
-/// long.
+/// √x by Newton's method on 1/√x. x >= 0; x or its square must be within the range of doubles. Boost's function takes
+/// five times as long.
 inline Exact root_of(const Exact& x) {
   if (x == 0) return 0;
   int exponent = 0;
@@ -64,7 +64,7 @@ inline Exact root_of(const Exact& x) {
   return ldexp(Exact{scaled * inverse}, halves);
 }
 
-/// ln(1 + z) for z from -1/40 to 1/40, by the series of y = z/(2 + z), whose digits 1 + z need not hold.
+/// ln(1 + z) for z from -1/40 to 1/40, by the series in y = z/(2 + z). 1 + z itself might lose digits of z.
 inline Exact log_next_to_1(const Exact& z) {
   static const auto reciprocals = [] {
     std::array<Exact, 28> all;
@@ -78,7 +78,8 @@ inline Exact log_next_to_1(const Exact& z) {
   return 2 * y * sum;
 }
 
-/// ln x for x > 0: of its power of two, of the nearest 32nd to what is left, and of the rest, which is next to 1.
+/// ln x for x > 0: the sum of the logarithms of its power of two, of the nearest 32nd to the mantissa, and of the
+/// remaining factor, which is close to 1.
 inline Exact log_of(const Exact& x) {
   static const Exact log_of_2 = log(Exact{2});
   static const auto logs_of_32nds = [] {
@@ -96,7 +97,7 @@ inline Exact log_of(const Exact& x) {
   return exponent * log_of_2 + logs_of_32nds[nearest] + log_next_to_1(32 * mantissa / nearest - 1);
 }
 
-/// eˣ for |x| <= 1e6: the series of x less a multiple of ln 2, over 2¹⁶; then sixteen squarings.
+/// eˣ for |x| <= 1e6: subtracts a multiple of ln 2, divides by 2¹⁶, sums the series, then squares sixteen times.
 inline Exact exp_of(const Exact& x) {
   static const Exact log_of_2 = log(Exact{2});
   static const auto reciprocal_factorials = [] {

@@ -2,10 +2,10 @@
 
 #include "detp/sim/index/disc_index.hpp"
 
-/// Runs of an index in its variants.
+/// Runs the variants of an index.
 namespace detp::support {
 
-/// Searches an index once; counts are those of building and searching.
+/// Searches an index once. The counts include building and searching.
 inline sim::Outcome search_once(const sim::Index& index, const sim::Problem& problem, const sim::RunOptions& options) {
   sim::Outcome outcome = sim::search(index, problem, options);
   outcome.counts += index.built().counts;

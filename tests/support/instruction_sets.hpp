@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <vector>
 
-/// The instruction sets that the kernels were compiled for.
+/// The instruction sets for which the kernels were compiled.
 namespace detp::support {
 
-/// Makes the kernels use one of the machine's instruction sets, until the end of a scope.
+/// Makes the kernels use one of the machine's instruction sets until the end of a scope.
 class OnlyInstructionSet {
  public:
   explicit OnlyInstructionSet(std::int64_t target) { use(target); }
-  ~OnlyInstructionSet() { use(0); }  // 0: whatever the machine has
+  ~OnlyInstructionSet() { use(0); }  // 0: the default choice
   OnlyInstructionSet(const OnlyInstructionSet&) = delete;
   OnlyInstructionSet& operator=(const OnlyInstructionSet&) = delete;
 
@@ -23,7 +23,7 @@ class OnlyInstructionSet {
   }
 };
 
-/// All that there is code for, best first; the last needs nothing of the machine.
+/// All compiled instruction sets, best first. The last one runs on every machine.
 inline std::vector<std::int64_t> compiled_instruction_sets() {
   std::vector<std::int64_t> sets;
   for (std::int64_t left = HWY_TARGETS; left != 0; left &= left - 1) sets.push_back(left & -left);

@@ -3,13 +3,13 @@
 #include <array>
 #include <limits>
 
-/// Numbers that public doors must refuse.
+/// Numbers that public functions must refuse.
 namespace detp::support {
 
 inline constexpr double infinity = std::numeric_limits<double>::infinity();
 inline constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// Neither lengths, nor times, nor numbers of things: not even zero is one of them.
+/// Never a length, a time or a number of things; for quantities that may be zero.
 inline constexpr std::array not_a_size{not_a_number, infinity, -infinity, -1.0, -1e-300};
 
 /// Not a positive length.

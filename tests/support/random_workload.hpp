@@ -9,7 +9,7 @@
 /// Random workloads for tests, the same on every machine.
 namespace detp::support {
 
-/// Numbers from an engine of 64-bit words.
+/// Random numbers from an engine that yields 64-bit words.
 template <class Engine>
 class NumbersFrom {
  public:

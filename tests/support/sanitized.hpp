@@ -2,7 +2,7 @@
 
 namespace detp::support {
 
-/// Whether this is a build with a sanitizer, which takes memory and time of its own.
+/// Whether this build has a sanitizer, which needs additional memory and time.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 inline constexpr bool sanitized = true;
 #elif defined(__has_feature)

@@ -17,7 +17,7 @@
 /// Files for tests of readers and writers.
 namespace detp::sim::support {
 
-/// A folder of its own, removed at the end.
+/// A temporary folder, which the destructor removes.
 class ScratchFolder {
  public:
   ScratchFolder() {
@@ -55,7 +55,7 @@ inline std::string content_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// The message of the FileError that the call throws; "" where it throws none.
+/// The message of the FileError that the call throws; "" if it throws none.
 inline std::string file_error_of(const std::function<void()>& call) {
   try {
     call();
@@ -65,14 +65,14 @@ inline std::string file_error_of(const std::function<void()>& call) {
   return {};
 }
 
-/// Calls `read` with the content cut off at every length, and with `flips` random changes of 1 to 4 bytes each.
-/// It may throw FileError, but nothing else. Returns how many of the damaged files it refused.
+/// Calls `read` with the content truncated at every length, and with `flips` random changes of 1 to 4 bytes each.
+/// `read` may throw FileError, but nothing else. Returns how many of the damaged files it refused.
 inline std::size_t refused_when_damaged(const std::string& name, const std::string& content, std::uint64_t flips,
                                         const std::function<void(const std::string& path)>& read) {
   const ScratchFolder folder;
   std::size_t refused = 0;
   const auto try_it = [&](const std::string& damaged) {
-    std::filesystem::remove(folder.path(name));  // faster than to write over it
+    std::filesystem::remove(folder.path(name));  // faster than overwriting it
     const std::string path = folder.file(name, damaged);
     try {
       read(path);
@@ -93,7 +93,7 @@ inline std::size_t refused_when_damaged(const std::string& name, const std::stri
   return refused;
 }
 
-/// The folder of the test scenes; "" where the environment does not name it, with a message.
+/// The folder of the test scenes; "", with a message, if the environment does not name it.
 inline std::string scenes_folder() {
   const char* folder = std::getenv("DETP_SCENES");
   if (folder == nullptr) MESSAGE("skipped: DETP_SCENES is not set");

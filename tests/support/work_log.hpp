@@ -4,7 +4,7 @@
 
 namespace detp::sim::support {
 
-/// Logs the checks for a stop request as long as it lives.
+/// Logs the checks for a stop request while the object exists.
 class LoggedWork {
  public:
   explicit LoggedWork(std::function<void(std::uint64_t total)> seen = {}) {
@@ -18,7 +18,7 @@ class LoggedWork {
   [[nodiscard]] std::uint64_t total() const { return log_.total; }
   [[nodiscard]] std::uint64_t largest() const { return log_.largest; }
 
-  /// Whether the work between two checks was bounded as promised.
+  /// Whether the work between two checks had the promised bound.
   [[nodiscard]] bool bounded() const { return log_.largest < 2 * StopCheck::most_work; }
 
  private:

@@ -14,19 +14,19 @@
 #include <utility>
 #include <vector>
 
-/// What the project uses of oneTBB, on std::thread. ThreadSanitizer sees how std::thread orders work; it cannot see
-/// that of oneTBB, whose library is not instrumented, and reports races where there are none. For the preset `thread`
-/// only: every loop starts threads of its own.
+/// The part of oneTBB that the project uses, implemented with std::thread. ThreadSanitizer understands how std::thread
+/// orders work; oneTBB's library is not instrumented, so it would report races that do not exist. For the preset
+/// `thread` only. Every loop starts threads of its own.
 namespace tbb {
 namespace detail {
 
-inline std::atomic<int> limit = 4;        ///< of global_control
-inline thread_local int concurrency = 0;  ///< of the arena; 0: none but the limit
-inline thread_local int depth = 0;        ///< of loops inside loops: the inner ones run alone
+inline std::atomic<int> limit = 4;        ///< set by global_control
+inline thread_local int concurrency = 0;  ///< of the arena; 0: limited only by `limit`
+inline thread_local int depth = 0;        ///< nesting depth of loops: inner loops run on one thread
 
 inline int threads_here() { return std::min<int>(limit, concurrency > 0 ? concurrency : static_cast<int>(limit)); }
 
-/// Calls work(i) for i = 0 … threads - 1, each on a thread of its own; throws what one of them threw.
+/// Calls work(i) for i = 0 … threads - 1, each on its own thread. Rethrows an exception of any of them.
 template <class Work>
 void on_each(int threads, const Work& work) {
   std::exception_ptr thrown;
@@ -53,7 +53,7 @@ void on_each(int threads, const Work& work) {
   if (thrown) std::rethrow_exception(thrown);
 }
 
-/// Calls visit(i) for i = 0 … count - 1, whichever thread is free the next one.
+/// Calls visit(i) for i = 0 … count - 1. Each thread takes the next i when it is free.
 template <class Visit>
 void share(std::size_t count, const Visit& visit) {
   constexpr int deepest = 2;
@@ -81,7 +81,7 @@ class blocked_range {
   [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(end_ - begin_); }
   [[nodiscard]] bool empty() const { return !(begin_ < end_); }
 
-  /// Pieces of the grain's size.
+  /// Number of pieces of the grain's size.
   [[nodiscard]] std::size_t pieces() const { return (size() + grain_ - 1) / grain_; }
   [[nodiscard]] blocked_range piece(std::size_t i) const {
     const T first = begin_ + static_cast<T>(i * grain_);
@@ -202,7 +202,7 @@ class flow_control {
 
 enum class filter_mode { parallel, serial_in_order };
 
-/// The three stages that there are here: cut, in order; search, on any thread; add up, in order.
+/// A pipeline with exactly three stages: cut, in order; search, on any thread; add up, in order.
 template <class Cut, class Search, class Add>
 struct Pipeline {
   Cut cut;
@@ -230,7 +230,7 @@ auto operator&(const std::pair<Filter<void, A, S>, Filter<A, B, T>>& before, con
   return Pipeline<S, T, U>{before.first.stage, before.second.stage, add.stage};
 }
 
-/// As many items under way as there are threads, `most` at most.
+/// Keeps as many items in flight as there are threads, at most `most`.
 template <class Cut, class Search, class Add>
 void parallel_pipeline(std::size_t most, const Pipeline<Cut, Search, Add>& stages) {
   std::mutex cutting;

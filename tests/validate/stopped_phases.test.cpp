@@ -18,7 +18,7 @@ using sim::support::LoggedWork;
 
 constexpr std::uint64_t block = StopCheck::most_work;
 
-/// A stop request when so much work has been done; the log of that.
+/// Requests a stop when that much work has been done; logs the work.
 class StopAfterWork {
  public:
   explicit StopAfterWork(std::uint64_t work)
@@ -48,7 +48,7 @@ Experiment small(const std::stop_token& stop) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("what the structures say is counted with bounded work between checks, and a stop request ends it") {
+  TEST_CASE("structural counts do bounded work between checks, and a stop request ends them") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 60'000, 0.01, 1);
     for (const Candidate& candidate :
          {Candidate{Technique::sphere_cache, SphereCacheParameters{0.6, 6}},
@@ -72,7 +72,7 @@ TEST_SUITE("identity") {
     request.samples = 100'000;
     request.rays = 400'000;
     const std::uint64_t work = work_of([&] { static_cast<void>(make_job(request)); });
-    // Samples, discs, S0, problem, outliers, box, radii, cells; rays that are made, checked, looked at and measured.
+    // Samples, discs, S0, problem, outliers, box, radii, cells; rays that are made, checked, inspected and measured.
     CHECK(work > 30 * 100'000 + 4 * 400'000);
     for (const double share : {0.1, 0.5, 0.9}) {
       const StopAfterWork stop(static_cast<std::uint64_t>(share * static_cast<double>(work)));
@@ -82,7 +82,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("races that are stopped say how many workloads were done") {
+  TEST_CASE("stopped races report how many workloads were done") {
     const BenchWorkload one{.scene = "@uniform",
                             .path = "@uniform",
                             .field = sim::Field::isotropic,
@@ -105,7 +105,7 @@ TEST_SUITE("known answer") {
   }
 }
 
-/// The experiments count millions of lines, whatever the workload: too long for the quick suites.
+/// The experiments count millions of lines for any workload: too long for the quick suites.
 TEST_SUITE("statistical") {
   TEST_CASE("experiments and races do bounded work between checks") {
     work_of([] { static_cast<void>(all_findings(small({}))); });
@@ -119,7 +119,7 @@ TEST_SUITE("statistical") {
     work_of([&] { static_cast<void>(run_bench(workloads, options)); });
   }
 
-  TEST_CASE("experiments that are stopped give the findings of those done, and say how many") {
+  TEST_CASE("stopped experiments return the findings of those done, and their number") {
     sim::Progress all;
     std::size_t findings = 0;
     const std::uint64_t work = work_of([&] { findings = all_findings(small({}), {}, &all).size(); });

@@ -89,13 +89,13 @@ TEST_SUITE("known answer") {
     const double error_of_mean = std::sqrt(variance / replicates);
     CHECK(std::abs(mean - 1.5 - expected.bias) < 5 * error_of_mean);
     CHECK_MESSAGE(std::abs(mean - 1.5 - 1.25 * expected.bias) > 5 * error_of_mean, "a bias 25 % off must show");
-    // The binomial's 1 - p, left out of the leading order, is 10 % here; the count adds 1.3 %.
+    // The binomial factor 1 - p, which the leading order omits, is 10 % here; the count adds 1.3 %.
     CHECK(std::abs(variance / expected.variance - 0.9) < 0.08);
   }
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("what is no count, length, density or error is refused by name") {
+  TEST_CASE("an invalid count, length, density or error is refused by name") {
     const SmoothDensity density{.value = 1, .laplacian = 1};
     using doctest::Contains;
     for (const double bad : support::not_a_length) {

@@ -40,8 +40,8 @@ class Sample {
   std::vector<double> values_;
 };
 
-/// The share of an even density within the k-th nearest of n photons. What is outside is the k-th largest of n uniform
-/// numbers: a product of k factors, each the largest of the n - i that are left.
+/// The share of an even density within the k-th nearest of n photons. The share outside is the k-th largest of n
+/// uniform numbers, which is a product of k factors: each is the largest of the n - i numbers that are left.
 double share_within(int n, int k, std::uint64_t seed, std::uint64_t replicate) {
   double outside = 0;
   for (int i = 0; i < k; ++i) {
@@ -54,14 +54,14 @@ double share_within(int n, int k, std::uint64_t seed, std::uint64_t replicate) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  // Photons on a plane with density 1 per area, n in all; only the order of their distances matters.
-  TEST_CASE("mean and variance counted in an even field are the exact ones, and the plain estimate's bias") {
+  // n photons on a plane with density 1 per area. Only the order of their distances matters.
+  TEST_CASE("mean and variance counted in an even field are the exact ones, as is the bias of the plain estimate") {
     constexpr int replicates = 40'000;
     struct Case {
       int photons, nearest;
     };
     for (const Case& each : {Case{1000, 10}, Case{100, 30}, Case{100'000, 100}}) {
-      const int photons = each.photons;  // not bindings: clang 14 does not let a lambda capture those
+      const int photons = each.photons;  // no structured bindings: clang 14 does not let a lambda capture them
       const int nearest = each.nearest;
       CAPTURE(nearest);
       Sample unbiased;
@@ -101,11 +101,11 @@ TEST_SUITE("known answer") {
       estimates.add((nearest - 1) / (photons * pi * squares[nearest - 1]));
     }
     const DensityError expected = nearest_photons_error({.value = 1.5, .laplacian = -12}, photons, nearest);
-    // The next order is k∇²f/(8πnf²) of the bias: 2 %.
+    // The next order of the bias is k∇²f/(8πnf²) of it: 2 %.
     const double tolerance = 4 * estimates.error_of_mean() + 0.02 * std::abs(expected.bias);
     CHECK(std::abs(estimates.mean() - 1.5 - expected.bias) < tolerance);
     CHECK_MESSAGE(std::abs(estimates.mean() - 1.5 - 1.4 * expected.bias) > tolerance, "a bias 40 % off must show");
-    // To the variance curvature adds k²(∇²f)²/(32π²n²f⁴) of it: less than a thousandth.
+    // The curvature adds k²(∇²f)²/(32π²n²f⁴) of the variance to it: less than a thousandth.
     CHECK(std::abs(estimates.variance() - expected.variance) < 4.5 * estimates.error_of_variance());
     CHECK_MESSAGE(std::abs(estimates.variance() - 1.2 * expected.variance) > 4.5 * estimates.error_of_variance(),
                   "20 % off must show");
@@ -132,12 +132,12 @@ TEST_SUITE("identity") {
       const double photons = std::round(photons_for_nearest_error(density, error));
       const double k = best_nearest_photons(density, photons);
       const double reached = std::sqrt(nearest_photons_error(density, photons, k).mean_square()) / density.value;
-      // k rounded to a whole number tells to second order; p is k/n.
+      // Rounding k to a whole number has a second-order effect; p is k/n.
       CHECK(reached == doctest::Approx(error).epsilon(0.005 + k / photons));
     }
   }
 
-  TEST_CASE("small errors take as many photons as with the disc, and 2/3 ε² more") {
+  TEST_CASE("small errors need as many photons as with the disc, and 2/3 ε² more") {
     const SmoothDensity density{.value = 3, .laplacian = -7};
     for (const double error : {0.1, 0.01, 0.001}) {
       const double more = photons_for_nearest_error(density, error) / photons_for_error(density, error) - 1;
@@ -145,7 +145,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("at equal mean count the disc has k - 2 over k of the variance and k over k - 1 of the bias") {
+  TEST_CASE("at equal mean count the disc has (k - 2)/k of the variance and k/(k - 1) of the bias") {
     const SmoothDensity density{.value = 3, .laplacian = -7};
     const double photons = 1e9;
     for (const double k : {3.0, 10.0, 1000.0}) {
@@ -158,7 +158,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("reference value") {
-  TEST_CASE("as by 100 digits, from 3 photons to 1e18") {
+  TEST_CASE("agrees with 100-digit arithmetic, from 3 photons to 1e18") {
     using support::Exact;
     const Exact exact_pi = boost::math::constants::pi<Exact>();
     for (const double n : {3.0, 1e3, 1e9, 1e18})
@@ -177,7 +177,7 @@ TEST_SUITE("reference value") {
     }
   }
 
-  TEST_CASE("the best k stays a whole number from 3 to n at the edges of the doubles") {
+  TEST_CASE("the best k stays a whole number from 3 to n at the limits of the doubles") {
     for (const double f : {1e-300, 1.0, 1e300})
       for (const double laplacian : {5e-324, 1e-300, 1.0, 1e300})
         for (const double n : {3.0, 1e6, 1e18}) {
@@ -190,7 +190,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("what is no count, density or error is refused by name") {
+  TEST_CASE("an invalid count, density or error is refused by name") {
     const SmoothDensity density{.value = 1, .laplacian = 1};
     using doctest::Contains;
     for (const double bad : support::not_a_length) {

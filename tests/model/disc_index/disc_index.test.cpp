@@ -39,7 +39,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("in a flat box a disc overlaps at least one cell and at most all, whatever the cells") {
+  TEST_CASE("in a flat box a disc overlaps at least one cell and at most all cells") {
     for (const double disc : {1e-3, 0.1, 0.5, 3.0})
       for (int parts = 1; parts <= 400; ++parts) {
         const Cells cells = index_cells(in_box({1, 0, 1}, disc), parts);
@@ -53,7 +53,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("one cell is overlapped once by each disc, and holds them all") {
+  TEST_CASE("a single cell is overlapped once by each disc, and contains them all") {
     for (const double disc : {1e-6, 0.01, 0.9}) {
       const Workload w = cube_workload(1000, 100, disc, 2);
       const Cells cells = index_cells(w, 1);
@@ -66,7 +66,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("lines that hit a cube cross 2^k of its cells, and one in 4^k a given one") {
+  TEST_CASE("lines that hit a cube cross 2^k of its cells, and one in 4^k crosses a given cell") {
     for (int depth = 0; depth <= 10; ++depth) {
       const Cells cells = index_cells(in_cube, std::ldexp(1, depth));
       const double hit = index_cells(in_cube, 1).crossing;
@@ -76,7 +76,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("tests are rays times the chance of a cell times the references, steps times all cells") {
+  TEST_CASE("tests are rays times the probability of a cell times the references, steps times all cells") {
     for (const int parts : {1, 3, 10, 57, 400}) {
       const Cells cells = index_cells(in_cube, parts);
       const Counts<double> counts = grid_counts(in_cube, {parts});
@@ -100,24 +100,24 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("where no node is empty, a line visits 2^(k+1) - 1 nodes") {
+  TEST_CASE("if no node is empty, a line visits 2^(k+1) - 1 nodes") {
     Workload w = in_cube;
     w.samples = 1e15;
     const double hit = index_cells(w, 1).crossing;
-    for (int depth = 0; depth <= 7; ++depth)  // deeper, a disc of 0.01 need not reach the corner cells
+    for (int depth = 0; depth <= 7; ++depth)  // in deeper octrees a disc of 0.01 need not reach the corner cells
       CHECK(octree_counts(w, {depth}).nodes == Approx(1e4 * hit * (std::ldexp(2, depth) - 1)).epsilon(1e-12));
   }
 
-  TEST_CASE("… and by restarts (k + 1) 2^k") {
+  TEST_CASE("… and with restarts (k + 1) 2^k") {
     Workload w = in_cube;
     w.samples = 1e15;
     const double hit = index_cells(w, 1).crossing;
-    for (int depth = 0; depth <= 7; ++depth)  // deeper, a disc of 0.01 need not reach the corner cells
+    for (int depth = 0; depth <= 7; ++depth)  // in deeper octrees a disc of 0.01 need not reach the corner cells
       CHECK(octree_counts(w, {depth, Traversal::restart}).nodes ==
             Approx(1e4 * hit * (depth + 1) * std::ldexp(1, depth)).epsilon(1e-12));
   }
 
-  TEST_CASE("a variant changes what it is about, and nothing else") {
+  TEST_CASE("a variant changes only its own counts") {
     for (int depth = 1; depth <= 9; ++depth) {
       const Counts<double> plain = octree_counts(in_cube, {depth});
       Counts<double> once = octree_counts(in_cube, {depth}, {.mailboxing = true});
@@ -137,7 +137,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("by depth, one after the other, the counts of each depth") {
+  TEST_CASE("octree_counts for all depths gives the counts of each depth") {
     const auto depths = octree_counts_by_depth(in_cube, {7});
     REQUIRE(depths.size() == 8);
     for (int depth = 0; depth <= 7; ++depth) CHECK(depths[depth] == octree_counts(in_cube, {depth}));
@@ -151,14 +151,14 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("many small cells are overlapped as endless ones are") {
+  TEST_CASE("many small cells are overlapped like endless ones") {
     const Cells cells = index_cells(in_cube, 1024);
     CHECK(cells.overlapped == Approx(overlapped_cells(0.01 / cells.side)).epsilon(0.02));
     CHECK(index_cells(cube_workload(1, 1, 1e-5, 2), 4096).overlapped ==
           Approx(overlapped_cells(1e-5 * 4096 / 2.00002)).epsilon(1e-3));
   }
 
-  TEST_CASE("occupied cells: never more than there are, nor than references, and all of them for many samples") {
+  TEST_CASE("occupied cells: at most all cells, at most the references, and all of them for many samples") {
     support::RandomNumbers random(21);
     for (int run = 0; run < 500; ++run) {
       auto [w, unused] = support::random_workload(random);
@@ -183,14 +183,14 @@ TEST_SUITE("identity") {
     const Workload volume = cube_workload(1e4, 1e6, 0.001, 2, 3);
     for (const double parts : {16.0, 64.0, 256.0})
       CHECK(occupied_cells(faces, index_cells(faces, parts)) < occupied_cells(volume, index_cells(volume, parts)));
-    // Six faces of 2 x 2 cross at most 1.5 (A/a²) cells.
+    // Six faces of side 2 cross at most 1.5 (A/a²) cells.
     const Cells cells = index_cells(faces, 16);
     CHECK(occupied_cells(faces, cells) <= 1.5 * 24 / (cells.side * cells.side));
   }
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a flat or long box has as many cells along each side as it takes") {
+  TEST_CASE("a flat or long box has as many cells along each side as are needed") {
     CHECK(index_cells(in_box({7, 3, 1}), 8).along == std::array<double, 3>{8, 4, 2});
     CHECK(index_cells(in_box({7, 7, 0}), 8).along == std::array<double, 3>{8, 8, 1});
     CHECK(index_cells(in_box({0, 0, 9}), 5).along == std::array<double, 3>{1, 1, 5});
@@ -198,9 +198,9 @@ TEST_SUITE("known answer") {
     CHECK(index_cells(in_box({7, 3, 1}), 8).side == 1);
   }
 
-  TEST_CASE("two cells a side cut a disc in the middle by 1 + 3 (π/2) x f and more, f the share of inner planes") {
+  TEST_CASE("two cells a side: a disc in the middle overlaps 1 + 3 (π/2) x f and more, f the share of inner planes") {
     const Workload w = in_box({7, 7, 7});
-    const Cells cells = index_cells(w, 2);  // side 4; centres over 7 of 8
+    const Cells cells = index_cells(w, 2);  // side 4; disc centres are in 7 of 8
     const double plane = pi / 2 * (0.5 / 4) * (4.0 / 7);
     CHECK(cells.overlapped == Approx(1 + 3 * plane + 3 * plane * plane / (pi / 2)).epsilon(1e-14));
     CHECK(cells.crossing == Approx(6 * 16 / (4 * pi * 1e4)).epsilon(1e-14));

@@ -21,7 +21,7 @@ namespace {
 
 const Workload some = {.rays = 1000, .samples = 100, .disc_radius = 0.01, .sphere_radius = 1, .box = {1, 1, 1}};
 
-/// Halves the side as long as half of it is no narrower than a disc.
+/// Halves the side while the half is at least as wide as a disc.
 int depth_by_halving(double disc, double side) {
   int depth = 0;
   for (Exact cell = Exact{side} / 2; cell >= 2 * Exact{disc}; cell /= 2) ++depth;
@@ -57,7 +57,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a cell as wide as a disc is taken; one ulp less, and the next larger one is") {
+  TEST_CASE("cells as wide as a disc are accepted; if one ulp narrower, the next larger ones are used") {
     for (int depth = 0; depth <= 300; ++depth)
       for (const double side : {2.0, 1.0, 0.7, 3e5}) {
         const double d = std::ldexp(side, -depth - 1);
@@ -73,7 +73,7 @@ TEST_SUITE("known answer") {
     CHECK(published::octree_depth({1}, 2) == 0);
   }
 
-  TEST_CASE("discs wider than the scene need no level; the smallest double is a disc too") {
+  TEST_CASE("discs wider than the scene need no level; the smallest double is a valid disc radius") {
     CHECK(published::octree_depth({1e300}, 1e-300) == 0);
     CHECK(published::octree_depth({std::numeric_limits<double>::denorm_min()}, 1) == 1073);
   }
@@ -88,7 +88,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a length that is none is refused by name") {
+  TEST_CASE("an invalid length is refused by name") {
     for (const double bad : support::not_a_length) {
       CHECK_THROWS_WITH_AS((void)published::octree_depth({bad}, 1), Contains("disc radius"), std::invalid_argument);
       CHECK_THROWS_WITH_AS((void)published::octree_depth({1}, bad), Contains("scene side"), std::invalid_argument);
@@ -115,7 +115,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("a time of a test that is none is refused by name") {
+  TEST_CASE("an invalid time of a test is refused by name") {
     for (const double bad : support::not_a_size) {
       const Contains name("time of a ray-disc test");
       CHECK_THROWS_WITH_AS((void)published::octree_time(some, 1, bad), name, std::invalid_argument);

@@ -22,7 +22,7 @@ double in_endless_cells(double x, Insertion insertion) {
 }
 
 double hits_per_test(double x, bool mailboxing) {
-  // Cells of side 1/1024 of the scene; the discs are small in it.
+  // Cells with 1/1024 of the scene's side; the discs are small compared with the scene.
   const Workload workload = cube_workload(1e6, 1e6, x / 1024, 1);
   const Counts<double> counts = grid_counts(workload, {1024}, {.mailboxing = mailboxing});
   return counts.hits / counts.disc_tests;
@@ -31,14 +31,14 @@ double hits_per_test(double x, bool mailboxing) {
 }  // namespace
 
 TEST_SUITE("limit") {
-  TEST_CASE("a tiny disc lies in one cell of six faces, and a few in two cells of ten") {
+  TEST_CASE("a tiny disc lies in one cell with six faces, and a few in two cells with ten") {
     for (const auto insertion : {Insertion::exact, Insertion::bounding_box}) {
       CHECK(in_endless_cells(0, insertion) == 6);
       CHECK((in_endless_cells(1e-6, insertion) - 6) / 1e-6 == Approx(4 * 1.5 * pi).epsilon(1e-4));
     }
   }
 
-  TEST_CASE("over small cells every disc tested is hit with mailboxes, two in nine without") {
+  TEST_CASE("with small cells every tested disc is hit with mailboxes, two in nine without") {
     CHECK(in_endless_cells(1e5, Insertion::exact) == Approx(2 * pi * 1e10).epsilon(1e-4));
     CHECK(6 * overlapped_cells(1e5) / in_endless_cells(1e5, Insertion::exact) == Approx(4.5).epsilon(1e-4));
     CHECK(hits_per_test(30, false) == Approx(2.0 / 9).epsilon(0.04));
@@ -48,7 +48,7 @@ TEST_SUITE("limit") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("a disc is tested at least once where it is hit, and no more often than there are cells") {
+  TEST_CASE("each hit takes at least one test of the disc, and at most one for each cell") {
     for (double x = 1e-3; x < 100; x *= 1.3)
       for (const auto insertion : {Insertion::exact, Insertion::bounding_box}) {
         const double cells = insertion == Insertion::exact ? overlapped_cells(x) : boxed_cells(x);
@@ -60,7 +60,7 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("the box of a disc is met by more lines than its cells are") {
+  TEST_CASE("more lines meet the bounding box of a disc than its cells") {
     for (double x = 1e-3; x < 100; x *= 1.3)
       CHECK(in_endless_cells(x, Insertion::bounding_box) > 0.999 * in_endless_cells(x, Insertion::exact));
   }

@@ -20,7 +20,7 @@ const Workload in_cube = cube_workload(1e4, 1e5, 0.01, 2);
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a root alone is one node and all references") {
+  TEST_CASE("a root alone is one node with all references") {
     CHECK(octree_bytes(in_cube, {0}) == 12 + 4e5);
     CHECK(grid_bytes(in_cube, {1}) == 16 + 4e5);
     CHECK(octree_bytes(in_cube, {0}, {}, {.node = 100, .reference = 8}) == 100 + 8e5);
@@ -36,7 +36,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("references are those of the counts") {
+  TEST_CASE("references equal those of the counts") {
     for (const auto insertion : {Insertion::exact, Insertion::bounding_box}) {
       const IndexVariant variant{.insertion = insertion};
       CHECK(octree_bytes(in_cube, {5}, variant, {.node = 0, .reference = 1}) ==

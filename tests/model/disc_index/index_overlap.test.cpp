@@ -51,7 +51,7 @@ TEST_SUITE("reference value") {
     CHECK(mean_reach_product_3 == Approx(mean_reach_product(3)).epsilon(1e-9));
   }
 
-  TEST_CASE("cells that a disc overlaps, as counted on discs placed at random") {
+  TEST_CASE("cells that a disc overlaps agree with counts of discs placed at random") {
     CHECK(overlapped_cells(0.25) == Approx(2.474).epsilon(1e-3));
     CHECK(overlapped_cells(0.5) == Approx(4.533).epsilon(1e-3));
     CHECK(overlapped_cells(1) == Approx(10.424).epsilon(1e-3));
@@ -66,7 +66,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("weights of planes, integrated over a disc's reach, are those of uniform centres") {
+  TEST_CASE("weights of planes, integrated over a disc's reach, equal those of uniform centres") {
     for (const auto insertion : {Insertion::exact, Insertion::bounding_box}) {
       Crossings sum;
       constexpr int planes = 20'000;
@@ -79,7 +79,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("a long axis is crossed as endless cells are, whatever the disc") {
+  TEST_CASE("a long axis is crossed as endless cells are, for any disc") {
     for (const double x : {0.01, 0.3, 1.0, 7.0, 60.0, 70.0, 500.0}) {
       const Crossings found = crossings({1e6, 1, 1e6 - 2 * x, x}, Centres::uniform, Insertion::exact);
       CHECK(found.one == Approx(pi / 2 * x).epsilon(2e-3));
@@ -88,14 +88,14 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("one cell is crossed by no plane, and holds the disc") {
+  TEST_CASE("a single cell is crossed by no plane, and contains the disc") {
     for (const auto centres : {Centres::uniform, Centres::low_face, Centres::high_face}) {
       CHECK(crossings({1, 3, 1, 1}, centres, Insertion::exact).one == 0);
       CHECK(sum_of_slabs(slab_runs({1, 3, 1, 1}, Insertion::exact), centres) == Approx(1).epsilon(1e-14));
     }
   }
 
-  TEST_CASE("both faces of an axis that whole cells fill are alike") {
+  TEST_CASE("if whole cells fill an axis, both its faces are equal") {
     for (const double x : {0.1, 0.7, 2.3}) {
       const IndexAxis axis{16, 1, 16 - 2 * x, x};
       for (const auto insertion : {Insertion::exact, Insertion::bounding_box}) {
@@ -107,7 +107,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("what reaches into the slabs is what crosses the planes") {
+  TEST_CASE("the slabs that a disc reaches are one more than the planes that it crosses") {
     for (const double cells : {1.0, 2.0, 5.0, 9.0, 40.0, 1000.0, 1e17})
       for (const double x : {0.05, 0.6, 1.7, 4.0, 20.0, 80.0}) {
         if (2 * x > cells) continue;

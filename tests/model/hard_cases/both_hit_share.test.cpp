@@ -13,8 +13,8 @@ namespace {
 
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 
-/// ∫ f(s, s - p, q - s) ds from p to q by the trapezoidal rule over ln((s - p)/(q - s)), where f·(q - s)^{1/2} and
-/// f/(s - p) stay finite: to 1e-18.
+/// ∫ f(s, s - p, q - s) ds from p to q by the trapezoidal rule over ln((s - p)/(q - s)). f·(q - s)^{1/2} and f/(s - p)
+/// must stay finite. Accuracy 1e-18.
 template <class Real, class Function>
 Real integral(const Real& p, const Real& width, const Function& f) {
   const Real step = Real{3} / 8;
@@ -32,7 +32,7 @@ Real integral(const Real& p, const Real& width, const Function& f) {
   return sum * step * width;
 }
 
-/// Area common to two circles of radii a and b whose centres are c apart; |a - b| < c < a + b.
+/// Area common to two circles of radii a and b with distance c between centres; |a - b| < c < a + b.
 Exact lens_area(const Exact& a, const Exact& b, const Exact& c) {
   const auto segment = [](const Exact& r, const Exact& from_centre) {
     const Exact cosine = std::clamp<Exact>(from_centre / r, -1, 1);
@@ -42,7 +42,8 @@ Exact lens_area(const Exact& a, const Exact& b, const Exact& c) {
   return segment(a, from_a) + segment(b, c - from_a);
 }
 
-/// As documented: the lens seen along each direction. In s = c sin θ, what the sine of the direction makes of c.
+/// The documented integral: the lens seen from each direction. Substitution s = c sin θ, the apparent distance of the
+/// centres.
 Exact share_by_lenses(const Exact& a, const Exact& b, const Exact& c) {
   const Exact small = std::min(a, b);
   const Exact p = abs(a - b);
@@ -56,12 +57,14 @@ Exact share_by_lenses(const Exact& a, const Exact& b, const Exact& c) {
   return (covered * (1 - sqrt(1 - p * p / (c * c))) + lenses) / area;
 }
 
-/// The same integrated by parts: where the spheres overlap, less than nested ones; where not, without a difference.
+/// The same, integrated by parts: if the spheres overlap, as a difference from nested ones; otherwise without a
+/// difference.
 Quad share_by_chords(const Quad& a, const Quad& b, const Quad& c) {
   const Quad small = std::min(a, b);
   const Quad p = abs(a - b);
   const Quad nested = small / b * (small / b);
-  // Exact: 113 bits hold the difference of doubles of like size, and a rounding elsewhere is one of the sum.
+  // Exact: 113 bits hold the difference of doubles of similar size; otherwise the rounding error is only that of the
+  // sum.
   const Quad c_less_p = small > std::max(a, b) / 2 ? Quad{c - p} : Quad{(c - std::max(a, b)) + small};
   if (c_less_p <= 0) return nested;
   const Quad c_less_sum = (c - std::max(a, b)) - small;
@@ -99,7 +102,8 @@ void see_by_chords(const Case& it, Ledger& ledger) {
       [](double a, double b, double c) { return Exact{share_by_chords(a, b, c)}; }, ledger);
 }
 
-/// Radii up to `most_ratio` apart; c anywhere, or next to where one sphere leaves the other, or where they part.
+/// Radii with a ratio of at most `most_ratio`. c is arbitrary, or close to the distance at which one sphere leaves the
+/// other, or at which they separate.
 Case random_case(Draw& draw, double most_ratio) {
   const double b = draw.log_uniform(1e-100, 1e100);
   const double a =
@@ -124,7 +128,7 @@ std::vector<Case> edges(const std::vector<double>& radii) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("hard cases of the share of both spheres: next to containment and tangency, equal radii, far away") {
+  TEST_CASE("hard cases of the share of both spheres: near containment and tangency, equal radii, far away") {
     Ledger ledger =
         on_random_inputs(5, few / 4, [](Draw& draw, Ledger& l) { see_by_chords(random_case(draw, 1e200), l); });
     for (const Case& it : edges({1e-12, 1e-3, 0.5, 1 - 0x1p-53, 1, 1 + 0x1p-52, 3, 1e6})) see_by_chords(it, ledger);

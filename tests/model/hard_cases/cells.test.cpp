@@ -9,7 +9,7 @@ using namespace detp::hard_cases;
 
 namespace {
 
-/// 8^i (1 - (1 - 8^{-i})^{n_P}), also where 8^{-i} is below the last digit of 1.
+/// 8^i (1 - (1 - 8^{-i})^{n_P}), also if 8^{-i} is below the last digit of 1.
 Exact exact_occupied(double samples, int level) {
   if (level == 0) return 1;
   const Exact share = ldexp(Exact{1}, -3 * level);

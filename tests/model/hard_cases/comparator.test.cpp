@@ -14,7 +14,7 @@ constexpr double largest = std::numeric_limits<double>::max();
 constexpr double least = std::numeric_limits<double>::denorm_min();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A formula off by the factor 1 + `off`, on a few random inputs.
+/// A formula that is wrong by the factor 1 + `off`, evaluated on a few random inputs.
 Ledger of_square_times(double factor) {
   return on_random_inputs(99, 100, [&](Draw& draw, Ledger& ledger) {
     const double x = draw.log_uniform(1e-100, 1e100);
@@ -25,7 +25,7 @@ Ledger of_square_times(double factor) {
 }  // namespace
 
 TEST_SUITE("negative control") {
-  TEST_CASE("a formula off by 1e-12 is refused on every input, with inputs, expected and got; a right one is not") {
+  TEST_CASE("a formula off by 1e-12 is refused on every input, and reported; a right one is accepted") {
     const Ledger wrong = of_square_times(1 + 1e-12);
     CHECK(wrong.failures() == 100);
     CHECK(wrong.entries().at("square").inputs == 100);
@@ -35,28 +35,28 @@ TEST_SUITE("negative control") {
     CHECK(of_square_times(1).failures() == 0);
   }
 
-  TEST_CASE("a whole number that is wrong is refused") {
+  TEST_CASE("a wrong whole number is refused") {
     Ledger ledger;
     ledger.see_whole("k", 7, false, [] { return "here"; });
     CHECK(ledger.failures() == 1);
     CHECK(ledger.report().find("k off by 1 at here: got 7") != std::string::npos);
   }
 
-  TEST_CASE("what a check throws on a thread reaches the test") {
+  TEST_CASE("an exception of a check on another thread reaches the test") {
     CHECK_THROWS_AS((void)on_random_inputs(99, 10, [](Draw&, Ledger&) { throw std::domain_error("here"); }),
                     std::domain_error);
   }
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("no finite number is infinitely wrong, whatever is right") {
+  TEST_CASE("any value that is not finite has an infinite error") {
     for (const double bad : {infinity, -infinity, std::nan("")}) {
       CHECK(relative_error(bad, 1) == infinity);
       CHECK(relative_error(bad, pow(Exact{10}, 400)) == infinity);
     }
   }
 
-  TEST_CASE("beyond the doubles the largest one is right, and the next smaller one an ulp off") {
+  TEST_CASE("beyond the range of doubles the largest one is right, and the next smaller one is an ulp off") {
     const Exact beyond = pow(Exact{10}, 400);
     CHECK(relative_error(largest, beyond) == 0);
     CHECK(relative_error(-largest, -beyond) == 0);
@@ -64,7 +64,7 @@ TEST_SUITE("known answer") {
     CHECK(relative_error(-largest, beyond) == 2);
   }
 
-  TEST_CASE("below the normal doubles one space between them is allowed, and no more") {
+  TEST_CASE("below the normal doubles an error of one spacing is allowed, and no more") {
     CHECK(relative_error(0, Exact{least} / 2) == 0);
     CHECK(relative_error(least, Exact{least} / 2) == 0);
     CHECK(relative_error(3 * least, Exact{least}) == 2);
@@ -72,7 +72,7 @@ TEST_SUITE("known answer") {
     CHECK(relative_error(1e-307, Exact{1e-307} * (1 + Exact{1e-12})) == doctest::Approx(1e-12).epsilon(1e-3));
   }
 
-  TEST_CASE("the reference's own logarithm, exponential, root and power hold 95 digits") {
+  TEST_CASE("the reference's own logarithm, exponential, root and power have 95 right digits") {
     for (std::uint64_t index = 0; index < 40; ++index) {
       Draw draw(98, index);
       const Exact x = draw.anywhere();

@@ -13,11 +13,11 @@ using namespace detp::hard_cases;
 
 namespace {
 
-/// One candidate of each technique that has a corrected form, parameters anywhere in their range.
+/// One candidate of each technique that has a corrected form, with parameters from their whole range.
 std::vector<Candidate> draw_candidates(Draw& draw) {
   const double ratio = draw.ratio();
   const auto order = draw.whole(0, 3) > 0 ? SampleOrder::lebesgue : SampleOrder::none;
-  // Far beyond the last sphere that can hold a disc, too; in no order each sphere costs a pass over those around it.
+  // Also far more spheres than can hold a disc. Without sorting, each sphere takes a pass over those around it.
   const std::int64_t spheres =
       draw.whole(0, 7) > 0 ? draw.whole(1, 40) : std::min<std::int64_t>(draw.index(ratio), 1000);
   return {{Technique::brute_force, BruteForceParameters{}},
@@ -37,7 +37,7 @@ std::string describe(const Workload& w, const Candidate& candidate) {
                      w.sphere_radius, w.box[0], w.box[1], w.box[2], w.dimension);
 }
 
-/// Tables and fits have no true value to compare with; but no input may bring out what is no count.
+/// Tables and fits have no exact value to compare with, but every input must give valid counts.
 void require_counts(std::uint64_t index) {
   Draw draw(90, index);
   Workload w = draw.workload();

@@ -10,7 +10,8 @@
 #include "detp/sim/geometry/random.hpp"
 #include "support/random_workload.hpp"
 
-/// Inputs over the whole domain of the formulas: a function of their index alone, whatever the threads.
+/// Random inputs from the whole domain of the formulas. They are a function of their index alone, so threads do not
+/// affect them.
 namespace detp::hard_cases {
 
 /// The 64-bit words of one index.
@@ -34,7 +35,7 @@ class Draw : public support::NumbersFrom<Words> {
  public:
   Draw(std::uint64_t family, std::uint64_t index) : NumbersFrom(Words(family, index)) {}
 
-  /// Q in (0, 1): its distance from 1 log-uniform down to 2⁻⁵³, or itself down to 2⁻¹⁰⁷⁴, or uniform; each third.
+  /// Q in (0, 1), one third each: 1 - Q log-uniform down to 2⁻⁵³; Q log-uniform down to 2⁻¹⁰⁷⁴; Q uniform.
   double ratio() {
     const std::int64_t kind = whole(0, 2);
     const double q = kind == 0 ? 1 - log_uniform(0x1p-54, 1) : kind == 1 ? log_uniform(5e-324, 1) : uniform(0, 1);
@@ -51,13 +52,13 @@ class Draw : public support::NumbersFrom<Words> {
     return static_cast<std::int64_t>(std::clamp(std::ceil(i), 1.0, most));
   }
 
-  /// A time or another factor: mostly within 1e±12, else anywhere in the range of doubles.
+  /// A time or another factor: mostly within 1e±12, otherwise anywhere in the range of doubles.
   double factor() { return whole(0, 3) > 0 ? log_uniform(1e-12, 1e12) : anywhere(); }
 
   /// A positive normal double, log-uniform.
   double anywhere() { return log_uniform(1e-307, 1e308); }
 
-  /// n_R rays, n_P samples, d/r₀ from 1e-300 to 1 and here and there beyond, r₀ within 1e±90.
+  /// n_R rays, n_P samples, d/r₀ from 1e-300 to 1 and occasionally above, r₀ within 1e±90.
   Workload workload() {
     const double outer = log_uniform(1e-90, 1e90);
     const double longest = std::clamp(outer * uniform(0.5, 1.2), 1e-90, 1e90);

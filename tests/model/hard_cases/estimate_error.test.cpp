@@ -68,7 +68,7 @@ void see_edges(Ledger& ledger) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("hard cases of the estimate's error: every argument up to both ends of the doubles") {
+  TEST_CASE("hard cases of the estimate's error: every argument up to both limits of the doubles") {
     Ledger ledger = on_random_inputs(7, few, see_random);
     see_edges(ledger);
     require_right(ledger);

@@ -11,22 +11,22 @@
 
 #include "support/high_precision.hpp"
 
-/// What the formulas were found to be worth.
+/// Records the errors of formulas.
 namespace detp::hard_cases {
 
 using support::Exact;
 
-/// The error that is allowed everywhere.
+/// The largest error allowed for every formula.
 inline constexpr double allowed = 1e-13;
 
-/// One formula: how many inputs it was given, and where it was off most.
+/// One formula: the number of its inputs, and its largest error.
 struct Entry {
   std::uint64_t inputs = 0;
   double worst = -1;  ///< relative error
-  std::string where;  ///< the inputs, expected and got
+  std::string where;  ///< inputs, expected and computed value of the largest error
 };
 
-/// Compares values with their exact ones. `describe` makes a text of the inputs; called only where it is kept.
+/// Compares values with exact ones. `describe` returns the inputs as text; it is only called if the text is kept.
 class Ledger {
  public:
   template <class Describe>
@@ -36,7 +36,7 @@ class Ledger {
     });
   }
 
-  /// A whole number is right or wrong: an error of 0 or 1.
+  /// Records a whole number, which is right (error 0) or wrong (error 1).
   template <class Describe>
   void see_whole(const char* formula, std::int64_t value, bool right, const Describe& describe) {
     enter(formula, right ? 0 : 1, [&] { return fmt::format("{}: got {}", describe(), value); });
@@ -59,7 +59,7 @@ class Ledger {
   [[nodiscard]] const std::map<std::string, Entry>& entries() const { return entries_; }
   [[nodiscard]] std::uint64_t failures() const { return failures_; }
 
-  /// The first failures, in full.
+  /// The first failures in full.
   [[nodiscard]] std::string report() const {
     std::string text = fmt::format("{} values are off by more than {:g}", failures_, allowed);
     for (const std::string& failure : shown_) text += "\n  " + failure;

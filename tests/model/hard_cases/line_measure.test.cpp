@@ -73,7 +73,7 @@ void see_edges(Ledger& ledger) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("hard cases of line measures: discs and bodies whose squares leave the doubles, flat boxes, long paths") {
+  TEST_CASE("hard cases of line measures: squares that over- or underflow, flat boxes, long paths") {
     Ledger ledger = on_random_inputs(4, few, see_random);
     see_edges(ledger);
     require_right(ledger);

@@ -15,13 +15,13 @@ using namespace detp::hard_cases;
 
 namespace {
 
-/// x and something larger: by an ulp or a few, or by up to a factor of 10, but at most `most`.
+/// x or a larger value: by one ulp, or by up to a factor of 10, but at most `most`.
 double larger(double x, double most, Draw& draw) {
   const double more = draw.whole(0, 2) == 0 ? std::nextafter(x, most) : x * (1 + draw.log_uniform(1e-16, 10));
   return std::min(more, most);
 }
 
-/// low <= high as it should be; but for `rounding`, where a formula's documentation tells of it.
+/// Records whether low <= high. `rounding` is the relative violation that the formula's documentation allows.
 template <class Describe>
 void see_order(const char* claim, double low, double high, Ledger& ledger, const Describe& inputs,
                double rounding = 0) {
@@ -113,7 +113,7 @@ void see_others(Draw& draw, Ledger& ledger) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("what grows or falls by its formula does so in doubles: an ulp, or up to a factor of 10 on") {
+  TEST_CASE("monotone formulas are monotone in doubles: over steps of one ulp, and of up to a factor of 10") {
     Ledger ledger = on_random_inputs(11, few, see_cache);
     ledger.merge(on_random_inputs(12, few, see_count));
     ledger.merge(on_random_inputs(13, few, see_others));

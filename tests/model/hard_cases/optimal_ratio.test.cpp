@@ -21,7 +21,7 @@ void see_dimension(double dimension, Ledger& ledger) {
              [&] { return fmt::format("D {:a}", dimension); });
 }
 
-/// The root of γQ³ + 3Q - 2 by Newton's method, from where the model says that it is.
+/// The root of γQ³ + 3Q - 2 by Newton's method, started at the model's value.
 void see_copies(double copy, Ledger& ledger) {
   const double found = model::optimal_ratio_with_copies(copy);
   Exact root = found;
@@ -51,7 +51,7 @@ void see_edges(Ledger& ledger) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("hard cases of Q*: D next to 1, 2 and 3, copies that cost nothing to all") {
+  TEST_CASE("hard cases of Q*: D next to 1, 2 and 3, copy costs from zero to dominant") {
     Ledger ledger = on_random_inputs(3, few, see_random);
     see_edges(ledger);
     require_right(ledger);

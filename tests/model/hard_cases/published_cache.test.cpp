@@ -17,7 +17,7 @@ struct Sums {
   Exact innermost;
 };
 
-/// Two geometric sums each: up to the last j with Q^{-3j} <= n_P, which is guessed and put right, and beyond.
+/// Each is two geometric sums: up to the last j with Q^{-3j} <= n_P, and beyond it. j is estimated and then corrected.
 Sums closed_sums(double samples, double ratio, std::int64_t k) {
   const Exact q = ratio;
   const auto sparse = [&](const Exact& radius) { return radius * radius * radius * samples >= 1; };
@@ -102,7 +102,7 @@ void see_edges(Ledger& ledger) {
   Workload w{.disc_radius = 0.01, .sphere_radius = 1, .box = {1, 1, 1}};
   for (const double ratio : ratios)
     for (const std::int64_t k : {1LL, 2LL, 20LL, 1LL << 53, 1'000'000'000'000'000'000LL, 9'000'000'000'000'000'000LL})
-      for (const double samples : {1.0, 2.0, 8.0, 262144.0, 1e18}) {  // 8, 262144: Q^{-3i} = n_P, just, for Q = 1/2
+      for (const double samples : {1.0, 2.0, 8.0, 262144.0, 1e18}) {  // 8, 262144: exactly Q^{-3i} for Q = 1/2
         w.samples = samples;
         w.rays = samples == 8 ? 1 : 1e18;
         see({w, ratio, k, k, samples == 1 ? largest : samples == 2 ? 5e-324 : 1}, ledger);

@@ -58,8 +58,7 @@ void see_edges(Ledger& ledger) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE(
-      "hard cases of the published octree: powers of two and their neighbours, all depths that two doubles make") {
+  TEST_CASE("hard cases of the published octree: powers of two and their neighbours, all possible depths") {
     Ledger ledger = on_random_inputs(8, few, see_random);
     see_edges(ledger);
     require_right(ledger);

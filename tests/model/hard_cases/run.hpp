@@ -12,13 +12,13 @@
 #include "draw.hpp"
 #include "ledger.hpp"
 
-/// Runs a check on many random inputs, on all cores, and holds the ledger against what is allowed.
+/// Runs a check on many random inputs, on all cores, and compares the ledger with the allowed error.
 namespace detp::hard_cases {
 
-inline constexpr std::uint64_t few = 2'000;       ///< in the plain suite
+inline constexpr std::uint64_t few = 2'000;       ///< in the quick suite
 inline constexpr std::uint64_t many = 1'000'000;  ///< in the suite "hard-cases"
 
-/// check(draw, ledger) for the inputs 0 … inputs - 1 of a family. What it throws is thrown.
+/// Calls check(draw, ledger) for the inputs 0 … inputs - 1 of a family. Rethrows its exceptions.
 template <class Check>
 [[nodiscard]] Ledger on_random_inputs(std::uint64_t family, std::uint64_t inputs, const Check& check) {
   const std::uint64_t threads = std::min<std::uint64_t>(std::max(1U, std::thread::hardware_concurrency()), inputs);
@@ -45,13 +45,13 @@ template <class Check>
   return all;
 }
 
-/// Fails the test with the offending inputs where something is off by more than allowed.
+/// Fails the test, and shows the inputs, if an error is larger than allowed.
 inline void require_right(const Ledger& ledger) {
   REQUIRE(!ledger.entries().empty());
   CHECK_MESSAGE(ledger.failures() == 0, ledger.report());
 }
 
-/// For the long suite: the same, and the table on standard output.
+/// The same for the long suite; also prints the table to standard output.
 inline void require_right_and_print(const Ledger& ledger) {
   fmt::print("{}", ledger.table());
   require_right(ledger);

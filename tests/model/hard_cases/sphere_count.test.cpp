@@ -21,7 +21,7 @@ struct Case {
   double outer;
 };
 
-/// Corrected: r_k >= d > r_{k+1}. Published: the same where r_k = d, else one more.
+/// Corrected: r_k >= d > r_{k+1}. Published: the same if r_k = d, else one more.
 void see_count(const Case& c, Ledger& ledger) {
   const auto [q, d, r0] = c;
   const auto inputs = [&] { return fmt::format("Q {:a}, d {:a}, r0 {:a}", c.ratio, c.disc, c.outer); };
@@ -61,7 +61,7 @@ void see_edges(Ledger& ledger) {
   const auto see_next_to = [&](double q) {
     for (const double ratio : {std::nextafter(q, 0.0), q, std::nextafter(q, 1.0)}) {
       if (ratio <= 0 || ratio >= 1) continue;
-      see_count_around({ratio, ratio, 1}, ledger);  // r_1 = d, just
+      see_count_around({ratio, ratio, 1}, ledger);  // exactly r_1 = d
       for (const double d : {1 - 0x1p-53, 0.3, 1e-300, least}) see_count({ratio, d, 1}, ledger);
     }
   };
@@ -85,7 +85,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("discs as large as S0 or larger: no sphere pays, and choose gives brute force") {
+  TEST_CASE("discs as large as S0 or larger: no sphere pays off, and choose returns brute force") {
     for (const double share : {1.0, 1 + 0x1p-52, 7.0}) {
       const Workload w{
           .rays = 1e6, .samples = 1e6, .disc_radius = share, .sphere_radius = 1, .box = {1e-3, 1e-3, 1e-3}};

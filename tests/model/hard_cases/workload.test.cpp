@@ -10,8 +10,7 @@ using namespace detp::hard_cases;
 
 namespace {
 
-/// ln of: volume to the power D - 2 times area to the power 3 - D; a side counts for a millionth of the longest at
-/// least.
+/// ln(volume^(D - 2) area^(3 - D)); a side counts as at least a millionth of the longest.
 Exact log_of_extent(const Workload& w) {
   if (w.sample_extent > 0) return support::log_of(w.sample_extent);
   const Exact sliver = Exact{1e-6} * scene_side(w);
@@ -64,7 +63,7 @@ void see_edges(Ledger& ledger) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("hard cases of a workload: flat boxes at both ends of the scale, D next to 2 and 3, any extent") {
+  TEST_CASE("hard cases of a workload: flat boxes at both limits of the scale, D next to 2 and 3, any extent") {
     Ledger ledger = on_random_inputs(10, few, see_random);
     see_edges(ledger);
     require_right(ledger);

@@ -25,14 +25,14 @@ Counts<double> counts_of(const Workload& workload) { return box_tree_counts(work
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("predict and rank know the tree of boxes") {
+  TEST_CASE("predict and rank include the box tree") {
     const Workload w = cube_workload(1e6, 1e5, 0.01, 2);
     const Candidate candidate{Technique::box_tree, tree};
     CHECK(predict(w, candidate, Engine::plain) == counts_of(w));
     CHECK(best_of(Technique::box_tree, w, {})->candidate == candidate);
   }
 
-  TEST_CASE("each tree that the rule gives is the best one: few rays a disc want large leaves, many small ones") {
+  TEST_CASE("each tree of the rule is the best one: large leaves for few rays per disc, small ones for many") {
     for (const auto& [rays, leaf] : {std::pair{5e4, 64}, {1e5, 16}, {6.3e6, 16}, {6.4e6, 8}}) {
       const Workload w = cube_workload(rays, 1e5, 0.01, 2);
       CHECK(best_of(Technique::box_tree, w, {})->candidate ==
@@ -40,7 +40,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("larger leaves: fewer boxes are tested, and more discs; no leaf is far from the next") {
+  TEST_CASE("larger leaves: fewer boxes are tested, and more discs; the counts change gradually with the leaf size") {
     for (const double dimension : {2.0, 2.5, 3.0})
       for (const double disc : {1e-4, 0.01, 0.1})
         for (const double samples : {500.0, 1e4, 1e6}) {
@@ -65,7 +65,7 @@ TEST_SUITE("identity") {
         }
   }
 
-  TEST_CASE("more children: fewer rays are listed, by as much as for the next fan-out; leaves stay as they are") {
+  TEST_CASE("more children: fewer rays are listed, by as much as for the next fan-out; the leaves stay the same") {
     for (const double dimension : {2.0, 2.5, 3.0})
       for (const int leaf : {1, 6, 30, 150}) {
         const Workload w = cube_workload(1e6, 3e4, 0.01, 2, dimension);
@@ -103,12 +103,12 @@ TEST_SUITE("limit") {
     CHECK(counts.cull_tests == 0);
   }
 
-  TEST_CASE("few large leaves are tested with most rays, each disc by itself: not fewer than leaves are crossed") {
+  TEST_CASE("few large leaves are tested with most rays, each disc alone: at least as often as leaves are crossed") {
     const Workload w = cube_workload(1e6, 200, 1e-4, 2);
-    CHECK(box_tree_counts(w, {4, 64}).disc_tests > 40e6);  // four leaves of 50, crossed by a quarter
+    CHECK(box_tree_counts(w, {4, 64}).disc_tests > 40e6);  // four leaves of 50, crossed by a quarter of the lines
   }
 
-  TEST_CASE("many rays test each node once, and once for each block by the simd engine; a single one few") {
+  TEST_CASE("many rays test each node once, and once per block with the simd engine; a single ray tests few") {
     const double nodes = counts_of(cube_workload(0x1p17, 1e4, 0.01, 2)).culls;
     CHECK(counts_of(cube_workload(0x1p27, 1e4, 0.01, 2)).culls == Approx(nodes).epsilon(1e-6));
     const Candidate candidate{Technique::box_tree, tree};
@@ -122,7 +122,7 @@ TEST_SUITE("limit") {
     CHECK(one.culls < 0.2 * nodes);
   }
 
-  TEST_CASE("discs that are points: boxes of what is between samples, whatever the radius") {
+  TEST_CASE("for discs that are points, boxes enclose the samples only, for any radius") {
     for (const double dimension : {2.0, 3.0}) {
       const Counts<double> small = counts_of(cube_workload(1000, 1e5, 1e-9, 2, dimension));
       const Counts<double> smaller = counts_of(cube_workload(1000, 1e5, 1e-10, 2, dimension));
@@ -138,7 +138,7 @@ TEST_SUITE("limit") {
     CHECK(counts.culls == Approx(counts.listed / 1000).epsilon(1e-3));
   }
 
-  TEST_CASE("beyond 16 children, as 16; beyond 256 samples a leaf, as many leaves for as many more samples") {
+  TEST_CASE("fan-outs above 16 count as 16; leaves above 256 samples: as many leaves for proportionally more samples") {
     const Workload w = cube_workload(1e6, 1e5, 0.001, 2);
     CHECK(box_tree_counts(w, {1000, 16}) == box_tree_counts(w, {16, 16}));
     const Workload fewer = cube_workload(1e6, 25e3, 0.001, 2);
@@ -148,7 +148,7 @@ TEST_SUITE("limit") {
     CHECK(large.disc_tests == Approx(4 * small.disc_tests));
   }
 
-  TEST_CASE("larger discs are tested more often, and no disc more than once a ray; all is finite") {
+  TEST_CASE("larger discs are tested more often, and no disc more than once per ray; all counts are finite") {
     support::RandomNumbers random(7);
     for (int run = 0; run < 100; ++run) {
       const double rays = random.count(1, 1e9);

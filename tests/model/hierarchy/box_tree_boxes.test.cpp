@@ -19,7 +19,7 @@ const CellKind face{.side = {1, 1, 0}, .touched = {0, 0, 1}};
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("around points that are uniform in a cell, each side is L (m - 1)/(m + 1)") {
+  TEST_CASE("around m points uniform in a cell of side L, each side is L (m - 1)/(m + 1)") {
     const CellBoxes boxes(cube, 1e-12);
     const CellBoxes flat(face, 1e-12);
     for (const double m : {2.0, 3.0, 10.0, 64.0, 100.0, 1000.0}) {
@@ -41,7 +41,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("around few discs, as large as the cell, sides are those of random discs") {
+  TEST_CASE("around few discs as large as the cell, sides equal those of random discs") {
     constexpr int discs = 5;
     constexpr double radius = 0.5;
     constexpr int sets = 40000;
@@ -63,12 +63,12 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("boxes around many discs fill the cell and reach beyond it by d") {
+  TEST_CASE("boxes around many discs fill the cell and extend beyond it by d") {
     CHECK(CellBoxes(cube, 0.1)(1e9).volume == Approx(std::pow(1.2, 3)).epsilon(0.01));
     CHECK(CellBoxes(face, 0.1)(1e9).volume == Approx(1.2 * 1.2 * 0.2).epsilon(0.01));
   }
 
-  TEST_CASE("more discs have larger boxes, so have larger discs") {
+  TEST_CASE("more discs have larger boxes, and so have larger discs") {
     for (const CellKind& cell : {cube, face, CellKind{.side = {1, 1, 1}, .touched = {1, 0, 1}},
                                  CellKind{.side = {1, 1, 1}, .touched = {2, 2, 2}}})
       for (double radius = 1e-5; radius < 1e5; radius *= 10) {

@@ -24,9 +24,9 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("cells of one size have all samples: in a cube, and on its faces") {
+  TEST_CASE("cells of one size hold all samples: in a cube, and on its faces") {
     for (const CellKind& cell : cell_kinds(3)) CHECK(cell.cells * cell.share == 1);
-    // Halved six times across each axis, 64 cells a side: on faces, at edges, at corners.
+    // Halved six times across each axis, 64 cells a side: cells on faces, at edges and at corners.
     double share = 0;
     for (const CellKind& cell : cell_kinds(2))
       if (cell.side[0] == 0x1p-6 && cell.side[1] == 0x1p-6 && (cell.side[2] == 0 || cell.side[2] == 0x1p-6))

@@ -28,7 +28,7 @@ Total total(int dimension, double samples, double radius, int leaf) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("the leaves hold all samples, and are one more than the inner nodes") {
+  TEST_CASE("the leaves hold all samples, and there is one more of them than of inner nodes") {
     for (const int dimension : {2, 3})
       for (const double samples : {300.0, 5000.0, 3e5})
         for (const double radius : {1e-4, 1e-2, 0.1})
@@ -45,7 +45,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("of points, each is a leaf if leaves hold one; of discs larger than the cube, 64 share a leaf") {
+  TEST_CASE("each point has its leaf if leaves hold one; of discs larger than the cube, 64 share a leaf") {
     CHECK(total(3, 1e4, 1e-9, 1).leaves == Approx(1e4).epsilon(0.03));
     const Total large = total(3, 1e4, 10, 1);
     CHECK(large.discs / large.leaves == Approx(48).epsilon(0.35));

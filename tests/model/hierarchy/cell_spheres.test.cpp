@@ -36,12 +36,12 @@ TEST_SUITE("identity") {
     for (int level = 0; level < 20; ++level) {
       const double outer = model::cell_sphere_radius(workload, level);
       const double inner = model::cell_sphere_radius(workload, level + 1);
-      const double between = std::ldexp(2.0, -level - 1) * std::sqrt(0.75);  // of the centres
+      const double between = std::ldexp(2.0, -level - 1) * std::sqrt(0.75);  // distance of the centres
       CHECK(between + inner == doctest::Approx(outer).epsilon(1e-15));
     }
   }
 
-  TEST_CASE("no level is plain testing; the sums are those of the levels") {
+  TEST_CASE("with no level every ray is tested against every disc; the sums are those of the levels") {
     const Counts<double> none = model::cell_sphere_counts(workload, {0});
     CHECK(none.disc_tests == workload.rays * workload.samples);
     CHECK(none.cull_tests == 0);
@@ -53,7 +53,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("in a cube, cells of the workload are those of the formula; a box sees no unit of length") {
+  TEST_CASE("in a cube, the workload's cells are those of the formula; the unit of length does not matter") {
     for (const int level : {0, 1, 3, 8, 16, 40, 300})
       CHECK(model::occupied_cell_spheres(workload, level) == model::occupied_cell_spheres(1e4, level));
     Workload box = workload;
@@ -70,7 +70,7 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("cells grow with the level and the samples, and are never more than there are, or than the samples") {
+  TEST_CASE("cells grow with the level and the samples, and are at most all cells and at most the samples") {
     for (const double dimension : {2.0, 2.5, 3.0})
       for (const double extent : {0.0, 1.7}) {
         Workload w = workload;
@@ -89,7 +89,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("many samples on a cube's faces fill the cells at its surface, in a flat box those of its sides") {
+  TEST_CASE("many samples on a cube's faces fill the cells at its surface; in a flat box, those at its sides") {
     const Workload faces = cube_workload(10, 1e15, 0.01, 2, 2);
     for (const int level : {1, 2, 5}) {
       const double along = std::ldexp(1.0, level);
@@ -98,12 +98,12 @@ TEST_SUITE("known answer") {
     }
     Workload flat = cube_workload(10, 1e15, 0.01, 2);
     flat.box = {2, 0.9, 0};
-    CHECK(model::occupied_cell_spheres(flat, 3) == doctest::Approx(8 * 4));  // 0.9 ends in a cut cell of 0.25
+    CHECK(model::occupied_cell_spheres(flat, 3) == doctest::Approx(8 * 4));  // 0.9 ends inside a cell of 0.25
     flat.dimension = 2;
     CHECK(model::occupied_cell_spheres(flat, 3) == doctest::Approx(8 * 4));
   }
 
-  TEST_CASE("cells counted on random samples in a box that cuts cells, and on its faces") {
+  TEST_CASE("agrees with cells counted on random samples in a box that cuts cells, and on its faces") {
     constexpr int samples = 20'000;
     for (const double dimension : {2.0, 3.0})
       for (const int level : {2, 4, 6}) {
@@ -127,7 +127,7 @@ TEST_SUITE("known answer") {
       }
   }
 
-  // Occupied cells of n uniform samples vary by less than √cells: 5 standard deviations at most.
+  // The number of occupied cells for n uniform samples varies by less than √cells: 5 standard deviations at most.
   TEST_CASE("cells counted on random samples") {
     constexpr int samples = 20'000;
     for (const int level : {2, 4, 5, 6}) {

@@ -57,14 +57,14 @@ TEST_SUITE("identity") {
     CHECK(counts.hits == model::expected_hits(in_volume));
   }
 
-  TEST_CASE("leaves of one sample are spheres of the disc's radius, whatever its dimension") {
+  TEST_CASE("leaves of one sample are spheres of the disc's radius, for any dimension") {
     for (const Workload& w : {in_volume, on_faces}) {
       const double r = model::sphere_tree_levels(w, {8, 1}).back().rms_radius;
       CHECK(r == Approx(w.disc_radius).epsilon(1e-12));
     }
   }
 
-  TEST_CASE("a leaf that holds all samples is the root, of either fan-out") {
+  TEST_CASE("a leaf that holds all samples is the root, for both fan-outs") {
     const auto one = model::sphere_tree_levels(in_volume, {2, 1'000'000});
     CHECK(one.size() == 1);
     CHECK(one[0].samples == 1e5);
@@ -73,7 +73,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("the root of many samples is nearly the sphere around their cube, whose corners few come close to") {
+  TEST_CASE("the root of many samples is nearly the sphere around their cube; of few, clearly smaller") {
     for (const double dimension : {2.0, 3.0}) {
       const Workload w = cube_workload(10, 1e5, 1e-6, 2, dimension);
       const double root = model::sphere_tree_levels(w, {2, 1'000'000})[0].rms_radius;
@@ -82,8 +82,8 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("in a volume eight times as many samples have spheres half as large; surfaces, four times as many") {
-    // The curve's largest jumps fall on fewer nodes: less and less in a volume, but without end on surfaces.
+  TEST_CASE("spheres are half as large for eight times as many samples in a volume, four times as many on surfaces") {
+    // The curve's largest jumps affect ever fewer nodes: this converges in a volume, but not on surfaces.
     const auto leaf_area = [](double samples, double dimension) {
       const Workload w = cube_workload(10, samples, 1e-9, 2, dimension);
       return std::pow(model::sphere_tree_levels(w, {8, 8}).back().rms_radius, 2);

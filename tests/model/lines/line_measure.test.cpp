@@ -17,7 +17,8 @@ using std::numbers::pi;
 
 namespace {
 
-/// Area common to two circles of radii a, b whose centres are c apart, by strips across the line of centres.
+/// Area common to two circles of radii a, b with distance c between centres, summed over strips across the line of
+/// centres.
 double lens_in_strips(double a, double b, double c) {
   constexpr int strips = 3000;
   const double reach = std::min(a, b);
@@ -31,7 +32,7 @@ double lens_in_strips(double a, double b, double c) {
   return 2 * area * reach / strips;
 }
 
-/// both_hit_share by brute force: the circles that the spheres are, seen from every direction.
+/// both_hit_share by brute force: sums over directions; from each, the spheres appear as circles.
 double both_hit_share_in_strips(double a, double b, double c) {
   constexpr int directions = 1500;
   double sum = 0;
@@ -47,19 +48,19 @@ Workload in_cube() { return cube_workload(1000, 100, 0.05, 2); }
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("a sphere in itself is hit by all lines, and by as large a part as the square of the radii says") {
+  TEST_CASE("all lines that hit a sphere hit it; an inner sphere is hit by the share (r1/r0)²") {
     CHECK(sphere_hit_probability({2}, {2}) == 1);
     CHECK(sphere_hit_probability({1}, {2}) == 0.25);
     CHECK(sphere_hit_probability({3e-5}, {2e-4}) == Approx(0.0225).epsilon(1e-15));
   }
 
-  TEST_CASE("a great disc stops half the lines through its sphere, and a tiny one next to none") {
+  TEST_CASE("a disc as large as its sphere stops half of the lines through the sphere, and a tiny one almost none") {
     CHECK(disc_hit_probability({2}, {2}) == 0.5);
     CHECK(disc_hit_probability({1}, {2}) == 0.125);
     CHECK(disc_hit_probability({1e-100}, {1}) < 1e-199);
   }
 
-  TEST_CASE("lines meet a body of the workload by its surface over that of the sphere, never more than surely") {
+  TEST_CASE("lines meet a body with its surface over that of the sphere as probability, at most 1") {
     const Workload w = in_cube();
     const double r0 = w.sphere_radius;
     CHECK(crossing_probability(w, 4 * pi / 3, 4 * pi) == Approx(1 / (r0 * r0)).epsilon(1e-15));
@@ -68,7 +69,7 @@ TEST_SUITE("identity") {
           Approx(disc_hit_probability({0.05}, {r0})).epsilon(1e-15));
   }
 
-  TEST_CASE("segments of no length meet a body as often as points lie in it; long ones in proportion to its surface") {
+  TEST_CASE("segments of length zero meet a body by its volume, long ones by its surface") {
     Workload w = in_cube();
     const double space = std::pow(2.1, 3);
     w.path_length = 1e-300;
@@ -86,7 +87,7 @@ TEST_SUITE("identity") {
     CHECK(expected_hits(w) == Approx(1e5 * 1.5 * 2 * pi * 0.05 * 0.05 / 4 / std::pow(2.1, 3)).epsilon(1e-14));
   }
 
-  TEST_CASE("where only fronts count, half of the hits are expected, of lines and of paths") {
+  TEST_CASE("if only fronts count, half of the hits are expected, of lines and of paths") {
     for (const double path_length : {0.0, 1.5}) {
       Workload both = in_cube();
       both.path_length = path_length;
@@ -96,19 +97,19 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("a sphere inside the other is crossed by no line that misses the other") {
+  TEST_CASE("no line crosses the inner sphere and misses the outer one") {
     CHECK(both_hit_share(1, 1, 0) == 1);
     CHECK(both_hit_share(1, 0.5, 0.5) == 1);
     CHECK(both_hit_share(1, 0.25, 0.7) == 1);
   }
 
-  TEST_CASE("where the roles are exchanged, the lines that cross both are the same") {
+  TEST_CASE("with exchanged roles, the lines that cross both are the same") {
     for (const double a : {0.01, 0.3, 0.99, 1.0})
       for (const double c : {0.0, 0.1, 0.69, 0.7, 1.0, 1.3, 4.0, 50.0})
         CHECK(both_hit_share(a, 1, c) == Approx(a * a * both_hit_share(1, a, c)).epsilon(1e-8));
   }
 
-  TEST_CASE("the share falls with the distance, grows with the other sphere, and knows no unit") {
+  TEST_CASE("the share falls with the distance, grows with the other sphere, and does not depend on the unit") {
     for (const double b : {1e-6, 0.02, 0.5, 1.0, 2.5}) {
       double before = 1;
       for (double c = 0; c < 12; c += 0.03) {
@@ -122,14 +123,14 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("far away, the share goes as that of the sphere's disc in the sky: (a/c)²/2") {
+  TEST_CASE("far away, the share tends to that of the solid angle of the sphere: (a/c)²/2") {
     for (const double c : {30.0, 300.0, 1e5, 1e9})
       CHECK(both_hit_share(1, 1e-3, c) == Approx(0.5 / (c * c)).epsilon(1.0 / (c * c) + 1e-6));
   }
 }
 
 TEST_SUITE("reference value") {
-  TEST_CASE("the share of lines through both spheres is that of the circles cut in strips") {
+  TEST_CASE("the share of lines through both spheres agrees with that of circles cut in strips") {
     for (const double b : {0.05, 0.4, 1.0, 2.5})
       for (const double c : {0.3, 0.97, 1.7, 9.0}) {
         CAPTURE(b);
@@ -148,7 +149,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a radius that is no length is refused by name") {
+  TEST_CASE("an invalid radius is refused by name") {
     for (const double bad : support::not_a_length) {
       CHECK_THROWS_WITH_AS((void)sphere_hit_probability({bad}, {1}), Contains("sphere radius"), std::invalid_argument);
       CHECK_THROWS_WITH_AS((void)sphere_hit_probability({1}, {bad}), Contains("sphere radius"), std::invalid_argument);
@@ -162,7 +163,7 @@ TEST_SUITE("bad input") {
       CHECK_THROWS_WITH_AS((void)both_hit_share(1, 1, bad), Contains("distance of the centres"), std::invalid_argument);
   }
 
-  TEST_CASE("a body that pokes out of its sphere is refused by name") {
+  TEST_CASE("a body that extends outside its sphere is refused by name") {
     CHECK_THROWS_WITH_AS((void)sphere_hit_probability({1.0001}, {1}), Contains("inner sphere radius"),
                          std::invalid_argument);
     CHECK_THROWS_WITH_AS((void)disc_hit_probability({1.0001}, {1}), Contains("disc radius"), std::invalid_argument);

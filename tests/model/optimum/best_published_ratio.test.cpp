@@ -25,7 +25,7 @@ struct Question {
   UnitCosts costs;
 };
 
-/// d/r₀ 1e-4 … 0.3 and costs that differ by up to a thousand.
+/// d/r₀ 1e-4 … 0.3, and costs that differ by up to a factor of a thousand.
 std::vector<Question> questions(int number) {
   support::RandomNumbers random(41);
   std::vector<Question> all;
@@ -44,7 +44,7 @@ std::int64_t count(const Workload& w, double ratio) {
   return sphere_count(Form::published, {ratio}, {w.disc_radius}, {w.sphere_radius});
 }
 
-/// The least time on a grid of ratios, k as the paper counts it.
+/// The smallest time over a grid of ratios, with k from the paper's formula.
 double least_on_grid(const Question& question, int points) {
   double least = support::infinity;
   for (int i = 0; i <= points; ++i) {
@@ -58,7 +58,7 @@ double least_on_grid(const Question& question, int points) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("the best published stop is the least T of all stops") {
+  TEST_CASE("the best published number of spheres has the smallest T of all numbers") {
     for (const Question& question : questions(300))
       for (const double ratio : {0.1, 0.5, 0.65, 0.9, 0.99}) {
         const std::int64_t last = count(question.workload, ratio);
@@ -74,7 +74,7 @@ TEST_SUITE("reference value") {
       }
   }
 
-  TEST_CASE("the best published stop of a disc as large as S0 is no sphere") {
+  TEST_CASE("for a disc as large as S0 the best published number of spheres is zero") {
     Workload workload = cube_workload(100, 100, 0.1, 1);
     workload.sphere_radius = 0.1;
     CHECK(published::best_stop(workload, {}, {0.5}) == 0);
@@ -106,13 +106,13 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("where intersecting is all the time, k spheres as small as the piece allows are best") {
+  TEST_CASE("if intersecting takes all the time, k spheres as small as the interval allows are best") {
     const Workload w = cube_workload(1e6, 1e6, 0.05, 2);
     const published::BestRatio best = published::best_ratio(w, {.cull_test = 1e-9, .disc_test = 1});
     CHECK(published::intersect_time(w, {best.ratio}, best.spheres, 1) == Approx(best.time).epsilon(1e-3));
   }
 
-  TEST_CASE("where d/r0 is a power of two, k and Q still belong together") {
+  TEST_CASE("if d/r0 is a power of two, k and Q still belong together") {
     for (const double disc : {0x1p-2, 0x1p-4, 0x1p-6, 0x1p-10})
       for (const double disc_test : {1e-3, 1.0, 1e3}) {
         const Workload w{.rays = 1e6, .samples = 1e3, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
@@ -121,7 +121,7 @@ TEST_SUITE("known answer") {
       }
   }
 
-  TEST_CASE("a disc next to as large as S0 has its one sphere at the upper end of the ratios") {
+  TEST_CASE("a disc almost as large as S0 has one sphere, at the upper end of the ratios") {
     const Workload w{.rays = 100, .samples = 100, .disc_radius = 0.99, .sphere_radius = 1, .box = {1, 1, 1}};
     const published::BestRatio best = published::best_ratio(w, {});
     CHECK(best.spheres == 1);

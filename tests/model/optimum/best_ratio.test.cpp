@@ -28,7 +28,7 @@ struct Question {
   UnitCosts costs;
 };
 
-/// Workloads on which spheres can pay: d/r0 1e-4 … 0.3, dimension 2 to 3, and costs of a machine.
+/// Workloads on which spheres can pay off: d/r0 1e-4 … 0.3, dimension 2 to 3, and realistic unit costs.
 std::vector<Question> questions(int number, std::uint64_t seed) {
   support::RandomNumbers random(seed);
   std::vector<Question> all;
@@ -51,7 +51,8 @@ std::int64_t count(const Workload& w, double ratio) {
   return sphere_count(Form::corrected, {ratio}, {w.disc_radius}, {w.sphere_radius});
 }
 
-/// The least time over all stops and ratios of a grid, the steps of k, and ever finer grids around the best.
+/// The smallest time over all numbers of spheres and a grid of ratios; also at the ratios where k changes, and on ever
+/// finer grids around the best.
 double least_on_grids(const Question& question, int points) {
   const Workload& w = question.workload;
   double least = support::infinity;
@@ -75,7 +76,7 @@ double least_on_grids(const Question& question, int points) {
   return least;
 }
 
-/// How far above the least time of fine grids the best ratio and stop of so many random questions are, relative.
+/// For `many` random questions, the relative excess of the best ratio's time over the smallest time on fine grids.
 std::vector<double> above_grids(int many, std::uint64_t seed) {
   std::vector<double> above;
   for (const Question& question : questions(many, seed)) {
@@ -93,9 +94,11 @@ std::vector<double> above_grids(int many, std::uint64_t seed) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("no ratio and stop of fine grids are faster by 1e-9") { CHECK(above_grids(4, 33).back() <= 1e-9); }
+  TEST_CASE("no ratio and number of spheres on fine grids is faster by 1e-9") {
+    CHECK(above_grids(4, 33).back() <= 1e-9);
+  }
 
-  TEST_CASE("of two minima 1.5e-4 apart in ln ln 1/Q, with T within 3e-6 of each other, the lower one is found") {
+  TEST_CASE("of two minima 1.5e-4 apart in ln ln 1/Q, whose T differ by less than 3e-6, the lower is found") {
     const std::vector<Question> all = questions(50, 133);
     const auto no_slower = [&](const Question& question, double ratio, std::int64_t k) {
       const double found = best_ratio_and_stop(question.workload, question.costs).time;
@@ -118,7 +121,7 @@ TEST_SUITE("reference value") {
     CHECK(above[above.size() / 2] < 0.03);
   }
 
-  TEST_CASE("control: a ratio 2 % off, with its own best stop, is slower") {
+  TEST_CASE("control: a ratio 2 % off, with its own best number of spheres, is slower") {
     const Question question{typical, {.cull_test = 1, .disc_test = 1, .listed = 1}};
     const BestRatio best = best_ratio_and_stop(typical, question.costs);
     for (const double off : {0.98, 1.02})
@@ -127,7 +130,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("free to choose both, it is never slower than with Q or k bound") {
+  TEST_CASE("if Q and k are both free, the time is at most that with either fixed") {
     for (const Question& question : questions(25, 34)) {
       const auto& [w, costs] = question;
       const double best = best_ratio_and_stop(w, costs).time * (1 - 1e-9);
@@ -144,7 +147,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("the fastest stop is the fastest of all stops") {
+  TEST_CASE("the fastest number of spheres is the fastest of all numbers") {
     for (const Question& question : questions(20, 35))
       for (const double ratio : {0.4, 0.65, 0.9}) {
         const BestRatio best = best_stop(question.workload, question.costs, {ratio});
@@ -154,7 +157,7 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("the choice knows no unit of length, nor of time") {
+  TEST_CASE("the choice does not depend on the units of length and time") {
     const UnitCosts costs{.cull_test = 3, .disc_test = 5, .listed = 2};
     const BestRatio best = best_ratio_and_stop(typical, costs);
     for (const double scale : {1e-9, 1e9}) {
@@ -170,7 +173,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("with many samples in a volume the best ratio is near 2/3, on surfaces near e^-1/2; and T is flat there") {
+  TEST_CASE("for many samples the best ratio is near 2/3 in a volume, near e^-1/2 on surfaces, and T is flat there") {
     const UnitCosts costs{.cull_test = 1, .disc_test = 1};
     const BestRatio best = best_ratio_and_stop(cube_workload(1e6, 1e6, 0.01, 2), costs);
     CHECK(best.ratio > 0.45);
@@ -179,12 +182,12 @@ TEST_SUITE("known answer") {
     CHECK(best_stop(cube_workload(1e6, 1e6, 0.01, 2), costs, {published_ratio}).time < 1.15 * best.time);
   }
 
-  TEST_CASE("a disc next to as large as S0 leaves no sphere in the ratios searched") {
+  TEST_CASE("a disc almost as large as S0 leaves no sphere at any ratio searched") {
     const Workload w{.rays = 100, .samples = 100, .disc_radius = 0.99, .sphere_radius = 1, .box = {1, 1, 1}};
     CHECK(best_ratio_and_stop(w, {}).spheres == 0);
   }
 
-  TEST_CASE("where no sphere holds a disc, the best is no sphere: its time is brute force's, its ratio valid") {
+  TEST_CASE("if no sphere holds a disc, the best is no sphere: its time is brute force's, its ratio valid") {
     for (const double disc : {0.99, 1.0, 1.5}) {
       const Workload w{.rays = 100, .samples = 30, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
       const UnitCosts one_each{.disc_test = 2, .sort = 5};
@@ -222,7 +225,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("no ratio and stop of fine grids are faster by 1e-9 on 50 more workloads") {
+  TEST_CASE("no ratio and number of spheres on fine grids is faster by 1e-9 on 50 more workloads") {
     CHECK(above_grids(50, 133).back() <= 1e-9);
   }
 }

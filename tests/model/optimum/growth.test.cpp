@@ -18,18 +18,18 @@ using namespace detp::model;
 
 namespace {
 
-/// Room for any index, so that memory does not choose its cells.
+/// Limits that are large enough for any index, so that memory does not decide its cells.
 const SearchLimits unlimited{.most_depth = 20, .most_cells = 1e16, .most_references = 1e16};
 const UnitCosts costs{};
 
-/// A cube of side 1 with 2^{Dj} samples; discs that shrink with their distance are powers of 2, so that depths of cells
-/// as wide as discs do not step between.
+/// A cube of side 1 with 2^{Dj} samples. Discs that shrink with the distance of the samples have powers of 2 as radius,
+/// so that the depth of cells as wide as discs is always exact.
 Workload workload(int j, double dimension, DiscRule disc) {
   const double samples = std::round(std::exp2(dimension * j));
   return cube_workload(1e6, samples, disc == DiscRule::fixed ? 0.2 : std::exp2(-j - 1), 1, dimension);
 }
 
-/// p: the slope of log(T/(log n_P)^q) over log n_P, by least squares, n_P over four decades from about 10⁸.
+/// p: the slope of log(T/(log n_P)^q) over log n_P, by least squares; n_P spans four decades from about 10⁸.
 double fitted_power(const GrowthCase& fitted, int logarithms, const std::function<double(const Workload&)>& time) {
   const int first = fitted.dimension < 3 ? 13 : 9;
   const int last = fitted.dimension < 3 ? 20 : 14;
@@ -59,9 +59,9 @@ void check_growth(const GrowthCase& asked, const std::function<double(const Work
 }  // namespace
 
 TEST_SUITE("reference value") {
-  // T = a + b n_P^p (or a + b log n_P): what comes first, and the steps of k and of depths, tell. The farthest off, by
-  // 0.012, are the spheres on surfaces.
-  TEST_CASE("the best time of each technique grows over four decades of samples as it is said to") {
+  // T = a + b n_P^p (or a + b log n_P): the lower-order term and the steps of k and of depths cause deviations. The
+  // largest is 0.012, for spheres on surfaces.
+  TEST_CASE("the best time of each technique grows over four decades of samples with the stated order") {
     for (const Technique technique :
          {Technique::brute_force, Technique::sphere_cache, Technique::octree, Technique::grid})
       for (const double dimension : {2.0, 3.0})
@@ -94,7 +94,7 @@ TEST_SUITE("reference value") {
     };
     CHECK(std::abs(fitted(Technique::sphere_cache, 0) - 1.0 / 3) > 0.2);
     CHECK(std::abs(fitted(Technique::grid, 0)) > 0.2);
-    // In volumes a plain octree has no factor log n_P: divided by it, its time grows less than n^(1/3).
+    // In volumes a plain octree has no factor log n_P: divided by log n_P, its time grows less than n^(1/3).
     const GrowthCase volume{};
     const auto octree = [](const Workload& at) { return best_time(Technique::octree, at); };
     CHECK(fitted_power(volume, 1, octree) < 1.0 / 3 - 0.03);
@@ -113,7 +113,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("in volumes both columns are the paper's abstract; without sorting nothing is gained") {
+  TEST_CASE("in volumes both columns agree with the paper's abstract; without sorting nothing is gained") {
     for (const Form form : {Form::published, Form::corrected}) {
       const auto shrinking = [&](Technique technique, SampleOrder order) {
         return growth({.technique = technique, .order = order, .form = form});
@@ -128,7 +128,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a dimension of neither surface nor volume nor between is refused") {
+  TEST_CASE("a dimension outside the range from surfaces to volumes is refused") {
     for (const double bad : {1.9, 3.1, std::numeric_limits<double>::quiet_NaN()})
       CHECK_THROWS_WITH_AS((void)growth({.dimension = bad}), doctest::Contains("from 2 to 3"), std::invalid_argument);
   }

@@ -22,7 +22,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("reference value") {
-  TEST_CASE("(2/D)^(1/(D-2)) in 100 digits, next to 2 above all") {
+  TEST_CASE("(2/D)^(1/(D-2)) in 100 digits, especially near 2") {
     for (const double beyond : {-1.0, -0.3, -1e-3, -1e-9, -1e-15, 1e-15, 1e-12, 1e-8, 1e-4, 0.1, 0.7, 1.0}) {
       const double dimension = 2 + beyond;
       const Exact exact_beyond = Exact{dimension} - 2;
@@ -42,7 +42,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("no other ratio makes the sum it stands for smaller") {
+  TEST_CASE("no other ratio gives a smaller value of the sum that it minimises") {
     for (const double cost : {0.0, 0.1, 1.0, 7.0}) {
       const auto time = [&](double q) { return (1 + cost * q * q) / (q * q * (1 - q)); };
       const double best = time(model::optimal_ratio_with_copies(cost));
@@ -52,7 +52,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("what is no dimension or no cost is refused by name") {
+  TEST_CASE("an invalid dimension or cost is refused by name") {
     for (const double bad : support::not_a_dimension)
       CHECK_THROWS_WITH_AS((void)model::optimal_ratio(bad), doctest::Contains("dimension"), std::invalid_argument);
     for (const double bad : support::not_a_size)

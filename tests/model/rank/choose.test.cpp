@@ -38,7 +38,7 @@ double total(const Workload& w, const Candidate& candidate) {
   return price(predict(w, candidate), costs, candidate.technique).total();
 }
 
-/// Workloads and costs from all their ranges: rank answers, all is finite, and the work is bounded.
+/// Workloads and costs from their whole ranges: rank returns, all results are finite, and the work is bounded.
 void check_rank(int runs, std::uint64_t seed) {
   support::RandomNumbers random(seed);
   const auto now_and_then = [&](double share) { return random.uniform(0, 1) < share; };
@@ -71,7 +71,7 @@ void check_rank(int runs, std::uint64_t seed) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("a ranking is sorted, holds each exact technique once, and each entry is assess() again") {
+  TEST_CASE("a ranking is sorted, holds each exact technique once, and each entry equals assess()") {
     support::RandomNumbers random(61);
     for (int run = 0; run < 20; ++run) {
       const Workload w = cube_workload(random.count(1, 1e8), random.count(1, 1e7), random.log_uniform(1e-3, 0.5), 2,
@@ -114,7 +114,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("no depth is faster than that of the cell spheres chosen, no tree of spheres searched than the best") {
+  TEST_CASE("no depth is faster than that of the cell spheres chosen, no sphere tree searched than the best") {
     for (const Workload& w : {typical, cube_workload(1e4, 1e6, 0.002, 2, 2), cube_workload(1e7, 100, 0.3, 2)}) {
       const double cells = best_of(Technique::cell_spheres, w, costs)->time.total();
       for (int depth = 0; depth <= 14; ++depth)
@@ -132,7 +132,7 @@ TEST_SUITE("identity") {
                    costs) == Candidate{Technique::sphere_tree, SphereTreeParameters{5, 7}});
   }
 
-  TEST_CASE("after a stop request the ranking has what was tried by then: one at least, no more than without") {
+  TEST_CASE("after a stop request the ranking has what was tried until then: at least one, at most all") {
     std::stop_source source;
     source.request_stop();
     const auto some = rank(typical, costs, {.stop = source.get_token()});
@@ -140,7 +140,7 @@ TEST_SUITE("identity") {
     CHECK(rank(typical, costs).size() > 4);
   }
 
-  TEST_CASE("the sphere cache chosen is that of the best ratio and stop") {
+  TEST_CASE("the sphere cache chosen has the best ratio and number of spheres") {
     const auto best = best_of(Technique::sphere_cache, typical, costs);
     const BestRatio expected = best_ratio_and_stop(typical, costs);
     REQUIRE(best.has_value());
@@ -149,7 +149,7 @@ TEST_SUITE("identity") {
     CHECK(best->time.total() == Approx(expected.time).epsilon(1e-12));
   }
 
-  TEST_CASE("the ranking knows no unit of length") {
+  TEST_CASE("the ranking does not depend on the unit of length") {
     const auto ranking = rank(typical, costs);
     for (const double factor : {1e-9, 1e9}) {
       const auto scaled = rank(cube_workload(1e6, 1e5, 0.01 * factor, 2 * factor), costs);
@@ -163,11 +163,11 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("workloads and costs from all their ranges: rank answers, all is finite, and the work is bounded") {
+  TEST_CASE("workloads and costs from their whole ranges: rank returns, all results are finite, the work is bounded") {
     check_rank(250, 71);
   }
 
-  TEST_CASE("where T is the same at every ratio, the search for the best ends") {
+  TEST_CASE("if T is the same at every ratio, the search for the best terminates") {
     Workload w = cube_workload(1e6, 1e18, 1e-15, 1e30, 2);
     CHECK(best_ratio_and_stop(w, {}).looked_at <= most_looked_at);
     w.box = {1e40, 1e40, 1e40};  // each sample far from all others, and from S0
@@ -184,7 +184,7 @@ TEST_SUITE("known answer") {
     CHECK(many.back().counts.disc_tests == 1e12);
   }
 
-  TEST_CASE("limits of the search are kept") {
+  TEST_CASE("the limits of the search are respected") {
     const SearchLimits limits{.most_depth = 3, .most_cells = 1000, .most_references = 2e5};
     CHECK(std::get<OctreeParameters>(best_of(Technique::octree, typical, costs, limits)->candidate.parameters).depth <=
           3);
@@ -197,7 +197,7 @@ TEST_SUITE("known answer") {
     CHECK(rank(typical, costs, none).size() == 5);
   }
 
-  TEST_CASE("discs as large as S0, or next to it, leave no sphere cache, and the others in the ranking") {
+  TEST_CASE("discs as large as S0, or nearly, exclude the sphere cache; the others stay in the ranking") {
     for (const double disc : {0.99, 1.0, 3.0}) {
       const Workload w{.rays = 100, .samples = 100, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
       CHECK_FALSE(best_of(Technique::sphere_cache, w, costs).has_value());
@@ -205,7 +205,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("costs decide: where steps are dear a technique with spheres wins, where spheres are, an index") {
+  TEST_CASE("costs decide: if steps are expensive a technique with spheres wins, if spheres are, an index") {
     UnitCosts dear_steps = costs;
     dear_steps.step = dear_steps.node = 1e6;
     const Technique without_steps = rank(typical, dear_steps).front().candidate.technique;
@@ -235,8 +235,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE(
-      "rank answers ten thousand workloads and costs from all their ranges, all is finite, and the work is bounded") {
+  TEST_CASE("ten thousand workloads and costs: rank returns, all results are finite, and the work is bounded") {
     check_rank(10'000, 72);
   }
 }

@@ -36,7 +36,7 @@ Workload with(T Workload::*member, const T& value) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("what the sweep counted is not extrapolated, at the ends of its ranges neither") {
+  TEST_CASE("values that the sweep covered are not extrapolated, including the ends of its ranges") {
     for (const double dimension : {2.0, 3.0})
       for (const double samples : {1e3, 1e5, 1e7})
         for (const double share : {1e-4, 0.01, 0.2}) {
@@ -82,7 +82,7 @@ TEST_SUITE("known answer") {
     CHECK(names(typical, {Technique::box_tree, BoxTreeParameters{4, 300}}, "leaf 300 above 256"));
   }
 
-  TEST_CASE("pairs that are all tested are no extrapolation, whatever the scene") {
+  TEST_CASE("brute force is never extrapolated, in any scene") {
     Workload w = with(&Workload::samples, 3.0);
     w.dimension = 2.5;
     w.path_length = 1;
@@ -91,7 +91,7 @@ TEST_SUITE("known answer") {
     CHECK(extrapolations(w, cache).size() == 3);
   }
 
-  TEST_CASE("a ranking and an assessment tell of each candidate why it is extrapolated") {
+  TEST_CASE("a ranking and an assessment report why each candidate is extrapolated") {
     for (const Workload& w : {typical, with(&Workload::samples, 50.0)}) {
       for (const Ranked& ranked : rank(w, {})) CHECK(ranked.extrapolated == extrapolations(w, ranked.candidate));
       CHECK(assess(w, cache, {}).extrapolated == extrapolations(w, cache));

@@ -51,7 +51,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("between, the sphere cache where the rays of the innermost sphere fit the processor's cache") {
+  TEST_CASE("in between, the sphere cache if the rays of the innermost sphere fit the processor's cache") {
     const Workload w = spaced(4);
     const std::int64_t k = sphere_count(Form::corrected, {0.65}, {w.disc_radius}, {w.sphere_radius});
     const double bytes = 64 * published::rays_in_sphere(w.rays, {0.65}, k);
@@ -63,14 +63,14 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("the distance between samples is taken from the extent where it is not given") {
+  TEST_CASE("the distance between samples is computed from the extent if it is not set") {
     Workload w = cube_workload(1e6, 1e6, 0.02, 2);  // 0.02 apart: X = 1
     CHECK(paper_rule(w).technique == Technique::octree);
     w.disc_radius = 0.002;  // X = 10
     CHECK(paper_rule(w).technique == Technique::sphere_cache);
   }
 
-  TEST_CASE("what the rule advises is always in range") {
+  TEST_CASE("the candidate that the rule recommends is always in range") {
     for (const double x : {1.0, 4.0, 9.0})
       for (const double disc : {1e-12, 0.1, 5.0, 100.0}) {
         Workload w = spaced(x);
@@ -82,7 +82,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a cache, a ray or a workload that is none is refused by name") {
+  TEST_CASE("an invalid cache size, ray size or workload is refused by name") {
     for (const double bad : support::not_a_length) {
       CHECK_THROWS_WITH_AS((void)paper_rule(spaced(4), {.bytes = bad}), Contains("processor's cache"),
                            std::invalid_argument);

@@ -45,7 +45,7 @@ Workload scaled(Workload w, double factor) {
   return w;
 }
 
-/// The largest relative difference of a term.
+/// The largest relative difference of any term.
 double difference(const Counts<double>& a, const Counts<double>& b) {
   std::vector<double> terms;
   for_each_term(a, [&](std::string_view, double term) { terms.push_back(term); });
@@ -101,7 +101,7 @@ TEST_SUITE("identity") {
         }
   }
 
-  TEST_CASE("all techniques expect the same hits, and test no fewer discs than they hit") {
+  TEST_CASE("all techniques expect the same hits, and at least as many disc tests") {
     for (const double path : {0.0, 0.7}) {
       Workload w = typical;
       w.path_length = path;
@@ -114,7 +114,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("twice the rays are twice the tests, and the same rebuilds, nodes a ray and references") {
+  TEST_CASE("twice the rays: twice the tests, the same rebuilds, nodes per ray and references") {
     Workload twice = typical;
     twice.rays *= 2;
     for (const Candidate& candidate : candidates) {
@@ -155,7 +155,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a workload out of range is refused by name, whatever the technique") {
+  TEST_CASE("a workload out of range is refused by name, for any technique") {
     for (const Candidate& candidate : candidates)
       for (const double bad : support::not_a_count) {
         Workload w = typical;
@@ -176,7 +176,7 @@ TEST_SUITE("bad input") {
                          Contains("octree"), std::invalid_argument);
   }
 
-  TEST_CASE("what has no closed form is refused, not guessed") {
+  TEST_CASE("techniques without a closed form are refused") {
     CHECK_THROWS_WITH_AS((void)predict(typical, {Technique::bsp, BspParameters{}}, Engine::plain),
                          Contains("no closed form"), std::invalid_argument);
     for (const Technique technique : {Technique::sphere_cache, Technique::sphere_cache_published})

@@ -19,7 +19,7 @@ const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("the share listed is from 0 to 1; of spheres as small as the disc, or where samples are few, all") {
+  TEST_CASE("the listed share is from 0 to 1; it is 1 for spheres as small as the disc, or if samples are few") {
     support::RandomNumbers random(21);
     for (int run = 0; run < 5000; ++run) {
       auto [w, ratio] = support::random_workload(random);
@@ -35,7 +35,7 @@ TEST_SUITE("identity") {
     CHECK(listed_share(few, 1e-5, 0.3) == Approx(1).epsilon(0.01));
   }
 
-  TEST_CASE("spheres far apart in size list nearly all their rays, those close together fewer") {
+  TEST_CASE("spheres of very different size list nearly all their rays, those of similar size fewer") {
     for (const double dimension : {2.0, 2.5, 3.0}) {
       const Workload w = cube_workload(1e6, 1e6, 1e-4, 2, dimension);
       double before = 1;
@@ -49,7 +49,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("the share listed is continuous, and knows no unit of length") {
+  TEST_CASE("the listed share is continuous, and does not depend on the unit of length") {
     support::RandomNumbers random(22);
     for (int run = 0; run < 2000; ++run) {
       const double dimension = random.uniform(2, 3);
@@ -64,7 +64,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("rays through a sphere inside S0: in proportion to its area") {
+  TEST_CASE("rays through a sphere inside S0 are proportional to its area") {
     CHECK(rays_through(typical, typical.sphere_radius) == Approx(1e6).epsilon(1e-14));
     CHECK(rays_through(typical, typical.sphere_radius / 4) == Approx(62'500).epsilon(1e-14));
     CHECK(rays_through(typical, 0) == 0);
@@ -80,7 +80,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a radius, ratio or workload that is none is refused by name") {
+  TEST_CASE("an invalid radius, ratio or workload is refused by name") {
     for (const double bad : support::not_a_size) {
       CHECK_THROWS_WITH_AS((void)rays_through(typical, bad), Contains("sphere radius"), std::invalid_argument);
       CHECK_THROWS_WITH_AS((void)listed_share(typical, bad, 0.3), Contains("sphere radius"), std::invalid_argument);
@@ -93,7 +93,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("unsorted: a sphere never built, or a radius that is none, has no share") {
+  TEST_CASE("unsorted: a sphere that is never built, or an invalid radius, has no share") {
     for (const double bad : support::not_a_length)
       CHECK_THROWS_WITH_AS((void)unsorted_listed_share(0.2, bad, {{0.4, 20, 0.39}}), Contains("rebuilds of the sphere"),
                            std::invalid_argument);

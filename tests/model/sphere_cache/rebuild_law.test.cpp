@@ -22,7 +22,7 @@ const Workload on_faces = cube_workload(1e6, 1e6, 0.001, 2, 2);
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("more samples a ball never make a larger share of them start one") {
+  TEST_CASE("with more samples a ball, the share of samples that start a new ball never grows") {
     for (const double dimension : {1.0, 2.0, 2.4, 3.0})
       for (double phase = 0; phase <= 1; phase += 1.0 / 32) {
         double before = 1;
@@ -35,7 +35,7 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("with ever fewer samples a ball, each starts one, and the rest is in proportion to them") {
+  TEST_CASE("with ever fewer samples a ball, each starts one; the rest is proportional to the samples a ball") {
     for (const double dimension : {2.0, 3.0}) {
       CHECK(single_rebuild_share(dimension, 0, 0.3) == 1);
       CHECK(single_rebuild_share(dimension, 1e-300, 0.3) == 1);
@@ -52,7 +52,7 @@ TEST_SUITE("identity") {
               Approx(1e5 * single_rebuild_share(dimension, 1e5, phase)).epsilon(1e-12));
   }
 
-  TEST_CASE("the share is continuous in the phase, where it wraps too, and in the number of samples") {
+  TEST_CASE("the share is continuous in the number of samples and in the phase, also where the phase wraps") {
     support::RandomNumbers random(3);
     for (int run = 0; run < 2000; ++run) {
       const double dimension = random.uniform(2, 3);
@@ -65,7 +65,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("between surfaces and volumes, the share lies between theirs; below 2, it is that of surfaces") {
+  TEST_CASE("between surfaces and volumes the share lies between theirs; below 2 it is that of surfaces") {
     support::RandomNumbers random(4);
     for (int run = 0; run < 2000; ++run) {
       const double lambda = random.log_uniform(1e-5, 1e6);
@@ -79,7 +79,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("rebuilds of a ball alone: each sample for none, one for a ball that holds all, falling between") {
+  TEST_CASE("rebuilds of a ball alone: one per sample for no ball, one for a ball around all, falling between") {
     for (const auto order : {SampleOrder::lebesgue, SampleOrder::none})
       for (const Workload& w : {in_volume, on_faces}) {
         CHECK(single_rebuilds(w, 0, order) == w.samples);
@@ -100,7 +100,7 @@ TEST_SUITE("identity") {
         CHECK(single_rebuilds(w, radius, SampleOrder::lebesgue) < single_rebuilds(w, radius, SampleOrder::none));
   }
 
-  TEST_CASE("rebuilds know no unit of length") {
+  TEST_CASE("rebuilds do not depend on the unit of length") {
     for (double scale : {1e-9, 1e9}) {
       const Workload scaled = cube_workload(1e6, 1e6, 0.001 * scale, 2 * scale, 2);
       for (const auto order : {SampleOrder::lebesgue, SampleOrder::none})
@@ -110,7 +110,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("a sphere rebuilt with those around it: never less than those, or than alone by much; at most samples") {
+  TEST_CASE("a nested sphere: at least the rebuilds around it, at most those plus its own, at most the samples") {
     support::RandomNumbers random(6);
     for (int run = 0; run < 5000; ++run) {
       const double samples = random.count(1, 1e9);
@@ -127,7 +127,7 @@ TEST_SUITE("identity") {
     CHECK(nested_rebuilds(100, 50, 0.5, 1e15) == Approx(100).epsilon(1e-9));
   }
 
-  TEST_CASE("own rebuilds remain where there are none around, and the fewer the more there are") {
+  TEST_CASE("a ball keeps all its own rebuilds if none are around it, and fewer the more are around it") {
     support::RandomNumbers random(8);
     for (int run = 0; run < 5000; ++run) {
       const double dimension = random.uniform(1, 3);
@@ -142,7 +142,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("the share that remains is continuous in the ball and the ratio, and between dimensions in the middle") {
+  TEST_CASE("the remaining share is continuous in ball and ratio, and lies between those of whole dimensions") {
     support::RandomNumbers random(9);
     for (int run = 0; run < 5000; ++run) {
       const Ball ball{random.log_uniform(1e-3, 1e6), random.uniform(-1, 20)};
@@ -162,7 +162,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("with ever more spheres, the own rebuilds of each are in proportion to their distance") {
+  TEST_CASE("with ever more spheres, the own rebuilds of each are proportional to the step between spheres") {
     for (const double dimension : {2.0, 3.0})
       for (const double lambda : {0.1, 10.0, 1e5}) {
         const double share = own_rebuild_share(dimension, {lambda, 5.3}, 1e-9, 2);
@@ -174,7 +174,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("samples in a volume: m/n as counted on Morton runs of balls") {
+  TEST_CASE("samples in a volume: m/n agrees with counts on Morton runs of balls") {
     const double lambda[] = {0.022, 0.18, 0.85, 2.4, 11, 32, 92, 259, 732};
     const double counted[] = {0.97, 0.84, 0.60, 0.42, 0.15, 0.083, 0.042, 0.012, 0.009};
     const double half_a_digit[] = {0.005, 0.005, 0.005, 0.005, 0.005, 0.0005, 0.0005, 0.0005, 0.0005};
@@ -192,11 +192,11 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("large balls between the table's numbers of samples and radii: m_1 as counted over other sets of samples") {
-    // Within 2 %, except two volumes between a jump and the next number of samples in the table: 5.6 and 3.4 %.
+  TEST_CASE("large balls between the table's entries: m_1 agrees with counts over other sets of samples") {
+    // Within 2 %, except for two volumes between a jump and the table's next number of samples: 5.6 and 3.4 %.
     struct Counted {
-      double dimension, samples, disc, ratio, rebuilds;  // in a cube of side 2; the noise is 0.1 to 1.9 %
-      double within = 0.02;                              // the noise and the table's own 1 %
+      double dimension, samples, disc, ratio, rebuilds;  // in a cube of side 2; noise 0.1 to 1.9 %
+      double within = 0.02;                              // the noise and the table's own error of 1 %
     };
     for (const Counted& counted :
          {Counted{3, 30'000, 0.015, 0.62, 55.9}, Counted{2, 1898, 0.05516789, 0.77059285, 23.25},
@@ -213,7 +213,7 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("balls of radius ρ in [-1, 1]³ start 34 to 65 ρ^-3 times (volume), 46 to 85 ρ^-2 times (faces)") {
-    // By the phase: both ends of the ranges are met, or the factor would not vary as the curve does.
+    // The factor depends on the phase. Both ends of the ranges must be reached, as the curve's factor does.
     double least_in_volume = INFINITY;
     double most_in_volume = 0;
     double least_on_faces = INFINITY;
@@ -234,8 +234,8 @@ TEST_SUITE("known answer") {
     CHECK(most_on_faces == Approx(85).epsilon(0.02));
   }
 
-  TEST_CASE("unsorted in a cube, all samples but those in the ball start it anew") {
-    const double radius = 0.02;  // small against the side: the cube's ends take little
+  TEST_CASE("unsorted in a cube, all samples except those in the ball start a new one") {
+    const double radius = 0.02;  // small compared with the side, so that the cube's faces have little effect
     const double share_within = 4 * 3.14159265 / 3 * std::pow(radius / 2, 3);
     CHECK(in_volume.samples - single_rebuilds(in_volume, radius, SampleOrder::none) ==
           Approx(in_volume.samples * share_within).epsilon(0.02));
@@ -243,7 +243,7 @@ TEST_SUITE("known answer") {
     CHECK(single_rebuilds(in_volume, 2 * 0.66160, SampleOrder::none) == Approx(5e5).epsilon(0.01));
   }
 
-  TEST_CASE("the share varies with the phase by a factor of about two, where a ball holds many samples") {
+  TEST_CASE("for balls with many samples the share varies with the phase by a factor of about two") {
     for (const double dimension : {2.0, 3.0})
       for (double lambda = 8; lambda < 1e5; lambda *= 1.5) {
         double least = 1;
@@ -260,7 +260,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("numbers that are none, or out of range, are refused by name") {
+  TEST_CASE("invalid numbers, or numbers out of range, are refused by name") {
     for (const double bad : support::not_a_size)
       CHECK_THROWS_WITH_AS((void)single_rebuild_share(2, bad, 0), Contains("samples per ball"), std::invalid_argument);
     for (const double bad : {support::not_a_number, support::infinity, -support::infinity, -1e-9, 1.0001})

@@ -7,7 +7,7 @@
 using namespace detp;
 
 TEST_SUITE("reference value") {
-  TEST_CASE("samples drawn in a cube and on its faces lie as far from its centre, in the mean square, to 1 %") {
+  TEST_CASE("the mean square distance from the centre agrees with samples drawn in a cube and on its faces to 1 %") {
     for (const auto& [body, dimension] : {std::pair{sim::Body::cube, 3.0}, {sim::Body::cube_faces, 2.0}}) {
       double mean = 0;
       const auto discs = sim::uniform_discs(body, 2, 100'000, 0.1, 5);

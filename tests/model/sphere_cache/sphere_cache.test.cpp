@@ -19,8 +19,8 @@ using doctest::Contains;
 
 namespace {
 
-/// What some spheres did, counted: printed by `rebuild_law_table counted`, means over 400 sets of 10³ samples and 24 of
-/// 10⁵; their standard errors are below 1 % of m_i and below 0.005 of the listed share.
+/// Counts of some spheres, printed by `rebuild_law_table counted`: means over 400 sets of 10³ samples and 24 of 10⁵.
+/// Their standard errors are below 1 % of m_i and below 0.005 of the listed share.
 struct CountedSphere {
   double dimension, samples, disc_share, ratio;
   std::int64_t i;
@@ -63,14 +63,14 @@ bool all_finite(const Counts<double>& counts) {
   return finite;
 }
 
-/// The counts by the sums of the header, over all levels.
+/// The counts by the header's sums over all levels.
 Counts<double> summed(const Workload& w, const SphereCacheParameters& parameters) {
   Counts<double> sum;
   for (const SphereLevel& level : sphere_levels(w, parameters, parameters.spheres)) {
     sum.cull_tests += level.rebuilds * level.tests;
     sum.culls += level.rebuilds;
     sum.listed += level.rebuilds * level.listed;
-    sum.disc_tests = w.samples * level.listed;  // before the share by which lists that serve long are longer
+    sum.disc_tests = w.samples * level.listed;  // before the factor for lists that serve long and are therefore longer
   }
   return sum;
 }
@@ -114,7 +114,7 @@ TEST_SUITE("identity") {
     CHECK_MESSAGE(worst < 1e-13, "largest relative error seen: ", worst);
   }
 
-  TEST_CASE("lists hold no more than the rays of their sphere, nor than the list around; rebuilds grow inwards") {
+  TEST_CASE("lists hold at most the rays of their sphere and of the list around; rebuilds grow inwards") {
     support::RandomNumbers random(13);
     for (int run = 0; run < 300; ++run) {
       auto [w, ratio] = support::random_workload(random);
@@ -138,7 +138,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("the first spheres are the same, however many follow") {
+  TEST_CASE("the first spheres are the same for any number of spheres") {
     const auto all = sphere_levels(typical, {0.6, 9}, 9);
     const auto first = sphere_levels(typical, {0.6, 9}, 4);
     const auto fewer = sphere_levels(typical, {0.6, 3}, 100);
@@ -161,7 +161,7 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("spheres smaller than the disc, of a number too large to sum, add what a geometric series adds") {
+  TEST_CASE("spheres smaller than the disc, too many to sum, add the value of a geometric series") {
     const std::int64_t k = 1'000'000'000;
     const double ratio = std::exp(-20.0 / static_cast<double>(k));
     const Counts<double> all = sphere_cache_counts(typical, {ratio, k});
@@ -186,7 +186,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("rebuilds within 8 %, listed rays within 4 %, of counted ones") {
+  TEST_CASE("rebuilds are within 8 %, listed rays within 4 %, of counts") {
     double rebuilds = 0;
     double listed = 0;
     double published = 0;
@@ -214,20 +214,20 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("one sphere: built for the first sample at least, tested against all rays") {
+  TEST_CASE("one sphere: built at least for the first sample, tested against all rays") {
     const auto levels = sphere_levels(typical, {0.5, 1}, 1);
     REQUIRE(levels.size() == 1);
     CHECK(levels[0].tests == 1e6);
     CHECK(levels[0].rebuilds >= 1);
     CHECK(levels[0].rays == Approx(250'000).epsilon(1e-12));
-    CHECK(levels[0].listed < levels[0].rays);  // it pokes out of S0 at the cube's corners
+    CHECK(levels[0].listed < levels[0].rays);  // it extends outside S0 at the cube's corners
     CHECK(levels[0].listed > 0.9 * levels[0].rays);
     const Counts<double> counts = sphere_cache_counts(typical, {0.5, 1});
     CHECK(counts.disc_tests > levels[0].listed * typical.samples);
     CHECK(counts.disc_tests < 1.02 * levels[0].listed * typical.samples);
   }
 
-  TEST_CASE("no sphere: each disc is tested with all rays, whatever the ratio and the order") {
+  TEST_CASE("no sphere: each disc is tested with all rays, for any ratio and order") {
     for (const auto order : {SampleOrder::lebesgue, SampleOrder::none}) {
       const Counts<double> counts = sphere_cache_counts(typical, {0.5, 0, order});
       CHECK(counts.disc_tests == typical.rays * typical.samples);
@@ -251,7 +251,7 @@ TEST_SUITE("known answer") {
     CHECK(sphere_levels(typical, {0.3, 2000}, 2000).back().rebuilds == typical.samples);
   }
 
-  TEST_CASE("9e18 spheres have finite counts, whatever the ratio") {
+  TEST_CASE("9e18 spheres have finite counts, for any ratio") {
     for (const double ratio : {0.05, 0.65, 0.999, 1 - 1e-12, 1 - 0x1p-53})
       for (const std::int64_t k : {100'000LL, 1'000'000'000LL, 9'000'000'000'000'000'000LL})
         for (const auto order : {SampleOrder::lebesgue, SampleOrder::none})

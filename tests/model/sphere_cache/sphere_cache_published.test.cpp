@@ -21,7 +21,7 @@ using support::relative_error;
 
 namespace {
 
-/// The largest relative error seen of one quantity.
+/// The largest relative error of one quantity so far.
 struct Worst {
   double error = 0;
   void see(double value, const Exact& exact) { error = std::max(error, relative_error(value, exact)); }
@@ -102,10 +102,10 @@ TEST_SUITE("reference value") {
     CAPTURE(few.error);
     for (const double error :
          {n.error, m.error, t.error, rebuild.error, intersect.error, total.error, rebuilds.error, few.error})
-      CHECK(error < 1e-14);  // seen: 4e-16 at most
+      CHECK(error < 1e-14);  // largest error seen: 4e-16
   }
 
-  TEST_CASE("Q next to 1 costs no digits") {
+  TEST_CASE("Q next to 1 loses no digits") {
     for (const double gap : {0x1p-10, 0x1p-14, 0x1.8p-17}) {
       Workload w = some;
       w.samples = 7;
@@ -143,14 +143,14 @@ TEST_SUITE("known answer") {
     CHECK(published::unsorted_time(some, 3) == 3e5);
   }
 
-  TEST_CASE("one sample needs each sphere once, and no time by the form for few samples") {
+  TEST_CASE("one sample needs each sphere once, and the form for few samples then gives no time") {
     Workload w = some;
     w.samples = 1;
     CHECK(published::counts(w, {0.5}, 20).culls == 20);
     CHECK(published::rebuild_time_few_samples(w, {0.5}, 1) == 0);
   }
 
-  TEST_CASE("rebuilds saturate at the largest double, and rays vanish") {
+  TEST_CASE("rebuilds saturate at the largest double, and rays tend to zero") {
     CHECK(published::rebuilds({0.5}, 1'000'000) == std::numeric_limits<double>::max());
     CHECK(published::rays_in_sphere(1e18, {0.5}, 1'000'000) == 0);
     CHECK(std::isfinite(published::rebuild_time(some, {0.01}, 4'000'000'000'000'000'000, 1)));
@@ -158,7 +158,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("the counts are those behind the times") {
+  TEST_CASE("the times follow from the counts") {
     support::RandomNumbers random(5);
     for (int run = 0; run < 200; ++run) {
       const auto [w, ratio] = support::random_workload(random);
@@ -209,7 +209,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("a time of a test that is none is refused by name") {
+  TEST_CASE("an invalid time of a test is refused by name") {
     for (const double bad : support::not_a_size) {
       const Contains sphere("time of a ray-sphere test");
       const Contains disc("time of a ray-disc test");

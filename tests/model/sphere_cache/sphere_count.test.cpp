@@ -34,7 +34,7 @@ bool right(const Case& c) {
          radius(c, published) <= c.disc && radius(c, published - 1) > c.disc;
 }
 
-/// The case, and d one ulp to both sides.
+/// Checks the case, and the cases with d one ulp larger and smaller.
 int wrong_around(const Case& c) {
   int wrong = 0;
   for (const double d : {c.disc, std::nextafter(c.disc, 0.0), std::nextafter(c.disc, c.outer)})
@@ -55,7 +55,7 @@ TEST_SUITE("reference value") {
     CHECK(wrong == 0);
   }
 
-  TEST_CASE("next to a tie, d = fl(r0 Q^j) and one ulp beside, the count is right") {
+  TEST_CASE("near a tie, d = fl(r0 Q^j) and one ulp to either side, the count is right") {
     support::RandomNumbers random(8);
     int wrong = 0;
     for (int run = 0; run < 5'000; ++run) {
@@ -85,7 +85,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("at a tie r_j = d, both counts are j; one ulp beside, they part") {
+  TEST_CASE("at a tie r_j = d both counts are j; one ulp to either side they differ") {
     for (const double ratio : {0.5, 0.25, 0.0625})
       for (const double outer : {1.0, 0x1p40, 0x1p-40})
         for (std::int64_t j = 1; j <= 100; ++j) {
@@ -101,7 +101,7 @@ TEST_SUITE("known answer") {
         }
   }
 
-  TEST_CASE("a disc as large as S0 or larger pays no sphere") {
+  TEST_CASE("for a disc as large as S0 or larger no sphere pays off") {
     for (const Form form : {Form::published, Form::corrected}) {
       CHECK(count(form, {0.65, 1, 1}) == 0);
       CHECK(count(form, {0.65, 7, 1}) == 0);

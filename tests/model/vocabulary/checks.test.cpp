@@ -23,7 +23,7 @@ TEST_SUITE("bad input") {
                          std::invalid_argument);
   }
 
-  TEST_CASE("each check refuses what it is to refuse, NaN first") {
+  TEST_CASE("each check refuses values out of its range, and NaN") {
     for (const double bad : support::not_a_length) CHECK_THROWS_AS(require_positive("it", bad), std::invalid_argument);
     for (const double bad : support::not_a_size)
       CHECK_THROWS_AS(require_non_negative("it", bad), std::invalid_argument);
@@ -38,7 +38,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("each check lets pass what is in its range, ends included") {
+  TEST_CASE("each check accepts values in its range, including the ends") {
     using limits = std::numeric_limits<double>;
     for (const double good : {limits::denorm_min(), 1.0, limits::max()}) {
       CHECK_NOTHROW(require_positive("it", good));

@@ -11,7 +11,7 @@ using namespace detp;
 
 namespace {
 
-/// Powers of two, so that each sum tells its terms.
+/// Powers of two, so that each sum shows which terms are in it.
 template <class T>
 Counts<T> powers() {
   Counts<T> counts;
@@ -26,7 +26,7 @@ Counts<T> powers() {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("each term is visited once, by a name of its own, and the terms are all there is") {
+  TEST_CASE("each term is visited once, under its own name, and no term is missing") {
     std::set<std::string_view> names;
     std::vector<double> values;
     for_each_term(powers<double>(), [&](std::string_view name, double term) {
@@ -39,7 +39,7 @@ TEST_SUITE("identity") {
     CHECK(values.back() == 2048);
   }
 
-  TEST_CASE("an observation turns into the same numbers") {
+  TEST_CASE("an observation converts to the same numbers") {
     CHECK(as_expected(powers<std::uint64_t>()) == powers<double>());
     CHECK(as_expected(Counts<std::uint64_t>{}) == Counts<double>{});
   }

@@ -5,7 +5,7 @@
 using namespace detp;
 
 TEST_SUITE("known answer") {
-  TEST_CASE("plain text, also beyond ASCII, is quoted as it is") {
+  TEST_CASE("plain text, also beyond ASCII, is quoted unchanged") {
     CHECK(detp::quoted("") == "\"\"");
     CHECK(detp::quoted("1.5e3 x\\y") == "\"1.5e3 x\\y\"");
     CHECK(detp::quoted("r₀ = 1 µm, 𝛼") == "\"r₀ = 1 µm, 𝛼\"");
@@ -16,10 +16,10 @@ TEST_SUITE("known answer") {
     CHECK(escaped("a\x1b[2J\r\n\t\x7f"sv) == "a\\x1b[2J\\x0d\\x0a\\x09\\x7f");
     CHECK(escaped("a\0b"sv) == "a\\x00b");
     CHECK(escaped("\xc2\x9b"
-                  "31m") == "\\xc2\\x9b31m");                                 // C1: as ESC [ to some terminals
+                  "31m") == "\\xc2\\x9b31m");  // C1 control: some terminals treat it as ESC [
     CHECK(escaped("\xc0\xaf \xed\xa0\x80") == "\\xc0\\xaf \\xed\\xa0\\x80");  // overlong; a surrogate
     CHECK(escaped("\xf4\x90\x80\x80") == "\\xf4\\x90\\x80\\x80");             // beyond U+10FFFF
-    CHECK(escaped("\xe2\x82") == "\\xe2\\x82");                               // cut off
+    CHECK(escaped("\xe2\x82") == "\\xe2\\x82");                               // truncated
     CHECK(escaped("\xff") == "\\xff");
     CHECK(escaped("a\u202eb\u2028") == "a\\xe2\\x80\\xaeb\\xe2\\x80\\xa8");
     for (const std::string_view text : {"a\x1b\xff\\x"sv, "µ\0"sv}) CHECK(escaped(escaped(text)) == escaped(text));

@@ -33,7 +33,7 @@ TEST_SUITE("identity") {
       CHECK(choice_named<Traversal>(name(traversal)) == traversal);
   }
 
-  TEST_CASE("a parameter that was set is read back, by its name; its default and small value are in range") {
+  TEST_CASE("a parameter that was set is read back by its name; its default and small value are in range") {
     for (const TechniqueRecord& record : technique_records) {
       Candidate candidate = default_candidate(record.technique);
       CHECK_NOTHROW(check(candidate));
@@ -48,7 +48,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("small variants: each choice, each number at its least, none twice, all in range") {
+  TEST_CASE("small variants: each choice, each number at its minimum, no duplicates, all in range") {
     for (const TechniqueRecord& record : technique_records) {
       const std::vector<Candidate> variants = small_variants(record.technique);
       for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -67,7 +67,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("techniques and orders are called as on the command line") {
+  TEST_CASE("techniques and orders have the names of the command line") {
     CHECK(name(Technique::brute_force) == "brute-force");
     CHECK(name(Technique::sphere_cache) == "sphere-cache");
     CHECK(name(Technique::sphere_cache_published) == "sphere-cache-published");
@@ -106,7 +106,7 @@ TEST_SUITE("known answer") {
     CHECK(words(Technique::photon_map, PhotonMapParameters{20}) == "nearest 20");
   }
 
-  TEST_CASE("parameters in range pass, ends included") {
+  TEST_CASE("parameters in range are accepted, including the ends") {
     for (const Technique technique : {Technique::sphere_cache, Technique::sphere_cache_published})
       for (const std::int64_t k : {0LL, 1LL, 9LL, 9'000'000'000'000'000'000LL})
         CHECK_NOTHROW(check(Candidate{technique, SphereCacheParameters{0.5, k}}));
@@ -125,7 +125,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a name that none has names none") {
+  TEST_CASE("an unknown name gives nothing") {
     for (const char* bad : {"", "Octree", "octree ", "sphere", "sphere_cache", "all"}) {
       CHECK_FALSE(technique_named(bad).has_value());
       CHECK_FALSE(choice_named<SampleOrder>(bad).has_value());
@@ -144,7 +144,7 @@ TEST_SUITE("bad input") {
       }
   }
 
-  TEST_CASE("a parameter cannot be set that the technique does not have, nor to a value out of range") {
+  TEST_CASE("setting a parameter that the technique does not have, or a value out of range, is refused") {
     Candidate grid = default_candidate(Technique::grid);
     CHECK_THROWS_WITH_AS(set_parameter(grid, "depth", std::int64_t{3}), Contains("depth is no parameter of grid"),
                          std::invalid_argument);

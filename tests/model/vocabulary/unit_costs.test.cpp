@@ -30,7 +30,7 @@ constexpr UnitCosts costs{.cull_test = 2,
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("each cost has a symbol of its own, and the costs are all there is") {
+  TEST_CASE("each cost has its own symbol, and no cost is missing") {
     std::set<std::string_view> symbols;
     for (const UnitCostTerm& term : unit_cost_terms) symbols.insert(term.symbol);
     CHECK(symbols.size() == unit_cost_terms.size());
@@ -68,7 +68,7 @@ TEST_SUITE("known answer") {
     CHECK(price({}, costs).total() == 0);
   }
 
-  TEST_CASE("where rays are searched one by one, disc tests and placements have costs of their own") {
+  TEST_CASE("techniques that search rays one by one have their own costs of disc tests and placements") {
     for (const TechniqueRecord& record : technique_records) {
       const CostBreakdown time = price({.disc_tests = 10, .placements = 10}, costs, record.technique);
       CHECK(time.intersect == (record.ray_by_ray ? 50 : 30));
@@ -88,7 +88,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a time that is none is refused by its symbol; zero is one") {
+  TEST_CASE("an invalid time is refused by its symbol; zero is valid") {
     std::vector<double> not_a_time(support::not_a_size.begin(), support::not_a_size.end());
     not_a_time.push_back(1e201);  // times of counts up to 1e55 must not overflow
     for (const double bad : not_a_time)

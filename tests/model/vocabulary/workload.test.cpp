@@ -25,7 +25,7 @@ Workload with(double Workload::*number, double value) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("the workload of a cube: its sphere holds every disc whole") {
+  TEST_CASE("the workload of a cube: its sphere contains every disc whole") {
     const Workload w = cube_workload(1000, 100, 0.25, 2, 2.5);
     CHECK(w.rays == 1000);
     CHECK(w.samples == 100);
@@ -37,7 +37,7 @@ TEST_SUITE("known answer") {
     CHECK_NOTHROW(check(w));
   }
 
-  TEST_CASE("samples fill a cube's volume, its faces, or what is between") {
+  TEST_CASE("samples fill a cube's volume, its faces, or an extent in between") {
     CHECK(sample_extent(cube_workload(1, 1, 0.1, 3, 3)) == Approx(27).epsilon(1e-14));
     CHECK(sample_extent(cube_workload(1, 1, 0.1, 3, 2)) == Approx(54).epsilon(1e-14));
     CHECK(sample_extent(cube_workload(1, 1, 0.1, 3, 2.5)) == Approx(std::sqrt(27.0 * 54)).epsilon(1e-14));
@@ -45,13 +45,13 @@ TEST_SUITE("known answer") {
     CHECK(sample_extent(with(&Workload::sample_extent, 5)) == 5);
   }
 
-  TEST_CASE("neighbours in a grid of samples are a step of the grid apart, unless told otherwise") {
+  TEST_CASE("neighbours in a grid of samples are one grid step apart, unless set otherwise") {
     CHECK(sample_distance(cube_workload(1, 1e6, 0.1, 3)) == Approx(0.03).epsilon(1e-14));
     CHECK(sample_distance(cube_workload(1, 600, 0.1, 3, 2)) == Approx(0.3).epsilon(1e-14));
     CHECK(sample_distance(with(&Workload::sample_distance, 7)) == 7);
   }
 
-  TEST_CASE("the side of the scene is the longest of the box; a flat box has a sliver of volume") {
+  TEST_CASE("the side of the scene is the longest of the box; a flat box has a small positive volume") {
     Workload w = good;
     w.box = {1, 5, 0};
     CHECK(scene_side(w) == 5);
@@ -61,7 +61,7 @@ TEST_SUITE("known answer") {
     CHECK_NOTHROW(check(w));
   }
 
-  TEST_CASE("numbers at the ends of their ranges pass") {
+  TEST_CASE("numbers at the ends of their ranges are accepted") {
     CHECK_NOTHROW(check(with(&Workload::rays, 1)));
     CHECK_NOTHROW(check(with(&Workload::samples, 1e18)));
     CHECK_NOTHROW(check(with(&Workload::dimension, 1)));
@@ -104,7 +104,7 @@ TEST_SUITE("bad input") {
                          std::invalid_argument);
   }
 
-  TEST_CASE("a box without any side is refused, and so is a workload not filled in") {
+  TEST_CASE("a box without any side is refused, and so is a workload that is not filled in") {
     Workload w = good;
     w.box = {0, 0, 0};
     CHECK_THROWS_WITH_AS(check(w), Contains("longest side of the sample box"), std::invalid_argument);

@@ -12,7 +12,7 @@ using doctest::Contains;
 
 namespace {
 
-/// Folders of cgroups, made up; gone with the object.
+/// A temporary folder of made-up cgroups, which the destructor removes.
 class Groups {
  public:
   Groups() { std::filesystem::create_directories(root_); }
@@ -30,7 +30,7 @@ class Groups {
   std::filesystem::path root_ = std::filesystem::temp_directory_path() / "detp-cgroups-test";
 };
 
-/// The default limit again, whatever a test did.
+/// Restores the default limit after a test.
 struct Restored {
   Restored() = default;
   ~Restored() { set_memory_limit({}); }
@@ -43,7 +43,7 @@ constexpr double unlimited = std::numeric_limits<double>::infinity();
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("of cgroups of version 2 the least limit counts, of the group itself and of those around it") {
+  TEST_CASE("for cgroups of version 2 the smallest limit counts, of the group itself and of those around it") {
     const Groups groups;
     CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == unlimited);
     groups.put("a/b/memory.max", "max");
@@ -53,12 +53,12 @@ TEST_SUITE("known answer") {
     groups.put("a/b/memory.max", "2000000");
     CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == 2e6);
     CHECK(cgroup_limit("0::/\n", groups.root().string()) == unlimited);
-    groups.put("memory.max", "1000000");  // a container's own root
+    groups.put("memory.max", "1000000");  // the root of a container
     CHECK(cgroup_limit("0::/\n", groups.root().string()) == 1e6);
     CHECK(cgroup_limit("0::/unseen/from/here\n", groups.root().string()) == 1e6);
   }
 
-  TEST_CASE("of cgroups of version 1 the memory controller's") {
+  TEST_CASE("for cgroups of version 1 the memory controller's limit counts") {
     const Groups groups;
     groups.put("memory/job/memory.limit_in_bytes", "5000000");
     groups.put("cpu/job/memory.limit_in_bytes", "1");
@@ -101,7 +101,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("what is no size is refused") {
+  TEST_CASE("text that is not a size is refused") {
     for (const char* bad : {"", "G", "0", "-1", "4X", "4GB", "1 G", "nan", "inf", "1e400", "1e300T", "0x10", "4G\n"})
       CHECK_THROWS_WITH_AS((void)parse_bytes(bad), Contains("must be a size such as 4G"), std::invalid_argument);
     for (const double bad : {0.0, -1.0, unlimited, std::numeric_limits<double>::quiet_NaN()})

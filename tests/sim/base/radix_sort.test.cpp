@@ -25,7 +25,8 @@ bool same(const KeyedIndex& a, const KeyedIndex& b) { return a.key == b.key && a
 
 TEST_SUITE("identity") {
   TEST_CASE("it is the stable sort by key, whichever digits differ") {
-    // All 64 bits; few keys, so that there are ties; digits that are the same throughout, below, between and above.
+    // All 64 bits; few distinct keys, so that there are ties; and digits that are equal in all keys, below, between and
+    // above the others.
     for (const auto& [mask, constant] :
          {std::pair{~0ULL, 0ULL}, std::pair{0x300ULL, 0ULL}, std::pair{0xff00'00ff'0000ULL, 0x1200'0000'0000'0034ULL},
           std::pair{0ULL, 7ULL}}) {
@@ -41,7 +42,7 @@ TEST_SUITE("identity") {
     CHECK(none.empty());
   }
 
-  TEST_CASE("bits above those asked for are left alone") {
+  TEST_CASE("bits above `bits` are ignored") {
     std::vector<KeyedIndex> entries{{0x1'0001, 0}, {0x0'0002, 1}, {0x0'0001, 2}};
     radix_sort(entries, 16);
     CHECK(entries[0].index == 0);

@@ -10,18 +10,18 @@
 using namespace detp::sim;
 
 TEST_SUITE("known answer") {
-  TEST_CASE("it checks whenever most_work units have come together, and not before") {
+  TEST_CASE("it checks whenever most_work units have accumulated, and not before") {
     std::stop_source source;
     StopCheck check(source.get_token(), "counting");
     source.request_stop();
     CHECK_FALSE(check.requested_after(StopCheck::most_work - 1));
     CHECK(check.requested_after(1));
-    CHECK(check.requested_after(0));  // it stays so
+    CHECK(check.requested_after(0));  // it remembers the request
     CHECK_THROWS_WITH_AS(check.after(0), "stopped while counting", Stopped);
     CHECK_THROWS_AS(check.now(), Stopped);
   }
 
-  TEST_CASE("without a stop request it never ends anything") {
+  TEST_CASE("without a stop request it never stops") {
     StopCheck check;
     check.now();
     for (int i = 0; i < 10; ++i) CHECK_FALSE(check.requested_after(StopCheck::most_work));
@@ -31,7 +31,7 @@ TEST_SUITE("known answer") {
     CHECK(sum == 3);
   }
 
-  TEST_CASE("a loop over many items is ended between pieces of them, and its work is logged") {
+  TEST_CASE("a loop over many items stops between pieces of them, and its work is logged") {
     std::stop_source source;
     const support::LoggedWork logged([&](std::uint64_t total) {
       if (total > 10 * StopCheck::most_work) source.request_stop();
@@ -44,7 +44,7 @@ TEST_SUITE("known answer") {
     CHECK(logged.largest() == StopCheck::most_work);
   }
 
-  TEST_CASE("pairs are sorted by ray, then disc; a stop request ends that") {
+  TEST_CASE("pairs are sorted by ray, then disc; a stop request ends the sorting") {
     std::vector<Pair> pairs;
     for (std::uint32_t i = 0; i < 50'000; ++i) pairs.push_back({i * 7919 % 1000, i % 17});
     std::stop_source source;

@@ -8,7 +8,7 @@
 using namespace detp::sim;
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a stopwatch counts the seconds asleep, and starts again after a lap") {
+  TEST_CASE("a stopwatch counts time asleep, and restarts after a lap") {
     const Stopwatch whole;
     Stopwatch watch;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));

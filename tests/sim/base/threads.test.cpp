@@ -11,7 +11,7 @@
 using namespace detp::sim;
 
 TEST_SUITE("known answer") {
-  TEST_CASE("all threads of a modest number can be started, and run what is given to them") {
+  TEST_CASE("a modest number of threads can all be started, and they run the work") {
     CHECK(startable_threads(1) == 1);
     CHECK(startable_threads(4) == 4);
     std::atomic<int> sum = 0;
@@ -19,9 +19,9 @@ TEST_SUITE("known answer") {
     CHECK(sum == 499'500);
   }
 
-  TEST_CASE("of threads that the system does not start, fewer serve") {
-    if (detp::support::sanitized) return;          // address space is what a sanitizer needs most
-    const detp::support::AddressLimit limit(8e9);  // stacks of 4000 threads take some 32 GB
+  TEST_CASE("if the system does not start all threads, fewer do the work") {
+    if (detp::support::sanitized) return;          // a sanitizer needs much address space itself
+    const detp::support::AddressLimit limit(8e9);  // the stacks of 4000 threads take about 32 GB
     const int started = startable_threads(4000);
     CHECK(started >= 1);
     CHECK(started < 4000);

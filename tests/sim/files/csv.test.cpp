@@ -21,7 +21,7 @@ struct Table {
   std::vector<std::string> places;
 };
 
-/// Where the row is, by its own complaint.
+/// The row's place, as its error message has it.
 std::string place_of(const TableRow& row) {
   return support::file_error_of([&] { row.fail("here"); });
 }
@@ -69,7 +69,7 @@ TEST_SUITE("known answer") {
     CHECK(support::file_error_of([&] { read_csv(path, columns, stop_at_second); }) == path + ":3: enough");
   }
 
-  TEST_CASE("an absent column and an empty field have the values agreed on") {
+  TEST_CASE("an absent column and an empty field have the default values") {
     CHECK(read("a,b\n1,2").values[2] == std::vector<double>{5});
     CHECK(read("a,b,c\n1,2,\n1,2,3\n").values[2] == std::vector<double>{6, 3});
   }
@@ -98,7 +98,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("what is wrong is told with its line") {
+  TEST_CASE("an error is reported with its line") {
     std::string fifteen;
     for (int i = 0; i < 15; ++i) fifteen += "\\xff";
     for (const auto& [bound_content, reason] :
@@ -131,7 +131,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("a damaged file is read or refused, never more") {
+  TEST_CASE("a damaged file is read or refused, with no other effect") {
     const auto read_any = [](const std::string& path) { read_csv(path, columns, [](const TableRow&) {}); };
     CHECK(support::refused_when_damaged("t.csv", "a,b,c\n1,2.5,-3e-7\r\n4,5,\n7,8,inf\n", 2500, read_any) > 250);
   }

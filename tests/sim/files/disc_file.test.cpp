@@ -27,7 +27,7 @@ const std::string ply_header =
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("written discs are read back to the last bit") {
+  TEST_CASE("written discs are read back bit for bit") {
     const std::vector<Disc> discs{
         {.centre = {0.1, -1.0 / 3, 1e-300}, .normal = {0, 0, 1}, .radius = 0.01},
         {.centre = {1e300, 5e-324, 0}, .normal = glm::normalize(glm::dvec3{0.3, -0.7, 0.11}), .radius = 1e-17}};
@@ -52,14 +52,14 @@ TEST_SUITE("known answer") {
     CHECK(glm::length(discs[1].normal - glm::dvec3{0.8, -0.6, 0}) < 1e-15);
   }
 
-  TEST_CASE("the default radius serves where the file gives none") {
+  TEST_CASE("the default radius applies if the file has none") {
     CHECK(read("d.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n", 0.5)[0].radius == 0.5);
     const auto discs = read("d.csv", "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,\n0,0,0,0,0,1,2\n", 0.5);
     CHECK(discs[0].radius == 0.5);
     CHECK(discs[1].radius == 2);
   }
 
-  TEST_CASE("PLY vertices are discs, other properties are read over") {
+  TEST_CASE("PLY vertices are discs, other properties are skipped") {
     const std::string extra = "property float radius\nproperty list uchar int extra\nend_header\n";
     const auto discs = read("d.PLY", ply_header + extra + "1 2 3 0 2 0 4 1 7\n");
     REQUIRE(discs.size() == 1);
@@ -101,7 +101,7 @@ TEST_SUITE("bad input") {
     CHECK_MESSAGE(message.find("d.ply: vertex 1 of 1: the normal is zero") != std::string::npos, message);
   }
 
-  TEST_CASE("a damaged disc file is read or refused, and what is read is sound") {
+  TEST_CASE("a damaged disc file is read or refused, and discs that are read are valid") {
     const auto read_sound = [](const std::string& path) {
       for (const Disc& disc : read_discs(path, 1.0)) {
         REQUIRE(std::abs(glm::length(disc.normal) - 1) < 1e-14);

@@ -23,14 +23,14 @@ using support::ScratchFolder;
 
 namespace {
 
-/// A pipe with a name.
+/// A named pipe.
 std::string pipe_in(const ScratchFolder& folder, const std::string& name) {
   const std::string path = folder.path(name);
   REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
   return path;
 }
 
-/// Writes the text to the pipe again and again, until the reader goes away or `most` bytes are written.
+/// Writes the text to the pipe repeatedly, until the reader closes it or `most` bytes are written.
 std::jthread endless_writer(const std::string& path, const std::string& front, const std::string& text,
                             std::size_t most) {
   return std::jthread([=] {
@@ -57,7 +57,7 @@ std::string mesh_refusal(const std::string& path) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a file is read in pieces of any size, and its rest is known") {
+  TEST_CASE("a file is read in pieces of any size, and the number of bytes left is known") {
     const ScratchFolder folder;
     std::string content;
     for (int i = 0; i < 100'000; ++i) content += std::to_string(i) + ",";
@@ -136,7 +136,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("rows beyond the machine's memory are refused before it is taken") {
+  TEST_CASE("rows that would exceed the memory are refused before it is allocated") {
     const ScratchFolder folder;
     const std::string header =
         "ply\nformat binary_little_endian 1.0\nelement vertex 100000000000\nproperty char x\nproperty char y\n"
@@ -149,7 +149,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("a stop request ends the wait for a pipe, unopened and silent ones alike") {
+  TEST_CASE("a stop request ends the wait for a pipe that has no writer or delivers nothing") {
     const ScratchFolder folder;
     for (const char* name : {"a.csv", "b.ply", "c.obj"})
       for (const bool opened : {false, true}) {
@@ -171,7 +171,7 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("a stop request ends reading between pieces, and tells after how many bytes") {
+  TEST_CASE("a stop request ends reading between pieces; the message says after how many bytes") {
     const ScratchFolder folder;
     std::stop_source stop;
     std::string text = "x,y,z,nx,ny,nz\n";
@@ -191,6 +191,6 @@ TEST_SUITE("identity") {
         read_table(pipe, {{"x", {}, {}}, {"y", {}, {}}, {"z", {}, {}}, {"nx", {}, {}}, {"ny", {}, {}}, {"nz", {}, {}}},
                    stop_after_1000, later.get_token()),
         Stopped);
-    CHECK(rows < 1000 + (1 << 17) / 12 + 1);  // no more than what was read before
+    CHECK(rows < 1000 + (1 << 17) / 12 + 1);  // at most the rows that had been read before
   }
 }

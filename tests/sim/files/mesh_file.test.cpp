@@ -82,7 +82,7 @@ TEST_SUITE("known answer") {
     CHECK(mesh.positions[0] == glm::dvec3{5400000.8416139996, 0.1, -1e-300});
   }
 
-  TEST_CASE("an OBJ loses nothing to a byte order mark, whatever ends its lines") {
+  TEST_CASE("an OBJ with a byte order mark, and with any line ends, is read completely") {
     const ScratchFolder folder;
     for (const std::string end : {"\n", "\r\n", "\r"}) {
       CAPTURE(end);
@@ -105,7 +105,7 @@ TEST_SUITE("known answer") {
     CHECK(mesh.triangles[1] == std::array<std::uint32_t, 3>{0, 3, 2});
   }
 
-  TEST_CASE("OBJ lines of no known kind are left out with a notice") {
+  TEST_CASE("OBJ lines with unknown keywords are skipped with a notice") {
     const ScratchFolder folder;
     Notices notices;
     const Mesh mesh = read_mesh(
@@ -126,7 +126,7 @@ TEST_SUITE("known answer") {
     CHECK(read(folder.file("m.obj", text + face)).triangles.size() == 298);
   }
 
-  TEST_CASE("an OBJ vertex gets the sum of its corners' unit normals, or the first where they cancel") {
+  TEST_CASE("an OBJ vertex gets the sum of its corners' unit normals, or the first if they cancel") {
     const ScratchFolder folder;
     const std::string positions = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 5\nvn 0 0 -1\nvn 7 0 0\n";
     const Mesh summed = read(folder.file("summed.obj", positions + "f 1//1 2//1 3//1\nf 1//3 3//1 2//1\n"));
@@ -135,7 +135,7 @@ TEST_SUITE("known answer") {
     CHECK(cancelled.normals[0] == glm::dvec3{0, 0, 1});
   }
 
-  TEST_CASE("OBJ normals are left out where a used vertex has none") {
+  TEST_CASE("OBJ normals are dropped if a used vertex has none") {
     const ScratchFolder folder;
     CHECK(read(folder.file("m.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nf 1//1 2//1 3\n")).normals.empty());
   }
@@ -150,7 +150,7 @@ TEST_SUITE("known answer") {
     CHECK(notices[0] == "unused positions that are not finite, set to 0: 1");
   }
 
-  TEST_CASE("every test scene has the triangles and vertices that its table tells" * doctest::test_suite("scenes")) {
+  TEST_CASE("every test scene has the triangles and vertices that its table states" * doctest::test_suite("scenes")) {
     const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     struct Expected {
@@ -204,7 +204,7 @@ TEST_SUITE("bad input") {
                          FileError);
   }
 
-  TEST_CASE("a refused OBJ file is told with its line and the reason") {
+  TEST_CASE("a refused OBJ file is reported with its line and the reason") {
     const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     for (const auto& [bound_content, reason] :
          {std::pair<std::string, std::string>{triangle + "f 1 2 4\n", ":4: vertex 4 is"},
@@ -246,7 +246,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("a refused PLY mesh is told with the reason") {
+  TEST_CASE("a refused PLY mesh is reported with the reason") {
     const auto changed = [](const std::string& from, const std::string& to) {
       std::string text = square_ply;
       return text.replace(text.find(from), from.size(), to);
@@ -273,7 +273,7 @@ TEST_SUITE("bad input") {
       CHECK_THROWS_WITH_AS((void)read(folder.path(name)), doctest::Contains(name), FileError);
   }
 
-  TEST_CASE("a damaged mesh file is read or refused, never more") {
+  TEST_CASE("a damaged mesh file is read or refused, with no other effect") {
     const auto read_any = [](const std::string& path) { (void)read(path); };
     CHECK(support::refused_when_damaged("m.obj", square_obj, 1500, read_any) > 100);
     CHECK(support::refused_when_damaged("m.ply", square_ply, 1500, read_any) > 100);

@@ -8,7 +8,7 @@
 using namespace detp::sim;
 
 TEST_SUITE("identity") {
-  TEST_CASE("a written mesh is read back to the last bit, with and without normals") {
+  TEST_CASE("a written mesh is read back bit for bit, with and without normals") {
     Mesh mesh{.positions = {{0.1, -1e-300, 1e300}, {1.0 / 3, 0, 0}, {0, 1, 0}, {7, 7, 7}},
               .normals = {},
               .triangles = {{0, 1, 2}, {3, 2, 0}, {1, 1, 1}}};
@@ -27,7 +27,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a damaged binary mesh is read or refused, never more") {
+  TEST_CASE("a damaged binary mesh is read or refused, with no other effect") {
     const support::ScratchFolder folder;
     write_ply(folder.path("mesh.ply"),
               {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {}, .triangles = {{0, 1, 2}}});

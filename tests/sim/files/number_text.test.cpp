@@ -9,7 +9,7 @@
 using namespace detp::sim;
 
 TEST_SUITE("known answer") {
-  TEST_CASE("numbers beyond the range of any type are infinite or zero, however they are written") {
+  TEST_CASE("numbers beyond the range of any type are infinite or zero, in any notation") {
     const double infinity = std::numeric_limits<double>::infinity();
     for (const char* large : {"1e309", "1e5000", "10e404000", "+1E+99999", "0.001e6000", "1e99999999999999999999"})
       CHECK(number_in(large) == infinity);

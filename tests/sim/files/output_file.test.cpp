@@ -39,13 +39,13 @@ TEST_SUITE("known answer") {
     file.write("first ");
     file.write(large);
     CHECK(!std::filesystem::exists(folder.path("out")));
-    CHECK(folder.entries() == 0);  // not even a part of it
+    CHECK(folder.entries() == 0);  // not even a part of it is there
     file.commit();
     CHECK(content_of(folder.path("out")) == "first " + large);
     CHECK(folder.entries() == 1);
   }
 
-  TEST_CASE("where files without a name are not to be had, the part file goes when the writer does") {
+  TEST_CASE("if nameless files are not supported, the writer removes its part file") {
     const ScratchFolder folder;
     for (const bool committed : {false, true}) {
       OutputFile file(folder.path("out"), OutputFile::Aside::named);
@@ -98,7 +98,7 @@ TEST_SUITE("known answer") {
     CHECK((status.st_mode & 0777) == 0640);
   }
 
-  TEST_CASE("a link is followed, also to a file that is not there yet") {
+  TEST_CASE("a link is followed, also to a file that does not exist yet") {
     const ScratchFolder folder;
     std::filesystem::create_symlink("target", folder.path("link"));
     for (const char* text : {"first", "second"}) {
@@ -108,7 +108,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("an open descriptor is written where it stands") {
+  TEST_CASE("an open descriptor is written from its current position") {
     const ScratchFolder folder;
     const int descriptor = ::open(folder.path("log").c_str(), O_WRONLY | O_CREAT, 0666);
     REQUIRE(::write(descriptor, "before ", 7) == 7);
@@ -118,7 +118,7 @@ TEST_SUITE("known answer") {
     CHECK(content_of(folder.path("log")) == "before between after");
   }
 
-  TEST_CASE("a pipe is written directly, and asking whether it can be written does not open it") {
+  TEST_CASE("a pipe is written directly, and require_writable does not open it") {
     const ScratchFolder folder;
     const std::string path = folder.path("pipe");
     REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
@@ -131,7 +131,7 @@ TEST_SUITE("known answer") {
     CHECK(std::filesystem::is_fifo(path));
   }
 
-  TEST_CASE("one place is known under all its names") {
+  TEST_CASE("all names of one place are recognised") {
     const ScratchFolder folder;
     const std::string file = folder.file("file", "");
     std::filesystem::create_directory(folder.path("inner"));
@@ -164,7 +164,7 @@ TEST_SUITE("bad input") {
       CHECK(refusal("/dev/full", std::string(size, 'x')) == "/dev/full: cannot be written: No space left on device");
   }
 
-  TEST_CASE("a folder that is not there or no folder, and a folder in place of a file, are reported") {
+  TEST_CASE("a missing folder, a file in place of a folder, and a folder in place of a file are reported") {
     const ScratchFolder folder;
     const std::string plain = folder.file("plain", "");
     CHECK(refusal(folder.path("missing/out"), "x").find("cannot be written: No such file") != std::string::npos);
@@ -182,7 +182,7 @@ TEST_SUITE("bad input") {
     CHECK(folder.entries() == 2);
   }
 
-  TEST_CASE("what must not be written is not, and nothing is left behind") {
+  TEST_CASE("a write-protected file is not written, and nothing is left behind") {
     if (::geteuid() == 0) {
       MESSAGE("skipped: root may write everywhere");
       return;

@@ -17,11 +17,11 @@ using support::ScratchFolder;
 namespace {
 
 struct Thing {
-  std::array<std::vector<double>, 9> columns;  ///< by property, then by row; of the list the entries of all rows
-  std::vector<std::size_t> ends;               ///< of the list, by row
+  std::array<std::vector<double>, 9> columns;  ///< by property, then by row; for the list the entries of all rows
+  std::vector<std::size_t> ends;               ///< ends of the list's rows
 };
 
-/// The element "thing", all of its properties.
+/// The element "thing" with all its properties.
 Thing read_thing(const std::string& path, std::stop_token stop = {}) {
   PlyFile file(path, std::move(stop));
   Thing thing;
@@ -59,7 +59,7 @@ end_header
 
 std::string header(const std::string& format) { return "ply\nformat " + format + " 1.0\n" + all_types; }
 
-/// Numbers as the bytes of a binary file.
+/// Writes numbers as the bytes of a binary file.
 class Bytes {
  public:
   explicit Bytes(std::endian order) : order_(order) {}
@@ -129,7 +129,7 @@ TEST_SUITE("known answer") {
     check_values(header("binary_big_endian") + binary_body(std::endian::big));
   }
 
-  TEST_CASE("a byte order mark in front is accepted") { check_values("\xEF\xBB\xBF" + header("ascii") + ascii_body); }
+  TEST_CASE("a leading byte order mark is accepted") { check_values("\xEF\xBB\xBF" + header("ascii") + ascii_body); }
 
   TEST_CASE("CR LF line ends are accepted") {
     std::string text;
@@ -201,7 +201,7 @@ TEST_SUITE("bad input") {
           std::string::npos);
   }
 
-  TEST_CASE("a header that promises more than the file can hold takes no memory") {
+  TEST_CASE("a header that declares more than the file can hold allocates no memory") {
     for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"})
       for (const char* property : {"property float a", "property list uint double few", ""}) {
         CAPTURE(format);
@@ -212,7 +212,7 @@ TEST_SUITE("bad input") {
       }
   }
 
-  TEST_CASE("a damaged file is read or refused, never more") {
+  TEST_CASE("a damaged file is read or refused, with no other effect") {
     const auto read = [](const std::string& path) { (void)read_thing(path); };
     CHECK(support::refused_when_damaged("t.ply", header("ascii") + ascii_body, 1500, read) > 200);
     CHECK(support::refused_when_damaged("t.ply", header("binary_little_endian") + binary_body(std::endian::little),

@@ -27,7 +27,7 @@ const std::string ply_header =
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("written rays are read back to the last bit") {
+  TEST_CASE("written rays are read back bit for bit") {
     const std::vector<Ray> rays{
         {.origin = {0.1, 2e-308, -3}, .direction = {0, 1, 0}, .length = unbounded, .power = 1},
         {.origin = {1e22, 0, 0}, .direction = glm::normalize(glm::dvec3{1, 2, 3}), .length = 0.7, .power = 1e-9}};
@@ -45,7 +45,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a ray without length is a line, and without power carries 1") {
+  TEST_CASE("a ray without length is a line, and without power has the power 1") {
     const auto lines = read("r.csv", "ox,oy,oz,dx,dy,dz\n1,2,3,0,0,-1e-300\n");
     CHECK(lines[0].is_line());
     CHECK(lines[0].power == 1);
@@ -92,7 +92,7 @@ TEST_SUITE("bad input") {
           std::string::npos);
   }
 
-  TEST_CASE("a damaged ray file is read or refused, and what is read is sound") {
+  TEST_CASE("a damaged ray file is read or refused, and rays that are read are valid") {
     const auto read_sound = [](const std::string& path) {
       for (const Ray& ray : read_rays(path)) {
         REQUIRE(std::abs(glm::length(ray.direction) - 1) < 1e-14);

@@ -13,7 +13,7 @@ namespace {
 
 const Box unit_box{{0, 0, 0}, {1, 1, 1}};
 
-/// Whether some of many points of the disc lies in the box: never true where they do not overlap.
+/// Whether one of many points of the disc lies in the box; never true if they do not overlap.
 bool sampled_overlap(const Disc& disc, const Box& box) {
   const auto [u, v] = basis_around(disc.normal);
   for (int i = 0; i <= 60; ++i)
@@ -38,13 +38,13 @@ TEST_SUITE("known answer") {
     CHECK(overlaps({{5, 0.5, 0.5}, {0, 1, 0}, 4.5}, unit_box, 0));
   }
 
-  TEST_CASE("its bounds may overlap and the disc not: past an edge, or in another plane") {
+  TEST_CASE("the disc may miss the box though their bounds overlap: beyond an edge, or in another plane") {
     CHECK_FALSE(overlaps({{1.08, 1.08, 0.5}, {0, 0, 1}, 0.1}, unit_box, 0));
     CHECK_FALSE(overlaps({{1.3, 1.3, 0.5}, glm::normalize(glm::dvec3{1, 1, 0}), 0.5}, unit_box, 0));
     CHECK_FALSE(overlaps({{5, 0.5, 0.5}, {0, 1, 0}, 3.9}, unit_box, 0));
   }
 
-  TEST_CASE("the slack widens the box") {
+  TEST_CASE("the slack enlarges the box") {
     const Disc above{{0.5, 0.5, 1.05}, {0, 0, 1}, 0.1};
     CHECK_FALSE(overlaps(above, unit_box, 0.04));
     CHECK(overlaps(above, unit_box, 0.06));
@@ -64,7 +64,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("reference value") {
-  TEST_CASE("no overlap that points of the disc show is missed, and few are claimed that they do not show") {
+  TEST_CASE("every overlap that points of the disc show is found, and few others are reported") {
     int overlapping = 0;
     int unconfirmed = 0;
     for (std::uint64_t i = 0; i < 4000; ++i) {

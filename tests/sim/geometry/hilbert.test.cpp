@@ -22,7 +22,8 @@ struct Place {
   Cell cell;
 };
 
-/// The cells of a cube of 2^levels a side, cells of that size in the unit box, in the order of the curve.
+/// The cells in a cube of 2^levels cells a side whose low corner is `low`, in the order of the curve. `cell` is a
+/// cell's side; the box has side 1.
 std::vector<Place> along_curve(const Cell& low, int levels, double cell) {
   std::vector<Place> places;
   const std::int64_t side = std::int64_t{1} << levels;
@@ -55,7 +56,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("the smallest cells fill each cube of 16 a side one after another, face to face, and go on in the next") {
+  TEST_CASE("the smallest cells fill each cube of 16 a side consecutively, each sharing a face with the next") {
     for (std::uint64_t i = 0; i < 20; ++i) {
       const auto words = bits4(3, Stream::tests, i);
       Cell low{};
@@ -69,8 +70,8 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("halves of the box follow each other through one face of two of the smallest cells") {
-    std::vector<Place> corners;  // of the eight halves: the curve enters and leaves each at one
+  TEST_CASE("the curve goes from one half of the box to the next through a common face of two of the smallest cells") {
+    std::vector<Place> corners;  // corners of the eight halves: the curve enters and leaves each half at one
     for (std::int64_t x : {0, 32767, 32768, 65535})
       for (std::int64_t y : {0, 32767, 32768, 65535})
         for (std::int64_t z : {0, 32767, 32768, 65535})
@@ -89,7 +90,7 @@ TEST_SUITE("identity") {
   TEST_CASE("the order is the stable sort by code") {
     std::vector<glm::dvec3> points;
     for (std::size_t i = 0; i < 3000; ++i) {
-      const auto u = uniform4(4, Stream::tests, i % 2500);  // the last 500 again
+      const auto u = uniform4(4, Stream::tests, i % 2500);  // the last 500 repeat the first
       points.emplace_back(u[0], 2 * u[1], u[2]);
     }
     Box box;

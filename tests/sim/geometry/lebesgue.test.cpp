@@ -31,7 +31,7 @@ Box box_of(const std::vector<glm::dvec3>& points) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("X counts before Y before Z, the highest bits first") {
+  TEST_CASE("X is more significant than Y and Y than Z, the highest bits first") {
     const double half = 0.5;
     CHECK(lebesgue_code({half, 0, 0}, unit_box) == 1ULL << 47);
     CHECK(lebesgue_code({0, half, 0}, unit_box) == 1ULL << 46);
@@ -76,7 +76,7 @@ TEST_SUITE("identity") {
     CHECK(lebesgue_order(points) == expected);
   }
 
-  TEST_CASE("none, one and equal points keep their order") {
+  TEST_CASE("no, one and equal points keep their order") {
     CHECK(lebesgue_order({}).empty());
     const std::vector<glm::dvec3> same(3, glm::dvec3{1, 2, 3});
     CHECK(lebesgue_order(same) == std::vector<std::uint32_t>{0, 1, 2});

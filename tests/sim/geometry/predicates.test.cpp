@@ -22,7 +22,7 @@ Ray segment(const glm::dvec3& from, const glm::dvec3& to) {
   return {.origin = from, .direction = glm::normalize(to - from), .length = glm::distance(from, to)};
 }
 
-/// The textbook's: intersect with the plane, measure the distance.
+/// The textbook method: intersects the line with the plane and compares the distance.
 bool crosses(const Ray& ray, const Disc& disc) {
   const double facing = glm::dot(disc.normal, ray.direction);
   const double t = glm::dot(disc.normal, disc.centre - ray.origin) / facing;
@@ -33,7 +33,7 @@ bool crosses(const Ray& ray, const Disc& disc) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a line through the disc hits it from both sides and from afar") {
+  TEST_CASE("a line through the disc hits it from both sides and from far away") {
     CHECK(hits(line({0.5, 0.5, -7}, {0, 0, 1}), floor_disc));
     CHECK(hits(line({0.5, 0.5, 7}, {0, 0, 1}), floor_disc));
     CHECK(hits(line({0, 0, 0}, {tilt, 0, 0.8}), floor_disc));
@@ -63,7 +63,7 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(arrives_in_front(line({0, 0, -1}, {0, 0, 1}), floor_disc));
   }
 
-  TEST_CASE("a sphere is met by a line that touches it, and by a segment that ends in it or lies in it") {
+  TEST_CASE("a sphere is met by a line that touches it, and by a segment that ends or lies in it") {
     const Sphere ball{{0, 0, 0}, 1};
     CHECK(hits(line({1, 0, -5}, {0, 0, 1}), ball));
     CHECK_FALSE(hits(line({1.001, 0, -5}, {0, 0, 1}), ball));
@@ -75,7 +75,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("reference value") {
-  TEST_CASE("without division the disc is decided as by the textbook, except within rounding of the rim") {
+  TEST_CASE("deciding without division agrees with the textbook method, except within rounding of the rim") {
     int hit = 0;
     for (std::uint64_t i = 0; i < 100'000; ++i) {
       const auto a = uniform4(21, Stream::tests, i);
@@ -86,6 +86,6 @@ TEST_SUITE("reference value") {
       hit += hits(ray, disc) ? 1 : 0;
       CHECK(hits(ray, disc) == crosses(ray, disc));
     }
-    CHECK(hit > 5'000);  // the comparison saw both answers
+    CHECK(hit > 5'000);  // both answers occurred
   }
 }

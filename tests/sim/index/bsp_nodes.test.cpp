@@ -58,7 +58,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("two clumps far apart: one plane between them, across the longest side, and no disc in both") {
+  TEST_CASE("two distant clusters: one plane between them, across the longest side, and no disc in both") {
     std::vector<Disc> discs;
     for (int i = 0; i < 100; ++i) discs.push_back({{i < 50 ? 0 : 10, 0, 0}, {0, 0, 1}, 1});
     const Problem problem = make_problem(one_ray, discs);
@@ -71,7 +71,7 @@ TEST_SUITE("known answer") {
     CHECK(tree.placements == 100);
   }
 
-  TEST_CASE("depth and leaf size are kept to") {
+  TEST_CASE("depth and leaf size stay within their limits") {
     const auto discs = uniform_discs(Body::cube, 2, 2000, 0.01, 5);
     const Problem problem = make_problem(one_ray, discs);
     CHECK(deepest(problem, {0, 1}) == 0);
@@ -81,13 +81,13 @@ TEST_SUITE("known answer") {
     CHECK(deepest(problem, {64, 1}) > 12);
   }
 
-  TEST_CASE("coincident discs end the splitting: a thousand take no more memory than their copies in few leaves") {
+  TEST_CASE("splitting ends at coincident discs: a thousand need no more memory than copies in a few leaves") {
     const std::vector<Disc> discs(1000, Disc{});
     const Problem problem = make_problem(one_ray, discs);
     CHECK(build_bsp(problem, {64, 1}, {}).references.size() == 1000);
   }
 
-  TEST_CASE("asked to stop, it builds nothing") {
+  TEST_CASE("after a stop request it builds nothing") {
     const auto discs = uniform_discs(Body::cube, 2, 2000, 0.01, 5);
     std::stop_source source;
     source.request_stop();

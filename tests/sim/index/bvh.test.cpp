@@ -19,7 +19,7 @@ namespace {
 const Candidate brute{Technique::brute_force, BruteForceParameters{}};
 const Candidate bvh{Technique::bvh, BvhParameters{}};
 
-/// Rays aimed at the discs' neighbourhoods from `far` away, lines and segments that end near them by turns.
+/// Rays aimed near the discs from the distance `far`, alternately lines and segments that end near them.
 std::vector<Ray> rays_from(const std::vector<Disc>& discs, double far) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < 4 * discs.size(); ++i) {
@@ -46,7 +46,7 @@ std::uint64_t check_agrees(const std::vector<Disc>& discs, double far) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("single precision loses nothing, whatever the scene's size and the rays' distance") {
+  TEST_CASE("single precision loses no hit, at any size of the scene and any distance of the rays") {
     for (const double size : {1e-90, 1e-9, 1.0, 1e9, 1e75})
       for (const double far : {1e-3, 1.0, 1e6, 1e9, 1e13}) {
         CAPTURE(size);
@@ -57,7 +57,7 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("… and discs far smaller than its rounding are found, beside large ones") {
+  TEST_CASE("… and discs far smaller than its rounding error are found beside large ones") {
     auto discs = uniform_discs(Body::cube, 2, 150, 0.1, 5);
     for (std::size_t i = 0; i < discs.size(); i += 2) discs[i].radius = 1e-9;
     CHECK(check_agrees(discs, 1) > 150);
@@ -65,21 +65,21 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a test is a disc whose box the ray meets, a reference a disc") {
+  TEST_CASE("a test is a disc whose box the ray meets, a reference is a disc") {
     const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}, {{10, 0, 0}, {0, 0, 1}, 1}};
     const std::vector<Ray> rays{{.origin = {0, 0, -3}},
-                                {.origin = {10.95, 0.95, 0}},  // in the corner of the box, beside the disc
+                                {.origin = {10.95, 0.95, 0}},  // in the corner of the box, next to the disc
                                 {.origin = {0, 1.01, 0}},
                                 {.origin = {0, 0, 5}, .length = 4.99}};
     const Outcome outcome = run(make_problem(rays, discs), {Technique::bvh, BvhParameters{BuildQuality::medium}});
     CHECK(outcome.counts == Counts<std::uint64_t>{.disc_tests = 2, .references = 2, .hits = 1});
   }
 
-  TEST_CASE("even lines: the tests are as many as the boxes' area has it") {
+  TEST_CASE("isotropic lines: the number of tests follows from the areas of the boxes") {
     const auto discs = uniform_discs(Body::cube, 2, 2000, 0.05, 5);
     const auto rays = LineField(enclosing_sphere(discs), 6).lines(0, 20'000);
-    // A line hits a convex body as often as its surface is large: the disc's 2π d², the box's 8 d² Σ √((1 - a²)(1 -
-    // b²)) over the pairs a, b of the normal's coordinates.
+    // The number of lines that hit a convex body is proportional to its surface area: 2π d² for the disc, 8 d² Σ √((1 -
+    // a²)(1 - b²)) for its box, over the pairs a, b of the normal's coordinates.
     double discs_area = 0;
     double boxes_area = 0;
     for (const auto& [centre, n, d] : discs) {

@@ -24,7 +24,7 @@ std::vector<IndexVariant> all_variants() {
   return all;
 }
 
-/// Discs of two radii, and lines and segments, some along the axes and on the planes between cells.
+/// Discs of two radii; lines and segments, some along the axes and in the planes between cells.
 struct Setting {
   std::vector<Disc> discs;
   std::vector<Ray> rays;
@@ -67,7 +67,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("mailboxes and restarts change the tests and the visits they are about, and nothing else") {
+  TEST_CASE("mailboxes and restarts change only their own counts of tests and visits") {
     const Problem problem = make_problem(setting().rays, setting().discs);
     const Counts plain = search_octree(problem, {5}, {}).counts;
     Counts once = search_octree(problem, {5}, {.mailboxing = true}).counts;
@@ -77,7 +77,7 @@ TEST_SUITE("identity") {
     CHECK(once == plain);
     Counts anew = search_octree(problem, {5, Traversal::restart}, {}).counts;
     CHECK(anew.nodes > plain.nodes);
-    // Where a ray runs in a plane between leaves, top-down it enters those of both sides.
+    // If a ray runs in a plane between leaves, the top-down walk enters the leaves on both sides.
     CHECK(anew.disc_tests <= plain.disc_tests);
     const Counts grid = search_grid(problem, {32}, {}).counts;
     Counts grid_once = search_grid(problem, {32}, {.mailboxing = true}).counts;
@@ -87,7 +87,7 @@ TEST_SUITE("identity") {
     CHECK(search_grid(problem, {32}, {.insertion = Insertion::bounding_box}).counts.references > grid.references);
   }
 
-  TEST_CASE("front to back visits the nodes that top-down does; neighbour links the leaves that restarts do") {
+  TEST_CASE("front to back visits the same nodes as top-down; neighbour links visit the same leaves as restarts") {
     const Problem problem = make_problem(setting().rays, setting().discs);
     for (const int depth : {0, 2, 6}) {
       const auto counts = [&](Traversal traversal) { return search_octree(problem, {depth, traversal}, {}).counts; };
@@ -100,7 +100,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("an index that is shown has the nodes, references and placements of one that is searched") {
+  TEST_CASE("an index built for display has the nodes, references and placements of one that is searched") {
     const Problem problem = make_problem(setting().rays, setting().discs);
     for (const Insertion insertion : {Insertion::exact, Insertion::bounding_box}) {
       const IndexVariant variant{.insertion = insertion};
@@ -132,10 +132,10 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("two discs in opposite corners: four levels with two nodes each, and every octant else left out") {
+  TEST_CASE("two discs in opposite corners: four levels with two nodes each; every other octant is left out") {
     const std::vector<Disc> corners{{.centre = glm::dvec3{-1}, .radius = 1e-3},
                                     {.centre = glm::dvec3{1}, .radius = 1e-3}};
-    // From corner to corner, off the planes between cells.
+    // From corner to corner, but not in the planes between cells.
     const glm::dvec3 direction = glm::normalize(glm::dvec3{1, 1 + 1e-4, 1 - 1e-4});
     const std::vector<Ray> rays{{.origin = glm::dvec3{0}, .direction = direction}};
     const Problem problem = make_problem(rays, corners);
@@ -143,20 +143,20 @@ TEST_SUITE("known answer") {
     (void)inspect_octree(problem, {3}, {}, [&](const IndexNode& node) { ++by_level[node.level]; });
     CHECK(by_level == std::vector<int>{1, 2, 2, 2});
     CHECK(search_octree(problem, {3}, {}).counts.nodes == 7);
-    // Both leaves by 4 nodes; empty octants of 1/8 and 1/4 of the side by 3 and 2, at both ends, each with two more cut
-    // off its sides; and two such of the root's by 1.
+    // Each of the two leaves takes 4 nodes. At both ends, empty octants of 1/8 and 1/4 of the side take 3 and 2, and
+    // the ray cuts two more of each at their sides; two octants of the root take 1.
     const std::uint64_t visits = search_octree(problem, {3, Traversal::restart}, {}).counts.nodes;
     CHECK(visits > 2 * 4 + 2 * (3 + 2));
     CHECK(visits <= 2 * 4 + 2 * 3 * (3 + 2) + 2);
   }
 
-  TEST_CASE("a full octree is searched by 4 (k + 1) visits along four leaves in a row") {
+  TEST_CASE("a full octree is searched with 4 (k + 1) visits along four leaves in a row") {
     const auto discs = uniform_discs(Body::cube, 2, 3000, 0.2, 1);
     const std::vector<Ray> rays{{.origin = {0.1, 0.1, 0.1}, .direction = {1, 0, 0}}};
     const Problem problem = make_problem(rays, discs);
     CHECK(search_octree(problem, {2, Traversal::restart}, {}).counts.nodes == 4 * 3);
     CHECK(search_octree(problem, {2}, {}).counts.nodes == 1 + 2 + 4);
-    // Down to the first leaf, and from there by three links: all leaves are of one size.
+    // Visits 3 nodes down to the first leaf, then follows three links: all leaves have the same size.
     CHECK(search_octree(problem, {2, Traversal::neighbour_links}, {}).counts.nodes == 3 + 3);
   }
 }

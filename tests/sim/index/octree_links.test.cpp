@@ -18,7 +18,7 @@ std::vector<Box> boxes_of(const std::vector<LinkedNode>& nodes, const Box& cube)
   return boxes;
 }
 
-/// Whether box b lies behind that face of box a, all of it.
+/// Whether box b covers the whole of that face of box a, from behind.
 bool covers(const Box& b, const Box& a, int face) {
   const int axis = face / 2;
   if (face % 2 == 0 ? b.high[axis] != a.low[axis] : b.low[axis] != a.high[axis]) return false;
@@ -30,7 +30,7 @@ bool covers(const Box& b, const Box& a, int face) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("every link leads to the node as large behind the face, or to the larger leaf there") {
+  TEST_CASE("every link leads to the node of the same size behind the face, or to the larger leaf there") {
     const auto discs = uniform_discs(Body::cube_faces, 2, 300, 0.02, 9);
     const std::vector<Ray> rays{{}};
     const OctreeNodes tree = build_octree(make_problem(rays, discs), 5, Insertion::exact, {});
@@ -58,7 +58,7 @@ TEST_SUITE("identity") {
     CHECK(references == tree.references.size());
   }
 
-  TEST_CASE("a root alone is a leaf without links") {
+  TEST_CASE("a root without children is a leaf without links") {
     const std::vector<Disc> discs{{}};
     const std::vector<Ray> rays{{}};
     const std::vector<LinkedNode> nodes =

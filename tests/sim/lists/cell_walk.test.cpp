@@ -12,7 +12,7 @@ using namespace detp;
 using namespace detp::sim;
 
 TEST_SUITE("identity") {
-  TEST_CASE("each sphere touches the one around it from inside, and holds the disc") {
+  TEST_CASE("each sphere touches the one around it from inside, and contains the disc") {
     for (const Body body : {Body::cube, Body::cube_faces}) {
       auto discs = uniform_discs(body, 2, 2000, 0.01, 4);
       for (std::size_t i = 0; i < discs.size(); ++i) discs[i].radius /= 1 + static_cast<double>(i % 7);
@@ -35,18 +35,18 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("along the curve, cells are entered once: as often as their levels change") {
+  TEST_CASE("along the curve each cell is entered once, so the walk enters as many cells as exist") {
     const auto discs = uniform_discs(Body::cube, 2, 5000, 0.01, 4);
     CellWalk walk(discs, 3);
     std::vector<int> entered(4);
     for (const std::uint32_t d : along_curve(discs))
       for (int level = walk.enter(discs[d]); level <= 3; ++level) ++entered[static_cast<std::size_t>(level)];
-    CHECK(entered == std::vector<int>{0, 8, 64, 512});  // 5000 samples leave none of 512 cells empty
+    CHECK(entered == std::vector<int>{0, 8, 64, 512});  // 5000 samples leave none of the 512 cells empty
   }
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("cells of a cube of side 2: an octant's sphere, and that of discs in one place") {
+  TEST_CASE("cells of a cube of side 2: the sphere of an octant, and that of discs in one place") {
     const std::vector<Disc> corners{{{-1, -1, -1}, {0, 0, 1}, 0.5}, {{1, 1, 1}, {0, 0, 1}, 0.25}};
     CellWalk walk(corners, 1);
     CHECK(walk.enter(corners[0]) == 1);

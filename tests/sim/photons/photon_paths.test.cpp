@@ -17,7 +17,7 @@ using namespace detp::sim;
 
 namespace {
 
-/// A closed box of side 2 around the centre, in units of `scale`, with a lamp in its middle.
+/// A closed box of side 2 around `centre`, in units of `scale`, with a lamp in its middle.
 Scene closed_box(double scale = 1, const glm::dvec3& centre = glm::dvec3{0.0}) {
   Scene scene;
   scene.name = "closed box";
@@ -43,7 +43,7 @@ std::vector<Ray> paths_with_threads(const Scene& scene, std::size_t count, std::
   return photon_paths(scene, count, 1);
 }
 
-/// Whether all rays are what rays should be; says which is not.
+/// Checks that all rays are valid, and reports which is not.
 void check_sound(const Scene& scene, const std::vector<Ray>& rays) {
   const double longest = 2 * (1 + 2e-5) * diagonal(scene);
   std::size_t unsound = 0;
@@ -59,7 +59,7 @@ void check_sound(const Scene& scene, const std::vector<Ray>& rays) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("there are exactly as many rays as asked for, each a sound segment, and power × photons = 1") {
+  TEST_CASE("there are exactly `count` rays, each a valid segment, and power × photons = 1") {
     for (const char* name : {"@tree", "@tree-coarse", "@courtyard", "@cornell"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});
@@ -75,7 +75,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("fewer rays are the first of more, but for their power") {
+  TEST_CASE("a smaller number of rays gives the first of a larger number, except for their power") {
     const Scene scene = open_scene({.name = "@cornell", .samples = {}});
     const std::vector<Ray> few = photon_paths(scene, 500, 7);
     const std::vector<Ray> many = photon_paths(scene, 5000, 7);
@@ -127,7 +127,7 @@ TEST_SUITE("known answer") {
     CHECK(away < 2000);
   }
 
-  TEST_CASE("with albedo 1 a closed box still comes to an end: a photon has at most 1000 pieces") {
+  TEST_CASE("with albedo 1 paths in a closed box terminate: a photon has at most 1000 pieces") {
     Scene scene = closed_box();
     scene.albedo = 1;
     CHECK(1 / photon_paths(scene, 10'000, 1)[0].power == doctest::Approx(10));
@@ -148,7 +148,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("other seeds give other paths") {
+  TEST_CASE("another seed gives other paths") {
     const Scene scene = closed_box();
     CHECK(same(photon_paths(scene, 10, 1), photon_paths(scene, 10, 1)));
     CHECK_FALSE(same(photon_paths(scene, 10, 1), photon_paths(scene, 10, 2)));
@@ -185,7 +185,7 @@ TEST_SUITE("statistical") {
     CHECK_MESSAGE(std::abs(sum / bounced - 1.05 * 2 / 3) > 5 * error, "negative control: 5 % off must not pass");
   }
 
-  TEST_CASE("a lamp in the middle of a cube lights its six faces alike") {
+  TEST_CASE("a lamp in the middle of a cube lights its six faces equally") {
     Scene scene = closed_box();
     scene.albedo = 0;
     constexpr double count = 60'000;
@@ -221,7 +221,7 @@ TEST_SUITE("bad input") {
                          std::invalid_argument);
   }
 
-  TEST_CASE("an albedo that is no share and a light that is none are refused") {
+  TEST_CASE("an albedo outside [0, 1] and an invalid light are refused") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double albedo : {-0.1, 1.1, nan}) {
       Scene scene = closed_box();
@@ -238,16 +238,17 @@ TEST_SUITE("bad input") {
                          std::invalid_argument);
   }
 
-  TEST_CASE("a light that meets nothing is given up after the stated number of photons") {
+  TEST_CASE("tracing gives up after the stated number of photons if the light meets no surface") {
     Scene scene = closed_box();
-    scene.light = AreaLight{.corner = {0, 50, 0}, .edge_u = {0, 0, 1}, .edge_v = {1, 0, 0}};  // shines up, far above
+    // shines up, far above the scene
+    scene.light = AreaLight{.corner = {0, 50, 0}, .edge_u = {0, 0, 1}, .edge_v = {1, 0, 0}};
     CHECK_THROWS_WITH_AS((void)photon_paths(scene, 100, 1), doctest::Contains("11000 photons gave 0 pieces"),
                          std::invalid_argument);
   }
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("every test scene that can be read gives sound paths" * doctest::test_suite("scenes")) {
+  TEST_CASE("every test scene that can be read gives valid paths" * doctest::test_suite("scenes")) {
     const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

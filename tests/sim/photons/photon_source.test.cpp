@@ -13,7 +13,7 @@
 using namespace detp::sim;
 
 TEST_SUITE("identity") {
-  TEST_CASE("photons by number are photon_paths, byte for byte, whatever the blocks") {
+  TEST_CASE("photons by number are photon_paths, byte for byte, for any blocks") {
     for (const char* name : {"@cornell", "@tree-coarse"}) {
       const Scene scene = open_scene({.name = name, .samples = {}});
       for (const std::size_t count : {1, 5001}) {
@@ -34,7 +34,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("no photon's piece starts farther away than told") {
+  TEST_CASE("no photon's piece starts farther away than farthest_from reports") {
     const Scene scene = open_scene({.name = "@cornell", .samples = {}});
     const std::vector<Ray> rays = photon_paths(scene, 5000, 3);
     const PhotonSource source(scene, rays.size(), 3);
@@ -48,7 +48,7 @@ TEST_SUITE("limit") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a light that meets nothing is refused, not waited for") {
+  TEST_CASE("a light that meets no surface is refused instead of traced for ever") {
     Scene scene = open_scene({.name = "@cornell", .samples = {}});
     scene.light = PointLight{scene.box.high + 1000.0 * scene.box.size()};
     CHECK_THROWS_WITH_AS(PhotonSource(scene, 50, 1), doctest::Contains("hardly meets"), std::invalid_argument);

@@ -16,7 +16,7 @@ glm::dvec3 random_point(std::uint64_t index, std::uint64_t sub_index) {
   return {2 * random[0] - 1, 2 * random[1] - 1, 2 * random[2] - 1};
 }
 
-/// Triangles of about the given size anywhere in [-1, 1]³.
+/// Triangles of about that size at random places in [-1, 1]³.
 Mesh soup(std::uint64_t count, double size) {
   Mesh mesh;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -45,7 +45,7 @@ struct Found {
   std::size_t triangle = 0;
 };
 
-/// By signed volumes, all triangles: another way to the same answer.
+/// Tests all triangles by signed volumes: an independent method.
 Found first_by_volumes(const Mesh& mesh, const glm::dvec3& origin, const glm::dvec3& direction) {
   Found found;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
@@ -64,7 +64,7 @@ Found first_by_volumes(const Mesh& mesh, const glm::dvec3& origin, const glm::dv
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("triangles that are there many times are met as if they were there once, as the first of them") {
+  TEST_CASE("repeated triangles are met as if each were there once, under the number of the first") {
     const Mesh once = soup(50, 1.0);
     Mesh often;
     often.positions = once.positions;
@@ -92,7 +92,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("meets the same triangle as a look at all of them, at the same distance, be they large or tiny") {
+  TEST_CASE("it meets the same triangle as a search of all of them, at the same distance, for all sizes") {
     for (const double size : {1.0, 0.1, 1e-3}) {
       CAPTURE(size);
       const Mesh mesh = soup(2000, size);
@@ -116,7 +116,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("misses what is behind or beside, and triangles without area") {
+  TEST_CASE("it misses triangles behind or beside the ray, and triangles without area") {
     Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}}, .normals = {}, .triangles = {{0, 1, 2}}};
     const RayCaster caster(mesh, box_of(mesh));
     const auto meets = [&](const RayCaster& by, const glm::dvec3& origin, const glm::dvec3& direction) {

@@ -14,7 +14,7 @@ using namespace detp;
 using namespace detp::sim;
 
 TEST_SUITE("identity") {
-  TEST_CASE("a line is unit, unbounded, starts nearest to the centre and crosses the sphere") {
+  TEST_CASE("a line has unit direction, is unbounded, starts nearest to the centre and crosses the sphere") {
     const Sphere sphere{{3, -2, 5}, 0.7};
     for (const Ray& line : LineField(sphere, 11).lines(0, 1000)) {
       CHECK(std::abs(glm::length(line.direction) - 1) < 4e-16);
@@ -24,14 +24,14 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("line i is the same however many are asked for, and another seed gives another") {
+  TEST_CASE("line i is the same however many lines are made, and another seed gives another") {
     const LineField field({}, 5);
     const auto lines = field.lines(10, 5);
     CHECK(lines[3].origin == field.line(13).origin);
     CHECK(LineField({}, 6).line(13).origin != field.line(13).origin);
   }
 
-  TEST_CASE("a basis is orthonormal and right-handed for any axis, the poles included") {
+  TEST_CASE("a basis is orthonormal and right-handed for any axis, including the poles") {
     for (std::uint64_t i = 0; i < 1000; ++i) {
       const auto u = uniform4(3, Stream::tests, i);
       const glm::dvec3 axis =
@@ -45,7 +45,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a sphere that is none is refused by name") {
+  TEST_CASE("an invalid sphere is refused by name") {
     for (const double bad :
          {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
       CHECK_THROWS_WITH_AS(LineField({{}, bad}, 1), doctest::Contains("sphere radius must be > 0"),
@@ -56,8 +56,8 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("statistical") {
-  // Under the measure of lines, a share of (r1/r0)² crosses an inner sphere wherever it lies. A field that is not
-  // invariant under translation (as two-points-in-the-ball would be) gets some place wrong.
+  // In the measure of lines, a share of (r1/r0)² crosses an inner sphere wherever it lies. A field that is not
+  // invariant under translation (for instance through two random points in the ball) fails at some place.
   TEST_CASE("an inner sphere is hit equally often at the centre and at the rim") {
     constexpr int lines = 400'000;
     constexpr double radius = 0.3;

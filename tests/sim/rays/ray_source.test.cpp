@@ -26,7 +26,7 @@ const Sphere sphere{{1, -2, 3}, 2.5};
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("the lines of a field are its lines, whatever the blocks") {
+  TEST_CASE("the lines of a field are its lines, for any blocks") {
     const std::vector<Ray> lines = LineField(sphere, 7).lines(0, 10'000);
     const LinesOfField source(sphere, 7, lines.size());
     CHECK(source.size() == lines.size());
@@ -34,14 +34,14 @@ TEST_SUITE("identity") {
     CHECK_FALSE(same_bytes(read_in_blocks(LinesOfField(sphere, 8, lines.size()), 997), lines));
   }
 
-  TEST_CASE("rays in memory are read as they are") {
+  TEST_CASE("rays in memory are read unchanged") {
     const std::vector<Ray> lines = LineField(sphere, 7).lines(0, 100);
     for (const std::size_t block : {1, 7, 100}) CHECK(same_bytes(read_in_blocks(RaysInMemory(lines), block), lines));
   }
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("no origin is farther than told, and what is told is not far off") {
+  TEST_CASE("no origin is farther than farthest_from reports, and that bound is tight") {
     const std::vector<Ray> lines = LineField(sphere, 7).lines(0, 10'000);
     for (const glm::dvec3& point : {sphere.centre, glm::dvec3{0, 0, 0}, glm::dvec3{10, 10, 10}}) {
       double farthest = 0;

@@ -23,7 +23,7 @@ Mesh part(const Mesh& mesh, std::size_t first, std::size_t last) {
   return some;
 }
 
-/// Mean edges over the scene's size. The ground of a tree scene comes first in its mesh.
+/// Mean edge lengths, divided by the scene's size. The ground of a tree scene comes first in its mesh.
 struct Edges {
   double ground;
   double plant;
@@ -46,7 +46,7 @@ constexpr Named all[]{{"tree", built_in::tree},
                       {"courtyard", built_in::courtyard},
                       {"cornell", built_in::cornell}};
 
-/// Twice the area over the square of the longest edge.
+/// Twice the area, divided by the square of the longest edge.
 double fatness(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const glm::dvec3 u = mesh.positions[triangle[1]] - mesh.positions[triangle[0]];
   const glm::dvec3 v = mesh.positions[triangle[2]] - mesh.positions[triangle[0]];
@@ -98,7 +98,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("what is plane in the Cornell box looks into the room") {
+  TEST_CASE("the flat surfaces of the Cornell box face the room") {
     const Mesh mesh = built_in::cornell().mesh;
     Notices notices;
     for (const Sample& sample : samples_at_vertices(mesh, notices)) {
@@ -110,7 +110,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("the ground of the trees looks up") {
+  TEST_CASE("the ground of the trees faces up") {
     for (const auto& [make, cells] : {std::pair{&built_in::tree, 57U}, std::pair{&built_in::tree_coarse, 28U}}) {
       const Mesh mesh = make().mesh;
       Notices notices;
@@ -163,7 +163,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("statistical") {
-  TEST_CASE("uniform samples fill the cube evenly, their normals the sphere") {
+  TEST_CASE("uniform samples fill the cube evenly, and their normals the sphere") {
     constexpr std::size_t count = 100'000;
     glm::dvec3 place{0.0}, normal{0.0}, squares{0.0};
     for (const Sample& sample : built_in::uniform_samples(count, 3)) {
@@ -171,7 +171,7 @@ TEST_SUITE("statistical") {
       normal += sample.normal;
       squares += sample.normal * sample.normal;
     }
-    // All have a variance below 1/3; five standard errors.
+    // All variances are below 1/3; the bound is five standard errors.
     const double bound = 5 * std::sqrt(1.0 / 3 / count);
     for (int axis = 0; axis < 3; ++axis) {
       CHECK(std::abs(place[axis] / count) < bound);

@@ -9,7 +9,7 @@
 using namespace detp::sim;
 
 TEST_SUITE("identity") {
-  TEST_CASE("of triangles with the same corners, in any order, at most six facets are left, by their first number") {
+  TEST_CASE("of triangles with the same corners, in any order, at most six facets remain, under their first numbers") {
     std::array<glm::dvec3, 3> corners{{{0, 0, 0}, {0.5, 0.1, 0}, {0.2, 0.7, -0.3}}};
     std::vector<Facet> all;
     std::array<std::size_t, 3> order{0, 1, 2};
@@ -26,7 +26,7 @@ TEST_SUITE("identity") {
       CHECK(distinct.places[i] == (i % 2 == 1 ? no_facet : static_cast<std::uint32_t>(i / 2 % 6)));
   }
 
-  TEST_CASE("facets that differ in one bit are all left") {
+  TEST_CASE("facets that differ in one bit all remain") {
     std::vector<Facet> all;
     for (std::uint64_t i = 0; i < 1000; ++i) {
       const auto random = uniform4(1, Stream::tests, i);
@@ -35,7 +35,7 @@ TEST_SUITE("identity") {
         all.push_back(make_facet(corner, corner + glm::dvec3{x, 0, 0}, corner + glm::dvec3{0, random[3] + 0.1, 0.3}));
     }
     const DistinctFacets distinct = distinct_facets(all);
-    std::size_t twins = 0;  // rounding of the edges may make two of one pair equal
+    std::size_t twins = 0;  // rounding of the edges may make two facets of a pair equal
     for (std::size_t i = 0; i < all.size(); i += 2) twins += all[i].first == all[i + 1].first ? 1 : 0;
     CHECK(twins < 900);
     CHECK(distinct.facets.size() == all.size() - twins);

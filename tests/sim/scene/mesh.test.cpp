@@ -12,7 +12,7 @@ using namespace detp::sim;
 
 namespace {
 
-/// A corner of a cube of the given side: three faces, of 1, 1 and 2 triangles, meet at vertex 0.
+/// A corner of a cube with side `side`: three faces, of 1, 1 and 2 triangles, meet at vertex 0.
 Mesh cube_corner(double side) {
   return {.positions = {{0, 0, 0}, {side, 0, 0}, {0, side, 0}, {0, 0, side}, {side, side, 0}},
           .normals = {},
@@ -41,7 +41,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("the mesh's own normals are taken, scaled to length 1") {
+  TEST_CASE("the mesh's own normals are used, scaled to length 1") {
     Mesh mesh = cube_corner(1);
     mesh.normals = {{0, 0, 3}, {1e-300, 0, 0}, {0, 1e300, 0}, {0, 0, 0}, {1, 1, 0}};
     Notices notices;
@@ -60,14 +60,14 @@ TEST_SUITE("known answer") {
     for (const glm::dvec3& position :
          {glm::dvec3{9}, glm::dvec3{9}, {5, 5, 5}, {5 + third, 5 + third, 5 + third}, {6, 6, 6}})
       mesh.positions.push_back(position);
-    mesh.triangles.push_back({7, 8, 9});  // collinear but for rounding
+    mesh.triangles.push_back({7, 8, 9});  // collinear within rounding
     mesh.triangles.push_back({7, 7, 7});
     Notices notices;
     CHECK(samples_at_vertices(mesh, notices).size() == 5);
     CHECK(notices == Notices{"2 unreferenced vertices dropped", "3 vertices dropped: no triangle around has an area"});
   }
 
-  TEST_CASE("a leaf that is there once for each face keeps the normal of its first triangle") {
+  TEST_CASE("a leaf with one triangle for each face keeps the normal of its first triangle") {
     const Mesh leaf{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, .normals = {}, .triangles = {{0, 1, 2}, {0, 2, 1}}};
     const auto samples = samples_of(leaf);
     REQUIRE(samples.size() == 3);
@@ -81,10 +81,10 @@ TEST_SUITE("known answer") {
     CHECK(glm::length(samples_of(needle)[0].normal - glm::dvec3{0, 0, 1}) < 1e-8);
   }
 
-  TEST_CASE("the mean edge counts each edge once, and none of length zero") {
+  TEST_CASE("the mean edge counts each edge once, and no edge of length zero") {
     CHECK(mean_edge_length({}) == 0);
     const double diagonal = std::sqrt(2.0);
-    // 5 edges along the axes that are sides, 3 on the diagonals of the faces.
+    // 5 edges are sides along the axes, 3 are diagonals of the faces.
     CHECK(mean_edge_length(cube_corner(1)) == doctest::Approx((5 + 3 * diagonal) / 8).epsilon(1e-14));
     CHECK(mean_edge_length(cube_corner(1e-200)) == doctest::Approx(1e-200 * (5 + 3 * diagonal) / 8).epsilon(1e-14));
     Mesh degenerate = cube_corner(1);
@@ -94,7 +94,7 @@ TEST_SUITE("known answer") {
     CHECK(mean_edge_length(degenerate) == doctest::Approx((5 + 3 * diagonal) / 8).epsilon(1e-14));
   }
 
-  TEST_CASE("the mean edges of test scenes without double vertices are those of their table" *
+  TEST_CASE("the mean edges of test scenes without double vertices agree with their table" *
             doctest::test_suite("scenes")) {
     const std::string folder = support::scenes_folder();
     if (folder.empty()) return;

@@ -26,7 +26,7 @@ const Candidate brute{Technique::brute_force, BruteForceParameters{}};
 
 Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .engine = Engine::plain}); }
 
-/// All exact techniques, in floats and plainly, against the predicate.
+/// Compares all exact techniques, with the float and the plain engine, with the predicate.
 void check_all_agree(const Problem& problem) {
   const Outcome expected = truth_of(problem);
   for (const Candidate& candidate : support::exact_candidates())
@@ -40,10 +40,10 @@ void check_all_agree(const Problem& problem) {
     }
 }
 
-/// As a renderer in single precision has it.
+/// The vector as normalised by a renderer in single precision.
 glm::dvec3 in_floats(const glm::dvec3& vector) { return glm::dvec3(glm::normalize(glm::vec3(vector))); }
 
-/// Three discs and three rays, each number replaced by others in turn.
+/// Three discs and three rays; tests replace each number in turn.
 struct Given {
   std::vector<Ray> rays = std::vector<Ray>(3, {.origin = {0.01, 0.02, -1}, .length = 3});
   std::vector<Disc> discs{{.centre = {0, 0, 0}, .radius = 0.1},
@@ -72,7 +72,7 @@ const std::vector<Field>& fields() {
 }  // namespace
 
 TEST_SUITE("bad input") {
-  TEST_CASE("whatever number a ray or a disc holds, it is refused by name and number or all techniques agree") {
+  TEST_CASE("for any number in a ray or a disc, it is refused by name and number or all techniques agree") {
     const std::vector<double> numbers{not_a_number, infinity, -infinity, 0.0,     -0.0,   denormal, -denormal,
                                       1e-320,       1e-300,   1e-160,    -1e-160, 1e-100, 1e-99,    1e-12,
                                       1e-7,         -1.0,     1e7,       1e30,    1e90,   9e99,     2e100,
@@ -102,7 +102,7 @@ TEST_SUITE("bad input") {
     CHECK(refused < 120);
   }
 
-  TEST_CASE("a length of minus infinity is no line") {
+  TEST_CASE("a length of minus infinity does not make a line") {
     Given given;
     given.rays[2].length = -infinity;
     CHECK_THROWS_WITH_AS((void)make_problem(given.rays, given.discs), "ray 2: length must be > 0 and finite (got -inf)",
@@ -110,7 +110,7 @@ TEST_SUITE("bad input") {
     CHECK_FALSE(given.rays[2].is_line());
   }
 
-  TEST_CASE("what cannot be normalised is refused with its number, whichever thread meets it") {
+  TEST_CASE("a vector that cannot be normalised is refused with its number, whichever thread finds it") {
     std::vector<Ray> rays(100'000, {.direction = {0, 0, 2}});
     rays[70'017].direction = glm::dvec3{0};
     rays[99'999].length = -1;
@@ -136,7 +136,7 @@ TEST_SUITE("bad input") {
     CHECK(run(make_problem(given.rays, given.discs), brute).irradiance[0] < infinity);
   }
 
-  TEST_CASE("no sphere encloses no discs, or discs that are nowhere") {
+  TEST_CASE("no discs, or discs at infinity, have no enclosing sphere") {
     CHECK_THROWS_WITH_AS((void)enclosing_sphere({}), "there must be at least one disc", std::invalid_argument);
     for (const double bad : {not_a_number, infinity, 1e160}) {
       std::vector<Disc> discs = Given{}.discs;
@@ -154,7 +154,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("rays that all pass one disc at a distance hit nothing, by any technique") {
+  TEST_CASE("rays that all pass one disc at a distance hit nothing with any technique") {
     const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 0.1}};
     const std::vector<Ray> rays{{{0, 5, 0}, {1, 0, 0}}, {{0, 0, 7}, {0, 1, 0}}};
     const Problem problem = make_problem(rays, discs);
@@ -184,7 +184,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("what is unit already is borrowed, and stays in place") {
+  TEST_CASE("vectors that have unit length already are not copied, and stay in place") {
     const Given given;
     const Problem problem = make_problem(given.rays, given.discs);
     CHECK(problem.rays.data() == given.rays.data());
@@ -196,7 +196,7 @@ TEST_SUITE("identity") {
     CHECK(copied.rays[1].direction.z == 1);
     CHECK(copied.rays[1].length == 3);
     CHECK(copied.discs.data() == off.discs.data());
-    const Problem again = copied;  // a copy of the problem names the same rays
+    const Problem again = copied;  // a copy of the problem refers to the same rays
     CHECK(again.rays.data() == copied.rays.data());
   }
 

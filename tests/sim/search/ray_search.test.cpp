@@ -27,7 +27,7 @@ const std::vector<Disc>& discs() {
   return all;
 }
 
-/// Lines whose powers range over ten decades, so that another order of adding gives another sum.
+/// Lines whose powers span ten decades, so that adding in another order gives another sum.
 const std::vector<Ray>& rays() {
   static const std::vector<Ray> all = [] {
     std::vector<Ray> lines = LineField(enclosing_sphere(discs()), 4).lines(0, 3000);
@@ -37,7 +37,7 @@ const std::vector<Ray>& rays() {
   return all;
 }
 
-/// Every ray hits disc number 0; what is to happen at ray number 1000 happens.
+/// Every ray hits disc number 0. `event` happens at ray number 1000.
 class AllHit final : public RaySearch {
  public:
   explicit AllHit(std::function<void()> event) : event_(std::move(event)) {}
@@ -87,7 +87,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("each ray is searched once, and hits reach the totals in the rays' order, on any number of threads") {
+  TEST_CASE("each ray is searched once, and hits reach the totals in ray order, on any number of threads") {
     const Problem problem = make_problem(rays(), discs());
     glm::dvec3 power{0};
     for (const Ray& ray : rays()) power[dominant_axis(ray.direction)] += ray.power;
@@ -103,7 +103,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("asked to stop, it ends soon and keeps the hits of all rays before some ray") {
+  TEST_CASE("after a stop request it ends soon, and keeps the hits of all rays before some ray") {
     const Problem problem = make_problem(rays(), discs());
     for (const int threads : {1, 2}) {
       std::stop_source source;
@@ -114,13 +114,13 @@ TEST_SUITE("known answer") {
       CHECK(outcome.stopped);
       CHECK(outcome.total_hits > 1000);
       CHECK(outcome.total_hits < 2000);
-      CHECK(outcome.progress.done == outcome.total_hits);  // one hit a ray
+      CHECK(outcome.progress.done == outcome.total_hits);  // one hit for each ray
       CHECK(outcome.progress.of == rays().size());
       CHECK(outcome.pairs.empty());
     }
   }
 
-  TEST_CASE("what a search throws reaches the caller") {
+  TEST_CASE("an exception of a search reaches the caller") {
     const Problem problem = make_problem(rays(), discs());
     for (const int threads : {1, 2}) {
       Outcome outcome;
@@ -133,7 +133,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("work on N threads has N of them, more than cores if asked for") {
+  TEST_CASE("work on N threads has N threads, even if there are fewer cores") {
     CHECK(thread_count(0) >= 1);
     for (const int threads : {1, 2, 3, 5}) {
       CHECK(thread_count(threads) == threads);

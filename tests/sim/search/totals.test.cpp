@@ -25,7 +25,7 @@ const std::vector<Disc>& discs() {
   return all;
 }
 
-/// Lines whose powers range over ten decades, so that another order of adding gives another sum.
+/// Lines whose powers span ten decades, so that adding in another order gives another sum.
 const std::vector<Ray>& rays() {
   static const std::vector<Ray> all = [] {
     std::vector<Ray> lines = LineField(enclosing_sphere(discs()), 4).lines(0, 1000);
@@ -46,7 +46,7 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("irradiance adds powers by dominant axis, each sum in the rays' order, then x + y + z") {
+  TEST_CASE("irradiance adds powers by dominant axis, each sum in ray order, then x + y + z") {
     for (const Candidate& candidate : candidates) {
       CAPTURE(name(candidate.technique));
       const Outcome outcome = run(make_problem(rays(), discs()), candidate, {.pairs = true});
@@ -69,7 +69,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("blocks of rays that continue one another's totals give the bits of one plain run over all") {
+  TEST_CASE("blocks of rays that continue one another's totals give the bits of one run over all rays") {
     const Outcome whole = run(make_problem(rays(), discs()), candidates[0], {.engine = Engine::plain});
     for (const Candidate& candidate : candidates) {
       CAPTURE(name(candidate.technique));
@@ -93,7 +93,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("totals of other discs and impossible numbers of threads are refused") {
+  TEST_CASE("totals of other discs and invalid numbers of threads are refused") {
     const Problem problem = make_problem(rays(), discs());
     const auto try_run = [&](const RunOptions& options) { static_cast<void>(run(problem, candidates[0], options)); };
     Totals others(discs().size() - 1);

@@ -17,9 +17,9 @@
 #include "detp/sim/technique/technique.hpp"
 #include "support/sanitized.hpp"
 
-// Predicted memory beside what the system says that the process held at its peak. Each run has a process of its own, so
-// that none uses what the heap kept of another, and arrays of 128 KiB or more are given back to the system when they
-// are freed: predicted is what runs take, not what a heap keeps besides.
+// Compares predicted memory with the peak that the system reports for the process. Each run has a process of its own,
+// so that it cannot reuse another run's heap. Arrays of 128 KiB or more return to the system when they are freed, so
+// the peak does not include free memory that the heap keeps.
 
 using namespace detp;
 using namespace detp::sim;
@@ -28,7 +28,7 @@ namespace {
 
 constexpr double mebi = 0x1p20;
 
-/// The number in a line of /proc/self/status, as "VmHWM" (kB) or "Threads".
+/// The number in a line of /proc/self/status, such as "VmHWM" (kB) or "Threads".
 double status(const std::string& name) {
   std::ifstream file("/proc/self/status");
   for (std::string line; std::getline(file, line);)
@@ -36,7 +36,7 @@ double status(const std::string& name) {
   return 0;
 }
 
-/// Forgets the peak; false where the system does not allow that.
+/// Resets the peak; false if the system does not allow it.
 bool forget_peak() {
   std::ofstream file("/proc/self/clear_refs");
   file << 5;
@@ -55,7 +55,7 @@ Given lines_through(std::vector<Disc> discs, std::size_t rays) {
   return given;
 }
 
-/// Segments that carry different powers.
+/// Cuts the lines to segments with different powers.
 Given cut(Given given, double length) {
   for (std::size_t i = 0; i < given.rays.size(); ++i) {
     given.rays[i].length = length;
@@ -68,10 +68,10 @@ Given lines() { return lines_through(uniform_discs(Body::cube, 2, 150'000, 0.01,
 
 Given segments() { return cut(lines(), 0.3); }
 
-/// For what does not depend on the number of rays.
+/// For techniques whose memory does not depend on the number of rays.
 Given fewer_lines() { return lines_through(uniform_discs(Body::cube, 2, 150'000, 0.01, 1), 20'000); }
 
-/// Discs in 27 clusters, that fill a 64th of the space each 1/27 of it would.
+/// Discs in 27 clusters. Each cluster is a 64th of the size of 1/27 of the space.
 Given few_rays_on_clusters() {
   Given given{uniform_discs(Body::cube, 2, 200'000, 0.002, 3), {}};
   for (Disc& disc : given.discs)
@@ -101,7 +101,7 @@ struct Measured {
   double peak = 0;
 };
 
-/// What it does for the first time (starting threads, loading code) is no part of what a run takes.
+/// Work of a first call (starting threads, loading code) does not count as memory of a run.
 void warm_up(const Candidate& candidate, const RunOptions& options) {
   Given given = lines_through(uniform_discs(Body::cube, 2, 500, 0.02, 6), 500);
   for (Ray& ray : given.rays) ray.length = 1;
@@ -119,7 +119,7 @@ Measured measure(const Case& each) {
   return {outcome.bytes, 1024 * (status("VmHWM") - before)};
 }
 
-/// In a process of its own.
+/// Measures in a process of its own.
 Measured measure_apart(const Case& each) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);
@@ -169,7 +169,7 @@ std::vector<Case> cases() {
     const bool brute = candidate.technique == Technique::brute_force;
     const bool streams = candidate.technique < Technique::octree;
     list.push_back({candidate, few_rays_on_clusters, "few rays on clusters"});
-    if (!streams) {  // rays and engines are all alike to them
+    if (!streams) {  // rays and engine make no difference for them
       list.push_back({candidate, fewer_lines, "lines"});
       list.push_back({candidate, fewer_lines, "pairs", pairs});
       continue;

@@ -22,7 +22,7 @@ struct MemoryLimit {
 }  // namespace
 
 TEST_SUITE("bad input") {
-  TEST_CASE("pairs that would not fit the memory are refused before they take it, the hits alone are found") {
+  TEST_CASE("pairs that would not fit in memory are refused before allocation; the hits alone are found") {
     const std::vector<Disc> discs(1000, Disc{{0, 0, 0}, {0, 0, 1}, 1});
     const std::vector<Ray> rays(2000, Ray{{0.1, 0.2, -3}, {0, 0, 1}});
     const Problem problem = make_problem(rays, discs);

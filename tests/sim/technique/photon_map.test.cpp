@@ -23,7 +23,7 @@ Ray down_to(double x, double y, double power) {
   return {.origin = {x, y, 1}, .direction = {0, 0, -1}, .length = 1, .power = power};
 }
 
-/// Photons that fall evenly on the unit square and carry 1 together.
+/// Photons spread evenly over the unit square, with total power 1.
 std::vector<Ray> even_photons(std::size_t count) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < count; ++i) {
@@ -33,7 +33,7 @@ std::vector<Ray> even_photons(std::size_t count) {
   return rays;
 }
 
-/// In the square, away from its edges, 1/25 apart.
+/// Discs in the square, away from its edges, 1/25 apart.
 std::vector<Disc> lattice() {
   std::vector<Disc> discs;
   for (int x = 0; x < 20; ++x)
@@ -46,7 +46,7 @@ const std::vector<Disc> one_disc{{{0, 0, 0}, {0, 0, 1}, 0.5}};
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("the k - 1 nearest photons' power over the area out to the k-th; lines leave no photon") {
+  TEST_CASE("the power of the k - 1 nearest photons over the area out to the k-th; lines leave no photon") {
     const std::vector<Ray> rays{
         down_to(3, 0, 11), down_to(0, 4, 13), {.origin = {0.1, 0, 1}}, down_to(0, -1, 5), down_to(-2, 0, 7)};
     const Outcome outcome = nearest(make_problem(rays, one_disc), 3, {.pairs = true});
@@ -58,7 +58,7 @@ TEST_SUITE("known answer") {
     CHECK(nearest(make_problem(rays, one_disc), 3, {.count = false}).counts == Counts<std::uint64_t>{.hits = 2});
   }
 
-  TEST_CASE("fronts only: photons that arrive from behind do not count, and too few in front are none") {
+  TEST_CASE("fronts only: photons from behind do not count, and with too few in front the irradiance is 0") {
     std::vector<Ray> rays{down_to(1, 0, 2), down_to(2, 0, 3), down_to(3, 0, 4)};
     rays.push_back({.origin = {0.5, 0, -1}, .direction = {0, 0, 1}, .length = 1});
     const std::vector<Disc> both{{{0, 0, 0}, {0, 0, 1}, 0.5}, {{0, 0, 0}, {0, 0, -1}, 0.5}};
@@ -68,7 +68,7 @@ TEST_SUITE("known answer") {
     CHECK(outcome.hits == std::vector<std::uint64_t>{2, 0});
   }
 
-  TEST_CASE("even photons on a plane: their flux, within its standard error, by which k for k - 1 is refuted") {
+  TEST_CASE("even photons on a plane: their flux within its standard error, which refutes k instead of k - 1") {
     const auto rays = even_photons(20'000);
     const auto discs = lattice();
     const Problem problem = make_problem(rays, discs);
@@ -76,14 +76,14 @@ TEST_SUITE("known answer") {
       const Outcome outcome = nearest(problem, k);
       double mean = 0;
       for (const double irradiance : outcome.irradiance) mean += irradiance / 400;
-      // 400 estimates from different photons; of one the variance is 1/(k - 2), but for k/20000 of it.
+      // 400 estimates from different photons. The variance of one is 1/(k - 2), up to a relative error of k/20000.
       const double standard_error = std::sqrt(1.0 / (k - 2) / 400);
       CHECK(std::abs(mean - 1) < 4 * standard_error);
       if (k == 5) CHECK(std::abs(mean * k / (k - 1) - 1) > 4 * standard_error);
     }
   }
 
-  TEST_CASE("a stop that was asked for ends the search early and is told") {
+  TEST_CASE("a stop request ends the search early and is reported") {
     const auto rays = even_photons(1000);
     const auto discs = lattice();
     std::stop_source source;
@@ -95,7 +95,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("no photon, fewer than k, k in one place, and blocks of rays are refused, saying why") {
+  TEST_CASE("no photon, fewer than k, k in one place, and blocks of rays are refused with the reason") {
     const auto refuses = [](const std::vector<Ray>& rays, int k, const char* why, const RunOptions& options = {}) {
       const Problem problem = make_problem(rays, one_disc);
       CHECK_THROWS_WITH_AS(static_cast<void>(nearest(problem, k, options)), doctest::Contains(why),

@@ -37,7 +37,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("a leaf for all rays is brute force") {
+  TEST_CASE("with one leaf for all rays it is brute force") {
     const Outcome all = search(500, 500);
     CHECK(all.counts.disc_tests == 500 * discs().size());
     CHECK(all.counts.nodes == discs().size());
@@ -51,7 +51,7 @@ TEST_SUITE("limit") {
     CHECK(many.disc_tests < 9 * few.disc_tests);
   }
 
-  TEST_CASE("where no disc looks nothing is built: one disc in a corner takes few cells") {
+  TEST_CASE("nothing is built where no disc searches: one disc in a corner needs few cells") {
     const std::vector<Disc> pair{{.centre = glm::dvec3{-1}, .radius = 1e-3}, {.centre = glm::dvec3{1}, .radius = 1e-3}};
     const auto lines = LineField(enclosing_sphere(pair), 7).lines(0, 20'000);
     const Outcome found = run(make_problem(lines, pair), {Technique::ray_map, RayMapParameters{8}});

@@ -5,7 +5,7 @@
 using namespace detp;
 
 TEST_SUITE("identity") {
-  TEST_CASE("every technique has an entry of its own, which prepares its search") {
+  TEST_CASE("every technique has its own entry, which prepares its search") {
     for (const Technique technique : all_techniques) {
       CAPTURE(name(technique));
       CHECK(sim::search_of(technique).technique == technique);

@@ -21,12 +21,12 @@ std::vector<std::uint32_t> as_given(const std::vector<Disc>& discs) {
   return order;
 }
 
-/// How far a sphere pokes out of another, or, negative, what room it leaves.
+/// How far a sphere extends outside another; negative if it lies inside.
 double out_of(const Sphere& inner, const Sphere& outer) {
   return glm::distance(inner.centre, outer.centre) + inner.radius - outer.radius;
 }
 
-/// The worst of children against parents and discs against leaves.
+/// The largest such distance of children from their parents and discs from their leaves.
 double worst_nesting(const SphereTree& tree, const std::vector<Disc>& discs, const SphereTreeParameters& parameters) {
   double worst = -1;
   for (std::size_t i = 0; i < discs.size(); ++i)
@@ -42,7 +42,7 @@ double worst_nesting(const SphereTree& tree, const std::vector<Disc>& discs, con
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("each sphere lies in its parent's, and each disc in its leaf's, to rounding") {
+  TEST_CASE("each sphere lies in its parent's, and each disc in its leaf's, within rounding") {
     for (const Body body : {Body::cube, Body::cube_faces})
       for (const SphereTreeParameters& parameters :
            {SphereTreeParameters{2, 1}, SphereTreeParameters{8, 12}, SphereTreeParameters{3, 5}}) {
@@ -52,7 +52,7 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("levels have as many nodes as it takes, the root alone") {
+  TEST_CASE("levels have as many nodes as needed, the top level one") {
     const auto discs = uniform_discs(Body::cube, 2, 1000, 0.01, 4);
     const SphereTree tree = make_sphere_tree(discs, as_given(discs), {4, 7});
     CHECK(tree.levels.size() == 5);
@@ -64,7 +64,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("one disc is its own sphere; two have that which touches both; discs in one place cost nothing") {
+  TEST_CASE("one disc is its own sphere; two have the sphere that touches both; equal discs add nothing") {
     const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}, {{6, 0, 0}, {0, 0, 1}, 1}};
     const SphereTree alone = make_sphere_tree(std::span(discs).first(1), std::vector<std::uint32_t>{0}, {2, 1});
     CHECK(alone.levels.size() == 1);
@@ -76,7 +76,7 @@ TEST_SUITE("known answer") {
     CHECK(make_sphere_tree(same, as_given(same), {3, 2}).levels.back()[0].radius == 1);
   }
 
-  TEST_CASE("the sphere of a cube's corners is the cube's") {
+  TEST_CASE("the sphere of a cube's corners is the cube's circumscribed sphere") {
     std::vector<Disc> corners;
     for (int i = 0; i < 8; ++i) corners.push_back({{2 * (i & 1) - 1, (i & 2) - 1, (i & 4) / 2 - 1}, {0, 0, 1}, 0.25});
     const SphereTree tree = make_sphere_tree(corners, as_given(corners), {2, 8});

@@ -53,7 +53,7 @@ Outcome truth(std::span<const Ray> rays) {
   return run(make_problem(rays, discs()), {Technique::box_tree, BoxTreeParameters{4, 16}});
 }
 
-/// What a stopped outcome says is right: of the first rays, or of the discs marked.
+/// Checks that a stopped outcome is right for what it reports as done: the first rays, or the marked discs.
 void check_stopped(const Outcome& outcome, std::span<const Ray> rays) {
   CHECK(outcome.stopped);
   CHECK(outcome.pairs.empty());
@@ -90,7 +90,7 @@ void check_stopped(const Outcome& outcome, std::span<const Ray> rays) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a run that is stopped anywhere is right about the rays or discs it says are done") {
+  TEST_CASE("a run stopped at any point is right about the rays or discs that it reports as done") {
     for (const std::size_t count : {6000U, 70'000U}) {  // one block of rays, and several
       const std::vector<Ray> rays = lines(count);
       for (const Way& way : ways()) {
@@ -110,7 +110,7 @@ TEST_SUITE("known answer") {
             if (static_cast<double>(done) >= share * static_cast<double>(total)) source.request_stop();
           });
           const Outcome outcome = run_way(way, rays, source.get_token(), true);
-          if (!outcome.stopped) continue;  // there was no check after that
+          if (!outcome.stopped) continue;  // no check came after that
           check_stopped(outcome, rays);
           CHECK(static_cast<double>(logged.total()) < share * static_cast<double>(total) + 10 * StopCheck::most_work);
         }
@@ -131,7 +131,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("stopped while pairs are sorted, all rays are done and no pair is given") {
+  TEST_CASE("stopped while pairs are sorted, all rays are done and no pair is returned") {
     const std::vector<Ray> rays = lines(10'000);
     std::uint64_t search = 0;
     {
@@ -148,7 +148,7 @@ TEST_SUITE("known answer") {
     check_stopped(outcome, rays);
   }
 
-  TEST_CASE("a stream that is stopped anywhere is right about the rays it says are done") {
+  TEST_CASE("a stream stopped at any point is right about the rays that it reports as done") {
     const std::vector<Ray> rays = lines(40'000);
     for (const Way& way : ways()) {
       if (way.engine == Engine::plain) continue;
@@ -167,7 +167,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("the hits of all rays are within five standard errors of what those of the first rays say") {
+  TEST_CASE("the hits of all rays are within five standard errors of the estimate from the first rays") {
     const std::vector<Ray> rays = lines(20'000);
     const auto all = static_cast<double>(truth(rays).total_hits);
     for (const std::uint64_t first : {3840U, 19'968U}) {
@@ -189,7 +189,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("identity") {
-  TEST_CASE("the work between two checks of a run is bounded, and all tests are among it") {
+  TEST_CASE("the work between two checks of a run is bounded, and includes all tests") {
     const std::vector<Ray> rays = lines(70'000);
     for (const Way& way : ways()) {
       if (way.engine == Engine::plain) continue;
@@ -199,11 +199,11 @@ TEST_SUITE("identity") {
       const Outcome outcome = run_way(way, rays, {});
       CHECK(logged.bounded());
       const std::uint64_t tests = outcome.counts.disc_tests + outcome.counts.cull_tests;
-      CHECK(logged.total() + 10 * StopCheck::most_work > tests / 17);  // of lists 16 are a unit
+      CHECK(logged.total() + 10 * StopCheck::most_work > tests / 17);  // 16 tests of a list are one unit of work
     }
   }
 
-  TEST_CASE("few discs with endless lists, or one disc in all cells, are work between checks too") {
+  TEST_CASE("few discs with very long lists, or one disc in all cells, also have bounded work between checks") {
     const std::vector<Ray> rays = lines(3000);
     const std::vector<Disc> coincident(100'000, Disc{.centre = {0.1, 0.1, 0.1}, .normal = {0, 0, 1}, .radius = 0.5});
     for (const Candidate& candidate :

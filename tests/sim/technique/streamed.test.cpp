@@ -19,7 +19,7 @@ const std::vector<Disc>& discs() {
   return all;
 }
 
-/// Lines and segments whose powers range over ten decades, so that another order of adding gives another sum.
+/// Lines and segments whose powers span ten decades, so that adding in another order gives another sum.
 const std::vector<Ray>& rays() {
   static const std::vector<Ray> all = [] {
     std::vector<Ray> some = LineField(enclosing_sphere(discs()), 4).lines(0, 400);
@@ -44,7 +44,7 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
                                         {Technique::bsp, BspParameters{8, 4}},
                                         {Technique::grid, GridParameters{6}}};
 
-/// Tells less than the truth about how far its rays start.
+/// Reports a smaller distance than that at which its rays start.
 class Understated final : public RaySource {
  public:
   std::uint64_t size() const override { return rays().size(); }
@@ -59,7 +59,7 @@ class Understated final : public RaySource {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("a stream in blocks of 1, 7 and 1000 rays gives the bytes of one plain run over rays in memory") {
+  TEST_CASE("a stream in blocks of 1, 7 and 1000 rays gives the bytes of one run over rays in memory") {
     for (const bool front : {false, true}) {
       const Problem problem = make_problem(rays(), discs(), front);
       const Outcome expected = run(problem, candidates[0], {.pairs = true, .engine = Engine::plain});
@@ -83,7 +83,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("an index is built once, and what is counted of it does not depend on the block") {
+  TEST_CASE("an index is built once, and its build counts do not depend on the block size") {
     for (const Candidate& candidate : {Candidate{Technique::octree, OctreeParameters{2}},
                                        {Technique::grid, GridParameters{6}},
                                        {Technique::bsp, BspParameters{8, 4}}}) {
@@ -94,7 +94,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("lines of a field by number are those in memory") {
+  TEST_CASE("lines of a field by number equal those in memory") {
     const Sphere sphere = enclosing_sphere(discs());
     const std::vector<Ray> lines = LineField(sphere, 9).lines(0, 3000);
     const Outcome whole = run(make_problem(lines, discs()), candidates.back());
@@ -106,7 +106,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a stop between blocks keeps the blocks before it, and is told") {
+  TEST_CASE("a stop between blocks keeps the blocks before it, and is reported") {
     std::stop_source source;
     int blocks = 0;
     const auto stop_before_third = [&](double done) {
@@ -131,7 +131,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("what would not fit the memory is refused before it is taken, naming the bytes") {
+  TEST_CASE("an index that would not fit in memory is refused before allocation, naming the bytes") {
     const LinesOfField lines(enclosing_sphere(discs()), 1, 1'000'000'000'000);
     const auto stream = [&](const RaySource& source, const StreamOptions& options) {
       static_cast<void>(run_streamed(discs(), source, candidates.front(), options));
@@ -142,7 +142,7 @@ TEST_SUITE("bad input") {
                          std::length_error);
   }
 
-  TEST_CASE("no rays, no discs, rays that are none or start where none should, and foreign totals are refused") {
+  TEST_CASE("no rays, no discs, invalid rays, rays that start too far away, and foreign totals are refused") {
     const auto stream = [](std::span<const Disc> some, const RaySource& source, const RunOptions& options) {
       static_cast<void>(run_streamed(some, source, candidates.back(), {.run = options, .block = 100}));
     };

@@ -60,7 +60,7 @@ const std::vector<Candidate>& exact_candidates() {
 
 const Candidate brute{Technique::brute_force, BruteForceParameters{}};
 
-/// Rays of both kinds, with powers, some parallel to an axis or to a coordinate plane.
+/// Lines and segments with different powers, some parallel to an axis or to a coordinate plane.
 std::vector<Ray> mixed_rays(std::size_t count, double side, std::uint64_t seed) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < count; ++i) {
@@ -77,10 +77,10 @@ std::vector<Ray> mixed_rays(std::size_t count, double side, std::uint64_t seed) 
   return rays;
 }
 
-/// Every pair decided by the canonical predicate, in double.
+/// Decides every pair by the canonical predicate, in double.
 Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .engine = Engine::plain}); }
 
-/// All exact techniques against that, pair by pair and to the last bit of irradiance.
+/// Compares all exact techniques with these decisions, pair by pair and bit by bit of irradiance.
 void check_all_agree(const Problem& problem, std::uint64_t least_hits) {
   const Outcome expected = truth_of(problem);
   CHECK(expected.total_hits >= least_hits);
@@ -122,14 +122,14 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("… rays of both kinds, radii that vary by a factor of 100, fronts only and both faces") {
+  TEST_CASE("… lines and segments, radii that vary by a factor of 100, fronts only and both faces") {
     auto discs = uniform_discs(Body::cube, 2, 2000, 0.003, 7);
     for (std::size_t i = 0; i < discs.size(); ++i) discs[i].radius *= std::pow(100.0, static_cast<double>(i % 97) / 96);
     const auto rays = mixed_rays(3000, 3, 8);
     for (const bool front : {false, true}) check_all_agree(make_problem(rays, discs, front), 1000);
   }
 
-  TEST_CASE("… in scenes tiny, huge and far from the origin") {
+  TEST_CASE("… in tiny and huge scenes, and far from the origin") {
     const auto discs = uniform_discs(Body::cube_faces, 2, 1000, 0.05, 9);
     const auto rays = mixed_rays(2000, 3, 10);
     struct Place {
@@ -144,7 +144,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("… with all discs in one plane, on one line, in one point, or but one") {
+  TEST_CASE("… with all discs in one plane, on one line, in one point, or all but one") {
     const auto rays = mixed_rays(1000, 2, 11);
     for (const int kept : {2, 1, 0}) {
       auto discs = uniform_discs(Body::cube, 1, 200, 0.1, 12);
@@ -169,7 +169,7 @@ TEST_SUITE("identity") {
     check_all_agree(make_problem(rays, discs), 100);
   }
 
-  TEST_CASE("… plainly too, in doubles alone") {
+  TEST_CASE("… with the plain engine too, in doubles alone") {
     const auto discs = uniform_discs(Body::cube, 2, 700, 0.08, 7);
     const auto rays = mixed_rays(1000, 3, 8);
     const Problem problem = make_problem(rays, discs);
@@ -183,7 +183,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("a run that does not count finds the same and counts nothing but hits") {
+  TEST_CASE("a run without counting finds the same hits and counts nothing but hits") {
     const auto discs = uniform_discs(Body::cube, 2, 500, 0.1, 1);
     const auto rays = LineField(enclosing_sphere(discs), 2).lines(0, 500);
     const Problem problem = make_problem(rays, discs);
@@ -199,7 +199,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("one ray through one disc carries its power over the disc's area") {
+  TEST_CASE("one ray through one disc gives its power divided by the disc's area") {
     const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 2}};
     const std::vector<Ray> rays{{.origin = {0, 0, -1}, .direction = {0, 0, 1}, .power = 3}};
     const Outcome outcome = run(make_problem(rays, discs), brute);
@@ -208,7 +208,7 @@ TEST_SUITE("known answer") {
     CHECK(outcome.counts.disc_tests == 1);
   }
 
-  TEST_CASE("what is counted adds up") {
+  TEST_CASE("the counts are consistent") {
     const auto discs = uniform_discs(Body::cube, 2, 700, 0.05, 1);
     const auto rays = LineField(enclosing_sphere(discs), 2).lines(0, 900);
     const Problem problem = make_problem(rays, discs);
@@ -238,12 +238,12 @@ TEST_SUITE("known answer") {
     const Outcome octree = run(problem, {Technique::octree, OctreeParameters{4}});
     const Outcome cells = run(problem, {Technique::grid, GridParameters{16}});
     CHECK(octree.counts.references == cells.counts.references);
-    // The octree's cube reaches a little beyond the grid's box, so that its outermost leaves are met more often.
+    // The octree's cube is slightly larger than the grid's box, so its outermost leaves are met more often.
     CHECK(octree.counts.disc_tests >= cells.counts.disc_tests);
     CHECK(static_cast<double>(octree.counts.disc_tests) < 1.01 * static_cast<double>(cells.counts.disc_tests));
   }
 
-  TEST_CASE("a sphere cache without spheres tests every pair, and the paper's loses nothing then") {
+  TEST_CASE("a sphere cache without spheres tests every pair, and the paper's walk then loses nothing") {
     const auto discs = uniform_discs(Body::cube, 2, 300, 0.05, 1);
     const auto rays = LineField(enclosing_sphere(discs), 2).lines(0, 400);
     const Problem problem = make_problem(rays, discs);
@@ -259,7 +259,7 @@ TEST_SUITE("known answer") {
       }
   }
 
-  TEST_CASE("the paper's walk loses hits and finds none that are not there") {
+  TEST_CASE("the paper's walk loses hits and finds no false ones") {
     const auto discs = uniform_discs(Body::cube, 2, 10'000, 0.02, 3);
     const auto rays = LineField(enclosing_sphere(discs), 4).lines(0, 10'000);
     const Problem problem = make_problem(rays, discs);
@@ -270,7 +270,7 @@ TEST_SUITE("known answer") {
     CHECK(std::includes(all.pairs.begin(), all.pairs.end(), some.pairs.begin(), some.pairs.end()));
   }
 
-  TEST_CASE("a stop that was asked for ends a run early and is told") {
+  TEST_CASE("a stop request ends a run early and is reported") {
     const auto discs = uniform_discs(Body::cube, 2, 500, 0.1, 1);
     const auto rays = LineField(enclosing_sphere(discs), 2).lines(0, 500);
     std::stop_source source;
@@ -286,7 +286,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("rays and discs that are none are refused by name") {
+  TEST_CASE("invalid rays and discs are refused by name") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Disc> discs{{}};
     const std::vector<Ray> rays{{}};
@@ -308,7 +308,7 @@ TEST_SUITE("bad input") {
     refuses(rays, {{.radius = 1e-200}}, "disc 0: radius must be from 1e-100");
   }
 
-  TEST_CASE("parameters out of range or of another technique are refused, and what does not fit the memory") {
+  TEST_CASE("parameters out of range or of another technique are refused, and so is what does not fit in memory") {
     const std::vector<Disc> discs{{.centre = {0, 0, 0}, .radius = 0.1}, {.centre = {1, 1, 1}, .radius = 0.1}};
     const std::vector<Ray> rays{{}};
     const Problem problem = make_problem(rays, discs);

@@ -8,7 +8,7 @@
 using detp::validate::in_turns;
 
 TEST_SUITE("known answer") {
-  TEST_CASE("each has its turn in each round, until one says that it is over") {
+  TEST_CASE("each contender runs once in each round, until one ends the rounds") {
     std::vector<std::pair<std::size_t, int>> turns;
     in_turns(3, 2, [&](std::size_t i, int round) {
       turns.emplace_back(i, round);

@@ -15,7 +15,7 @@ Finish finish(const Competitor& competitor, std::vector<double> seconds, std::ui
   return {.competitor = competitor, .seconds = std::move(seconds), .hits = 100, .wrong_hits = wrong};
 }
 
-/// A race in which ours took 1 s and Embree, at its best, `embree` seconds.
+/// A race in which ours took 1 s and Embree's best mode `embree` seconds.
 BenchEntry entry(double embree, int threads = 1) {
   BenchEntry made;
   made.threads = threads;
@@ -55,7 +55,7 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(against_embree(entries, 3));
   }
 
-  TEST_CASE("a race that was stopped has no ratio and no part in the summary") {
+  TEST_CASE("a race that was stopped has no ratio and is not in the summary") {
     std::vector<BenchEntry> entries{entry(8)};
     entries[0].race.complete = false;
     CHECK(entries[0].ratio() == 0);
@@ -71,13 +71,13 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(ours_agree(entries));
   }
 
-  TEST_CASE("wrong hits are counted disc by disc: one too many does not make up for one too few") {
+  TEST_CASE("wrong hits are counted disc by disc: one too many does not cancel one too few") {
     const RightHits right{Technique::brute_force, {5, 5, 5}};
     CHECK(right.wrong(std::vector<std::uint64_t>{5, 5, 5}) == 0);
     CHECK(right.wrong(std::vector<std::uint64_t>{6, 4, 5}) == 2);
   }
 
-  TEST_CASE("everyone runs once, the fastest two of each side as often as asked, and hits are compared") {
+  TEST_CASE("all run once, the fastest two of each side for all repeats, and hits are compared") {
     const Job job = small_job();
     auto right = right_hits(job, Candidate{}, 0);
     REQUIRE(right);
@@ -98,7 +98,7 @@ TEST_SUITE("known answer") {
     for (const Finish& one : found.finishes) CHECK(one.wrong_hits >= 1);
   }
 
-  TEST_CASE("the sets: what they hold, and what is missing without the meshes") {
+  TEST_CASE("the sets: their workloads, and those that are missing without the meshes") {
     const BenchSet quick = bench_set(BenchEffort::quick, {}, "");
     CHECK(quick.workloads.size() == 28);  // 7 scenes with fields, 2 radii, 2 numbers of rays
     CHECK(quick.missing.size() == 1);
@@ -109,7 +109,7 @@ TEST_SUITE("known answer") {
     CHECK(count_of(thorough, [](const BenchWorkload& one) { return one.samples == 1e6; }) == 6 * 3 + 2);
   }
 
-  TEST_CASE("lists that are given take the place of the set's") {
+  TEST_CASE("lists in the axes replace those of the set") {
     const BenchAxes axes{
         .scene = "@tree", .fields = {sim::Field::photons}, .samples = {}, .disc_radii = {{0.1}}, .rays = {1e6, 10}};
     const BenchSet set = bench_set(BenchEffort::thorough, axes, "");
@@ -120,7 +120,7 @@ TEST_SUITE("known answer") {
     CHECK(set.missing.empty());
   }
 
-  TEST_CASE("what has more hits than allowed is skipped, as the model expects or fewer rays have shown") {
+  TEST_CASE("a workload with too many hits is skipped, by the model's expectation or by a run with fewer rays") {
     const BenchSet set = bench_set(BenchEffort::quick,
                                    {.scene = "@uniform",
                                     .fields = {},

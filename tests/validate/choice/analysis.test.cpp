@@ -21,7 +21,7 @@ struct Scene {
 
   [[nodiscard]] sim::Problem problem() const { return sim::make_problem(rays, discs); }
 
-  /// Brute force in front, the tree of boxes last, a million times slower by a lie.
+  /// A wrong ranking: brute force first and the box tree last, with predicted times a million times too large.
   [[nodiscard]] std::vector<model::Ranked> wrong_ranking() const {
     auto ranking = model::rank(measure(problem()), built_in_unit_costs());
     std::reverse(ranking.begin(), ranking.end());
@@ -44,7 +44,7 @@ struct Scene {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("the best is the fastest measured, whatever was predicted; the regret is the predicted choice's over it") {
+  TEST_CASE("the best is the fastest measured, not predicted; the regret compares the predicted choice with it") {
     const Scene scene(10'000, 10'000);  // 10⁸ tests by brute force
     const auto ranking = scene.wrong_ranking();
     REQUIRE(ranking.front().candidate.technique == Technique::brute_force);
@@ -68,7 +68,7 @@ TEST_SUITE("identity") {
     CHECK_FALSE(analysis.stopped);
   }
 
-  TEST_CASE("what takes several times as long as the fastest is given up, not waited for") {
+  TEST_CASE("a candidate that takes several times as long as the fastest is abandoned") {
     const Scene scene(50'000, 60'000);  // 3·10⁹ tests by brute force
     auto ranking = scene.wrong_ranking();
     std::reverse(ranking.begin(), ranking.end());

@@ -40,7 +40,7 @@ TEST_SUITE("identity") {
     CHECK(streamed.outcome.irradiance == sim::run(in_memory.problem(), grid).irradiance);
   }
 
-  TEST_CASE("for the workload alone a block of rays is made, however many are asked for: the same workload") {
+  TEST_CASE("the workload alone needs only a block of rays, however many are requested, and is the same") {
     JobRequest request = three_discs("@uniform", 0x1p20 + 1);
     request.stream = true;
     const Job stream = make_job(request);

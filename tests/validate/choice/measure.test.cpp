@@ -17,14 +17,14 @@ TEST_SUITE("known answer") {
           0.1);
   }
 
-  TEST_CASE("points on a line have dimension 1, few points count as a volume") {
+  TEST_CASE("points on a line have dimension 1; a few points count as a volume") {
     auto discs = sim::uniform_discs(sim::Body::cube, 2, 50'000, 0.01, 1);
     for (sim::Disc& disc : discs) disc.centre.y = disc.centre.z = 0;
     CHECK(std::abs(validate::sample_dimension(discs) - 1) < 0.1);
     CHECK(validate::sample_dimension(std::span(discs).first(100)) == 3);
   }
 
-  TEST_CASE("a workload holds what is there: counts, box, sphere, root mean square radius, length inside the box") {
+  TEST_CASE("a workload has the scene's counts, box, sphere, root mean square radius, length inside the box") {
     const std::vector<sim::Disc> discs{{.centre = {0, 0, 0}, .radius = 1}, {.centre = {10, 4, 2}, .radius = 7}};
     const std::vector<sim::Ray> rays{{.origin = {5, 2, 1}, .direction = {1, 0, 0}, .length = 3},
                                      {.origin = {5, 2, 1}, .direction = {1, 0, 0}, .length = 300},
@@ -38,7 +38,7 @@ TEST_SUITE("known answer") {
     CHECK(w.path_length == doctest::Approx((3 + 10 + 0) / 3.0));  // the box ends at 10 + 5
   }
 
-  TEST_CASE("a workload knows whether fronts alone count") {
+  TEST_CASE("a workload records whether only fronts count") {
     const std::vector<sim::Disc> discs{{}};
     const std::vector<sim::Ray> rays{{}};
     CHECK_FALSE(validate::measure(sim::make_problem(rays, discs)).front_facing);

@@ -16,11 +16,12 @@ bool contains(const std::vector<Candidate>& all, const Candidate& wanted) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("what is left out of a ranking are the exact techniques that are not in it") {
+  TEST_CASE("techniques left out of a ranking are the exact ones that are not in it") {
     const auto left_out = techniques_left_out({{Technique::grid, GridParameters{3}}, {}});
     CHECK(contains(left_out, {Technique::bsp, BspParameters{}}));
     CHECK(contains(left_out, {Technique::bvh, BvhParameters{}}));
-    CHECK(left_out.size() == all_techniques.size() - 4);  // except the two given and the two that are not exact
+    // except the two in the ranking and the two that are not exact
+    CHECK(left_out.size() == all_techniques.size() - 4);
     for (const Candidate& candidate : left_out) CHECK(record_of(candidate.technique).exact);
   }
 
@@ -39,7 +40,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("neighbours stay within the parameters' ranges, at the ends too") {
+  TEST_CASE("neighbours stay within the parameters' ranges, also at their ends") {
     for (const Candidate& candidate :
          {Candidate{Technique::octree, OctreeParameters{0}}, Candidate{Technique::octree, OctreeParameters{20}},
           Candidate{Technique::cell_spheres, CellSpheresParameters{0}},

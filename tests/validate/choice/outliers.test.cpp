@@ -27,7 +27,7 @@ std::vector<std::string> warnings_of(const std::vector<sim::Disc>& discs) {
   return outlier_warnings(sim::make_problem(rays, discs));
 }
 
-/// The one warning, which must hold these.
+/// Checks that there is one warning, and that it contains these texts.
 void check_one(const std::vector<std::string>& warnings, const std::vector<std::string>& named) {
   REQUIRE(warnings.size() == 1);
   CAPTURE(warnings[0]);
@@ -37,13 +37,13 @@ void check_one(const std::vector<std::string>& warnings, const std::vector<std::
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("one large disc among small ones is named, with what the models take for all of them") {
+  TEST_CASE("one large disc among small ones is named, with the radius that the models use for all") {
     auto discs = many_discs();
     discs[77].radius = 50;
     check_one(warnings_of(discs),
               {"1 of 10000 discs has a radius of 50", "2.5e+03 times the median 0.02", "root mean square 0.5004"});
     for (std::size_t i = 0; i < 100; ++i)
-      discs[100 * i].radius = 0.1;  // five times the median: its square is off by a fifth
+      discs[100 * i].radius = 0.1;  // five times the median: the mean square changes by a fifth
     discs[77].radius = 0.02;
     check_one(warnings_of(discs), {"100 of 10000 discs have radii up to 0.1"});
   }
@@ -76,7 +76,7 @@ TEST_SUITE("known answer") {
     CHECK(outlier_warnings(sim::make_problem(rays, discs)).size() == 3);
   }
 
-  TEST_CASE("ordinary sets are not warned of: uniform, on faces, few, in one place, radii within a factor of four") {
+  TEST_CASE("ordinary sets give no warning: uniform, on faces, few, in one place, radii within a factor of four") {
     CHECK(warnings_of(many_discs()).empty());
     CHECK(warnings_of(many_discs(sim::Body::cube_faces)).empty());
     auto discs = many_discs();
@@ -88,7 +88,7 @@ TEST_SUITE("known answer") {
     CHECK(warnings_of({{}, {.centre = {5, 5, 5}}, {.centre = {5, 6, 5}}}).empty());
   }
 
-  TEST_CASE("built-in scenes are not warned of") {
+  TEST_CASE("built-in scenes give no warning") {
     for (const std::string& name : sim::built_in_scenes()) {
       CAPTURE(name);
       JobRequest request;

@@ -6,7 +6,7 @@ using namespace detp;
 using namespace detp::validate;
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a predicted time is off by its counts times its unit costs; the count that costs most is named") {
+  TEST_CASE("the error of a predicted time is split into counts and unit costs; the costliest wrong count is named") {
     const UnitCosts costs{.cull_test = 2, .disc_test = 1};
     model::Ranked predicted{
         {Technique::sphere_cache, SphereCacheParameters{}}, {.cull_tests = 10, .disc_tests = 100}, {}, {}};
@@ -19,7 +19,7 @@ TEST_SUITE("known answer") {
     CHECK(error.worst_ratio == doctest::Approx(5));
   }
 
-  TEST_CASE("where all counts are right, nothing but the unit costs is off") {
+  TEST_CASE("if all counts are right, only the unit costs are wrong") {
     const UnitCosts costs{.index_test = 3, .step = 1};
     model::Ranked predicted{{Technique::grid, GridParameters{4}}, {.disc_tests = 10, .steps = 5}, {}, {}};
     predicted.time = price(predicted.counts, costs, predicted.candidate.technique);  // 35

@@ -11,7 +11,7 @@ using namespace detp;
 
 namespace {
 
-/// Runs whose times are exactly what the costs say.
+/// Runs whose times equal exactly their counts times the unit costs.
 std::vector<validate::TimedRun> exact_runs(const UnitCosts& costs) {
   std::vector<validate::TimedRun> runs;
   for (std::uint64_t i = 0; i < 40; ++i) {
@@ -39,7 +39,7 @@ std::vector<validate::TimedRun> exact_runs(const UnitCosts& costs) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("costs that made the times are found again") {
+  TEST_CASE("the fit recovers the costs that made the times") {
     const UnitCosts costs{.cull_test = 1e-9,
                           .disc_test = 2e-9,
                           .index_test = 9e-9,
@@ -72,7 +72,7 @@ TEST_SUITE("known answer") {
     CHECK(fit.cull_test == doctest::Approx(1e-9).epsilon(0.02));
   }
 
-  TEST_CASE("the built-in costs are below a microsecond, and positive except that of a listed ray, part of its test") {
+  TEST_CASE("the built-in costs are below a microsecond and positive; that of a listed ray may be zero") {
     const UnitCosts c = validate::built_in_unit_costs();
     for (const double cost :
          {c.cull_test, c.disc_test, c.index_test, c.step, c.node, c.placement, c.leaf, c.sort, c.cull}) {
@@ -88,7 +88,7 @@ TEST_SUITE("bad input") {
                     std::invalid_argument);
   }
 
-  TEST_CASE("a run whose search took no time cannot be explained") {
+  TEST_CASE("a run whose search took no time cannot be fitted") {
     std::vector<validate::TimedRun> runs = exact_runs({1e-9, 2e-9, 9e-9, 3e-9, 4e-9, 5e-9, 6e-9, 7e-9, 8e-9});
     runs[3].search = 0;
     CHECK_THROWS_AS(static_cast<void>(validate::fit_unit_costs(runs)), std::invalid_argument);

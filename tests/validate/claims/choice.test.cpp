@@ -32,7 +32,7 @@ Experiment lines_in_a_cube() {
   return asking(discs, sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, 4000));
 }
 
-/// Segments that stay in a corner of the scene where there are no discs.
+/// Segments in a corner of the scene that has no discs.
 Experiment rays_where_nothing_is() {
   auto discs = discs_in_cube();
   std::erase_if(discs, [](const sim::Disc& disc) { return disc.centre.x > 0.5; });
@@ -42,7 +42,7 @@ Experiment rays_where_nothing_is() {
   return asking(std::move(discs), std::move(rays));
 }
 
-/// The finding of that count, which must be there.
+/// The finding of that count, which must exist.
 const Finding& of(const std::vector<Finding>& findings, const model::Ranked& ranked, const std::string& term) {
   const std::string id = "choice." + std::string(name(ranked.candidate.technique)) + "." + term;
   CAPTURE(id);
@@ -83,7 +83,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("where the models hold, no prediction of the choice is refuted and the tests agree") {
+  TEST_CASE("if the models are valid, no prediction of the choice is refuted and the tests agree") {
     for (const Claim& claim : judge_all(choice_findings(lines_in_a_cube()))) {
       CAPTURE(claim.id);
       CAPTURE(claim.relative_difference);
@@ -92,7 +92,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("where rays go past the discs, the predicted tests and hits of every technique with an index are refuted") {
+  TEST_CASE("if rays miss the discs, the predicted tests and hits of every technique with an index are refuted") {
     const std::vector<Claim> claims = judge_all(choice_findings(rays_where_nothing_is()));
     int refuted = 0;
     for (const Claim& claim : claims) {
@@ -107,7 +107,7 @@ TEST_SUITE("known answer") {
     CHECK(refuted >= 9);
   }
 
-  TEST_CASE("where fronts alone count, half of the hits of lines are predicted and counted") {
+  TEST_CASE("if only fronts count, half of the hits of lines are predicted and counted") {
     const Experiment both = lines_in_a_cube();
     Experiment fronts = both;
     fronts.choice->workload =
@@ -129,7 +129,7 @@ TEST_SUITE("known answer") {
     CHECK(of_hits >= 5);
   }
 
-  TEST_CASE("one ray decides nothing, none asked about claims nothing, a stop leaves nothing half counted") {
+  TEST_CASE("one ray decides nothing, no question gives no claim, a stop leaves nothing half counted") {
     Experiment experiment = lines_in_a_cube();
     experiment.choice->rays.resize(1);
     for (const Claim& claim : judge_all(choice_findings(experiment)))

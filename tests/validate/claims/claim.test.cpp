@@ -23,7 +23,7 @@ Claim judged(const Finding& one) { return judge_all({one}).front(); }
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a control is refuted as near to the tolerance as the noise allows; half of what the noise adds is not") {
+  TEST_CASE("a control is refuted as near to the tolerance as the noise allows; at half that distance it is not") {
     for (const double observed : {99.9, 100.1})
       for (const double tolerance : {0.02, 0.25})
         for (const double error : {0.01, 0.3, 2.0}) {
@@ -41,7 +41,7 @@ TEST_SUITE("known answer") {
         }
   }
 
-  TEST_CASE("the control of an exact count is one count more, or less, than what is allowed") {
+  TEST_CASE("the control of an exact count is one count more, or less, than the tolerance allows") {
     const Claim exact = judged(finding(10, {10, 0}, 0, 0));
     CHECK(exact.verdict == Verdict::agrees);
     CHECK(exact.control == doctest::Approx(11));
@@ -52,7 +52,7 @@ TEST_SUITE("known answer") {
     CHECK(within.control_verdict == Verdict::refuted);
   }
 
-  TEST_CASE("where the noise is not known, nothing is decided, of the control neither") {
+  TEST_CASE("with unknown noise neither the claim nor the control is decided") {
     const Claim claim = judged(finding(100, {100, INFINITY}, 0.25, 2));
     CHECK(claim.verdict == Verdict::undecided);
     CHECK(claim.control_verdict == Verdict::undecided);

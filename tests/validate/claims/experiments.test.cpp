@@ -19,7 +19,7 @@ Experiment small_experiment() {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("the same findings whatever the number of threads") {
+  TEST_CASE("the findings do not depend on the number of threads") {
     const auto findings_on = [](std::size_t threads) {
       const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
       std::vector<Finding> findings = sphere_cache_findings(small_experiment());
@@ -35,7 +35,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("a stop that was asked for gives no half findings") {
+  TEST_CASE("after a stop request there are no incomplete findings") {
     std::stop_source source;
     source.request_stop();
     Experiment experiment = small_experiment();
@@ -70,11 +70,11 @@ TEST_SUITE("statistical") {
           15);
   }
 
-  TEST_CASE("every claim has its say, corrected ones agree, wrong ones are refuted, and so is each control") {
+  TEST_CASE("every claim is judged: corrected ones agree, wrong ones are refuted, and so is each control") {
     check_claims(3, 20'000);
   }
 
   TEST_CASE("… and likewise with the samples on the faces of a cube") {
-    check_claims(2, 40'000);  // with half as many, sets of samples differ by too much to decide on all claims
+    check_claims(2, 40'000);  // with half as many samples, sets differ too much to decide all claims
   }
 }

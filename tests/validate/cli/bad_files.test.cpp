@@ -17,7 +17,7 @@ Refusal as_scene(const std::string& path, const std::string& named) {
   return {Arguments{"scene", path} + words("--rays 10"), named};
 }
 
-/// Refusals of a disc file, and of a ray file beside good discs.
+/// Refusals of a disc file, and of a ray file together with good discs.
 struct Tables {
   ScratchFolder folder;
   std::string discs = folder.file("good.csv", disc_header + "0,0,0,0,0,1,1\n1,0,0,0,0,1,1\n");
@@ -43,7 +43,7 @@ struct Tables {
 }  // namespace
 
 TEST_SUITE("bad input") {
-  TEST_CASE("meshes that cannot be read are refused, naming the file and where there is one the line") {
+  TEST_CASE("unreadable meshes are refused, naming the file and, if known, the line") {
     const ScratchFolder folder;
     std::filesystem::create_directory(folder.path("folder.obj"));
     const std::string index = folder.file("index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
@@ -127,7 +127,7 @@ TEST_SUITE("bad input") {
     check_refused(refusals);
   }
 
-  TEST_CASE("options that a file makes pointless are refused") {
+  TEST_CASE("options that have no effect with a file are refused") {
     const Tables tables;
     const std::string rays = tables.folder.file("rays.csv", ray_header + "0,0,0,0,0,1,1,1\n");
     const Arguments run{"run", "--discs", tables.discs};
@@ -140,7 +140,7 @@ TEST_SUITE("bad input") {
                    {words("validate --field photons"), "--field photons"}});
   }
 
-  TEST_CASE("results that cannot be written are told, and nothing is left behind") {
+  TEST_CASE("results that cannot be written are reported, and nothing is left behind") {
     const ScratchFolder folder;
     const Arguments run = words("run @uniform --samples 100 --rays 100");
     const Arguments scene = words("scene @cornell --rays 100");
@@ -156,7 +156,7 @@ TEST_SUITE("bad input") {
     CHECK(folder.entries() == 0);
   }
 
-  TEST_CASE("two outputs in one place are refused before any work, however they are spelled") {
+  TEST_CASE("two outputs to one place are refused before any work, however they are spelled") {
     const ScratchFolder folder;
     std::filesystem::create_symlink("one", folder.path("link"));
     const std::string one = folder.path("one");
@@ -175,7 +175,7 @@ TEST_SUITE("bad input") {
     CHECK(folder.entries() == 1);
   }
 
-  TEST_CASE("a checkpoint that cannot be continued from, or not be written, is refused before any work") {
+  TEST_CASE("a checkpoint that cannot be continued, or not be written, is refused before any work") {
     const ScratchFolder folder;
     const auto resumed = [&](const std::string& content, const std::string& named) {
       const std::string path = folder.file(std::to_string(folder.entries()), content);
@@ -192,7 +192,7 @@ TEST_SUITE("bad input") {
          {"validate --effort thorough --resume --checkpoint " + folder.path(""), "Is a directory"}});
   }
 
-  TEST_CASE("messages quote at most 60 characters of what they were given, and no control character") {
+  TEST_CASE("messages quote at most 60 characters of the input, and no control character") {
     const ScratchFolder folder;
     const std::string digits(100'000, '7');
     const std::string sixty = std::string(60, '7') + "...";

@@ -5,7 +5,7 @@
 namespace detp::support {
 namespace {
 
-/// The line with each of the values after it.
+/// The line, followed by each of the values in turn.
 std::vector<Refusal> each(const std::string& line, const std::vector<std::string>& values, const std::string& named) {
   std::vector<Refusal> refusals;
   for (const std::string& value : values) refusals.emplace_back(words(line) + Arguments{value}, named);
@@ -18,14 +18,14 @@ const std::string numbers = "model --samples 1000 --disc-radius 0.01 --scene-sid
 const std::vector<std::string> no_length{"0", "-1", "nan", "inf", "-inf", "x", "1e999"};
 const std::vector<std::string> no_count{"0", "-1", "nan", "inf", "1.5", "1e300", "x", "10k"};
 
-// For further options that are read alike.
+// For further options that are parsed in the same way.
 const std::vector<std::string> no_length_either{"0", "nan", "1e999"};
 const std::vector<std::string> no_count_either{"0", "1.5", "1e300"};
 
 }  // namespace
 
 TEST_SUITE("bad input") {
-  TEST_CASE("unknown options and names are refused, naming what there is") {
+  TEST_CASE("unknown options and names are refused, and the known ones listed") {
     check_refused(
         {{uniform + "--frob 3", "--frob"},
          {uniform + "--technique quadtree", "brute-force, sphere-cache"},
@@ -44,7 +44,7 @@ TEST_SUITE("bad input") {
          {uniform + "--technique", "--technique"}});
   }
 
-  TEST_CASE("numbers alone need samples, a disc radius and a size, and the message says which is missing") {
+  TEST_CASE("a workload without a scene needs samples, a disc radius and a size; the message says which is missing") {
     for (const std::string command : {"model", "choose", "run", "scene"})
       check_refused({{command, "--samples"},
                      {command + " --samples 10", "--disc-radius"},
@@ -72,7 +72,7 @@ TEST_SUITE("bad input") {
     check_refused(each(numbers + "--dimension", {"0", "0.9", "3.1", "nan", "inf", "-1", "x"}, "dimension"));
   }
 
-  TEST_CASE("parameters of techniques keep to their ranges") {
+  TEST_CASE("parameters of techniques out of range are refused") {
     const std::vector<std::string> no_ratio{"0", "1", "1.5", "-0.5", "nan", "inf", "x"};
     check_refused(each(numbers + "--ratio", no_ratio, "ratio"));
     check_refused(each(uniform + "--technique sphere-cache --ratio", {"0", "1", "nan"}, "ratio"));
@@ -141,7 +141,7 @@ TEST_SUITE("bad input") {
                      {command + "--costs t=1,u=1,t=1", "unit cost t is given twice"}});
   }
 
-  TEST_CASE("what would not fit in memory is refused before it is tried") {
+  TEST_CASE("work that would not fit in memory is refused before it is tried") {
     check_refused({{"run @cornell --rays 1e12", "GB"},
                    {"run @uniform --samples 1e12", "GB"},
                    {"scene @cornell --samples 1e12", "GB"},
@@ -149,14 +149,14 @@ TEST_SUITE("bad input") {
                    {uniform + "--technique grid --cells 1000000", "GB"}});
   }
 
-  TEST_CASE("a missing command is told from an unknown one, which is named") {
+  TEST_CASE("a missing command and an unknown one have different messages; the unknown one is named") {
     check_refused({{"", "a command is needed: model, choose, run, validate, scene or bench"},
                    {"quux", "quux"},
                    {"quux --rays 5", "quux"},
                    {"--format json", "--format"}});
   }
 
-  TEST_CASE("a number is decimal and alone, for every option") {
+  TEST_CASE("a number is decimal and stands alone, for every option") {
     check_refused(each("run @uniform --rays",
                        {"0x10", "inf", "-nan", " 5", "5 ", "+5", "1e400", "1e-400", "1_000", "five", "1e3x", "."},
                        "--rays"));
@@ -177,7 +177,7 @@ TEST_SUITE("bad input") {
     CHECK(result_of(numbers + "--technique grid --cells 2e1").at("parameters").at("cells") == 20);
   }
 
-  TEST_CASE("ranges go from start to end in steps, and tables have at most 20 000 rows") {
+  TEST_CASE("ranges have a start, an end and a step; tables have at most 20 000 rows") {
     check_refused({{numbers + "--ratio 0.3:0.9", "start:end:step"},
                    {numbers + "--ratio 0.3:0.9:0.1:2", "start:end:step"},
                    {numbers + "--ratio 0.3:0.9:0", "start:end:step"},
@@ -194,19 +194,19 @@ TEST_SUITE("bad input") {
                    {uniform + "--technique grid --cells 4,8 --per-disc x.csv", "--per-disc"}});
   }
 
-  TEST_CASE("a seed is a whole number below 2^64, and no other is taken instead") {
+  TEST_CASE("a seed is a whole number below 2^64; anything else is refused") {
     check_refused(each(numbers + "--seed", {"-1", "1.5", "nan", "x", "1e3", "18446744073709551616"}, "--seed"));
     CHECK(result_of(numbers + "--seed 18446744073709551615")["provenance"]["seed"] == UINT64_MAX);
   }
 
-  TEST_CASE("a time limit is a finite number of seconds from 0; a very long one is none") {
+  TEST_CASE("a time limit is a finite number of seconds from 0; a very long one has no effect") {
     check_refused(each(uniform + "--time-limit", {"-1", "nan", "inf", "x"}, "--time-limit"));
     CHECK(
         result_of("run @uniform --samples 20000 --rays 20000 --technique brute-force --time-limit 1e300")["stopped"] ==
         false);
   }
 
-  TEST_CASE("an empty value is refused, not taken for none") {
+  TEST_CASE("an empty value is refused, not treated as absent") {
     for (const std::string option : {"--rays", "--samples", "--disc-radius", "--sample-extent", "--output", "--costs"})
       check_refused({{words(numbers) + Arguments{option, ""}, option}});
     check_refused({{Arguments{"run", ""}, "argument 2 is empty"}});

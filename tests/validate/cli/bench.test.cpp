@@ -39,7 +39,7 @@ TEST_SUITE("end to end") {
     CHECK(json.at("summary").at("ours_agree") == true);
   }
 
-  TEST_CASE("bench's CSV has a line for each row, of techniques without a closed form too, and its text the summary") {
+  TEST_CASE("bench's CSV has a line for each row, also without a closed form, and its text the summary") {
     const Finished csv = detp(small + "--threads 2 --techniques grid,brute-force --format csv");
     CHECK(csv.code == 0);
     CHECK(csv.out.starts_with("scene,field,rays,samples,disc_radius,threads,technique,"));
@@ -54,14 +54,14 @@ TEST_SUITE("end to end") {
     CHECK(text.out.find("geometric mean") != std::string::npos);
   }
 
-  TEST_CASE("a bench that is stopped shows what it has and ends with code 3") {
+  TEST_CASE("a bench that is stopped shows its results so far and ends with code 3") {
     const Finished finished = detp("bench @uniform --rays 1e5 --disc-radius 1% --time-limit 0.3 --format json");
     CHECK(finished.code == 3);
     CHECK(finished.err.empty());
     CHECK(finished.json().at("stopped") == true);
   }
 
-  TEST_CASE("bench refuses what it cannot run, and says why") {
+  TEST_CASE("bench refuses what it cannot run, with the reason") {
     check_refused({{"bench @nowhere", "@nowhere"},
                    {"bench @tree --rays 0", "--rays"},
                    {"bench @tree --rays 1e3,x", "--rays"},

@@ -49,7 +49,7 @@ TEST_SUITE("end to end") {
     check_refused({{"choose @tree --rays 1000 --rigor structural", "--field isotropic"}});
   }
 
-  TEST_CASE("numbers alone are answered, ranked by predicted time") {
+  TEST_CASE("a workload without a scene is ranked by predicted time") {
     for (const std::string workload :
          {"--rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2", "--rays 1 --samples 1 --disc-radius 1e-3",
           "--rays 1e18 --samples 1e18 --disc-radius 1e-9", "--rays 1e6 --samples 10 --disc-radius 50%",
@@ -65,7 +65,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("choose, model and run take the same box tree: leaves of 64, 16 and 8, by rays a disc") {
+  TEST_CASE("choose, model and run use the same box tree: leaves of 64, 16 and 8, by rays per disc") {
     for (const auto& [rays, leaf] : {std::pair{"1000", 64}, {"20000", 16}, {"150000", 8}}) {
       const std::string workload = std::string("@uniform --samples 2000 --disc-radius 2% --rays ") + rays;
       const Json parameters{{"fan_out", 4}, {"leaf", leaf}};
@@ -105,7 +105,7 @@ TEST_SUITE("end to end") {
                result_of(structural + " --front-facing").at("candidates")[0].at("predicted"));
   }
 
-  TEST_CASE("choose and model mark predictions that are extrapolated, and tell why") {
+  TEST_CASE("choose and model mark extrapolated predictions, with the reason") {
     const std::string few = "--samples 50 --rays 1000 --disc-radius 0.01 --scene-side 2";
     const Json reasons{"samples 50 below 1000"};
     const Json choice = result_of("choose " + few);
@@ -124,7 +124,7 @@ TEST_SUITE("end to end") {
     CHECK(result_of("choose " + many).at("choice").at("extrapolated") == false);
   }
 
-  TEST_CASE("--analyze adds what was counted and measured, and the regret") {
+  TEST_CASE("--analyze adds counts, measured times and the regret") {
     const std::string line = "choose @cornell --rays 1000 --analyze";
     const Json json = result_of(line);
     CHECK(json.at("regret").get<double>() >= 0);
@@ -165,8 +165,8 @@ TEST_SUITE("end to end") {
       CHECK_FALSE(has_no_number(detp(line + " --format " + format).out));
   }
 
-  TEST_CASE("with --analyze the measured winner is the choice, and what the prediction missed is said") {
-    // Unit costs that make brute force look the best by far.
+  TEST_CASE("with --analyze the measured winner is the choice, and the prediction's errors are reported") {
+    // Unit costs with which brute force has by far the shortest prediction.
     const std::string line =
         "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze "
         "--costs t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";
@@ -200,7 +200,7 @@ TEST_SUITE("end to end") {
     CHECK_FALSE(json.json().contains("regret"));
   }
 
-  TEST_CASE("given unit costs decide: where only stepping is dear, all rays are tested") {
+  TEST_CASE("unit costs from the command line decide: if only stepping is expensive, all rays are tested") {
     const Json json = result_of(
         "choose --rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2 --costs "
         "t=1,u=1e-12,v=1,n=1,c=1,b=1,s=1,r=1");
@@ -211,7 +211,7 @@ TEST_SUITE("end to end") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("unit costs that leave nothing to compare are refused by choose") {
+  TEST_CASE("unit costs that make all candidates equal are refused by choose") {
     const std::string choose = "choose --samples 10 --disc-radius 0.1 --scene-side 1 --costs ";
     check_refused({{choose + "u=0", "t, u, w, v, n, c, b, p, s, r, l cost 0"},
                    {choose + "t=1e-9,u=1e-9", "w, v, n, c, b, p, s, r, l cost 0"},

@@ -2,13 +2,13 @@
 
 #include "support/command.hpp"
 
-/// What holds for every command.
+/// Properties of every command.
 namespace detp::support {
 namespace {
 
 struct Example {
   std::string line;
-  std::vector<std::string> keys;  ///< that the contract promises, beside the envelope
+  std::vector<std::string> keys;  ///< keys that the contract promises, besides the envelope
 };
 
 const std::vector<Example>& examples() {
@@ -26,7 +26,7 @@ const std::vector<Example>& examples() {
   return all;
 }
 
-/// The answer of `validate`, run once: its experiments take most of a second.
+/// The result of `validate`, run only once: its experiments take most of a second.
 const Finished& claims() {
   static const Finished finished = detp("validate --samples 100 --rays 320 --format json --seed 7 --threads 2");
   return finished;
@@ -36,7 +36,7 @@ Finished json_of(const Example& example) {
   return example.line.starts_with("validate") ? claims() : detp(example.line + " --format json --seed 7 --threads 2");
 }
 
-/// `validate` may also find a formula refuted.
+/// Exit code 0, or 1: `validate` may find a formula refuted.
 bool answered(const Finished& finished) { return finished.code == 0 || finished.code == 1; }
 
 }  // namespace
@@ -56,7 +56,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("--version tells the program and its version") {
+  TEST_CASE("--version prints the program and its version") {
     const Finished version = detp("--version");
     CHECK(version.code == 0);
     CHECK(version.err.empty());
@@ -84,7 +84,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("inputs tell unit costs, forms and files too, so that a result can be had again") {
+  TEST_CASE("inputs include unit costs, forms and files, so that a result can be reproduced") {
     const std::string numbers = " --samples 10 --disc-radius 0.1 --scene-side 2";
     const Json model = result_of("model --costs t=3,v=7" + numbers).at("inputs");
     CHECK(model.at("form") == "corrected");
@@ -119,7 +119,7 @@ TEST_SUITE("end to end") {
     CHECK(result_of("run @uniform --rays 10 --samples 10 --repeat 2").at("inputs").at("repeat") == 2);
   }
 
-  TEST_CASE("text and CSV say something, CSV in rows of equally many fields") {
+  TEST_CASE("text and CSV are not empty, and CSV rows have equally many fields") {
     for (const Example& example : examples()) {
       CAPTURE(example.line);
       const Finished text = detp(example.line);
@@ -151,7 +151,7 @@ TEST_SUITE("end to end") {
     const sim::support::ScratchFolder folder;
     const std::string path = folder.path("result");
     for (const Example& example : examples()) {
-      if (example.line.starts_with("validate")) continue;  // slow, and written by the same lines
+      if (example.line.starts_with("validate")) continue;  // slow, and written by the same code
       CAPTURE(example.line);
       const Finished shown = json_of(example);
       const Finished written = detp(words(example.line + " --format json --seed 7 --output") + Arguments{path});
@@ -168,7 +168,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("notices go to stderr, and --quiet keeps them") {
+  TEST_CASE("notices go to stderr, and --quiet suppresses them") {
     const sim::support::ScratchFolder folder;
     const std::string mesh = folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv nan 0 0\nf 1 2 3\nf 1 3 4\n");
     for (const std::string name : {"scene", "run", "choose", "model"}) {
@@ -184,7 +184,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("a claim tells prediction, observation, precision and verdict") {
+  TEST_CASE("a claim has prediction, observation, precision and verdict") {
     const Json json = claims().json();
     REQUIRE_FALSE(json.at("claims").empty());
     for (const Json& claim : json.at("claims")) {

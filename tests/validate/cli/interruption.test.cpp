@@ -9,7 +9,7 @@ namespace {
 /// Ten thousand million tests on one thread: more than a second.
 const std::string long_run = "run @uniform --samples 100000 --rays 100000 --technique brute-force --threads 1 ";
 
-/// Partial, and says so: nothing in it can be taken for the whole.
+/// Checks that a stopped result is marked as partial, so that nobody takes it for complete.
 Json check_stopped(const Finished& finished) {
   CAPTURE(finished.err);
   CAPTURE(finished.out);
@@ -22,7 +22,7 @@ Json check_stopped(const Finished& finished) {
   return json;
 }
 
-/// All at once, each sent the signal so many seconds after all listen.
+/// Runs all lines at once. Sends each the signal `after` seconds after all handle signals.
 std::vector<Finished> interrupted(const std::vector<std::string>& lines, int signal, double after) {
   std::vector<std::unique_ptr<Process>> processes;
   for (const std::string& line : lines) processes.push_back(std::make_unique<Process>(words(line)));
@@ -47,7 +47,7 @@ bool has_hits_so_far(const Finished& finished) { return finished.json().contains
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("Ctrl-C, a termination signal or a hangup stops a run, which shows what it has and ends with code 3") {
+  TEST_CASE("Ctrl-C, a termination signal or a hangup stops a run, which shows its results and ends with code 3") {
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
       CAPTURE(signal);
       const Json json = check_stopped(interrupted_search(signal));
@@ -59,7 +59,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("a hangup that was ignored when the command was started stays so") {
+  TEST_CASE("a hangup that was ignored when the command was started stays ignored") {
     const auto before = std::signal(SIGHUP, SIG_IGN);
     Process process(words("run @uniform --samples 1000 --rays 1000 --repeat 200 --format json"));
     std::signal(SIGHUP, before);
@@ -67,14 +67,14 @@ TEST_SUITE("end to end") {
     CHECK(process.finish().code == 0);
   }
 
-  TEST_CASE("every command can be stopped in every long phase, and says how far it came") {
+  TEST_CASE("every command can be stopped in every long phase, and reports its progress") {
     const sim::support::ScratchFolder folder;
     const std::vector<std::string> lines{
         "run @tree --rays 1e8 --quiet",                                  // counting photon paths
         "run @cornell --rays 1e8 --field isotropic --technique octree",  // many blocks of lines
         "run @uniform --rays 1e5 --samples 1e5 --disc-radius 0.05 --technique sphere-cache --pairs " +
             folder.path("pairs.csv"),
-        "scene @tree --rays 1e7 --write-rays " + folder.path("rays.csv"),  // tracing them
+        "scene @tree --rays 1e7 --write-rays " + folder.path("rays.csv"),  // tracing photons
         "choose @tree --rays 1e7",
         "choose @uniform --rays 2e6 --samples 1e6 --analyze",
         "choose @uniform --samples 3e6 --rigor structural",
@@ -95,7 +95,7 @@ TEST_SUITE("end to end") {
     CHECK_FALSE(std::filesystem::exists(folder.path("rays.csv")));
   }
 
-  TEST_CASE("a stopped answer says so in text and CSV, too") {
+  TEST_CASE("a stopped result is marked in text and CSV, too") {
     const Finished text =
         stopped_in_time(long_run, [](const Finished& one) { return one.out.starts_with("stopped   after "); });
     CHECK(text.code == 3);
@@ -112,7 +112,7 @@ TEST_SUITE("end to end") {
     CHECK(validate.out.find("0 refuted") == std::string::npos);
   }
 
-  TEST_CASE("a command that was stopped before it knew anything says what it was doing, in one line") {
+  TEST_CASE("a command stopped before it had any result says what it was doing, in one line") {
     const Finished finished = detp("run @tree --rays 1e8 --time-limit 0.2");
     CHECK(finished.code == 3);
     CHECK(finished.err.starts_with("detp: stopped while "));
@@ -133,22 +133,23 @@ TEST_SUITE("end to end") {
 
   TEST_CASE("a second signal ends the command at once, with code 130") {
     const sim::support::ScratchFolder folder;
-    const std::string pipe = folder.path("pipe");  // no one reads it: writing waits
+    const std::string pipe = folder.path("pipe");  // nobody reads it, so writing waits
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     Process process(words("model --samples 10 --disc-radius 0.1 --scene-side 1 --output " + pipe));
     process.wait_until_it_listens();
     process.send(SIGINT);
-    process.send(SIGTERM);  // not the same: of two, the second might be lost while the first is pending
+    // a different signal: of two equal ones, the second might be lost while the first is pending
+    process.send(SIGTERM);
     CHECK(process.finish().code == 130);
   }
 
-  TEST_CASE("neither the watch for signals nor a time limit keeps a finished command waiting") {
+  TEST_CASE("neither signal handling nor a time limit delays the end of a command") {
     const Finished finished = detp("model --samples 10 --disc-radius 0.1 --scene-side 1 --time-limit 3600");
     CHECK(finished.code == 0);
-    CHECK(finished.signal == 0);  // one that waits is killed after a minute
+    CHECK(finished.signal == 0);  // a command that waits is killed after a minute
   }
 
-  TEST_CASE("a time limit stops a run, which shows what it has and ends with code 3; none that is not over does") {
+  TEST_CASE("a time limit stops a run, which shows its results and ends with code 3; a longer one has no effect") {
     check_stopped(detp(long_run + "--format json --time-limit 0.2"));
     for (const char* limit : {"30", "0", "1e300"}) {
       CAPTURE(limit);

@@ -3,7 +3,7 @@
 #include "support/command.hpp"
 #include "support/sanitized.hpp"
 
-// Memory and threads that the user's machine does not have, or is not to give.
+// More memory or threads than the machine has, or than the user allows.
 
 using detp::support::check_refused;
 using detp::support::Finished;
@@ -13,7 +13,7 @@ using detp::support::sanitized;
 
 namespace {
 
-/// Refused with exit code 2: the memory or the threads do not suffice.
+/// Checks exit code 2: the memory or the threads do not suffice.
 void check_short_of(const Finished& finished, const std::string& named) {
   CAPTURE(finished.err);
   CHECK(finished.signal == 0);
@@ -26,7 +26,7 @@ void check_short_of(const Finished& finished, const std::string& named) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("what would take more than --memory-limit is refused before it is taken, naming the bytes") {
+  TEST_CASE("work that would exceed --memory-limit is refused before allocation, naming the bytes") {
     check_refused(
         {{"run @uniform --rays 1000 --samples 1000 --technique sphere-cache --ratio 0.999999999 "
           "--spheres 1000000000000 --memory-limit 2G",
@@ -41,20 +41,20 @@ TEST_SUITE("end to end") {
          {"run @uniform --rays 1000 --samples 100 --memory-limit 0", "--memory-limit must be a size"}});
   }
 
-  TEST_CASE("ten rays on 4096 threads take no memory to speak of") {
+  TEST_CASE("ten rays on 4096 threads need little memory") {
     const Json result = result_of(
         "run @uniform --rays 10 --samples 100 --technique sphere-tree --threads 4096 --memory-limit 1G --quiet");
     CHECK(result.at("hits").get<int>() >= 0);
   }
 
-  TEST_CASE("to choose by closed forms, rays are not held in memory, however many there are") {
+  TEST_CASE("choosing by closed forms does not hold the rays in memory, however many there are") {
     const Json few = result_of("choose @uniform --samples 1000 --disc-radius 1% --rays 1e6 --memory-limit 500M");
     const Json many = result_of("choose @uniform --samples 1000 --disc-radius 1% --rays 1e12 --memory-limit 500M");
     CHECK(many.at("inputs").at("rays") == 1e12);
     CHECK(few.at("inputs").at("path_length") == many.at("inputs").at("path_length"));
   }
 
-  TEST_CASE("threads that the system does not start are done without") {
+  TEST_CASE("if the system does not start all threads, fewer are used") {
     if (sanitized) return;  // a sanitizer needs address space
     const Finished finished = detp::support::detp_in(
         6e9, "run @uniform --rays 1000 --samples 100 --technique grid --threads 4096 --memory-limit 1G");
@@ -63,9 +63,9 @@ TEST_SUITE("end to end") {
     CHECK(finished.err.find("threads only, not 4096") != std::string::npos);
   }
 
-  TEST_CASE("memory that runs out all the same is said to have run out, by Embree too") {
+  TEST_CASE("an allocation that fails nevertheless is reported as out of memory, by Embree too") {
     if (sanitized) return;
-    // Met by the technique, while the scene is read or sorted, and in Embree.
+    // The allocation fails in the technique, while the scene is read or sorted, and in Embree.
     for (const char* work : {"grid --cells 400 --samples 1e5", "sphere-tree --samples 3e6",
                              "sphere-cache --ratio 0.6 --samples 1e6", "bvh --samples 2e5"})
       check_short_of(

@@ -2,7 +2,7 @@
 
 #include "run_support.hpp"
 
-/// Scenes from files, those made to break programs among them.
+/// Scenes from files, including files that are made to break programs.
 namespace detp::support {
 namespace {
 

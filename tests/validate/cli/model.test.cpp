@@ -57,7 +57,8 @@ TEST_SUITE("known answer") {
       CHECK(json.at("spheres").back().at("radius").get<double>() >= disc);
       double rebuild_time = 0;
       double listed = rays;
-      double around = rays;  // that cross the sphere around: what is tested lies between it and what is listed
+      // rays that cross the sphere around: the number of tests lies between it and the listed rays
+      double around = rays;
       for (const Json& sphere : json.at("spheres")) {
         const int i = sphere.at("i");
         const double cost = sphere.at("rebuild_cost");
@@ -78,7 +79,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("--levels limits the spheres listed, not those reckoned with") {
+  TEST_CASE("--levels limits the spheres shown, not those computed") {
     const Json all = result_of(numbers);
     const Json few = result_of(numbers + "--levels 2");
     CHECK(few.at("spheres").size() == 2);
@@ -100,7 +101,7 @@ TEST_SUITE("known answer") {
       }
   }
 
-  TEST_CASE("k is the form's own by default, and its best stop is reported and taken on demand") {
+  TEST_CASE("k is the form's own by default; its best stop is reported, and used on request") {
     for (const std::string form : {"published", "corrected"}) {
       CAPTURE(form);
       const std::string line = numbers + "--ratio 0.65 --form " + form;
@@ -118,7 +119,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("unit costs mean the same in any order, and what is not named is 0") {
+  TEST_CASE("unit costs may come in any order, and those not named are 0") {
     const std::string octree = "model --samples 4096 --disc-radius 0.01 --scene-side 2 --technique octree --costs ";
     const Json one = result_of(octree + "u=7,w=5,n=3");
     CHECK(one.at("total_time") == result_of(octree + "n=3,w=5,u=7").at("total_time"));
@@ -183,7 +184,7 @@ TEST_SUITE("known answer") {
     CHECK(four.at("total_time").get<double>() == near(5.0 * 4 * 1000 * 16));
   }
 
-  TEST_CASE("a cube of n cells a side has n cells on a line, which tests what lies in them") {
+  TEST_CASE("a line crosses n cells of a cube with n cells a side, and tests their discs") {
     const std::string cube = "model --rays 1000 --samples 4096 --disc-radius 0.01 --scene-side 2 --costs w=5 ";
     const double x = 0.01 / (2.02 / 16);
     const double endless = 1 + 1.5 * 3.14159265358979 * (x + x * x);
@@ -202,7 +203,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("side and sphere radius give each other, and a percentage is one of the side") {
+  TEST_CASE("side and sphere radius follow from each other, and a percentage is one of the side") {
     const Json side = result_of("model --samples 10 --disc-radius 0.05 --scene-side 2").at("inputs");
     CHECK(side.at("sphere_radius").get<double>() == near(std::sqrt(3.0) + 0.05));
     CHECK(side.at("rays") == 100000);

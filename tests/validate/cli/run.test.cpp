@@ -11,7 +11,7 @@ namespace {
 
 using sim::support::ScratchFolder;
 
-/// The contract's words for a hit, as plainly as they can be put.
+/// The contract's definition of a hit, coded as simply as possible.
 bool crosses(const sim::Ray& ray, const sim::Disc& disc, bool front_facing) {
   const double slope = glm::dot(ray.direction, disc.normal);
   if (slope == 0 || (front_facing && slope > 0)) return false;
@@ -20,7 +20,7 @@ bool crosses(const sim::Ray& ray, const sim::Disc& disc, bool front_facing) {
   return glm::length(ray.origin + way * ray.direction - disc.centre) <= disc.radius;
 }
 
-/// The user's own data in files.
+/// Discs and rays in files, like a user's own data.
 struct OwnData {
   ScratchFolder folder;
   std::vector<sim::Disc> discs = mixed_discs(300);
@@ -100,7 +100,7 @@ TEST_SUITE("end to end") {
     CHECK(rows_of(both.pairs).size() == both.hits);
   }
 
-  TEST_CASE("discs all in one point: no sphere pays, so that the sphere cache runs without one") {
+  TEST_CASE("discs all in one point: no sphere pays off, so the sphere cache runs without one") {
     const ScratchFolder folder;
     const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,0.5\n0,0,0,0,1,0,0.5\n");
     const std::string rays = folder.file("rays.csv", "ox,oy,oz,dx,dy,dz\n0.1,0.1,0,0,0,1\n5,5,5,0,0,1\n");
@@ -140,7 +140,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("CSV is one row of what JSON says, and text tells the same number of hits") {
+  TEST_CASE("CSV is one row with the values of JSON, and text has the same number of hits") {
     const std::string run = "run @cornell --rays 2000 --technique sphere-cache --ratio 0.5";
     const Json json = result_of(run);
     const auto rows = csv_of(run);
@@ -161,7 +161,7 @@ TEST_SUITE("end to end") {
     CHECK(detp(run).out.find(fmt::format("hits      {},", json.at("hits").get<int>())) != std::string::npos);
   }
 
-  TEST_CASE("the plain engine finds the hits of the float kernels, and says that it ran") {
+  TEST_CASE("the plain engine finds the hits of the float kernels, and the result names it") {
     for (const std::string technique :
          {"brute-force", "sphere-cache --ratio 0.6", "cell-spheres --depth 3", "sphere-tree --fan-out 4 --leaf 16"}) {
       CAPTURE(technique);
@@ -173,7 +173,7 @@ TEST_SUITE("end to end") {
       CHECK(simd.json.at("inputs").at("engine") == "simd");
       CHECK(plain.json.at("seconds").at("search").get<double>() > 0);
     }
-    // The plain lists hold the rays that cross the spheres, the float kernels' a few more.
+    // The plain lists hold the rays that cross the spheres; those of the float kernels hold a few more.
     const std::string cache =
         "run @uniform --samples 2000 --rays 20000 --technique sphere-cache --ratio 0.6 --spheres 6";
     const Json plain = result_of(cache + " --engine plain").at("counts");
@@ -182,7 +182,7 @@ TEST_SUITE("end to end") {
     CHECK(plain.at("disc_tests").get<double>() < simd.at("disc_tests").get<double>());
   }
 
-  TEST_CASE("a sphere cache runs with the best stop unless told otherwise, and reports the form's own too") {
+  TEST_CASE("a sphere cache runs with the best stop by default, and reports the form's own too") {
     const std::string line = "run @uniform --samples 2000 --rays 2000 --technique sphere-cache --ratio 0.7";
     const Json best = result_of(line);
     const Json max = result_of(line + " --spheres max");
@@ -195,7 +195,7 @@ TEST_SUITE("end to end") {
     CHECK(result_of(line + " --spheres 2").at("k") == 2);
   }
 
-  TEST_CASE("the phases make up the time, and --repeat tells every run's") {
+  TEST_CASE("the phases add up to the time, and --repeat reports every run's") {
     for (const std::string repeat : {"", " --repeat 3", " --repeat 4"}) {
       const Json json = result_of("run @cornell --rays 2000 --technique sphere-cache" + repeat);
       const Json& seconds = json.at("seconds");
@@ -215,7 +215,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("more rays than a block are never all in memory; --pairs tells their numbers among all") {
+  TEST_CASE("more rays than a block are never all in memory; --pairs has their numbers among all rays") {
     const Written written = run_and_read(words("run --samples 3 --disc-radius 0.3 --scene-side 2 --rays 1200000"),
                                          "--technique grid --cells 2");
     CHECK(written.json.at("rays_in_memory") == 1 << 20);
@@ -228,7 +228,7 @@ TEST_SUITE("end to end") {
     CHECK(result_of("run @cornell --rays 1000 --technique grid").at("rays_in_memory") == 1000);
   }
 
-  TEST_CASE("the files of `scene` are read back to the same result") {
+  TEST_CASE("the files that `scene` writes are read back to the same result") {
     const ScratchFolder folder;
     const Arguments scene = words("scene @cornell --rays 1000 --samples 1500");
     const std::string discs = folder.path("discs.csv");
@@ -249,9 +249,9 @@ TEST_SUITE("statistical") {
     const double r0 = json.at("inputs").at("sphere_radius");
     const double per_line = 20000 * d * d / (2 * r0 * r0);
     const double expected = 200000 * per_line;
-    // Lines are independent, the hits of one line are not: along the longest chord of the cube, of side 2, discs of
-    // mean projected area pi d^2/2 are met at most so often. The variance of a line's hits is below its mean times 1 +
-    // that.
+    // Lines are independent, but the hits of one line are not. A line meets at most as many discs, of mean projected
+    // area pi d^2/2, as there are along the longest chord of the cube of side 2. So the variance of a line's hits is
+    // below its mean times 1 + that number.
     const double on_longest_chord = 20000 / 8.0 * 2 * std::sqrt(3.0) * std::numbers::pi * d * d / 2;
     const double standard_error = std::sqrt(expected * (1 + on_longest_chord));
     const double hits = json.at("hits");

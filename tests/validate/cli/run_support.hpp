@@ -9,7 +9,7 @@
 #include "detp/sim/geometry/directions.hpp"
 #include "support/command.hpp"
 
-/// Rays and discs as a user's own data, and what `detp run` writes of them.
+/// Rays and discs like a user's own data, and the files that `detp run` writes for them.
 namespace detp::support {
 
 /// Discs of radii 0.02 to 0.2, about a cube of side 2.
@@ -24,7 +24,7 @@ inline std::vector<sim::Disc> mixed_discs(std::uint64_t count) {
   return discs;
 }
 
-/// Lines and segments by turns, of lengths 0 to 2 and powers 0 to 3.
+/// Alternately lines and segments, with lengths 0 to 2 and powers 0 to 3.
 inline std::vector<sim::Ray> mixed_rays(std::uint64_t count) {
   std::vector<sim::Ray> rays;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -57,7 +57,7 @@ inline Written run_and_read(const Arguments& problem, const std::string& techniq
   return written;
 }
 
-/// Every technique that promises all hits, with several parameters.
+/// Every technique that guarantees all hits, with several parameters.
 inline const std::vector<std::string>& exact_techniques() {
   static const std::vector<std::string> all{"",
                                             "--technique sphere-cache",
@@ -86,7 +86,7 @@ inline const std::vector<std::string>& exact_techniques() {
   return all;
 }
 
-/// Each of them once, with the parameters that the command finds best.
+/// Each of these techniques once, with the parameters that the command finds best.
 inline const std::vector<std::string>& best_techniques() {
   static const std::vector<std::string> all{"",
                                             "--technique sphere-cache",
@@ -99,7 +99,7 @@ inline const std::vector<std::string>& best_techniques() {
   return all;
 }
 
-/// Fails the test unless all techniques write the same bytes as brute force, which is returned.
+/// Fails the test unless all techniques write the same bytes as brute force. Returns brute force's files.
 inline Written check_all_agree(const Arguments& problem,
                                const std::vector<std::string>& techniques = exact_techniques()) {
   Written truth = run_and_read(problem, "--technique brute-force");

@@ -12,11 +12,11 @@ namespace {
 using sim::support::content_of;
 using sim::support::ScratchFolder;
 
-/// detp run by a shell, with the words before it and the redirections after it.
+/// Runs detp in a shell, with words before it and redirections after it.
 struct Shell {
   ScratchFolder folder;
 
-  /// The exit code as the shell sees it: of an abort 134.
+  /// The exit code as the shell reports it; for an abort 134.
   [[nodiscard]] int run(const std::string& before, const std::string& arguments, const std::string& after) const {
     const std::string line = before + " " + DETP_COMMAND + " " + arguments + " 2>" + folder.path("err") + " " + after;
     const int status = std::system(("(" + line + "; echo $? >" + folder.path("code") + ") </dev/null").c_str());
@@ -40,9 +40,9 @@ TEST_SUITE("bad input") {
     CHECK(shell.folder.entries() == 2);  // err and code
   }
 
-  TEST_CASE("a reader that goes away ends with code 2 and a message") {
+  TEST_CASE("a reader that closes the pipe ends with code 2 and a message") {
     const Shell shell;
-    CHECK(shell.run("", csv + "/dev/stdout", "| true; true") == 0);  // the pipe's code is that of true
+    CHECK(shell.run("", csv + "/dev/stdout", "| true; true") == 0);  // the shell reports the exit code of `true`
     CHECK(shell.err().find("Broken pipe") != std::string::npos);
     const std::string line = std::string("{ ") + DETP_COMMAND + " " + csv + "/dev/stdout 2>" +
                              shell.folder.path("err") + "; echo $? >" + shell.folder.path("own") + "; } | true";
@@ -51,7 +51,7 @@ TEST_SUITE("bad input") {
     CHECK(shell.err() == "detp: /dev/stdout: cannot be written: Broken pipe\n");
   }
 
-  TEST_CASE("closed and full streams end with code 2, or are done without") {
+  TEST_CASE("closed and full output ends with code 2; closed input and messages do no harm") {
     const Shell shell;
     const std::string model = "model --samples 100 --disc-radius 0.1 --scene-side 2";
     CHECK(shell.run("", model, ">&-") == 2);
@@ -70,7 +70,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("end to end") {
-  TEST_CASE("a file name that is no UTF-8 or would command a terminal is shown escaped, and JSON stays JSON") {
+  TEST_CASE("a file name that is not UTF-8, or has control characters, is shown escaped, and JSON stays JSON") {
     const ScratchFolder folder;
     const std::string name = folder.path("\xff\x1b[2J.obj");
     std::ofstream(name) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -108,7 +108,7 @@ TEST_SUITE("end to end") {
     CHECK(interrupted.err.find("stopped while reading") != std::string::npos);
   }
 
-  TEST_CASE("results go through links, pipes and devices") {
+  TEST_CASE("results can be written through links, pipes and devices") {
     const ScratchFolder folder;
     std::filesystem::create_symlink("target", folder.path("link"));
     const std::string model = "model --samples 100 --disc-radius 0.1 --scene-side 2 --output ";

@@ -25,7 +25,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("a disc radius that is given is shown digit by digit, as are counts") {
+  TEST_CASE("a disc radius from the command line is shown digit by digit, as are counts") {
     for (const std::string& line :
          {"scene" + numbers, std::string("scene @uniform --samples 1000 --rays 2000 --disc-radius 0.02"),
           "model" + numbers, "choose" + numbers}) {
@@ -37,7 +37,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("one per cent of @uniform, a cube of side 2, is 0.02 whatever the number of samples") {
+  TEST_CASE("one per cent of @uniform, a cube of side 2, is 0.02 for any number of samples") {
     for (const std::string samples : {"100", "1000"})
       CHECK(csv_of("scene @uniform --rays 10 --disc-radius 1% --samples " + samples)[0].at("disc_radius") == "0.02");
     const auto rows = csv_of("run @uniform --rays 10 --samples 20 --disc-radius 1%,2%,4% --technique grid --seed 9");
@@ -102,10 +102,11 @@ TEST_SUITE("end to end") {
       }
   }
 
-  TEST_CASE("choose --analyze: CSV has what JSON says was tried, given up and missed") {
+  TEST_CASE("choose --analyze: CSV has JSON's lists of candidates that were tried and abandoned, and of errors") {
     const auto rows = csv_of(
         "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze "
-        "--costs t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1");  // brute force looks best by far
+        // with these costs brute force has by far the shortest prediction
+        "--costs t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1");
     int tried = 0;
     int missed = 0;
     for (const CsvRow& row : rows) {
@@ -122,7 +123,7 @@ TEST_SUITE("end to end") {
     CHECK(std::stoi(rows.front().at("tried")) == tried);
   }
 
-  TEST_CASE("validate: each claim names its technique in JSON and CSV, and none where it is about lines") {
+  TEST_CASE("validate: each claim has its technique in JSON and CSV, and none if it is about lines") {
     const std::string line = "validate @cornell --samples 100 --rays 320 --disc-radius 4% --format ";
     const Json json = detp(line + "json").json();
     const auto rows = csv_rows(detp(line + "csv").out);
@@ -141,7 +142,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("a range has the values that a reader would write, its end included where a step meets it") {
+  TEST_CASE("a range has the values that a reader would write, including its end if a step meets it") {
     const auto ratios = [](const std::string& range) {
       std::vector<std::string> values;
       for (const CsvRow& row : csv_of("model" + numbers + " --levels 0 --ratio " + range))
@@ -160,7 +161,7 @@ TEST_SUITE("end to end") {
     CHECK(csv_of("model --samples 1000 --disc-radius 1%:3%:1% --scene-side 2")[2].at("disc_radius") == "0.06");
   }
 
-  TEST_CASE("all combinations make a row: the scene's options change slowest, the last parameter and form fastest") {
+  TEST_CASE("each combination is a row: the scene's options change slowest, the last parameter and form fastest") {
     const auto rows = csv_of(
         "model --samples 1000 --rays 2000 --scene-side 2 --disc-radius 0.02,0.04 --ratio 0.5,0.6 "
         "--form published,corrected");
@@ -172,7 +173,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("a row of a table is the answer of its own command, in JSON and CSV") {
+  TEST_CASE("a row of a table equals the result of its own command, in JSON and CSV") {
     const std::string model = "model --samples 1000 --rays 2000 --scene-side 2 ";
     const Json table = result_of(model + "--disc-radius 0.02,0.04 --ratio 0.5,0.6 --levels 3");
     CHECK_FALSE(table.contains("k"));
@@ -195,7 +196,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("model: CSV of one answer has a row for each sphere, with what holds of all in each") {
+  TEST_CASE("model: CSV of one result has a row for each sphere, each with the values common to all") {
     const Json json = result_of("model" + numbers + " --ratio 0.5");
     const auto rows = csv_of("model" + numbers + " --ratio 0.5");
     REQUIRE(rows.size() == json.at("spheres").size());
@@ -307,7 +308,7 @@ TEST_SUITE("end to end") {
     CHECK(sim::support::content_of(path) == detp("model" + numbers + " --format csv").out);
   }
 
-  TEST_CASE("scene: CSV is one row with what JSON says, effects included") {
+  TEST_CASE("scene: CSV is one row with the values of JSON, including effects") {
     const Json json = result_of("scene @cornell --rays 100");
     const auto rows = csv_of("scene @cornell --rays 100");
     REQUIRE(rows.size() == 1);

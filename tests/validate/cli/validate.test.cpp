@@ -7,9 +7,8 @@
 namespace detp::support {
 
 TEST_SUITE("end to end") {
-  TEST_CASE(
-      "on a scene, what choose predicts is claimed beside the closed forms, and exit code 1 says what is refuted") {
-    // Photon paths in a box: choose takes half of the tests and hits for those of isotropic lines.
+  TEST_CASE("on a scene, choose's predictions are claims too, and exit code 1 means that one is refuted") {
+    // Photon paths in a box: choose predicts the tests and hits of isotropic lines, half of those that occur.
     const std::string scene = " @cornell --samples 300 --rays 3200 --disc-radius 4%";
     const Finished finished = detp("validate" + scene + " --format json");
     const Json claims = finished.json().at("claims");
@@ -39,7 +38,7 @@ TEST_SUITE("end to end") {
       CHECK(by_id.contains(std::string(id) + ".corrected"));
   }
 
-  TEST_CASE("where nothing was hit, what is unknown is left out of JSON and CSV") {
+  TEST_CASE("if nothing was hit, unknown values are left out of JSON and CSV") {
     const std::string sparse = "validate --samples 1 --rays 1";
     const Finished json = detp(sparse + " --format json");
     CHECK(json.err.empty());
@@ -57,7 +56,7 @@ TEST_SUITE("end to end") {
       CHECK_FALSE(has_no_number(detp(sparse + " --format " + format).out));
   }
 
-  TEST_CASE("the sweep's options are refused where there is no sweep") {
+  TEST_CASE("the sweep's options are refused without a sweep") {
     check_refused({{"validate --resume", "--effort thorough"},
                    {"validate --checkpoint x.json", "--effort thorough"},
                    {"validate --most-samples 1000", "--effort thorough"},
@@ -67,7 +66,7 @@ TEST_SUITE("end to end") {
                    {"validate --effort great", "default,thorough"}});
   }
 
-  TEST_CASE("a time limit before the first verdict ends with code 3 and what there is") {
+  TEST_CASE("a time limit before the first verdict ends with code 3 and the results so far") {
     const Finished finished = detp("validate --time-limit 0.2 --format json");
     CHECK(finished.code == 3);
     CHECK(finished.err.empty());
@@ -76,8 +75,8 @@ TEST_SUITE("end to end") {
   }
 }
 
-TEST_SUITE("statistical") {  // for its length
-  TEST_CASE("files of discs and rays are validated, with the rays that are in them") {
+TEST_SUITE("statistical") {  // because it takes long
+  TEST_CASE("files of discs and rays are validated with the rays that they contain") {
     const sim::support::ScratchFolder folder;
     const std::string discs = folder.path("discs.csv");
     const std::string rays = folder.path("rays.csv");

@@ -15,7 +15,7 @@ using Numbers = std::vector<double>;
 
 namespace {
 
-/// Row by row.
+/// A matrix by rows, and the right side.
 struct System {
   Numbers a;
   std::size_t unknowns;
@@ -38,7 +38,7 @@ struct System {
 
   [[nodiscard]] Numbers fit() const { return validate::non_negative_fit(a, unknowns, b); }
 
-  /// Aᵀ(b - A x) as cosines: over the lengths of the column and of b.
+  /// Aᵀ(b - A x) as cosines: divided by the lengths of the column and of b.
   [[nodiscard]] Numbers gains(const Numbers& x) const {
     const Numbers left = rest(x);
     const double length_of_b = error(Numbers(unknowns, 0));
@@ -84,7 +84,7 @@ System random_system(support::RandomNumbers& random) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a fit that is positive anyway is that of least squares; one of the wrong sign is 0") {
+  TEST_CASE("a fit that is positive anyway equals least squares; an unknown of the wrong sign is 0") {
     check_near(System{{1, 0, 1, 0, 0, 1}, 2, {2, 1, 1}}.fit(), {1.5, 1});
     check_near(System{{1, 0, 0, 1}, 2, {-2, 3}}.fit(), {0, 3});
     CHECK(System{{1, 2, 3, 4}, 2, {-1, -1}}.fit() == Numbers{0, 0});
@@ -96,12 +96,13 @@ TEST_SUITE("known answer") {
     const Numbers x = system.fit();
     check_near(x, {11. / 73, 9. / 73, 0});
     CHECK(system.error(x) == Approx(std::sqrt(1. / 73)));
-    // Fit all, drop the most negative, fit the rest again, until none is negative: the first unknown goes first.
+    // A simpler method fits all, drops the most negative unknown, and fits the rest again until none is negative. It
+    // would drop the first unknown first.
     CHECK(system.error({0, 0.28, 0}) == Approx(std::sqrt(0.08)));
     CHECK(system.gains({0, 0.28, 0})[0] > 0.01);
   }
 
-  TEST_CASE("more unknowns than numbers, columns that are equal, sums of others or 0: the error is the least") {
+  TEST_CASE("more unknowns than numbers; equal, dependent or zero columns: the error is minimal") {
     const System one{{1, 1, 2}, 3, {6}};
     CHECK(one.error(one.fit()) < 1e-12);
     const System system{{1, 1, 0, 1, 2, 2, 0, 2, 3, 3, 0, 4}, 4, {2, 4, 7}};

@@ -14,7 +14,7 @@ using namespace detp::validate;
 
 namespace {
 
-/// Sum of 12 uniform numbers less 6: mean 0, standard deviation 1.
+/// Sum of 12 uniform numbers minus 6: mean 0, standard deviation 1.
 double nearly_normal(std::uint64_t seed, std::uint64_t index) {
   double sum = -6;
   for (std::uint64_t part = 0; part < 3; ++part)
@@ -31,8 +31,7 @@ std::vector<double> batches_around(double mean, double sigma, std::uint64_t seed
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE(
-      "the median of an even number of values is the mean of the two in the middle; quantiles lie in proportion") {
+  TEST_CASE("the median of an even number of values is the mean of the middle two; quantiles interpolate") {
     CHECK(median({3, 1, 2}) == 2);
     CHECK(median({4, 1, 2, 3}) == 2.5);
     CHECK(median({7}) == 7);
@@ -73,13 +72,13 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("no values have no quantile, and no share is below 0, above 1 or not a number") {
+  TEST_CASE("an empty set of values has no quantile, and a share below 0, above 1 or NaN is refused") {
     CHECK_THROWS_AS(static_cast<void>(median({})), std::invalid_argument);
     for (const double bad : {-0.1, 1.1, std::nan("")})
       CHECK_THROWS_AS(static_cast<void>(quantile({1, 2}, bad)), std::invalid_argument);
   }
 
-  TEST_CASE("too few batches and budgets that are none are refused") {
+  TEST_CASE("too few batches and invalid budgets are refused") {
     CHECK_THROWS_AS(static_cast<void>(batch_means(std::array{1.0})), std::invalid_argument);
     for (const double bad : {0.0, 1.0, -1.0, std::nan("")})
       CHECK_THROWS_AS(static_cast<void>(interval_width(bad, 1, 32)), std::invalid_argument);
@@ -100,7 +99,7 @@ TEST_SUITE("statistical") {
     CHECK(std::abs(missed / static_cast<double>(experiments) - 0.05) < 0.0075);
   }
 
-  TEST_CASE("a false formula is called true, or a true one false, hardly ever; a detectable one is mostly refuted") {
+  TEST_CASE("wrong verdicts on true and false formulas are very rare; a detectable error is mostly refuted") {
     const double width = interval_width(0.01, 1, 32);
     int false_agreements = 0;
     int false_refutations = 0;

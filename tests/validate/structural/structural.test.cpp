@@ -34,7 +34,7 @@ const std::vector<Candidate>& candidates() {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("what does not depend on the rays is what a run counts") {
+  TEST_CASE("counts that do not depend on the rays equal those of a run") {
     const auto discs = sim::uniform_discs(sim::Body::cube_faces, 2, 2000, 0.03, 3);
     const auto rays = sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, 10);
     for (const Candidate& candidate : candidates()) {
@@ -59,7 +59,7 @@ TEST_SUITE("identity") {
     CHECK(structural_counts(discs, 1e6, candidates().front(), {}, true).hits == counts.hits / 2);
   }
 
-  TEST_CASE("twice the rays, twice the tests; as many references") {
+  TEST_CASE("twice the rays: twice the tests, the same references") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 500, 0.05, 3);
     for (const Candidate& candidate : candidates()) {
       const Counts<double> once = structural_counts(discs, 1000, candidate);
@@ -72,7 +72,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("numbers out of range are refused, and so is what has no structural tier") {
+  TEST_CASE("numbers out of range, and techniques without a structural tier, are refused") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 10, 0.05, 3);
     const Candidate brute = candidates().front();
     CHECK_THROWS_AS((void)structural_counts(std::span<const sim::Disc>{}, 10, brute), std::invalid_argument);
@@ -92,7 +92,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("statistical") {
-  // Seeds are fixed. Where discs are clumped a line meets many or none: 150 000 lines leave up to 1 % of noise.
+  // Seeds are fixed. If discs are clustered, a line meets many or none: 150 000 lines leave up to 1 % of noise.
   constexpr double rays = 150'000;
 
   void check_scene(const std::string& scene, double radius) {
@@ -124,14 +124,14 @@ TEST_SUITE("statistical") {
     }
   }
 
-  TEST_CASE("the structure of an index says what a search does, in every built-in scene") {
+  TEST_CASE("the structural counts of an index agree with a search, in every built-in scene") {
     check_scene("@uniform", 0.02);
     check_scene("@tree", 0.02);
     check_scene("@courtyard", 0.02);
     check_scene("@cornell", 0.02);
   }
 
-  TEST_CASE("the samples say what the sphere cache does") {
+  TEST_CASE("the structural counts of the sphere cache agree with a run") {
     const auto discs = sim::uniform_discs(sim::Body::cube_faces, 2, 5000, 0.03, 3);
     const auto lines = sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, 30'000);
     const Candidate candidate = candidates()[1];

@@ -29,7 +29,8 @@ TreeNode box_of(const std::array<float, 3>& centre, const std::array<float, 3>& 
   return node;
 }
 
-/// Area across of the lines listed for a box, averaged over directions by the midpoint rule, over that of S₀.
+/// Area of the projection of the lines listed for a box, averaged over directions by the midpoint rule, divided by that
+/// of S₀.
 double listed_by_quadrature(const std::array<float, 3>& half, double outer) {
   constexpr int steps = 600;
   double sum = 0;
@@ -53,7 +54,7 @@ double listed_by_quadrature(const std::array<float, 3>& half, double outer) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("inside S0, P is what a sum over directions gives") {
+  TEST_CASE("inside S0, P agrees with a sum over directions") {
     for (const std::array<float, 3> half :
          {std::array<float, 3>{0.1F, 0.1F, 0.1F}, {0.2F, 0.05F, 0.01F}, {0.1F, 0, 0}}) {
       const double ratio = BoxCrossing(0.7, 0)(box_of({0.1F, 0.2F, 0}, half)) / listed_by_quadrature(half, 0.7);
@@ -63,14 +64,14 @@ TEST_SUITE("reference value") {
     }
   }
 
-  TEST_CASE("of a cube 9.2 % is listed for nothing") {
+  TEST_CASE("the lists of a cube hold 9.2 % more lines than cross it") {
     const double crossing = 24 * 0.01 / (4 * std::numbers::pi);
     CHECK(BoxCrossing(1, 0)(box_of({0, 0, 0}, {0.1F, 0.1F, 0.1F})) / crossing == Approx(1.0916).epsilon(1e-4));
   }
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("a box far larger than S0 is crossed by all lines, one outside by few, none by more than lie in it") {
+  TEST_CASE("a box much larger than S0 is crossed by all lines, one outside by few; listed lines never exceed all") {
     CHECK(BoxCrossing(0.5, 0)(box_of({0, 0, 0}, {3, 3, 3})) == Approx(1).epsilon(0.02));
     CHECK(BoxCrossing(0.5, 0)(box_of({10, 0, 0}, {0.1F, 0.1F, 0.1F})) < 1e-3);
     const double inside = BoxCrossing(0.5, 0)(box_of({0, 0, 0}, {0.05F, 0.05F, 0.05F}));
@@ -88,10 +89,10 @@ TEST_SUITE("limit") {
 }
 
 TEST_SUITE("statistical") {
-  // Seeds are fixed. Where discs are clumped a line meets many or none: 150 000 lines leave up to 1 % of noise.
+  // Seeds are fixed. If discs are clustered, a line meets many or none: 150 000 lines leave up to 1 % of noise.
   constexpr double rays = 150'000;
 
-  TEST_CASE("the tree of boxes says what a search does, in every built-in scene") {
+  TEST_CASE("the structural counts of the box tree agree with a search, in every built-in scene") {
     for (const char* scene : {"@uniform", "@tree", "@courtyard", "@cornell"}) {
       JobRequest request;
       request.scene = scene;
@@ -118,8 +119,9 @@ TEST_SUITE("statistical") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("the closed form is what is counted on random samples, for any fan-out and leaf") {
-    // Worst of 400 trees (validate/tools/box_tree_accuracy.cpp): 8, 8, 12 and 10 %, for leaves of two and more.
+  TEST_CASE("the closed form agrees with counts on random samples, for any fan-out and leaf") {
+    // Largest deviations over 400 trees (validate/tools/box_tree_accuracy.cpp): 8, 8, 12 and 10 %, for leaves of two
+    // discs and more.
     constexpr std::array trees{BoxTreeParameters{2, 3}, BoxTreeParameters{3, 150}, BoxTreeParameters{4, 16},
                                BoxTreeParameters{7, 2}, BoxTreeParameters{11, 40}, BoxTreeParameters{16, 8}};
     constexpr double samples = 6000;

@@ -31,7 +31,7 @@ std::vector<sim::Disc> samples(sim::Body body, const glm::dvec3& shape) {
   return discs;
 }
 
-/// Sphere tests, copies and disc tests per line, of the lines of one batch.
+/// Sphere tests, copies and disc tests per line, of one batch of lines.
 std::array<double, 3> per_line(const std::vector<sim::Disc>& discs, const Candidate& candidate, int batch) {
   constexpr std::size_t lines = 4000;
   const auto rays =
@@ -43,13 +43,13 @@ std::array<double, 3> per_line(const std::vector<sim::Disc>& discs, const Candid
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("in a cube the cells' closed form is the structural one, but for the cells that chance leaves empty") {
+  TEST_CASE("in a cube the cells' closed form is the structural one, except for cells that are empty by chance") {
     const auto discs = samples(sim::Body::cube, glm::dvec3{1});
     const sim::Ray ray{};
     const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
     Workload workload = cube_workload(1000, 4000, 0.02, 2);
     workload.sphere_radius = problem.enclosing.radius;
-    const Candidate candidate{Technique::cell_spheres, CellSpheresParameters{2}};  // of 64 cells none is empty
+    const Candidate candidate{Technique::cell_spheres, CellSpheresParameters{2}};  // none of 64 cells is empty
     const Counts<double> structural = structural_counts(problem, 1000, candidate);
     const Counts<double> closed = model::predict(workload, candidate);
     CHECK(structural.culls == 8 + 64);
@@ -58,7 +58,7 @@ TEST_SUITE("identity") {
     CHECK(structural.disc_tests == doctest::Approx(closed.disc_tests).epsilon(2e-3));
   }
 
-  TEST_CASE("what needs no ray is what was counted: cells with spheres, and samples sorted") {
+  TEST_CASE("counts that need no ray equal those of a run: cells with spheres, and sorted samples") {
     const auto discs = samples(sim::Body::cube_faces, glm::dvec3{1});
     const sim::Ray ray{};
     const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
@@ -72,8 +72,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("statistical") {
-  TEST_CASE(
-      "counted tests and copies are the structural ones: cube, faces, and a flat box whose cells poke out of S0") {
+  TEST_CASE("counted tests and copies equal the structural ones: cube, faces, flat box with cells outside S0") {
     constexpr int batches = 16;
     for (const auto& discs : {samples(sim::Body::cube, glm::dvec3{1}), samples(sim::Body::cube_faces, glm::dvec3{1}),
                               samples(sim::Body::cube, {1, 0.4, 0.05})}) {
@@ -93,7 +92,7 @@ TEST_SUITE("statistical") {
           const Estimate observed = batch_means(counted[term]);
           CAPTURE(term);
           CAPTURE(observed.mean / predicted[term]);
-          // Student's t of 15 degrees of freedom stays below 5 but once in 6000.
+          // Student's t with 15 degrees of freedom exceeds 5 only once in 6000 cases.
           CHECK(std::abs(observed.mean - predicted[term]) <= 5 * observed.standard_error);
           CHECK_MESSAGE(std::abs(observed.mean - 1.05 * predicted[term]) > 5 * observed.standard_error,
                         "a formula wrong by 5 % must be refuted");

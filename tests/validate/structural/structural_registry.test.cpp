@@ -5,7 +5,7 @@
 using namespace detp;
 
 TEST_SUITE("identity") {
-  TEST_CASE("every technique has an entry of its own: its counts, or why there are none") {
+  TEST_CASE("every technique has its own entry: its counts, or the reason why there are none") {
     for (const Technique technique : all_techniques) {
       const validate::StructuralTier& tier = validate::structural_tier(technique);
       CAPTURE(name(technique));

@@ -44,7 +44,8 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("statistical") {
-  /// Structural over counted, T_R and T_I; the lines' noise, which all ratios share, averaged over some sets of them.
+  /// Structural divided by counted T_R and T_I. All ratios share the lines' noise, so averages over several sets of
+  /// lines.
   struct Agreement {
     double rebuild = 0;
     double intersect = 0;
@@ -85,7 +86,7 @@ TEST_SUITE("statistical") {
     check(sim::Body::cube_faces);
   }
 
-  // 8 × 5000 lines leave about 1 % of noise: the tree's samples fill little of S0.
+  // 8 × 5000 lines leave about 1 % of noise: few of the lines through S0 come near the tree's samples.
   TEST_CASE("sphere tests of scenes within 2 %: a tree, a box") {
     for (const std::string name : {"@tree", "@cornell"}) {
       const sim::Scene scene = sim::open_scene({name, 5000, 1});

@@ -14,7 +14,7 @@ using sim::support::ScratchFolder;
 
 namespace {
 
-/// Two points small enough to be measured in a blink.
+/// Two points that are small enough to be measured at once.
 std::vector<SweepPoint> small_points() { return {{3, 300, 0.05, 4, 40}, {2, 200, 0.2, 4, 40}}; }
 
 std::vector<double> numbers(const SweepResult& result) {
@@ -37,9 +37,9 @@ Deviation row(double predicted, double error = 0, const std::string& tier = "cor
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a summary tells median, worst and what lies beyond the goal, noisy rows apart") {
+  TEST_CASE("a summary has the median, the worst and the number beyond the goal; noisy rows are counted apart") {
     std::vector<Deviation> rows{row(101), row(97), row(100), row(115), row(111, 0.4), row(112, 1)};
-    rows.push_back(row(300, 5));  // its standard error of 5 % is no measure of 10 %
+    rows.push_back(row(300, 5));  // a standard error of 5 % is too large to check 10 %
     rows.push_back(row(1000, 0, "published"));
     const auto summaries = summarise(rows);
     REQUIRE(summaries.size() == 2);
@@ -74,7 +74,7 @@ TEST_SUITE("sweep") {
       CHECK(point.disc_radius() / point.workload().sphere_radius == doctest::Approx(point.disc_share));
   }
 
-  TEST_CASE("every quantity is compared with each tier that has it") {
+  TEST_CASE("every quantity is compared with each form that predicts it") {
     const SweepResult result = run_sweep(small_points());
     CHECK(result.points == 2);
     CHECK(result.measured == 2);
@@ -95,13 +95,13 @@ TEST_SUITE("sweep") {
 }
 
 TEST_SUITE("checkpoint") {
-  TEST_CASE("what is resumed is the same as in one go") {
+  TEST_CASE("a resumed sweep gives the same result as an uninterrupted one") {
     const ScratchFolder folder;
     const SweepResult whole = run_sweep(small_points());
     SweepOptions options{.checkpoint = folder.path("sweep.json")};
     const auto both = small_points();
     CHECK(numbers(run_sweep(both, options)) == numbers(whole));
-    // Cut back to the first point, as if it had been interrupted before the second.
+    // Truncated after the first point, as if it had been interrupted before the second.
     std::string content = content_of(folder.path("sweep.json"));
     const std::size_t second = content.find(",\"" + both[0].name() + "\"");
     REQUIRE(second != std::string::npos);  // names are kept in alphabetical order: "D=2 …" comes first
@@ -114,7 +114,7 @@ TEST_SUITE("checkpoint") {
     CHECK(content_of(folder.path("sweep.json")) == content);
   }
 
-  TEST_CASE("of another seed, other points, or no checkpoint at all: refused and left as it is") {
+  TEST_CASE("a file of another seed, of other points, or no checkpoint at all is refused and left unchanged") {
     const ScratchFolder folder;
     SweepOptions options{.checkpoint = folder.path("sweep.json"), .resume = true};
     const auto points = small_points();

@@ -20,7 +20,7 @@ using namespace detp::support;
 
 namespace {
 
-/// Scenes of a kind, by name: the hard families, what touches corners, and isotropic lines.
+/// Scenes of one kind, with its name: the hard families, discs that touch corners, and isotropic lines.
 struct Kind {
   std::string name;
   std::size_t number;
@@ -73,7 +73,8 @@ void check_all_kinds(std::uint64_t scenes, std::size_t rays, bool told) {
                       kind.name, shares.decisions, shares.hits, shares.rim, shares.wrong, shares.widest, shares.ends,
                       shares.box, shares.sphere));
   }
-  // The proof adds up what never comes together; but what is measured here is no noise.
+  // The proof adds up errors that never occur together, so the measured shares are small; but they are well above
+  // noise.
   CHECK(most.rim > 0.03);
   CHECK(most.ends > 0.03);
   CHECK(most.box > 0.005);
@@ -81,7 +82,7 @@ void check_all_kinds(std::uint64_t scenes, std::size_t rays, bool told) {
   CHECK(most.widest > 0.03);
 }
 
-/// Hits of discs by which two counts differ.
+/// Number of hits by which two counts differ.
 std::uint64_t differences(const std::vector<std::uint64_t>& some, const std::vector<std::uint64_t>& others) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < some.size(); ++i)
@@ -89,7 +90,7 @@ std::uint64_t differences(const std::vector<std::uint64_t>& some, const std::vec
   return sum;
 }
 
-/// What the kernels get wrong when bands or margins are so many times as wide.
+/// Number of wrong hits of the kernels if bands or margins are `times` as wide.
 template <class Find>
 std::uint64_t wrong_if(const std::vector<Kind>& some, const Find& find, float times) {
   std::uint64_t sum = 0;
@@ -109,17 +110,17 @@ const std::vector<Kind> at_corners{{"corners", families.size()}};
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("floats are off by less than the bands and margins allow for, against long double") {
+  TEST_CASE("compared with long double, the float errors are smaller than the bands and margins") {
     check_all_kinds(2, 300, false);
   }
 
-  TEST_CASE("with no bands, or a fiftieth of them, the kernels decide wrongly; with the whole, never") {
+  TEST_CASE("without bands, or with a fiftieth of them, the kernels decide wrongly; with the whole bands never") {
     CHECK(wrong_if(near_the_rim, hits_with_band, 0) > 100);
     CHECK(wrong_if(near_the_rim, hits_with_band, 0.02F) > 5);
     CHECK(wrong_if(near_the_rim, hits_with_band, 1) == 0);
   }
 
-  TEST_CASE("with no margin boxes lose hits, with one of the other sign spheres too; with the whole, none") {
+  TEST_CASE("boxes lose hits without margins, spheres with negative margins; with the whole margins neither") {
     CHECK(wrong_if(at_corners, hits_in_boxes, 0) > 20);
     CHECK(wrong_if(at_corners, hits_in_spheres, -0.2F) > 0);
     for (const auto find : {hits_in_boxes, hits_in_spheres}) {
@@ -130,7 +131,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("statistical") {
-  TEST_CASE("millions of decisions in floats: none wrong outside the bands, no hit beyond the margins") {
+  TEST_CASE("millions of decisions in floats: none is wrong outside the bands, no hit is beyond the margins") {
     check_all_kinds(100, 1000, true);
     for (const float times : {0.0F, 0.01F, 0.02F, 0.03F, 0.05F, 0.1F, 1.0F})
       MESSAGE(fmt::format("bands and margins times {:4}: wrong {:6} by bands, {:6} in boxes, {:6} in spheres", times,

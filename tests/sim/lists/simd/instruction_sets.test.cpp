@@ -19,8 +19,8 @@ using namespace detp::support;
 
 namespace {
 
-/// Hard rays of all families but those so far away that floats decide little, all through one scene's discs: lines and
-/// segments, their powers all 1 or ten decades apart.
+/// Lines and segments from all hard families, all through one scene's discs, except families so far away that floats
+/// decide little. Their powers are all 1, or span ten decades.
 HardScene mixed_scene(bool equal_powers) {
   HardScene scene = hard_scene(0, 0, 60, 1);
   scene.rays.clear();
@@ -47,7 +47,7 @@ void check_same_bytes(const Problem& problem, const Outcome& expected) {
   }
 }
 
-/// By every instruction set that the machine has.
+/// Runs every instruction set that the machine has.
 void check_same_bytes_by_all(const Problem& problem) {
   const Outcome expected =
       run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
@@ -61,7 +61,7 @@ void check_same_bytes_by_all(const Problem& problem) {
   }
 }
 
-/// "AVX2 AVX3", of those that the machine has or has not.
+/// The names, such as "AVX2 AVX3", of the instruction sets that the machine has (or lacks).
 std::string names(bool had) {
   std::string list;
   for (const std::int64_t target : compiled_instruction_sets())
@@ -72,7 +72,7 @@ std::string names(bool had) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("hits, irradiance and pairs are the same bytes by every instruction set, and those of the doubles") {
+  TEST_CASE("hits, irradiance and pairs are the same bytes with every instruction set and in doubles") {
     const std::string best = stream::instruction_set();
     MESSAGE("instruction sets tried: ", names(true));
     WARN_MESSAGE(names(false).empty(), "not tried, for this machine lacks them: ", names(false));

@@ -61,7 +61,7 @@ TEST_SUITE("known answer") {
     CHECK(open_scene({.name = "@uniform", .samples = 17}).samples.size() == 17);
   }
 
-  TEST_CASE("fewer samples than vertices are a subset of them in their order, another one for another seed") {
+  TEST_CASE("fewer samples than vertices are a subset of them in their order, another subset for another seed") {
     const Scene all = open_scene({.name = "@cornell", .samples = {}});
     const Scene some = open_scene({.name = "@cornell", .samples = 1000, .seed = 1});
     CHECK(some.samples.size() == 1000);
@@ -113,7 +113,7 @@ TEST_SUITE("statistical") {
     CHECK_MESSAGE(std::abs(share - 0.75 * 1.05) > 5 * error, "negative control: 5 % off must not pass");
   }
 
-  TEST_CASE("thinning takes the first and the second half of the vertices alike") {
+  TEST_CASE("thinning keeps as many of the first half of the vertices as of the second") {
     const Scene all = open_scene({.name = "@cornell", .samples = {}});
     const std::size_t vertices = all.samples.size();
     double first_half = 0;
@@ -126,34 +126,34 @@ TEST_SUITE("statistical") {
           ++j;
         }
     }
-    // Hypergeometric: half of n/2, with variance n/16.
+    // Hypergeometric distribution: the mean is half of n/2, the variance n/16.
     const double n = static_cast<double>(vertices);
     CHECK(std::abs(first_half / seeds - n / 4) < 5 * std::sqrt(n / 16 / seeds));
   }
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("an unknown built-in name is refused with the known ones") {
+  TEST_CASE("an unknown built-in name is refused; the message lists the known ones") {
     CHECK_THROWS_WITH_AS((void)open_scene({.name = "@forest", .samples = {}}),
                          "no built-in scene is called @forest; there are @uniform, @tree, @tree-coarse, @courtyard, "
                          "@cornell",
                          std::invalid_argument);
   }
 
-  TEST_CASE("no samples at all are refused") {
+  TEST_CASE("zero samples are refused") {
     for (const char* name : {"@uniform", "@cornell", "missing.obj"})
       CHECK_THROWS_WITH_AS((void)open_scene({.name = name, .samples = 0}), "a scene needs at least 1 sample (got 0)",
                            std::invalid_argument);
   }
 
-  TEST_CASE("a mesh that gives no sample is refused by name") {
+  TEST_CASE("a mesh that yields no sample is refused by name") {
     const support::ScratchFolder folder;
     const std::string path = folder.file("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n");
     const std::string message = support::file_error_of([&] { (void)open_scene({.name = path, .samples = {}}); });
     CHECK(message == path + ": no vertex has a normal; irradiance needs triangles with an area");
   }
 
-  TEST_CASE("a mesh without area has no room for more samples than its vertices") {
+  TEST_CASE("a mesh without area cannot have more samples than vertices") {
     const support::ScratchFolder folder;
     const std::string path = folder.file("line.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nvn 0 1 0\nf 1//1 2//1 3//1\n");
     CHECK(open_scene({.name = path, .samples = {}}).samples.size() == 3);

@@ -13,7 +13,7 @@ using namespace detp::validate;
 
 namespace {
 
-// No multiple of a packet or a stream, and more than one block of rays for each thread.
+// Not a multiple of a packet or a stream, and more than one block of rays for each thread.
 constexpr std::uint64_t odd_count = 4096 + 1003;
 
 struct Data {
@@ -50,14 +50,14 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("two threads find what one finds") {
+  TEST_CASE("two threads find the same as one") {
     const EmbreePeer one(1);
     const EmbreePeer two(2);
     const EmbreeMode mode{EmbreeQuery::occluded, EmbreeRays::stream_of_packets, EmbreeQuality::low, true};
     CHECK(two.run(data().rays, data().discs, mode).hits == one.run(data().rays, data().discs, mode).hits);
   }
 
-  TEST_CASE("all modes are told apart by their names") {
+  TEST_CASE("all modes have different names") {
     std::vector<std::string> names;
     for (const EmbreeMode& mode : all_embree_modes()) names.push_back(describe(mode));
     std::sort(names.begin(), names.end());
@@ -65,7 +65,7 @@ TEST_SUITE("known answer") {
     CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
   }
 
-  TEST_CASE("denormal numbers are what they were once Embree has run") {
+  TEST_CASE("denormal numbers work as before after Embree has run") {
     (void)EmbreePeer(1).run(data().rays, data().discs, {});
     volatile double smallest = DBL_MIN;
     CHECK(smallest / 2 > 0);
