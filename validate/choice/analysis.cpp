@@ -19,7 +19,7 @@ class Analyser {
  public:
   Analyser(const sim::Problem& problem, const AnalysisOptions& options) : problem_(problem), options_(options) {}
 
-  /// Counts those that are not there yet, one after another.
+  /// Runs and counts the candidates that are not in the analysis yet, one after another.
   void count(const std::vector<Analysed>& wanted) {
     const std::size_t first = all_.candidates.size();
     for (const Analysed& one : wanted)
@@ -126,7 +126,7 @@ class Analyser {
   const sim::Problem& problem_;
   const AnalysisOptions& options_;
   Analysis all_;
-  std::vector<double> first_seconds_;  ///< of the counting runs; infinite where there is none
+  std::vector<double> first_seconds_;  ///< of the counting runs; infinite if a run did not finish
   double fastest_ = std::numeric_limits<double>::infinity();
 };
 

@@ -10,43 +10,45 @@
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/technique/technique.hpp"
 
-/// A choice put to the test: the candidates run, counted and timed.
+/// Tests a choice: runs, counts and times the candidates.
 namespace detp::validate {
 
-/// A candidate, predicted (where there is a closed form of it) and, where it was run to its end, counted and measured.
+/// A candidate: predicted if it has a closed form; counted and measured if it was run to its end.
 struct Analysed {
   Candidate candidate;
   std::optional<model::Ranked> predicted = {};
   std::optional<Counts<std::uint64_t>> counted = {};
   std::optional<double> seconds = {};         ///< median of the timed runs
   double spread = 0;                          ///< half the difference between slowest and fastest, seconds
-  std::optional<double> given_up_after = {};  ///< seconds: it took that long and had not ended
-  std::string refused = {};                   ///< why it cannot be run here: an index that does not fit the memory
+  std::optional<double> given_up_after = {};  ///< seconds after which the run was abandoned before it had ended
+  std::string refused = {};  ///< the reason why it cannot be run here: its index does not fit in memory
 };
 
 struct Analysis {
-  std::vector<Analysed> candidates;  ///< as ranked, then those that have no closed form, then neighbours of the fastest
-  int tried = 0;                     ///< that were run to their end or given up
-  std::optional<std::size_t> best;   ///< the fastest measured
-  std::optional<double> regret;  ///< measured time of the predicted choice, the first, over that of the best, less 1
-  bool stopped = false;          ///< not all were run and timed
+  /// in the order of the ranking, then those without a closed form, then neighbours of the fastest
+  std::vector<Analysed> candidates;
+  int tried = 0;                    ///< number that were run to their end or abandoned
+  std::optional<std::size_t> best;  ///< the fastest measured
+  /// measured time of the predicted choice (the first candidate) divided by that of the best, minus 1
+  std::optional<double> regret;
+  bool stopped = false;  ///< true if some were not run and timed
 };
 
 struct AnalysisOptions {
   int repeats = 3;          ///< timed runs of each candidate that is not far behind, interleaved
-  double patience = 5;      ///< a run is given up after this times the fastest so far (but after 20 ms at least) …
-  double far_behind = 2;    ///< … and beyond this times the fastest it is timed once
-  std::size_t leaders = 2;  ///< candidates whose neighbours are tried
+  double patience = 5;      ///< a run is abandoned after this times the fastest so far, but at least 20 ms
+  double far_behind = 2;    ///< a candidate slower than this times the fastest is timed only once
+  std::size_t leaders = 2;  ///< number of candidates whose neighbours are tried
   std::stop_token stop = {};
-  /// What the models say of a candidate that was not ranked; nothing where they say nothing.
+  /// The models' prediction for a candidate that was not ranked; nothing if they have none.
   std::function<std::optional<model::Ranked>(const Candidate&)> predict = {};
   std::function<void(std::string_view what, double done)> progress = {};
 };
 
-/// Runs each ranked candidate, each exact technique that was not ranked and neighbours of the fastest once, counting;
-/// then those that came to their end `repeats` times for time alone, in turns, so that a disturbance of the machine
-/// hits all alike. No candidate is left out because a prediction says that it is slow: it is started, and given up once
-/// it has taken `patience` times the fastest. The predicted choice is never given up.
+/// Runs once, and counts, each ranked candidate, each exact technique that was not ranked, and neighbours of the
+/// fastest. Then runs those that finished `repeats` times without counting, in turns, so that a disturbance of the
+/// machine affects all alike. No candidate is left out because its prediction is slow: it is started, and abandoned
+/// once it has taken `patience` times the fastest. The predicted choice is never abandoned.
 [[nodiscard]] Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& ranking,
                                const AnalysisOptions& options = {});
 

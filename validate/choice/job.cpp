@@ -27,7 +27,7 @@ namespace {
 
 constexpr double default_rays = 100'000;
 
-/// A count of things of that many bytes each, which must fit in memory.
+/// A number of things of `bytes` bytes each, which must fit in memory.
 std::size_t count_in_memory(std::string_view what, double count, std::size_t bytes) {
   require_count(fmt::format("number of {}", what), count, 1, 1e18);
   sim::require_memory(fmt::format("{} {}", count, what), count * static_cast<double>(bytes));
@@ -51,7 +51,8 @@ double longest_side(const sim::Box& box) {
 
 double absolute(const Length& length, double side) { return length.relative ? length.value * side : length.value; }
 
-/// Half the distance between samples: of neighbouring vertices, or of points spread over a surface or a volume.
+/// Half the distance between samples: between neighbouring vertices, or between points spread over a surface or a
+/// volume.
 double default_radius(const sim::Scene& scene, double side, double edge_length) {
   const double root = scene.mesh.triangles.empty() ? 1.0 / 3 : 0.5;
   const double spread = side / std::pow(static_cast<double>(scene.samples.size()), root);
@@ -69,7 +70,7 @@ std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double 
   return discs;
 }
 
-/// Whether samples given by numbers lie on the faces of the cube, rather than fill it.
+/// Whether the samples of a workload without a scene lie on the faces of the cube. Otherwise they fill it.
 bool on_faces(const Workload& workload) { return workload.dimension < 2.5; }
 
 class JobMaker {
@@ -168,7 +169,7 @@ class JobMaker {
       job_.stream = std::make_unique<sim::PhotonSource>(scene_for_photons(), count, request_.seed, stop_);
   }
 
-  /// Of a stream, on its first block.
+  /// Measures the workload; that of a stream on its first block.
   Workload measure_rays_and_discs() {
     if (!job_.stream) {
       const sim::Problem problem = job_.problem(1, stop_);
@@ -219,7 +220,7 @@ Length parse_length(std::string_view text) {
         fmt::format("disc radius must be a length or a percentage, as 0.02 or 4% (got {})", shortened(text)));
   require_positive("disc radius", value);
   const Length length{relative ? value / 100 : value, relative};
-  require_positive("disc radius", length.value);  // the hundredth of the least number is 0
+  require_positive("disc radius", length.value);  // a hundredth of the smallest double is 0
   return length;
 }
 
@@ -233,12 +234,12 @@ Workload workload_of_numbers(const JobRequest& request) {
   double d = request.disc_radius->value;
   double side = request.scene_side.value_or(0);
   if (request.disc_radius->relative) {
-    // s from r₀ = s√3/2 + xs.
+    // Solves r₀ = s√3/2 + xs for s.
     if (!request.scene_side) side = *request.sphere_radius / (std::sqrt(0.75) + d);
     d *= side;
   }
   const double outer = request.sphere_radius.value_or(enclosing_radius(side, d));
-  // A disc as large as S₀ leaves no room for the samples' cube: then the cube inscribed in S₀.
+  // A disc as large as S₀ leaves no room for the samples' cube. Then uses the cube inscribed in S₀.
   if (!(side > 0)) side = (d < outer ? outer - d : outer) / std::sqrt(0.75);
   Workload workload =
       cube_workload(request.rays.value_or(default_rays), *request.samples, d, side, request.dimension.value_or(3));

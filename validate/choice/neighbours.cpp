@@ -7,7 +7,7 @@
 namespace detp::validate {
 namespace {
 
-/// A step up and a step down from a number: one level of depth and one sphere, other numbers by a factor.
+/// A step up and a step down from a value: one level of depth, one sphere, or a factor for other numbers.
 std::vector<ParameterValue> steps_from(const Parameter& parameter, const ParameterValue& value) {
   if (const auto* ratio = std::get_if<double>(&value)) return {0.85 * *ratio, 1.15 * *ratio};
   const auto number = std::get<std::int64_t>(value);
@@ -47,7 +47,7 @@ std::vector<Candidate> neighbours(const Candidate& candidate) {
     const ParameterValue now = parameter.get(candidate.parameters);
     if (parameter.choices.empty()) {
       for (const ParameterValue& value : steps_from(parameter, now)) add(all, candidate, parameter, value);
-    } else if (parameters.size() == 1) {  // the choice is all there is to try
+    } else if (parameters.size() == 1) {  // the choice is the only parameter to vary
       for (const std::string_view choice : parameter.choices) add(all, candidate, parameter, choice);
     }
   }

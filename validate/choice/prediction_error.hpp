@@ -4,19 +4,20 @@
 
 #include "detp/model/rank/choose.hpp"
 
-/// What a prediction missed.
+/// The error of a prediction.
 namespace detp::validate {
 
-/// Predicted over measured time, as a product: what the counts are off by, times what their unit costs are off by.
+/// Predicted over measured time, as a product of two ratios: the error of the counts, and the error of their unit
+/// costs.
 struct PredictionError {
-  double seconds = 1;      ///< predicted time over measured
-  double counts = 1;       ///< predicted time over that of what was counted, at the same unit costs
-  double unit_costs = 1;   ///< time of what was counted, at the unit costs, over measured
-  std::string_view worst;  ///< the count whose error costs most, as in Counts: "disc_tests"
-  double worst_ratio = 1;  ///< of it, predicted over counted; infinite where none was counted
+  double seconds = 1;      ///< predicted time / measured time
+  double counts = 1;       ///< predicted time / time of the observed counts at the same unit costs
+  double unit_costs = 1;   ///< time of the observed counts at the unit costs / measured time
+  std::string_view worst;  ///< the count whose error changes the time most, as in Counts: "disc_tests"
+  double worst_ratio = 1;  ///< predicted / observed value of that count; infinite if none was observed
 };
 
-/// Measured seconds > 0.
+/// Requires measured seconds > 0.
 [[nodiscard]] PredictionError prediction_error(const model::Ranked& predicted, const Counts<std::uint64_t>& counted,
                                                double seconds, const UnitCosts& costs);
 

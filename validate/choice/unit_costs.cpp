@@ -8,8 +8,8 @@
 namespace detp::validate {
 namespace {
 
-/// Seconds per unit of one term that alone makes up a phase, of techniques that search ray by ray or of the others:
-/// Σ seconds / Σ counts.
+/// Seconds per unit of a term that alone makes up a phase, Σ seconds / Σ counts, over the techniques that search ray by
+/// ray or over the others.
 double simple_rate(std::span<const TimedRun> runs, bool ray_by_ray, double TimedRun::*seconds,
                    double Counts<double>::*term) {
   double time = 0;
@@ -30,7 +30,7 @@ UnitCosts built_in_unit_costs() {
           .index_test = 5.8e-9,
           .step = 1.5e-8,
           .node = 4.9e-8,
-          .listed = 0,  // a part of the test: the fit cannot tell them apart
+          .listed = 0,  // included in the test: the fit cannot separate them
           .placement = 1.1e-7,
           .leaf = 1.1e-8,
           .sort = 1.1e-8,
@@ -40,7 +40,7 @@ UnitCosts built_in_unit_costs() {
 UnitCosts fit_unit_costs(std::span<const TimedRun> runs) {
   constexpr std::size_t terms = 7;
   if (runs.size() < terms) throw std::invalid_argument("a fit of unit costs takes at least as many runs as costs");
-  std::vector<double> shares;  // of a run's time, per second of each cost
+  std::vector<double> shares;  // count divided by the run's time, for each cost
   for (const TimedRun& run : runs) {
     const Counts<double>& counts = run.counts;
     const bool index = record_of(run.technique).ray_by_ray;

@@ -9,7 +9,7 @@
 namespace detp::validate {
 namespace {
 
-/// The discs as a problem: its one ray only gives it the slack of rays that start in S₀.
+/// The discs as a problem. It has one ray, which is only there to set the slack for rays that start in S₀.
 class RaylessProblem {
  public:
   explicit RaylessProblem(std::span<const sim::Disc> discs)

@@ -13,15 +13,16 @@ namespace {
 using sim::stream::TreeNode;
 using std::numbers::pi;
 
-/// A line of one class, by its slopes and where in the listed parallelogram it passes, each from -1 to 1.
+/// A line of one class: its slopes, and the place at which it crosses the parallelogram of listed lines; each from -1
+/// to 1.
 struct PoolLine {
   double a, b, u, v;
-  double weight;  ///< of its direction: (1 + a² + b²)^{-2}
+  double weight;  ///< weight of its direction: (1 + a² + b²)^{-2}
 };
 
 constexpr std::size_t pool_size = 4096;
 
-/// Places of a lattice in four dimensions, whose projections are even too (Roberts's sequence).
+/// A lattice in four dimensions whose projections are evenly distributed too (Roberts's sequence).
 std::vector<PoolLine> make_pool() {
   constexpr double root = 1.1673039782614187;  // x⁵ = x + 1
   std::vector<PoolLine> pool;
@@ -74,7 +75,7 @@ double BoxCrossing::operator()(const TreeNode& box) const {
   const double products = half[0] * half[1] + half[1] * half[2] + half[2] * half[0];
   const double squares = half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
   const double share = 2 / (pi * outer_ * outer_) * (products + std::log(4.0 / 3) / pi * squares);
-  // A listed line passes within (h_x + h_z, h_y + h_z) of the centre, whichever axis is z.
+  // A listed line passes within (h_x + h_z, h_y + h_z) of the centre; the same holds with each axis as z.
   double reach = 0;
   for (int z = 0; z < 3; ++z)
     reach = std::max(reach, std::hypot(half[(z + 1) % 3] + half[z], half[(z + 2) % 3] + half[z]));
@@ -94,10 +95,10 @@ BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const Bo
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const TreeNode& node = tree.nodes[i];
     const double listed = i == 0 ? 1 : crossing(node);
-    check.after(pool_size);  // lines at most
+    check.after(pool_size);  // maximum number of lines
     if (i > 0) counts.listed += listed;
     const auto count = static_cast<double>(node.count);
-    // A node's children are tested, and a leaf's discs visited, if its list holds any ray of the block.
+    // A node's children are tested, and a leaf's discs visited, if the node's list holds at least one ray of the block.
     const double none = listed < 1 ? std::exp(rays / blocks * std::log1p(-listed)) : 0;
     if (node.leaf) {
       counts.discs += listed * count;

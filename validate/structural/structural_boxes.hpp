@@ -4,31 +4,38 @@
 #include "detp/sim/lists/simd/disc_tree.hpp"
 #include "detp/sim/technique/technique.hpp"
 
-/// What a tree of boxes says of its own search, before any ray.
+/// Expected counts of a box tree, computed from its boxes without rays.
 namespace detp::validate {
 
 /// Share of the isotropic lines through S₀ that the cull of a box lists (cull_box of sim/lists/simd/kernels-inl.hpp).
 ///
-/// A line of the class of axis z, x = p + a z and y = q + b z, is listed if |p + a c_z - c_x| <= h_x + |a| h_z and the
-/// same in y: of its direction a parallelogram whose area, in a plane of constant z, is 4 (h_x + |a| h_z)(h_y + |b|
-/// h_z). Times the cosine (1 + a² + b²)^{-1/2} it is the area across; dω = da db (1 + a² + b²)^{-3/2}. Summed over the
-/// three classes, and over the measure 2π · π r₀² of the lines through S₀,
+/// A line of the class of axis z, x = p + a z and y = q + b z, is listed if
+///
+///     |p + a c_z - c_x| <= h_x + |a| h_z    and    |q + b c_z - c_y| <= h_y + |b| h_z
+///
+/// For one direction these lines cross a plane of constant z in a parallelogram of the area
+///
+///     4 (h_x + |a| h_z)(h_y + |b| h_z)
+///
+/// Multiplied by the cosine (1 + a² + b²)^{-1/2} this is the area perpendicular to the lines. The directions are
+/// integrated with dω = da db (1 + a² + b²)^{-3/2}. Summed over the three classes, and divided by the measure 2π · π r₀²
+/// of the lines through S₀,
 ///
 ///     P = [F/4π + (2 ln(4/3)/π²) (h_x² + h_y² + h_z²)] / r₀²
 ///
 ///   where  F   surface of the box, 8 (h_x h_y + h_y h_z + h_z h_x)
 ///
-/// for over [-1, 1]², with w = (1 + a² + b²)^{-2}, ∫∫w = 2√2 atan(1/√2) and ∫∫|a|w = π/2 - √2 atan(1/√2), so that of
-/// h_x h_y there is π in all, and ∫∫|ab|w = ln(4/3). The first term is that of lines that cross the box, the second of
-/// those listed for nothing: 9 % in a cube.
+/// Proof: with w = (1 + a² + b²)^{-2}, integrals over [-1, 1]² are ∫∫w = 2√2 atan(1/√2), ∫∫|a|w = π/2 - √2 atan(1/√2),
+/// so that the coefficient of h_x h_y is π in all, and ∫∫|ab|w = ln(4/3). The first term counts the lines that cross
+/// the box, the second the lines that are listed but miss the box: 9 % for a cube.
 ///
-/// Where lines that are listed could pass S₀, the share that does not is integrated over a fixed set of lines.
+/// If listed lines could miss S₀, the share that does not is integrated over a fixed set of lines.
 ///
 /// Source     our derivation.
-/// Accuracy   exact in S₀; elsewhere the share is off by 1 % or less.
+/// Accuracy   exact inside S₀; elsewhere the error of the share is at most 1 %.
 class BoxCrossing {
  public:
-  /// Lengths are the frame's. Boxes grow by the margin.
+  /// Lengths are in the frame's units. Boxes are grown by the margin.
   BoxCrossing(double outer_radius, double margin);
 
   [[nodiscard]] double operator()(const sim::stream::TreeNode& box) const;
@@ -38,16 +45,17 @@ class BoxCrossing {
   double margin_;
 };
 
-/// Sums over the nodes of a tree of boxes except the root, which every ray is in.
+/// Sums over the nodes of a box tree except the root, whose list holds every ray.
 struct BoxTreeCounts {
   double tests = 0;   ///< tests against boxes, per ray: Σ P(parent)
   double listed = 0;  ///< rays listed, per ray: Σ P(node)
   double discs = 0;   ///< tests against discs, per ray: Σ_leaves P(leaf) discs(leaf)
-  double culls = 0;   ///< nodes tested at all, by all rays, in blocks of rays_in_block
-  double visits = 0;  ///< discs tested at all, likewise
+  double culls = 0;   ///< nodes that are tested for at least one ray, summed over the blocks (rays_in_block)
+  double visits = 0;  ///< discs that are tested with at least one ray, likewise
 };
 
-/// What `rays` isotropic lines do in the tree of boxes over the discs. As boxes are nested, so are the lists.
+/// Expected counts of `rays` isotropic lines in the box tree over the discs. The boxes are nested, so their lists are
+/// too.
 [[nodiscard]] BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays,
                                             const BoxTreeParameters& parameters, const std::stop_token& stop = {});
 

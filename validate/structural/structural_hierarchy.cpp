@@ -11,30 +11,31 @@
 #include "structural_boxes.hpp"
 #include "structural_registry.hpp"
 
-/// What hierarchies of spheres, and of boxes, say of their own search, before any ray.
+/// Expected counts of hierarchies of spheres and of boxes, computed from the hierarchy without rays.
 ///
-/// Expected counts of cell-spheres, sphere-tree and box-tree on isotropic lines through S₀:
+/// Counts of cell-spheres, sphere-tree and box-tree on isotropic lines through S₀:
 ///
-///     cull_tests = n_R Σ P(parent)        listed = n_R Σ P(sphere)        disc_tests = n_R Σ_discs P(innermost
-///     sphere) P(sphere) = (r/r₀)² × share of the lines through the sphere that also cross S₀
+///     cull_tests = n_R Σ P(parent)        listed = n_R Σ P(sphere)
+///     disc_tests = n_R Σ_discs P(innermost sphere)
+///     P(sphere) = (r/r₀)² × share of the lines through the sphere that also cross S₀
 ///
-/// with the sums over all spheres of the hierarchy, each built once. As each lies in its parent's, a list holds all
-/// rays that cross both its sphere and S₀, and no others. The share is 1 for a sphere in S₀, else both_hit_share. Hits
-/// are left at 0. Of a tree of boxes (structural_boxes.hpp) the same sums are taken over boxes, whose root is not
-/// tested for, and `culls` are the nodes that get a list: some ray of a block is in their parent's.
+/// The sums are over all spheres of the hierarchy, each built once. Each sphere lies in its parent's, so its list holds
+/// exactly the rays that cross both the sphere and S₀. The share is 1 for a sphere inside S₀, else both_hit_share. Hits
+/// are left at 0. For a box tree (structural_boxes.hpp) the same sums are taken over boxes, except that the root is not
+/// tested. `culls` are the nodes that get a list: at least one ray of a block is in the parent's list.
 ///
 /// Source     our derivation.
 /// Valid      lines of the measure μ_ℓ through S₀; discs of any radii.
-/// Accuracy   exact, except for sphere-tree where a sphere pokes out of S₀. Boxes, fan-out 4, leaf 16: @uniform, @tree,
-///            @courtyard, @cornell, 2000 and 50 000 samples, d 0.25, 1 and 4 % of the scene's side, 400 000 lines:
-///            tests of boxes off by 0.25 % in the median, 0.71 % at worst, rays listed by 0.29, 0.84 %, tests of discs
-///            by 0.31, 1.1 %, nodes tested by 0.00, 0.81 %; the lines' noise in it (of hits 0.44, 2.3 %).
+/// Accuracy   exact, except for sphere-tree if a sphere extends outside S₀. Boxes, fan-out 4, leaf 16: @uniform, @tree,
+///            @courtyard, @cornell, 2000 and 50 000 samples, d 0.25, 1 and 4 % of the scene's side, 400 000 lines.
+///            Deviations (median, largest), which include the lines' noise (0.44, 2.3 % of hits): tests of boxes 0.25,
+///            0.71 %; rays listed 0.29, 0.84 %; tests of discs 0.31, 1.1 %; nodes tested 0.00, 0.81 %.
 /// Throws     std::invalid_argument for another technique, or parameters out of range; sim::Stopped if a stop was
 ///            requested.
 namespace detp::validate {
 namespace {
 
-/// P(sphere).
+/// Evaluates P(sphere).
 class Crossing {
  public:
   explicit Crossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
@@ -42,7 +43,7 @@ class Crossing {
   [[nodiscard]] double operator()(const sim::Sphere& sphere) const {
     const double ratio = sphere.radius / enclosing_.radius;
     const double between = glm::distance(sphere.centre, enclosing_.centre);
-    // To 1e-9, for a sphere as large as S₀ is not poking out by rounding alone.
+    // The tolerance of 1e-9 is for rounding: a sphere as large as S₀ does not extend outside it.
     if (between + sphere.radius <= enclosing_.radius * (1 + 1e-9)) return std::min(1.0, ratio * ratio);
     return ratio * ratio * model::both_hit_share(enclosing_.radius, sphere.radius, between);
   }
@@ -51,7 +52,7 @@ class Crossing {
   sim::Sphere enclosing_;
 };
 
-/// Per ray.
+/// Counts per ray.
 Counts<double> cell_spheres(const sim::Problem& problem, const CellSpheresParameters& parameters,
                             const std::stop_token& stop) {
   sim::StopCheck check(stop, "counting spheres");
@@ -74,13 +75,13 @@ Counts<double> cell_spheres(const sim::Problem& problem, const CellSpheresParame
   return counts;
 }
 
-/// The chance that a list holds one ray at least, where each of so many is in it with this probability.
+/// The probability that a list holds at least one of `rays` rays, if each is in it with the probability `share`.
 double holds_a_ray(double share, double rays) { return share < 1 ? -std::expm1(rays * std::log1p(-share)) : 1; }
 
 /// Sums over the children of nodes.
 struct OverChildren {
   double share = 0;    ///< Σ P(parent)
-  double reached = 0;  ///< Σ of the chances that the parent's list holds a ray
+  double reached = 0;  ///< Σ of the probabilities that the parent's list holds a ray
 };
 
 OverChildren over_children(const std::vector<double>& crossed, std::size_t children, int in_a_parent, double rays) {
@@ -93,7 +94,7 @@ OverChildren over_children(const std::vector<double>& crossed, std::size_t child
   return sums;
 }
 
-/// Per ray, except for the lists made and the discs visited, which are those of all rays.
+/// Counts per ray, except for the lists made and the discs visited, which are those of all rays.
 Counts<double> sphere_tree(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters,
                            const std::stop_token& stop) {
   sim::StopCheck check(stop, "counting spheres");
@@ -115,7 +116,7 @@ Counts<double> sphere_tree(const sim::Problem& problem, double rays, const Spher
   return counts;
 }
 
-/// Per ray, except for the lists made, which are those of all rays.
+/// Counts per ray, except for the lists made, which are those of all rays.
 Counts<double> box_tree(const sim::Problem& problem, double rays, const BoxTreeParameters& parameters,
                         const std::stop_token& stop) {
   const BoxTreeCounts counts = box_tree_counts(problem, rays, parameters, stop);

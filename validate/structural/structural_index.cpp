@@ -14,24 +14,23 @@
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/index/disc_index.hpp"
 
-/// What a built index of discs says of its own search, before any ray.
+/// Expected counts of an index of discs, computed from the built index without rays.
 ///
-/// Expected counts of an octree, a grid or a BSP tree on isotropic lines through S₀:
+/// Counts of an octree, a grid or a BSP tree on isotropic lines through S₀:
 ///
 ///     nodes or steps = n_R Σ P(node)        disc_tests = n_R Σ_leaves P(leaf) references(leaf)
 ///     P(node) = F(node)/(4π r₀²) × share of the lines through the node that also cross S₀
 ///
 ///   where  F   surface area of the node, or of the part of a grid's cell inside the grid's box
 ///
-/// The share is 1 for a node inside S₀. For one that pokes out it is integrated over a few lines of a fixed pool laid
-/// through the node: the more lines, the larger the node. References and placements are exact.
+/// The share is 1 for a node inside S₀. For a node that extends outside, it is integrated over some lines of a fixed
+/// pool, moved to go through the node; larger nodes use more lines. References and placements are exact.
 ///
 /// Source     eq (3), summed over the structure: the surface-area heuristic.
 /// Valid      lines of the measure μ_ℓ through S₀; discs of any radii.
 /// Throws     std::invalid_argument for a technique without an index, and for an octree whose nodes are not visited
-/// once
-///            each (restart, neighbour links); as sim::run does for parameters out of range and
-///            for an index that would not fit the memory.
+///            once each (restart, neighbour links); as sim::run does for parameters out of range and for an index that
+///            would not fit in memory.
 namespace detp::validate {
 namespace {
 
@@ -42,7 +41,7 @@ constexpr std::uint64_t pool_seed = 1;
 
 double area_of(const glm::dvec3& size) { return 2 * (size.x * size.y + size.y * size.z + size.z * size.x); }
 
-/// A line that enters a box: numbers from 0 to 1 that pick the face and the place on it, and the direction inwards from
+/// A line that enters a box: numbers from 0 to 1 that select the face and the place on it, and the inward direction for
 /// a face across the third axis, cosine-distributed.
 struct Entry {
   double face;
@@ -63,7 +62,8 @@ std::vector<Entry> make_pool() {
   return pool;
 }
 
-/// The entry laid on a box: area-uniform over its surface, so that the lines are those of μ_ℓ that meet the box.
+/// The ray of that entry into a box. Entries are uniform by area over the box's surface, so the lines have the measure
+/// μ_ℓ of those that meet the box.
 sim::Ray line_into(const sim::Box& box, const Entry& entry) {
   const glm::dvec3 size = box.size();
   double pick = entry.face * area_of(size);
@@ -86,7 +86,7 @@ sim::Ray line_into(const sim::Box& box, const Entry& entry) {
   return line;
 }
 
-/// P(node), for one node after another.
+/// Evaluates P(node) for one node after another.
 class Crossing {
  public:
   explicit Crossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
@@ -103,7 +103,7 @@ class Crossing {
     return share * static_cast<double>(crossing) / static_cast<double>(lines_);
   }
 
-  /// Drawn for the last node.
+  /// Number of lines used for the last node.
   [[nodiscard]] std::size_t lines() const { return lines_; }
 
  private:
@@ -113,7 +113,7 @@ class Crossing {
   std::size_t lines_ = 0;
 };
 
-/// Counts of an index whose nodes `inspect(visit)` shows.
+/// Counts of an index. `inspect(visit)` calls visit for each of its nodes.
 template <class Inspect>
 Counts<double> index_counts(const sim::Problem& problem, double rays, double Counts<double>::*visited,
                             const std::stop_token& stop, const Inspect& inspect) {

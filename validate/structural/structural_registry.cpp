@@ -4,7 +4,7 @@
 
 namespace detp::validate {
 
-// Beside the structures that they count.
+// Defined in the files structural_*.cpp.
 StructuralCounts structural_brute_force, structural_sphere_cache, structural_cell_spheres, structural_sphere_tree,
     structural_box_tree, structural_octree, structural_grid, structural_bsp;
 

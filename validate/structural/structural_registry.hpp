@@ -6,18 +6,19 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/technique/technique.hpp"
 
-/// What counts the structure of each technique. Parameters have been checked and are the technique's own.
+/// The function that computes the structural counts of each technique. Parameters have been checked and belong to the
+/// technique.
 namespace detp::validate {
 
-/// Expected counts on `rays` isotropic lines through S₀, by the engine that choose runs, hits left out.
-/// Throws sim::Stopped if a stop was requested.
+/// Expected counts on `rays` isotropic lines through S₀, for the engine that choose runs, without hits. Throws
+/// sim::Stopped if a stop was requested.
 using StructuralCounts = Counts<double>(const sim::Problem& problem, double rays, const Parameters& parameters,
                                         const std::stop_token& stop);
 
 struct StructuralTier {
   Technique technique;
   StructuralCounts* counts = nullptr;
-  std::string_view why_none = {};  ///< where there are no counts
+  std::string_view why_none = {};  ///< reason, if there are no counts
 };
 
 [[nodiscard]] const StructuralTier& structural_tier(Technique technique);

@@ -8,11 +8,11 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 
-/// What the samples alone say of the sphere cache: no ray is needed to know when a sphere is rebuilt, and integral
-/// geometry tells how many rays it then holds.
+/// Expected counts of the sphere cache, computed from the samples alone. When a sphere is rebuilt does not depend on
+/// the rays, and integral geometry gives the number of rays that it then holds.
 namespace detp::validate {
 
-/// Expected events of one sphere of the cache.
+/// Expected counts of one sphere of the cache.
 struct ExpectedSphere {
   double rebuilds = 0;  ///< exact: the walk is the technique's own
   double tests = 0;     ///< ray-sphere tests of all its builds, per ray
@@ -25,17 +25,17 @@ struct ExpectedWalk {
   double disc_tests = 0;                ///< T_I for u = 1, per ray
 };
 
-/// Walks the discs along the Lebesgue curve as the sphere cache does, O(k n_P).
+/// Walks the discs along the Morton curve as the sphere cache does, O(k n_P).
 ///
 /// A list's expected length, per ray, is (r_i/r₀)² times the share of lines through S_i that also cross the spheres
-/// around it: at each rebuild that share is integrated over a few lines of a fixed pool laid through S_i as it then
-/// stands, against the 32 next spheres.
+/// around it. At each rebuild this share is integrated over a few lines of a fixed pool, moved to go through S_i in its
+/// current place, against the 32 next larger spheres.
 ///
 /// Valid      isotropic lines through S₀, all discs of one radius.
 /// Accuracy   counted on 5000 samples in a cube and on its faces, d/r₀ = 0.011, Q 0.3 … 0.9, 6 × 40 000 lines: T_R
 ///            within 0.35 %, T_I within 0.33 % (the lines' noise: 0.1 and 0.4 %). On 20 000 samples of @tree, @cornell
-///            and three meshes, Q 0.5 … 0.9, 4 × 10 000 lines: T_R within 2.1 %, T_I within 5 %, the largest (@tree)
-///            the lines' noise: 1.000 ± 0.004 and 1.008 ± 0.008 over 24 × 10 000 others.
+///            and three meshes, Q 0.5 … 0.9, 4 × 10 000 lines: T_R within 2.1 %, T_I within 5 %. The largest deviation
+///            (@tree) is the lines' noise: over 24 × 10 000 other lines the ratios are 1.000 ± 0.004 and 1.008 ± 0.008.
 /// Throws     sim::Stopped if a stop was requested.
 [[nodiscard]] ExpectedWalk structural_walk(std::span<const sim::Disc> discs, const sim::Sphere& enclosing,
                                            const SphereCacheParameters& parameters, const std::stop_token& stop = {});

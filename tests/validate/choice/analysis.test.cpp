@@ -21,7 +21,7 @@ struct Scene {
 
   [[nodiscard]] sim::Problem problem() const { return sim::make_problem(rays, discs); }
 
-  /// A wrong ranking: brute force first and the box tree last, with predicted times a million times too large.
+  /// A wrong ranking: brute force first, the sphere tree last with a predicted time of 10⁶ s.
   [[nodiscard]] std::vector<model::Ranked> wrong_ranking() const {
     auto ranking = model::rank(measure(problem()), built_in_unit_costs());
     std::reverse(ranking.begin(), ranking.end());
