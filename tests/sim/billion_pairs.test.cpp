@@ -39,7 +39,7 @@ struct Tried {
   std::uint64_t hits = 0;
   std::uint64_t runs = 0;
   std::size_t different = 0;  ///< pairs that differ
-  int other_sums = 0;         ///< runs whose irradiance is not the same bytes
+  int other_sums = 0;         ///< runs whose irradiance differs in some byte
 
   void add(const Outcome& outcome, const Outcome& expected) {
     std::vector<Pair> others;
@@ -107,7 +107,7 @@ void report(std::string_view what, const Tried& tried, double& pairs) {
 }  // namespace
 
 TEST_SUITE("statistical") {
-  TEST_CASE("a billion pairs: every exact technique finds the canonical predicate's hits, and its sums to the bit") {
+  TEST_CASE("a billion pairs: every exact technique finds the predicate's hits, with the same sums to the last bit") {
     double pairs = 0;
     for (std::size_t family = 0; family < families.size(); ++family)
       report(families[family].name, hard_pairs(family), pairs);

@@ -128,7 +128,7 @@ TEST_SUITE("bad input") {
       }
   }
 
-  TEST_CASE("streams refuse what make_problem refuses, with the ray's number in the source") {
+  TEST_CASE("streams refuse the rays that make_problem refuses, with the ray's number in the source") {
     const auto discs = uniform_discs(Body::cube, 2, 10, 0.1, 1);
     std::vector<Ray> rays(100);
     rays[57].length = -infinity;

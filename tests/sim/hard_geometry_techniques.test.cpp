@@ -106,7 +106,7 @@ HardScene scene_at_faces(std::uint64_t index) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("no cull loses a hard ray: all exact techniques find the canonical predicate's hits") {
+  TEST_CASE("no cull loses a hard ray: all exact techniques find the predicate's hits") {
     check_all_agree(12, 20, 500, false);
   }
 
@@ -125,7 +125,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("statistical") {
-  TEST_CASE("a million hard rays: all exact techniques find the canonical predicate's hits") {
+  TEST_CASE("a million hard rays: all exact techniques find the predicate's hits") {
     check_all_agree(200, 20, 500, true);
   }
 }

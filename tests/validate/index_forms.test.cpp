@@ -56,7 +56,7 @@ const std::vector<Case> cases{{3, 20'000, 3, 0.05}, {3, 5'000, 5, 0.5},  {3, 2'0
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("references, nodes and bytes of built indices, by exact overlap and by bounding box") {
+  TEST_CASE("references, nodes and bytes agree with built indices, by exact overlap and by bounding box") {
     for (const Case& chosen : cases)
       for (const Insertion insertion : {Insertion::exact, Insertion::bounding_box}) {
         const Setting setting(chosen);
@@ -84,7 +84,7 @@ TEST_SUITE("identity") {
 TEST_SUITE("statistical") {
   // Per line that hits the cube; the lines go through a sphere that contains the cube. Seeds are fixed; 20 000 lines
   // leave up to 1 % of noise, and a set of samples as much.
-  TEST_CASE("tests and visits of every variant, per line that hits the cube") {
+  TEST_CASE("tests and visits of every variant agree with counts, per line that hits the cube") {
     for (const Case& chosen : cases) {
       Setting setting(chosen);
       const auto lines = sim::LineField({glm::dvec3{0}, 0.87}, 5).lines(0, 20'000);

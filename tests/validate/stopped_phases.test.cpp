@@ -66,7 +66,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("rays and discs are made and measured with bounded work between checks, and a stop request ends it") {
+  TEST_CASE("making and measuring rays and discs does bounded work between stop checks, and a stop request ends it") {
     JobRequest request;
     request.scene = "@uniform";
     request.samples = 100'000;
@@ -107,7 +107,7 @@ TEST_SUITE("known answer") {
 
 /// The experiments count millions of lines for any workload: too long for the quick suites.
 TEST_SUITE("statistical") {
-  TEST_CASE("experiments and races do bounded work between checks") {
+  TEST_CASE("experiments and races do bounded work between stop checks") {
     work_of([] { static_cast<void>(all_findings(small({}))); });
     const std::vector<BenchWorkload> workloads{{.scene = "@uniform",
                                                 .path = "@uniform",

@@ -15,7 +15,7 @@ using namespace detp;
 using namespace detp::model;
 
 TEST_SUITE("identity") {
-  TEST_CASE("the rays for a deviation give that deviation") {
+  TEST_CASE("as many rays as a deviation needs give that deviation") {
     for (const double deviation : {0.5, 0.1, 0.013}) {
       const double rays = std::round(rays_for_deviation(deviation, {0.1}, {1}));
       CHECK(uniform_field_deviation(rays, {0.1}, {1}) == doctest::Approx(deviation).epsilon(1e-3));
@@ -30,7 +30,7 @@ TEST_SUITE("identity") {
       CHECK(density_error(density, 1e5, factor * best).mean_square() >= least * (1 - 1e-14));
   }
 
-  TEST_CASE("the photons for an error give that error at their best radius") {
+  TEST_CASE("as many photons as an error needs give that error at their best radius") {
     for (const double error : {0.3, 0.05, 0.001}) {
       const SmoothDensity density{.value = 0.4, .laplacian = 11};
       const double photons = photons_for_error(density, error);
@@ -43,7 +43,7 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("known answer") {
   // 4000 replicates: the standard deviation of a standard deviation is 1/√8000 = 1.1 % of it.
-  TEST_CASE("the deviation counted over replicates of a uniform field is the binomial one") {
+  TEST_CASE("the deviation over replicates of a uniform field is the binomial one") {
     constexpr int replicates = 4000;
     constexpr std::uint64_t rays = 500;
     const sim::Disc disc{{0.1, 0.2, -0.3}, {0, 0, 1}, 0.3};
@@ -64,7 +64,7 @@ TEST_SUITE("known answer") {
   }
 
   // Photons on the unit square with density 6 u (1 - u) along x, 1 along y: f = 3/2 and ∇²f = -12 at the middle.
-  TEST_CASE("variance and bias counted on a parabolic density are the leading-order ones") {
+  TEST_CASE("variance and bias on a parabolic density are those of the leading order") {
     constexpr int replicates = 12000;
     constexpr int photons = 2000;
     constexpr double radius = 0.15;

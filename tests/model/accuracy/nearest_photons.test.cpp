@@ -85,7 +85,7 @@ TEST_SUITE("known answer") {
   }
 
   // Photons on the unit square with density 6 u (1 - u) along x, 1 along y: f = 3/2 and ∇²f = -12 at the middle.
-  TEST_CASE("variance and bias counted on a parabolic density are the leading-order ones") {
+  TEST_CASE("variance and bias on a parabolic density are those of the leading order") {
     constexpr int photons = 2000;
     constexpr int nearest = 200;
     Sample estimates;
@@ -126,7 +126,7 @@ TEST_SUITE("identity") {
     CHECK(best_nearest_photons({.value = 2, .laplacian = 0}, 3000) == 3000);
   }
 
-  TEST_CASE("the photons for an error give that error at their best k") {
+  TEST_CASE("as many photons as an error needs give that error at their best k") {
     for (const double error : {0.3, 0.05, 0.002}) {
       const SmoothDensity density{.value = 40, .laplacian = 11e6};
       const double photons = std::round(photons_for_nearest_error(density, error));

@@ -70,7 +70,7 @@ TEST_SUITE("identity") {
     for (const auto insertion : {Insertion::exact, Insertion::bounding_box}) {
       Crossings sum;
       constexpr int planes = 20'000;
-      for (int i = 0; i < planes; ++i)  // one plane, at d (1 + u)
+      for (int i = 0; i < planes; ++i)  // one plane at d (1 + u)
         sum += 1.0 / planes * crossings({2, 1 + (i + 0.5) / planes, 0, 1}, Centres::low_face, insertion);
       const Crossings expected = uniform_crossings(pi / 4, insertion);
       CHECK(sum.one == Approx(expected.one).epsilon(1e-6));

@@ -52,7 +52,7 @@ void require_counts(std::uint64_t index) {
       REQUIRE(value >= 0);
     });
     if (!std::holds_alternative<OctreeParameters>(candidate.parameters) &&
-        !std::holds_alternative<GridParameters>(candidate.parameters))  // discs are tested in each of their cells
+        !std::holds_alternative<GridParameters>(candidate.parameters))  // an index tests a disc in each of its cells
       REQUIRE(counts.disc_tests <= w.rays * w.samples * (1 + 1e-12));
   }
 }

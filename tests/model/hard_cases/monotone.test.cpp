@@ -122,7 +122,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("monotony") {
+  TEST_CASE("monotonicity") {
     Ledger ledger = on_random_inputs(11, many / 4, see_cache);
     ledger.merge(on_random_inputs(12, many / 4, see_count));
     ledger.merge(on_random_inputs(13, many / 4, see_others));

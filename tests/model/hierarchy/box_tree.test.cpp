@@ -83,7 +83,7 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("twice the rays, twice the tests; the unit of length does not matter") {
+  TEST_CASE("twice the rays need twice the tests; the unit of length does not matter") {
     for (const double dimension : {2.0, 2.4, 3.0}) {
       const Counts<double> once = counts_of(cube_workload(1e5, 1e5, 0.01, 2, dimension));
       const Counts<double> twice = counts_of(cube_workload(2e5, 1e5, 0.01, 2, dimension));
@@ -97,7 +97,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("few samples are one leaf, tested with every ray") {
+  TEST_CASE("a few samples make one leaf, which is tested with every ray") {
     const Counts<double> counts = counts_of(cube_workload(1000, 16, 0.01, 2));
     CHECK(counts.disc_tests == 16'000);
     CHECK(counts.cull_tests == 0);

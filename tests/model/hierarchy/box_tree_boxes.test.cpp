@@ -33,7 +33,7 @@ TEST_SUITE("identity") {
     CHECK(boxes(1).products < 1e-20);
   }
 
-  TEST_CASE("around one disc, each side is π d/2 on average") {
+  TEST_CASE("the box around one disc has sides of π d/2 on average") {
     const double side = std::numbers::pi / 2 * 0.1;
     CHECK(CellBoxes(cube, 0.1)(1).products == Approx(3 * side * side).epsilon(0.01));
     CHECK(CellBoxes(face, 0.1)(1).volume == Approx(side * side * side).epsilon(0.01));

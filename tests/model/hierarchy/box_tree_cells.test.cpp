@@ -8,7 +8,7 @@ using namespace detp::model::box_tree;
 using doctest::Approx;
 
 TEST_SUITE("identity") {
-  TEST_CASE("halves have the samples and, on average, the number of their cells") {
+  TEST_CASE("the two halves of a cell share its samples, and each kind of cell has its share of them") {
     for (const int dimension : {2, 3}) {
       const auto& kinds = cell_kinds(dimension);
       for (std::size_t i = 0; i < kinds.size(); ++i) {

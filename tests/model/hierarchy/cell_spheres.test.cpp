@@ -128,7 +128,7 @@ TEST_SUITE("known answer") {
   }
 
   // The number of occupied cells for n uniform samples varies by less than √cells: 5 standard deviations at most.
-  TEST_CASE("cells counted on random samples") {
+  TEST_CASE("occupied cells are as counted on random samples") {
     constexpr int samples = 20'000;
     for (const int level : {2, 4, 5, 6}) {
       std::set<std::uint64_t> cells;

@@ -19,7 +19,7 @@ const Workload on_faces = cube_workload(1e5, 1e5, 0.01, 2, 2);
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("levels go from the root, which holds all samples, down to the leaves; spheres shrink, nodes multiply") {
+  TEST_CASE("from the root, which holds all samples, to the leaves, spheres shrink and nodes multiply") {
     for (const Workload& w : {in_volume, on_faces})
       for (const int fan_out : {2, 3, 8, 40})
         for (const int leaf : {1, 2, 5, 12, 300}) {

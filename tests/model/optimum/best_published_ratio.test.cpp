@@ -96,7 +96,7 @@ TEST_SUITE("reference value") {
     }
   }
 
-  TEST_CASE("control: a ratio 5 % off is slower than the bound allows") {
+  TEST_CASE("control: a ratio 5 % away is slower than the bound allows") {
     const Question question{cube_workload(1e6, 1e5, 0.01, 2), {}};
     const published::BestRatio best = published::best_ratio(question.workload, question.costs);
     for (const double off : {0.95, 1.05})

@@ -31,7 +31,7 @@ TEST_SUITE("reference value") {
     }
   }
 
-  TEST_CASE("with copies the cubic's residue vanishes in 100 digits, for costs from 1e-300 to 1e300") {
+  TEST_CASE("with copies Q* solves the cubic in 100 digits, for costs from 1e-300 to 1e300") {
     for (double exponent = -300; exponent <= 300; exponent += 2.5) {
       const double cost = std::pow(10, exponent);
       const Exact q = model::optimal_ratio_with_copies(cost);

@@ -102,7 +102,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("no depth is faster than the octree chosen, and no number of cells up to 400 than the grid") {
+  TEST_CASE("no depth is faster than the chosen octree, and no grid of up to 400 cells a side than the chosen one") {
     for (const Workload& w : {typical, cube_workload(1e4, 1e6, 0.002, 2, 2), cube_workload(1e7, 100, 0.3, 2)}) {
       const double octree = best_of(Technique::octree, w, costs)->time.total();
       for (int depth = 0; depth <= 14; ++depth) {
@@ -170,14 +170,14 @@ TEST_SUITE("limit") {
   TEST_CASE("if T is the same at every ratio, the search for the best terminates") {
     Workload w = cube_workload(1e6, 1e18, 1e-15, 1e30, 2);
     CHECK(best_ratio_and_stop(w, {}).looked_at <= most_looked_at);
-    w.box = {1e40, 1e40, 1e40};  // each sample far from all others, and from S0
+    w.box = {1e40, 1e40, 1e40};  // each sample far from all others and from S0
     CHECK(best_ratio_and_stop(w, {}).looked_at <= most_looked_at);
     CHECK(best_ratio_and_stop(typical, costs).looked_at < most_looked_at / 2);
   }
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("one ray and one sample: brute force; a million of each: not") {
+  TEST_CASE("brute force is best for one ray and one sample, and not for a million of each") {
     CHECK(rank(cube_workload(1, 1, 0.01, 2), costs).front().candidate.technique == Technique::brute_force);
     const auto many = rank(cube_workload(1e6, 1e6, 0.01, 2), costs);
     CHECK(many.back().candidate.technique == Technique::brute_force);

@@ -28,7 +28,7 @@ Technique advised(double x, const ProcessorCache& cache = {}) { return paper_rul
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("samples up to two radii apart: index of discs, cells as wide as a disc") {
+  TEST_CASE("for samples up to two radii apart the paper's rule is an index of discs, with cells as wide as a disc") {
     for (const double x : {0.01, 1.0, 1.999, 2.0}) {
       const Candidate candidate = paper_rule(spaced(x));
       REQUIRE(candidate.technique == Technique::octree);
@@ -37,7 +37,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("samples six radii apart or more: sphere cache, Q = 0.65, down to the disc") {
+  TEST_CASE("for samples six radii apart or more it is a sphere cache with Q = 0.65, down to the disc") {
     for (const double x : {6.0, 6.001, 100.0}) {
       const Candidate candidate = paper_rule(spaced(x));
       REQUIRE(candidate.technique == Technique::sphere_cache);

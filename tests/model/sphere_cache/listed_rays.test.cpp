@@ -70,7 +70,7 @@ TEST_SUITE("identity") {
     CHECK(rays_through(typical, 0) == 0);
   }
 
-  TEST_CASE("unsorted: spheres that share their centres with all around hold all their rays") {
+  TEST_CASE("unsorted: spheres with the same centre as all around them list all their rays") {
     CHECK(unsorted_listed_share(0.2, 50, {}) == 1);
     CHECK(unsorted_listed_share(0.2, 50, {{0.4, 50, 0.39}, {0.8, 50, 0.79}}) == 1);
     const double one = unsorted_listed_share(0.2, 50, {{0.4, 20, 0.39}});

@@ -45,7 +45,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("with ever more samples a ball, the number of balls stays the same") {
+  TEST_CASE("with many samples a ball, the number of balls does not depend on that of the samples") {
     for (const double dimension : {2.0, 2.5, 3.0})
       for (const double phase : {0.0, 0.4, 0.9})
         CHECK(1e9 * single_rebuild_share(dimension, 1e9, phase) ==
@@ -187,7 +187,7 @@ TEST_SUITE("known answer") {
         least = std::min(least, share);
         most = std::max(most, share);
       }
-      CHECK(counted[i] + half_a_digit[i] > least);  // counted at one phase, rounded
+      CHECK(counted[i] + half_a_digit[i] > least);  // counted at one phase and rounded
       CHECK(counted[i] - half_a_digit[i] < most);
     }
   }

@@ -128,7 +128,7 @@ TEST_SUITE("reference value") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("half the radius, a quarter of the rays, eight times the rebuilds") {
+  TEST_CASE("half the radius has a quarter of the rays and eight times the rebuilds") {
     CHECK(published::rays_in_sphere(1024, {0.5}, 3) == doctest::Approx(16).epsilon(1e-15));
     CHECK(published::rebuilds({0.5}, 3) == doctest::Approx(512).epsilon(1e-15));
     CHECK(published::rebuild_cost(1024, {0.5}, 3, 2) == doctest::Approx(128).epsilon(1e-15));

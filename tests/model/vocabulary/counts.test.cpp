@@ -46,7 +46,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("tests are those of spheres and discs together") {
+  TEST_CASE("tests are tests of spheres, boxes and discs together") {
     CHECK(tests(Counts<std::uint64_t>{.cull_tests = 3, .disc_tests = 4, .steps = 100}) == 7);
   }
 }

@@ -14,7 +14,7 @@ using namespace detp;
 using doctest::Contains;
 
 TEST_SUITE("identity") {
-  TEST_CASE("a technique is found by its name, which no other has") {
+  TEST_CASE("each technique has a name of its own and is found by it") {
     std::set<std::string_view> names;
     for (const Technique technique : all_techniques) {
       CHECK(technique_named(name(technique)) == technique);

@@ -80,7 +80,7 @@ TEST_SUITE("known answer") {
       CHECK_FALSE(record_of(lists).ray_by_ray);
   }
 
-  TEST_CASE("without measured costs, tests and steps cost one, all else nothing") {
+  TEST_CASE("without measured costs, tests, steps and visits cost one and everything else costs nothing") {
     CHECK(
         price({.cull_tests = 1, .culls = 5, .listed = 5, .disc_tests = 10, .steps = 100, .nodes = 1000}, {}).total() ==
         1111);

@@ -67,7 +67,7 @@ TEST_SUITE("known answer") {
     CHECK(cgroup_limit("no such line\n7\n:::\n", groups.root().string()) == unlimited);
   }
 
-  TEST_CASE("sizes are bytes, or K, M, G, T") {
+  TEST_CASE("sizes are bytes, or have the unit K, M, G or T") {
     CHECK(parse_bytes("1") == 1);
     CHECK(parse_bytes("1e9") == 1e9);
     CHECK(parse_bytes("2K") == 2048);
@@ -76,7 +76,7 @@ TEST_SUITE("known answer") {
     CHECK(parse_bytes("1T") == 0x1p40);
   }
 
-  TEST_CASE("a limit that is set replaces half of the memory") {
+  TEST_CASE("a limit that was set replaces the default, half of the memory") {
     const Restored restored;
     CHECK(memory_budget() > 0);
     CHECK(memory_budget() <= machine_memory());

@@ -24,7 +24,7 @@ bool same(const KeyedIndex& a, const KeyedIndex& b) { return a.key == b.key && a
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("it is the stable sort by key, whichever digits differ") {
+  TEST_CASE("the result is that of a stable sort by key, whichever digits differ") {
     // All 64 bits; few distinct keys, so that there are ties; and digits that are equal in all keys, below, between and
     // above the others.
     for (const auto& [mask, constant] :

@@ -45,7 +45,7 @@ std::string refusal(const std::string& content) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("columns may come in any order, with blanks, blank lines, CR LF and a byte order mark") {
+  TEST_CASE("columns may be in any order, with blanks, blank lines, CR LF and a byte order mark") {
     const Table table = read("\xEF\xBB\xBF\r\n b ,a\r\n\r\n 1.5 , +2 \r\n   \r\n-3e-2,\t0.1\r\n");
     REQUIRE(table.places.size() == 2);
     CHECK(table.values[0] == std::vector<double>{2, 0.1});
@@ -74,7 +74,7 @@ TEST_SUITE("known answer") {
     CHECK(read("a,b,c\n1,2,\n1,2,3\n").values[2] == std::vector<double>{6, 3});
   }
 
-  TEST_CASE("numbers beyond a double's range become infinite or zero, and special ones are read") {
+  TEST_CASE("numbers beyond a double's range become infinite or zero, and special values are read") {
     const Table table = read("a,b\n1e400,-1e400\n1e-400,4.9e-324\ninf,-Infinity\nnan,0\n");
     const double infinity = std::numeric_limits<double>::infinity();
     CHECK(table.values[0][0] == infinity);

@@ -71,7 +71,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a bad disc in a CSV file is refused with its line") {
+  TEST_CASE("an invalid disc in a CSV file is refused with its line") {
     const std::string header = "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,1\n";
     for (const auto& [bound_row, reason] : {std::pair{"0,0,0,0,0,0,1", ":3: the normal is zero; it needs a length"},
                                             {"0,0,0,0,nan,1,1", ":3: ny must be finite (got nan)"},
@@ -96,7 +96,7 @@ TEST_SUITE("bad input") {
     CHECK(refusal("d.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n", -1).find("radius must be > 0") != std::string::npos);
   }
 
-  TEST_CASE("a bad disc in a PLY file is refused with its number") {
+  TEST_CASE("an invalid disc in a PLY file is refused with its number") {
     const std::string message = refusal("d.ply", ply_header + "end_header\n1 2 3 0 0 0\n", 1);
     CHECK_MESSAGE(message.find("d.ply: vertex 1 of 1: the normal is zero") != std::string::npos, message);
   }

@@ -75,7 +75,7 @@ TEST_SUITE("known answer") {
           std::string::npos);
   }
 
-  TEST_CASE("a pipe that is written bit by bit gives the same rays as a file") {
+  TEST_CASE("a pipe that is written byte by byte gives the same rays as a file") {
     const ScratchFolder folder;
     const std::string path = pipe_in(folder, "rays.csv");
     const std::jthread writer([&] {

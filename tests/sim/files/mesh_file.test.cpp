@@ -54,7 +54,7 @@ std::string refusal(const std::string& name, const std::string& content) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("an OBJ square becomes two triangles fanned from its first corner, with the normals of its corners") {
+  TEST_CASE("an OBJ square becomes a fan of two triangles from its first corner, with the normals of its corners") {
     const ScratchFolder folder;
     const Mesh mesh = read(folder.file("square.OBJ", square_obj));
     REQUIRE(mesh.positions.size() == 4);
@@ -76,7 +76,7 @@ TEST_SUITE("known answer") {
     CHECK(mesh.triangles[1] == std::array<std::uint32_t, 3>{0, 2, 3});
   }
 
-  TEST_CASE("OBJ positions are the doubles nearest to the digits") {
+  TEST_CASE("OBJ positions are the doubles nearest to the decimal numbers") {
     const ScratchFolder folder;
     const Mesh mesh = read(folder.file("m.obj", "v 5400000.8416139996 0.1 -1e-300\r\nv 1 0 0\r\nv +0 1 0\r\nf 1 2 3"));
     CHECK(mesh.positions[0] == glm::dvec3{5400000.8416139996, 0.1, -1e-300});
@@ -266,7 +266,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("folders, missing files and other endings are refused with their name") {
+  TEST_CASE("folders, missing files and other file types are refused with their name") {
     const ScratchFolder folder;
     std::filesystem::create_directory(folder.path("d.obj"));
     for (const char* name : {"d.obj", "missing.ply", "mesh.stl"})

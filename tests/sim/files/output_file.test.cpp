@@ -32,7 +32,7 @@ std::string refusal(const std::string& path, const std::string& text) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("a file appears with all its content on commit, and not before") {
+  TEST_CASE("a file appears on commit, with all its content, and not before") {
     const ScratchFolder folder;
     const std::string large(1'000'000, 'x');
     OutputFile file(folder.path("out"));
@@ -58,7 +58,7 @@ TEST_SUITE("known answer") {
     CHECK(folder.entries() == 1);
   }
 
-  TEST_CASE("a program that is killed, or has to end at once, leaves no part file") {
+  TEST_CASE("a program that is killed or must end at once leaves no part file") {
     const ScratchFolder folder;
     const std::string existing = folder.file("existing", "old");
     const auto end_of = [&](OutputFile::Aside aside, const auto& end) {

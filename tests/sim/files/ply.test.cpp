@@ -123,7 +123,7 @@ std::string refusal(const std::string& content) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("all types, lists and skipped elements are read alike from ascii and both binary formats") {
+  TEST_CASE("all types, lists and skipped elements are read equally from ascii and both binary formats") {
     check_values(header("ascii") + ascii_body);
     check_values(header("binary_little_endian") + binary_body(std::endian::little));
     check_values(header("binary_big_endian") + binary_body(std::endian::big));
@@ -142,7 +142,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a bad header is refused with its line") {
+  TEST_CASE("a malformed header is refused with its line") {
     const std::string start = "ply\nformat ascii 1.0\n";
     for (const auto& [bound_content, reason] :
          {std::pair<std::string, const char*>{"", ": is empty"},
@@ -175,7 +175,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("a bad body is refused with the element and the row") {
+  TEST_CASE("a malformed body is refused with the element and the row") {
     const std::string start = "ply\nformat ascii 1.0\nelement thing 2\nproperty float a\nend_header\n";
     const std::string list = "ply\nformat ascii 1.0\nelement thing 2\nproperty list int int few\nend_header\n";
     for (const auto& [bound_content, reason] :

@@ -66,7 +66,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("a bad ray in a CSV file is refused with its line") {
+  TEST_CASE("an invalid ray in a CSV file is refused with its line") {
     const std::string header = "ox,oy,oz,dx,dy,dz,length,power\n0,0,0,0,0,1,1,1\n";
     for (const auto& [bound_row, reason] :
          {std::pair{"0,0,0,0,0,0,1,1", ":3: the direction is zero; it needs a length"},
@@ -86,7 +86,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("a file without rays is refused, and a bad ray in a PLY file with its number") {
+  TEST_CASE("a file without rays is refused, and an invalid ray in a PLY file with its number") {
     CHECK(refusal("r.csv", "ox,oy,oz,dx,dy,dz\n").find("holds no ray") != std::string::npos);
     CHECK(refusal("r.ply", ply_header + "end_header\n1 2 3 0 0 0\n").find("vertex 1 of 1: the direction is zero") !=
           std::string::npos);

@@ -45,7 +45,7 @@ std::int64_t steps_between(const Cell& a, const Cell& b) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("cells of every size: each has its own place, and shares a face with the next") {
+  TEST_CASE("at every size each cell has its own place on the curve and shares a face with the next") {
     for (int levels = 1; levels <= 5; ++levels) {
       const int below = 3 * (16 - levels);  // bits of the code within a cell
       const auto places = along_curve({0, 0, 0}, levels, std::ldexp(1.0, -levels));
@@ -106,7 +106,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  TEST_CASE("the curve starts at the low corner; points outside go to the nearest cell") {
+  TEST_CASE("the curve starts at the low corner, and points outside belong to the nearest cell") {
     CHECK(hilbert_code({0, 0, 0}, unit_box) == 0);
     CHECK(hilbert_code({-1, -1, -1}, unit_box) == 0);
     CHECK(hilbert_code({9, 9, 9}, unit_box) == hilbert_code({1, 1, 1}, unit_box));

@@ -42,7 +42,7 @@ TEST_SUITE("known answer") {
     CHECK(lebesgue_code({1, 1, 1}, unit_box) == (1ULL << 48) - 1);
   }
 
-  TEST_CASE("bits are interleaved as by a loop over them") {
+  TEST_CASE("bits are interleaved as a loop over them does") {
     for (std::uint64_t i = 0; i < 1000; ++i) {
       const auto words = bits4(8, Stream::tests, i);
       std::uint64_t expected = 0;
@@ -56,7 +56,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("points outside go to the nearest cell, a box without extent is one cell") {
+  TEST_CASE("points outside the box belong to the nearest cell, and a box without extent is one cell") {
     CHECK(lebesgue_code({-1, -1, -1}, unit_box) == 0);
     CHECK(lebesgue_code({9, 9, 9}, unit_box) == (1ULL << 48) - 1);
     CHECK(lebesgue_code({5, 5, 5}, {{5, 5, 5}, {5, 5, 5}}) == 0);

@@ -50,7 +50,7 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(hits(line({0, 0, 0.1}, {1, 0, 0}), floor_disc));
   }
 
-  TEST_CASE("a segment hits only between its ends, which belong to it") {
+  TEST_CASE("a segment hits only between its ends, ends included") {
     CHECK(hits(segment({0, 0, -1}, {0, 0, 1}), floor_disc));
     CHECK(hits(segment({0, 0, 0}, {0, 0, 1}), floor_disc));
     CHECK(hits(segment({0, 0, 1}, {0, 0, 0}), floor_disc));
@@ -58,7 +58,7 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(hits(segment({0, 0, -1}, {0, 0, -0.001}), floor_disc));
   }
 
-  TEST_CASE("a ray arrives in front if it runs against the normal") {
+  TEST_CASE("a ray arrives at the front if it runs against the normal") {
     CHECK(arrives_in_front(line({0, 0, 1}, {0, 0, -1}), floor_disc));
     CHECK_FALSE(arrives_in_front(line({0, 0, -1}, {0, 0, 1}), floor_disc));
   }

@@ -46,7 +46,7 @@ TEST_SUITE("known answer") {
       }
   }
 
-  TEST_CASE("under a ceiling 8 % thick the light hangs in the room, not in the ceiling") {
+  TEST_CASE("under a ceiling of 8 % thickness the light hangs in the room, not in the ceiling") {
     Mesh room = box_mesh({0, 0, 0}, {4, 2, 4});
     add(room, box_mesh({0, 1.84, 0}, {4, 0.16, 4}));
     const AreaLight light = light_for(room, box_of(room));

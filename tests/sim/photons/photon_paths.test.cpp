@@ -85,7 +85,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("in a closed box pieces start a gap after a wall and end a gap beyond one, at any scale and place") {
+  TEST_CASE("in a closed box segments start a gap after a wall and end a gap beyond one, at any scale and place") {
     for (const double scale : {1e-13, 1.0, 1e12})
       for (const double offset : {0.0, 5e6}) {
         CAPTURE(scale);
@@ -110,7 +110,7 @@ TEST_SUITE("known answer") {
       }
   }
 
-  TEST_CASE("a photon that leaves ends on the sphere of twice the half diagonal") {
+  TEST_CASE("a photon that leaves the scene ends on the sphere of twice the half diagonal") {
     Scene scene;
     built_in::add_quad(scene.mesh, {{{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}}}, 1);
     for (const glm::dvec3& position : scene.mesh.positions) scene.box.include(position);
@@ -133,7 +133,7 @@ TEST_SUITE("known answer") {
     CHECK(1 / photon_paths(scene, 10'000, 1)[0].power == doctest::Approx(10));
   }
 
-  TEST_CASE("with albedo 0 every photon in a closed box has one piece") {
+  TEST_CASE("with albedo 0 every photon in a closed box has one segment") {
     Scene scene = closed_box();
     scene.albedo = 0;
     CHECK(1 / photon_paths(scene, 1000, 1)[0].power == doctest::Approx(1000));
@@ -156,7 +156,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("statistical") {
-  TEST_CASE("in a closed box a photon has 1 / (1 - albedo) pieces") {
+  TEST_CASE("in a closed box a photon has 1 / (1 - albedo) segments on average") {
     constexpr double count = 200'000;
     for (const double albedo : {0.2, 0.5, 0.8}) {
       Scene scene = closed_box();
@@ -170,12 +170,12 @@ TEST_SUITE("statistical") {
     }
   }
 
-  TEST_CASE("photons leave a wall by the cosine law, into the room") {
+  TEST_CASE("photons leave a wall into the room, distributed by the cosine law") {
     const Scene scene = closed_box();
     double sum = 0;
     double bounced = 0;
     for (const Ray& ray : photon_paths(scene, 200'000, 9)) {
-      if (std::abs(ray.origin.y + 1) > 3.5e-5) continue;  // starts at the floor
+      if (std::abs(ray.origin.y + 1) > 3.5e-5) continue;  // starts on the floor
       sum += ray.direction.y;
       ++bounced;
     }

@@ -132,7 +132,7 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(meets(nothing, {0.5, 0.5, 1}, {0, 0, -1}));
   }
 
-  TEST_CASE("of triangles met at the same distance the one of the lowest number counts") {
+  TEST_CASE("of triangles at the same distance the one with the lowest number is hit") {
     Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}, .normals = {}, .triangles = {}};
     for (int i = 0; i < 100; ++i) mesh.triangles.push_back({0, 1, 2});
     const RayCaster caster(mesh, box_of(mesh));
@@ -141,7 +141,7 @@ TEST_SUITE("known answer") {
     CHECK(meeting->triangle == 0);
   }
 
-  TEST_CASE("a ray that starts on a plane meets neither its own triangle nor its neighbours in the plane") {
+  TEST_CASE("a ray that starts on a plane hits neither its own triangle nor neighbours in the plane") {
     const glm::dvec3 u = glm::normalize(glm::dvec3{1, 0.3, -0.2});
     const glm::dvec3 v = glm::normalize(glm::cross(u, glm::dvec3{0.1, 1, 0.7}));
     Mesh mesh{.positions = {glm::dvec3{0.0}, u, u + v, v}, .normals = {}, .triangles = {{0, 1, 2}, {0, 2, 3}}};

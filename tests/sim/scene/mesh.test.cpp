@@ -29,7 +29,7 @@ bool is_close(const glm::dvec3& a, const glm::dvec3& b) { return glm::length(a -
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("normals are the mean of the triangles around, weighted by area, at any scale") {
+  TEST_CASE("a vertex normal is the mean over the adjacent triangles, weighted by area, at any scale") {
     for (const double side : {1.0, 3e-13, 7e12, 1e-160, 1e160, 1e-300, 1e300}) {
       CAPTURE(side);
       const auto samples = samples_of(cube_corner(side));
@@ -54,7 +54,7 @@ TEST_SUITE("known answer") {
     CHECK(notices[0] == "1 vertex dropped: the normal is zero");
   }
 
-  TEST_CASE("unreferenced vertices and those without area around them are dropped, each kind with its count") {
+  TEST_CASE("unreferenced vertices and those whose triangles have no area are dropped, with a count of each kind") {
     Mesh mesh = cube_corner(1);
     const double third = 1.0 / 3;
     for (const glm::dvec3& position :

@@ -146,7 +146,7 @@ TEST_SUITE("bad input") {
     }
   }
 
-  TEST_CASE("a problem that make_problem did not make is not run") {
+  TEST_CASE("a problem that was not made by make_problem is refused") {
     const Given given;
     const Problem by_hand{.rays = given.rays, .discs = given.discs};
     CHECK_THROWS_WITH_AS((void)run(by_hand, brute), doctest::Contains("make_problem"), std::invalid_argument);
@@ -162,7 +162,7 @@ TEST_SUITE("identity") {
     check_all_agree(problem);
   }
 
-  TEST_CASE("directions and normals normalised in floats, or not at all, give all techniques the same hits") {
+  TEST_CASE("with directions and normals that are normalised in floats, or not at all, all techniques agree") {
     auto discs = uniform_discs(Body::cube, 2, 300, 0.1, 5);
     auto rays = LineField(enclosing_sphere(discs), 6).lines(0, 400);
     for (std::size_t i = 0; i < rays.size(); i += 2) rays[i].length = 1;
@@ -200,7 +200,7 @@ TEST_SUITE("identity") {
     CHECK(again.rays.data() == copied.rays.data());
   }
 
-  TEST_CASE("the smallest discs keep their slack: it does not underflow") {
+  TEST_CASE("the slack of the smallest discs does not underflow") {
     const std::vector<Disc> discs{{.centre = {0, 0, 0}, .radius = 1e-100},
                                   {.centre = {1e-100, 0, 0}, .radius = 1e-100}};
     const std::vector<Ray> rays{{.origin = {0, 0, -1e-100}}};

@@ -58,7 +58,7 @@ class AllHit final : public RaySearch {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("hits, irradiance, pairs and counts are the same bytes on 1, 2 and 3 threads") {
+  TEST_CASE("hits, irradiance, pairs and counts have the same bytes on 1, 2 and 3 threads") {
     const Problem problem = make_problem(rays(), discs());
     const Candidate brute{Technique::brute_force, BruteForceParameters{}};
     const Outcome expected = run(problem, brute, {.pairs = true, .engine = Engine::plain});

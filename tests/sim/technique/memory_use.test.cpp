@@ -190,7 +190,7 @@ std::vector<Case> cases() {
 }  // namespace
 
 TEST_SUITE("memory") {
-  TEST_CASE("no technique takes more memory than predicted, nor much less") {
+  TEST_CASE("no technique uses more memory than predicted, or much less") {
     if (support::sanitized || !forget_peak() || status("Threads") > 1) {
       MESSAGE("skipped: the peak cannot be measured here; run this suite alone, without sanitizers");
       return;

@@ -44,7 +44,7 @@ TEST_SUITE("limit") {
     CHECK(all.counts.culls == 0);
   }
 
-  TEST_CASE("it tests far fewer rays than there are, and ten times the rays take less than ten times the tests") {
+  TEST_CASE("the ray map tests a small part of the rays; ten times the rays need less than ten times the tests") {
     const Counts<std::uint64_t> few = search(1'000, 32).counts;
     const Counts<std::uint64_t> many = search(10'000, 32).counts;
     CHECK(many.disc_tests < 10'000 * discs().size() / 50);

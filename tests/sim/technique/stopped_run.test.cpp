@@ -91,7 +91,7 @@ void check_stopped(const Outcome& outcome, std::span<const Ray> rays) {
 
 TEST_SUITE("known answer") {
   TEST_CASE("a run stopped at any point is right about the rays or discs that it reports as done") {
-    for (const std::size_t count : {6000U, 70'000U}) {  // one block of rays, and several
+    for (const std::size_t count : {6000U, 70'000U}) {  // one block of rays and several
       const std::vector<Ray> rays = lines(count);
       for (const Way& way : ways()) {
         if (way.engine == Engine::plain && count > 10'000) continue;
@@ -118,7 +118,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("stopped before it begins, a run has found nothing and says so") {
+  TEST_CASE("a run stopped before it begins has found nothing and says so") {
     const std::vector<Ray> rays = lines(1000);
     std::stop_source source;
     source.request_stop();

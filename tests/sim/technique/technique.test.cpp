@@ -113,8 +113,7 @@ std::vector<Ray> scaled(std::vector<Ray> rays, double scale, const glm::dvec3& o
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE(
-      "all exact techniques find the canonical predicate's hits: isotropic lines, samples in a volume and on faces") {
+  TEST_CASE("all exact techniques find the predicate's hits: isotropic lines, samples in a volume and on faces") {
     for (const Body body : {Body::cube, Body::cube_faces}) {
       const auto discs = uniform_discs(body, 2, 3000, 0.03, 5);
       const auto rays = LineField(enclosing_sphere(discs), 6).lines(0, 3000);

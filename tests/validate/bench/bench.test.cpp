@@ -42,7 +42,7 @@ std::size_t count_of(const BenchSet& set, const auto& predicate) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("ratios are of medians, best against best; the summary has their geometric mean and the worst") {
+  TEST_CASE("a ratio compares the best medians of both sides; the summary has the geometric mean and the worst") {
     const std::vector<BenchEntry> entries{entry(8), entry(2), entry(100, 2)};
     CHECK(entries[0].ratio() == doctest::Approx(8));
     const auto one = against_embree(entries, 1);
@@ -62,7 +62,7 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(against_embree(entries, 1));
   }
 
-  TEST_CASE("wrong hits of ours are a disagreement, Embree's are added up") {
+  TEST_CASE("our wrong hits are a disagreement, those of Embree are added up") {
     std::vector<BenchEntry> entries{entry(8), entry(2)};
     CHECK(ours_agree(entries));
     CHECK(embree_wrong_hits(entries).wrong == 6);

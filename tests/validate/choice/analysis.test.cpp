@@ -82,7 +82,7 @@ TEST_SUITE("identity") {
     CHECK_FALSE(brute_force->counted.has_value());
   }
 
-  TEST_CASE("an analysis that was stopped before anything ran has no best, and says that it was stopped") {
+  TEST_CASE("an analysis stopped before its first run has no best, and says that it was stopped") {
     const Scene scene(100, 100);
     std::stop_source source;
     source.request_stop();

@@ -51,18 +51,18 @@ TEST_SUITE("known answer") {
     CHECK(validate::measure(sim::make_problem(rays, discs)).path_length == 0);
   }
 
-  TEST_CASE("a single sample is a workload too") {
+  TEST_CASE("a single sample is a valid workload") {
     const std::vector<sim::Disc> discs{{}};
     const std::vector<sim::Ray> rays{{}};
     CHECK_NOTHROW(check(validate::measure(sim::make_problem(rays, discs))));
   }
 
-  TEST_CASE("a mesh's area becomes the samples' extent, its edges their distance") {
+  TEST_CASE("a mesh's area becomes the samples' extent, and its mean edge their distance") {
     const auto discs = sim::uniform_discs(sim::Body::cube_faces, 2, 50'000, 0.01, 1);
     const std::vector<sim::Ray> rays{{}};
     const Workload w = validate::measure(sim::make_problem(rays, discs), {.area = 24, .edge_length = 0.03});
     CHECK(sample_distance(w) == 0.03);
-    const double weight = w.dimension - 2;  // between the area and the box's volume, by the dimension
+    const double weight = w.dimension - 2;  // interpolates between the area and the box's volume by the dimension
     CHECK(sample_extent(w) == doctest::Approx(std::pow(8, weight) * std::pow(24, 1 - weight)).epsilon(1e-3));
   }
 }

@@ -25,7 +25,8 @@ TEST_SUITE("known answer") {
     for (const Candidate& candidate : left_out) CHECK(record_of(candidate.technique).exact);
   }
 
-  TEST_CASE("box trees try half and twice the fan-out and leaves 4 times smaller and larger; depths one level") {
+  TEST_CASE(
+      "neighbours have half and twice the fan-out, leaves 4 times smaller and larger, and depths one level away") {
     const auto trees = neighbours({Technique::box_tree, BoxTreeParameters{4, 16}});
     CHECK(trees.size() == 4);
     for (const auto& tree : {BoxTreeParameters{2, 16}, {8, 16}, {4, 4}, {4, 64}})

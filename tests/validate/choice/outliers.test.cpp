@@ -48,7 +48,7 @@ TEST_SUITE("known answer") {
     check_one(warnings_of(discs), {"100 of 10000 discs have radii up to 0.1"});
   }
 
-  TEST_CASE("one disc far away, and one in a hundred, are named with the sizes of the boxes") {
+  TEST_CASE("the warning of one disc far away, or one in a hundred, has the sizes of the boxes") {
     for (const sim::Body body : {sim::Body::cube, sim::Body::cube_faces}) {
       auto discs = many_discs(body);
       discs[5].centre = {0, 2000, 0};
@@ -58,7 +58,7 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("a ray that starts far outside is named, with its distance; one that starts near is not") {
+  TEST_CASE("the warning of a ray that starts far outside has its distance; a ray that starts near has no warning") {
     const auto discs = many_discs();
     auto rays = lines_through(discs);
     rays[3].origin = {1e6, 0, 0};
@@ -67,7 +67,7 @@ TEST_SUITE("known answer") {
     CHECK(outlier_warnings(sim::make_problem(rays, discs)).empty());
   }
 
-  TEST_CASE("all three at once are three warnings") {
+  TEST_CASE("all three at once give three warnings") {
     auto discs = many_discs();
     auto rays = lines_through(discs);
     discs[77].radius = 50;

@@ -63,7 +63,7 @@ TEST_SUITE("known answer") {
     CHECK(fit.cull == doctest::Approx(costs.cull).epsilon(1e-9));
   }
 
-  TEST_CASE("a cost that would be negative is zero") {
+  TEST_CASE("a cost that would be negative is 0") {
     std::vector<validate::TimedRun> runs =
         exact_runs({.cull_test = 1e-9, .disc_test = 2e-9, .index_test = 2e-9, .step = 0, .node = 0});
     for (validate::TimedRun& run : runs) run.search -= 1e-10 * run.counts.steps;
@@ -83,7 +83,7 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("fewer runs than costs cannot be fitted") {
+  TEST_CASE("a fit with fewer runs than costs is refused") {
     CHECK_THROWS_AS(static_cast<void>(validate::fit_unit_costs(std::vector<validate::TimedRun>(3))),
                     std::invalid_argument);
   }

@@ -74,7 +74,7 @@ TEST_SUITE("statistical") {
     check_claims(3, 20'000);
   }
 
-  TEST_CASE("… and likewise with the samples on the faces of a cube") {
+  TEST_CASE("… also with the samples on the faces of a cube") {
     check_claims(2, 40'000);  // with half as many samples, sets differ too much to decide all claims
   }
 }

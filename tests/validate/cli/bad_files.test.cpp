@@ -63,7 +63,7 @@ TEST_SUITE("bad input") {
                    as_scene(folder.file("point.obj", "v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n"), "point.obj: ")});
   }
 
-  TEST_CASE("files of discs and rays that cannot be read are refused, naming the file") {
+  TEST_CASE("files of discs and rays that cannot be read are refused with the file") {
     Tables tables;
     const std::string folder = tables.folder.path("");
     const std::string missing = tables.folder.path("missing.csv");
@@ -79,7 +79,7 @@ TEST_SUITE("bad input") {
       check_refused({Tables::as_discs(path, named), tables.as_rays(path, named)});
   }
 
-  TEST_CASE("a wrong header is refused at its line, naming the known columns") {
+  TEST_CASE("a wrong header is refused with its line and the known columns") {
     Tables tables;
     const auto discs = [&](const std::string& content, const std::string& named) {
       return Tables::as_discs(tables.file(content), ".csv" + named);
@@ -97,7 +97,7 @@ TEST_SUITE("bad input") {
                    rays(ray_header, ": holds no ray")});
   }
 
-  TEST_CASE("a bad row is refused at its line") {
+  TEST_CASE("a malformed row is refused with its line") {
     Tables tables;
     check_refused({tables.disc("0,0,0,0,0,0,1", "the normal is zero"), tables.disc("0,0,0,0,0,1,0", "radius must be"),
                    tables.disc("0,0,0,0,0,1,-2", "radius must be"), tables.disc("0,0,0,0,0,1,nan", "radius must be"),

@@ -51,7 +51,7 @@ TEST_SUITE("bad input") {
                      {command + " --samples 10 --disc-radius 1", "--sphere-radius"}});
   }
 
-  TEST_CASE("counts are whole numbers from 1") {
+  TEST_CASE("counts are whole numbers of at least 1") {
     check_refused(each("model --disc-radius 0.01 --scene-side 1 --samples", no_count, "samples"));
     check_refused(each(numbers + "--rays", no_count_either, "rays"));
     check_refused(each("run @uniform --samples 100 --rays", no_count_either, "rays"));
@@ -98,7 +98,7 @@ TEST_SUITE("bad input") {
       check_refused({{numbers + "--form published --technique " + technique, "--form corrected"}});
   }
 
-  TEST_CASE("parameters of other techniques are refused, not ignored") {
+  TEST_CASE("parameters of other techniques are refused and not ignored") {
     for (const std::string& command : {uniform, numbers})
       check_refused({{command + "--technique sphere-cache --depth 3", "--depth"},
                      {command + "--technique sphere-cache --cells 3", "--cells"},
@@ -124,7 +124,7 @@ TEST_SUITE("bad input") {
                    {"validate @uniform --field photons", "light"}});
   }
 
-  TEST_CASE("unit costs are pairs of a known name and a number from 0") {
+  TEST_CASE("unit costs are pairs of a known name and a number of at least 0") {
     for (const std::string& command : {numbers, std::string("choose --samples 10 --disc-radius 0.1 --scene-side 1 ")})
       check_refused({{command + "--costs garbage", "name=value"},
                      {command + "--costs t", "name=value"},

@@ -10,7 +10,7 @@ const std::string small = "bench @cornell --field photons --rays 200,1000 --disc
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("bench gives a row for each competitor on each workload, and a summary that follows from them") {
+  TEST_CASE("bench has a row for each competitor on each workload, and a summary that follows from the rows") {
     const Json json = result_of(small + "--threads 1");
     CHECK(json.at("schema").at("name") == "detp.bench");
     CHECK(json.at("inputs").at("workloads") == 4);

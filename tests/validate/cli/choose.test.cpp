@@ -28,14 +28,14 @@ void check_ranked(const Json& json) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("the structural tier ranks by the structures themselves, on isotropic lines only") {
+  TEST_CASE("the structural tier ranks by counts on the built structures, for isotropic lines only") {
     const std::string uniform = "choose @uniform --samples 2000 --rays 20000 --disc-radius 2% --format json";
     const Json estimate = detp(uniform).json();
     const Finished finished = detp(uniform + " --rigor structural --analyze");
     CHECK(finished.code == 0);
     const Json structural = finished.json();
     CHECK(structural.at("rigor") == "structural");
-    REQUIRE(structural.at("candidates").size() > estimate.at("candidates").size());  // others were tried, too
+    REQUIRE(structural.at("candidates").size() > estimate.at("candidates").size());  // other parameters were tried too
     double last = 0;
     for (std::size_t place = 0; place < estimate.at("candidates").size(); ++place) {
       const Json& candidate = structural.at("candidates")[place];

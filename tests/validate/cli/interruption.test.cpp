@@ -6,7 +6,7 @@
 namespace detp::support {
 namespace {
 
-/// Ten thousand million tests on one thread: more than a second.
+/// 10¹⁰ tests on one thread: more than a second.
 const std::string long_run = "run @uniform --samples 100000 --rays 100000 --technique brute-force --threads 1 ";
 
 /// Checks that a stopped result is marked as partial, so that nobody takes it for complete.

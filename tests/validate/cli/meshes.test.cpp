@@ -45,7 +45,7 @@ TEST_SUITE("end to end") {
       check_all_agree(Arguments{"run", folder + name} + words("--rays 400 --disc-radius 1.5% --quiet"));
   }
 
-  TEST_CASE("techniques agree with brute force at scales of 1e12 and 1e-12, and far from the origin" *
+  TEST_CASE("techniques agree with brute force at scales of 1e12 and 1e-12 and far from the origin" *
             doctest::test_suite("scenes")) {
     const std::string folder = sim::support::scenes_folder();
     if (folder.empty()) return;

@@ -87,7 +87,7 @@ TEST_SUITE("known answer") {
     CHECK(few.at("total_time") == all.at("total_time"));
   }
 
-  TEST_CASE("a disc as large as S0 leaves no sphere, and every ray meets every disc") {
+  TEST_CASE("a disc as large as S0 has no sphere, and every ray is tested with every disc") {
     for (const std::string radius : {"1", "1.5", "100"})
       for (const std::string form : {"corrected", "published"}) {
         CAPTURE(radius);
@@ -133,7 +133,7 @@ TEST_SUITE("known answer") {
           near(tests.at("counts").at("cull_tests").get<double>() + tests.at("counts").at("disc_tests").get<double>()));
   }
 
-  TEST_CASE("k is reported however large it is: a tiny disc and Q next to 1 leave 4e18 spheres") {
+  TEST_CASE("k is reported however large it is: a tiny disc and Q next to 1 have 4e18 spheres") {
     const Json json =
         result_of("model --rays 1e6 --samples 1e6 --sphere-radius 1 --disc-radius 1e-200 --ratio 0.9999999999999999");
     CHECK(json.at("k") == 4'147'968'546'718'736'978);

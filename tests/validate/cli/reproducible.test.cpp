@@ -6,7 +6,7 @@
 namespace detp::support {
 
 TEST_SUITE("end to end") {
-  TEST_CASE("the number of threads changes nothing but the time") {
+  TEST_CASE("the number of threads changes only the time") {
     for (const Technique technique : all_techniques) {
       CAPTURE(name(technique));
       const std::string options = "--technique " + std::string(name(technique)) + " --threads ";
@@ -28,7 +28,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("the same seed gives the same bytes, another seed other hits") {
+  TEST_CASE("the same seed gives the same bytes, and another seed gives other hits") {
     for (const std::string problem : {"run @cornell --rays 3000", "run @uniform --samples 2000 --rays 2000",
                                       "run --samples 2000 --rays 2000 --disc-radius 0.1 --scene-side 2"}) {
       CAPTURE(problem);

@@ -67,7 +67,7 @@ std::vector<std::string> sorted_rows(const std::string& csv) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("own discs and rays: brute force finds what the definition of a hit says, in input order") {
+  TEST_CASE("own discs and rays: brute force finds the hits of the definition, in input order") {
     const OwnData data;
     for (const bool front_facing : {false, true}) {
       const Written written =
@@ -111,7 +111,7 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("PLY files mean the same as CSV files") {
+  TEST_CASE("PLY files give the same results as CSV files") {
     const OwnData data;
     CHECK(run_and_read(data.ply, "--technique brute-force") == run_and_read(data.csv, "--technique brute-force"));
     CHECK(run_and_read(data.ply, "--technique octree") == run_and_read(data.csv, "--technique grid"));
@@ -127,7 +127,7 @@ TEST_SUITE("end to end") {
                     best_techniques());
   }
 
-  TEST_CASE("the published sphere cache loses hits and never adds one") {
+  TEST_CASE("the published sphere cache loses hits and adds none") {
     const OwnData data;
     for (const Arguments& problem : {data.csv, words("run @uniform --samples 3000 --rays 2000")}) {
       CAPTURE(line_of(problem));

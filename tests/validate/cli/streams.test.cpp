@@ -90,7 +90,7 @@ TEST_SUITE("end to end") {
     CHECK(missing.err.find("\\xff\\x1b[2J.obj.obj: cannot be opened") != std::string::npos);
   }
 
-  TEST_CASE("a time limit or a signal ends the wait for a pipe that nobody writes") {
+  TEST_CASE("a time limit or a signal ends the wait for a pipe without a writer") {
     const ScratchFolder folder;
     const std::string pipe = folder.path("pipe.csv");
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);

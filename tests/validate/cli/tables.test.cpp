@@ -279,7 +279,7 @@ TEST_SUITE("end to end") {
     CHECK(text.find("disc_radius      0.02\n") != std::string::npos);
   }
 
-  TEST_CASE("a table that is stopped has its rows so far, says so, and ends with code 3") {
+  TEST_CASE("a stopped table has its rows so far, says so, and ends with code 3") {
     const std::string model = "model" + numbers + " --spheres best --ratio 0.9:0.99:0.00001";
     const Finished text =
         stopped_in_time(model, [](const Finished& one) { return one.out.find(" of 9001 rows") != std::string::npos; });

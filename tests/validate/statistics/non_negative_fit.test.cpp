@@ -91,7 +91,7 @@ TEST_SUITE("known answer") {
     CHECK(System{{1, 2, 3, 4}, 2, {0, 0}}.fit() == Numbers{0, 0});
   }
 
-  TEST_CASE("an unknown that a joint fit makes negative may be positive in the end: its error is 0.117, not 0.283") {
+  TEST_CASE("an unknown that is negative in a joint fit may be positive in the end: the error is 0.117, not 0.283") {
     const System system{{4, 3, 1, 3, 4, 4, 4, 3, 1, 4, 4, 3}, 3, {1, 1, 1, 1}};
     const Numbers x = system.fit();
     check_near(x, {11. / 73, 9. / 73, 0});

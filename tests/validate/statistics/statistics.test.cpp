@@ -42,7 +42,7 @@ TEST_SUITE("known answer") {
     CHECK(quantile(values, 0.95) == doctest::Approx(38));
   }
 
-  TEST_CASE("batch means: 1, 2, 3, 4 have mean 5/2 and standard error sqrt(5/12)") {
+  TEST_CASE("batch means 1, 2, 3, 4 have mean 5/2 and standard error sqrt(5/12)") {
     const Estimate estimate = batch_means(std::array{1.0, 2.0, 3.0, 4.0});
     CHECK(estimate.mean == 2.5);
     CHECK(estimate.standard_error == doctest::Approx(std::sqrt(5.0 / 12)).epsilon(1e-14));
@@ -59,7 +59,7 @@ TEST_SUITE("known answer") {
     CHECK(interval_width(0.05, 10, 32) == doctest::Approx(interval_width(0.005, 1, 32)).epsilon(1e-12));
   }
 
-  TEST_CASE("agrees inside, refuted outside, undecided across the tolerance") {
+  TEST_CASE("the verdict is agrees inside the tolerance, refuted outside, undecided across its edge") {
     CHECK(judge(100, {101, 0.2}, 0.02, 3) == Verdict::agrees);
     CHECK(judge(100, {101, 0.4}, 0.02, 3) == Verdict::undecided);
     CHECK(judge(100, {103, 0.4}, 0.02, 3) == Verdict::undecided);

@@ -78,7 +78,7 @@ TEST_SUITE("limit") {
     CHECK(BoxCrossing(0.5, 0)(box_of({0.45F, 0, 0}, {0.05F, 0.05F, 0.05F})) <= inside);
   }
 
-  TEST_CASE("discs of a leaf are tested with every ray") {
+  TEST_CASE("the discs of a single leaf are tested with every ray") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 10, 0.05, 3);
     const sim::Ray ray{};
     const BoxTreeCounts counts = box_tree_counts(sim::make_problem({&ray, 1}, discs), 100, {4, 16});

@@ -32,7 +32,7 @@ Walked walk(sim::Body body, double ratio, std::size_t lines) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("rebuilds without rays are those of the technique, sphere by sphere") {
+  TEST_CASE("rebuilds computed without rays are those of a run, sphere by sphere") {
     for (const auto body : {sim::Body::cube, sim::Body::cube_faces})
       for (const double ratio : {0.3, 0.65, 0.9}) {
         const Walked walked = walk(body, ratio, 1);
@@ -67,7 +67,7 @@ TEST_SUITE("statistical") {
     return {expected.cull_tests * all / cull_tests, expected.disc_tests * all / disc_tests};
   }
 
-  // Seeds are fixed. 4 × 40 000 lines leave 0.2 % of noise in T_R, 0.4 % in T_I (standard errors over 6 sets).
+  // Seeds are fixed. 4 × 40 000 lines have 0.2 % of noise in T_R, 0.4 % in T_I (standard errors over 6 sets).
   void check(sim::Body body) {
     const auto discs = sim::uniform_discs(body, 2, 5000, 0.02, 3);
     for (const double ratio : {0.3, 0.5, 0.65, 0.8, 0.9}) {
@@ -81,13 +81,13 @@ TEST_SUITE("statistical") {
     }
   }
 
-  TEST_CASE("sphere and disc tests within 1 %, in a volume and on faces") {
+  TEST_CASE("structural sphere and disc tests are within 1 % of the counts, in a volume and on faces") {
     check(sim::Body::cube);
     check(sim::Body::cube_faces);
   }
 
   // 8 × 5000 lines leave about 1 % of noise: few of the lines through S0 come near the tree's samples.
-  TEST_CASE("sphere tests of scenes within 2 %: a tree, a box") {
+  TEST_CASE("structural sphere tests are within 2 % of the counts in two scenes, a tree and a box") {
     for (const std::string name : {"@tree", "@cornell"}) {
       const sim::Scene scene = sim::open_scene({name, 5000, 1});
       const double radius = 0.01 * glm::length(scene.box.size());

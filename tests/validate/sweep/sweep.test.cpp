@@ -55,7 +55,7 @@ TEST_SUITE("known answer") {
     CHECK(summaries[1].worst == doctest::Approx(9));
   }
 
-  TEST_CASE("a summary without a fault meets its goal") {
+  TEST_CASE("a summary without a row beyond the goal meets the goal") {
     const std::vector<Deviation> rows{row(101), row(97)};
     CHECK(summarise(rows).front().met());
   }

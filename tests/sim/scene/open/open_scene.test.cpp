@@ -71,7 +71,7 @@ TEST_SUITE("known answer") {
     CHECK(open_scene({.name = "@cornell", .samples = 1}).samples.size() == 1);
   }
 
-  TEST_CASE("more samples than vertices are the vertices and points of the surface with its normals") {
+  TEST_CASE("more samples than vertices are all vertices and points on the surface, with the surface's normals") {
     const support::ScratchFolder folder;
     const std::string path = folder.file("plane.obj", "v 0 3 0\nv 2 3 0\nv 0 3 2\nf 1 3 2\n");
     const Scene scene = open_scene({.name = path, .samples = 500});

@@ -71,7 +71,7 @@ TEST_SUITE("known answer") {
     CHECK(smallest / 2 > 0);
   }
 
-  TEST_CASE("a run that is stopped says so") {
+  TEST_CASE("a stopped run says so") {
     std::stop_source stop;
     stop.request_stop();
     CHECK(EmbreePeer(1).run(data().rays, data().discs, {}, stop.get_token()).stopped);
