@@ -1,7 +1,6 @@
-# The order of the house: which folder may include which. Each folder's README.md says so in its line "May include:";
-# this checks that its sources include nothing else and that no folders include each other, in a circle or directly,
-# and draws the folders: folders.txt and folders.dot. Between folders includes begin with detp/; within one they are
-# names of files. Called with -D SOURCE=<top of the project> -D DRAW=<folder for the drawing>.
+# Checks which folder includes which. The line "May include:" of a folder's README.md lists the folders that its sources
+# may include. No folders may include each other, directly or in a circle. Includes between folders begin with detp/;
+# within a folder they are file names. Writes the includes between folders to folders.txt and folders.dot. Called with -D SOURCE=<top of the project> -D DRAW=<folder for the drawing>.
 
 cmake_policy(VERSION 3.25)
 file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/model/*.[hic]* ${SOURCE}/sim/*.[hic]* ${SOURCE}/validate/*.[hic]*)
@@ -36,7 +35,7 @@ endforeach()
 list(REMOVE_DUPLICATES folders)
 list(SORT folders)
 
-# What each folder's README.md allows.
+# Compare with the line of each folder's README.md.
 set(text)
 set(dot "digraph folders {\n  rankdir=BT\n  node [shape=box]\n")
 foreach(folder ${folders})
@@ -64,7 +63,7 @@ file(WRITE ${DRAW}/folders.txt "${text}")
 file(WRITE ${DRAW}/folders.dot "${dot}}\n")
 message("${text}")
 
-# Between the parts: model stands on nothing, sim on the vocabulary alone.
+# Between the parts: model includes only model, sim includes only the vocabulary of model.
 foreach(folder ${folders})
   foreach(other ${${folder}_includes})
     if(folder MATCHES "^model/" AND NOT other MATCHES "^model/")
@@ -77,7 +76,7 @@ foreach(folder ${folders})
   endforeach()
 endforeach()
 
-# Folders whose includes are all laid are laid, again and again; what is left includes itself in a circle.
+# Repeatedly remove folders that include only removed ones. Folders that remain include each other in a circle.
 set(left ${folders})
 while(left)
   set(still)

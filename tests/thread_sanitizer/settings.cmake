@@ -1,4 +1,5 @@
-# What ThreadSanitizer cannot see into: oneTBB is replaced by threads of its own, Embree's calls are left out.
+# ThreadSanitizer cannot see into uninstrumented libraries: oneTBB is replaced by std::thread, and Embree's callbacks are
+# ignored.
 foreach(header blocked_range enumerable_thread_specific global_control info parallel_for parallel_invoke
                parallel_pipeline parallel_reduce task_arena)
   foreach(folder tbb oneapi/tbb)
