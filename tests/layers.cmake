@@ -1,6 +1,7 @@
-# Checks which folder includes which. The line "May include:" of a folder's README.md lists the folders that its sources
-# may include. No folders may include each other, directly or in a circle. Includes between folders begin with detp/;
-# within a folder they are file names. Writes the includes between folders to folders.txt and folders.dot. Called with -D SOURCE=<top of the project> -D DRAW=<folder for the drawing>.
+# Checks which folder includes which. The line "May include:" in a folder's README.md lists the folders that it may
+# include; its sources must include no others, and there must be no cycle of includes between folders. Writes the
+# graph of the folders to folders.txt and folders.dot. Includes from other folders must begin with detp/; includes
+# from the same folder must be plain file names. Called with -D SOURCE=<top of the project> -D DRAW=<folder for the drawing>.
 
 cmake_policy(VERSION 3.25)
 file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/model/*.[hic]* ${SOURCE}/sim/*.[hic]* ${SOURCE}/validate/*.[hic]*)
@@ -35,7 +36,7 @@ endforeach()
 list(REMOVE_DUPLICATES folders)
 list(SORT folders)
 
-# Compare with the line of each folder's README.md.
+# The folders that each README.md allows.
 set(text)
 set(dot "digraph folders {\n  rankdir=BT\n  node [shape=box]\n")
 foreach(folder ${folders})
@@ -63,7 +64,7 @@ file(WRITE ${DRAW}/folders.txt "${text}")
 file(WRITE ${DRAW}/folders.dot "${dot}}\n")
 message("${text}")
 
-# Between the parts: model includes only model, sim includes only the vocabulary of model.
+# Between the parts: model includes no other part, sim only the vocabulary.
 foreach(folder ${folders})
   foreach(other ${${folder}_includes})
     if(folder MATCHES "^model/" AND NOT other MATCHES "^model/")
@@ -76,7 +77,7 @@ foreach(folder ${folders})
   endforeach()
 endforeach()
 
-# Repeatedly remove folders that include only removed ones. Folders that remain include each other in a circle.
+# Repeatedly removes folders that include no remaining folder. Folders that are left over form a cycle.
 set(left ${folders})
 while(left)
   set(still)
