@@ -19,7 +19,7 @@ class CsvReader {
       : file_(path, std::move(stop)), lines_(file_), row_(path, columns) {}
 
   std::size_t read(const TableSink& sink) {
-    if (!next_line()) throw FileError(file_.path(), "is empty; wanted is a header " + known_names());
+    if (!next_line()) throw FileError(file_.path(), "is empty; expected a header " + known_names());
     read_header();
     for (std::size_t i = 0; i < row_.columns().size(); ++i)
       if (!is_given(i)) row_.set(i, *row_.columns()[i].absent);
@@ -62,7 +62,7 @@ class CsvReader {
       if (known == row_.columns().end())
         lines_.fail(fmt::format("unknown column {}; known are {}", quoted(name), known_names()));
       const auto column = static_cast<std::size_t>(known - row_.columns().begin());
-      if (is_given(column)) lines_.fail(fmt::format("column {} is there twice", name));
+      if (is_given(column)) lines_.fail(fmt::format("column {} appears twice", name));
       order_.push_back(column);
     }
     for (std::size_t i = 0; i < row_.columns().size(); ++i)

@@ -39,7 +39,7 @@ std::vector<Disc> read_discs(const std::string& path, std::optional<double> defa
        {"nz", {}, {}},
        {"radius", default_radius, default_radius, ", and no default radius is given"}},
       [&](const TableRow& row) { memory.push(discs, disc_in(row)); }, std::move(stop));
-  if (discs.empty()) throw FileError(path, "holds no disc; at least one is needed");
+  if (discs.empty()) throw FileError(path, "has no disc; at least one is needed");
   return discs;
 }
 

@@ -20,8 +20,8 @@ bool is_finite(const glm::dvec3& vector) {
 std::uint32_t checked_index(const std::string& path, std::uint64_t face, double index, std::uint64_t vertices) {
   if (index >= 0 && index < static_cast<double>(vertices) && index <= UINT32_MAX && std::floor(index) == index)
     return static_cast<std::uint32_t>(index);
-  throw FileError(path, "face " + std::to_string(face + 1) +
-                            ": index out of range; wanted are whole numbers from 0 to " + std::to_string(vertices - 1));
+  throw FileError(path, "face " + std::to_string(face + 1) + ": index out of range; expected whole numbers from 0 to " +
+                            std::to_string(vertices - 1));
 }
 
 /// The places of three properties in the element; empty if it lacks one of them.
@@ -110,7 +110,8 @@ std::size_t reset_not_finite(std::vector<glm::dvec3>& vectors) {
 
 Mesh read_mesh(const std::string& path, Notices& notices, std::stop_token stop) {
   const bool is_ply = has_ending(path, ".ply");
-  if (!is_ply && !has_ending(path, ".obj")) throw FileError(path, "is no mesh file: its name must end in .obj or .ply");
+  if (!is_ply && !has_ending(path, ".obj"))
+    throw FileError(path, "is not a mesh file: its name must end in .obj or .ply");
   Mesh mesh = is_ply ? PlyMeshReader(path, std::move(stop)).read() : read_obj(path, notices, std::move(stop));
   if (mesh.triangles.empty()) throw FileError(path, "has no faces; a mesh needs at least one");
   check_used(mesh, mesh.positions, path, "position");

@@ -114,7 +114,7 @@ class ObjReader {
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
     if (error == std::errc{} && end == digits.data() + digits.size()) return index;
     if (error == std::errc::result_out_of_range) lines_.fail("an index of " + quoted(word) + " is out of range");
-    lines_.fail(quoted(word) + " is no corner of a face; wanted are corners such as 1, 1/2, 1//3 or 1/2/3");
+    lines_.fail(quoted(word) + " is not a corner of a face; expected a corner such as 1, 1/2, 1//3 or 1/2/3");
   }
 
   /// Resolves an index of the file: positive ones count from 1, negative ones backwards from the latest one.

@@ -58,14 +58,14 @@ std::string_view ObjLines::joined() {
 void ObjLines::count_unknown() {
   if (++unknown_ == 1) first_unknown_ = quoted(keyword_) + " in line " + std::to_string(number_);
   if (unknown_ > unknown_allowed + known_)
-    fail("most lines so far are of no kind that OBJ has, the first " + first_unknown_ + "; is this an OBJ file?");
+    fail("most lines so far have keywords unknown to OBJ, the first " + first_unknown_ + "; is this an OBJ file?");
 }
 
 void ObjLines::fail(const std::string& what) const { throw FileError(file_.path(), number_, what); }
 
 void ObjLines::note_unknown(Notices& notices) const {
   if (unknown_ > 0)
-    notices.push_back("lines of no kind that OBJ has, left out: " + std::to_string(unknown_) + ", the first " +
+    notices.push_back("lines with keywords unknown to OBJ, skipped: " + std::to_string(unknown_) + ", the first " +
                       first_unknown_);
 }
 

@@ -30,7 +30,7 @@ class BodyReader {
   }
 
   void check_end() {
-    if (!source_.at_end()) throw FileError(path_, "holds more than its header says" + source_.where());
+    if (!source_.at_end()) throw FileError(path_, "has more data than its header declares" + source_.where());
   }
 
  private:

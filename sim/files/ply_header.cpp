@@ -37,7 +37,7 @@ class HeaderReader {
   PlyHeader read() {
     if (!file_.fetch(1)) throw FileError(file_.path(), "is empty");
     next_line();
-    if (line_ != "ply") fail("is no PLY file, which starts with a line \"ply\"");
+    if (line_ != "ply") fail("is not a PLY file; its first line must be \"ply\"");
     if (lines_.ended_by_cr_alone()) fail("the lines end in CR alone; a PLY file needs LF or CR LF");
     for (next_line(); line_ != "end_header"; next_line()) read_line();
     if (!has_format_) fail("the header has no format line");
@@ -67,7 +67,7 @@ class HeaderReader {
     else if (keyword == "property")
       read_property(words);
     else
-      fail("is no line of a PLY header; wanted are format, comment, obj_info, element, property or end_header");
+      fail("is not a line of a PLY header; expected format, comment, obj_info, element, property or end_header");
     if (!trimmed(words).empty()) fail("has too many words");
   }
 
@@ -92,7 +92,7 @@ class HeaderReader {
     std::uint64_t rows = 0;
     const auto [stop, error] = std::from_chars(count.data(), count.data() + count.size(), rows);
     if (count.empty() || stop != count.data() + count.size() || error != std::errc{})
-      fail("wanted is \"element NAME COUNT\", the count a whole number >= 0");
+      fail("expected \"element NAME COUNT\" with a whole number COUNT >= 0");
     for (const PlyElement& element : header_.elements)
       if (element.name == name) fail("a second element " + quoted(name));
     header_.elements.push_back({.name = name, .rows = rows, .properties = {}});
@@ -118,7 +118,7 @@ class HeaderReader {
   [[nodiscard]] PlyType type_named(std::string_view name) const {
     for (std::size_t i = 0; i < types.size(); ++i)
       if (name == types[i].old_name || name == types[i].sized_name) return static_cast<PlyType>(i);
-    fail(quoted(name) + " is no type; known are char, uchar, short, ushort, int, uint, float, double");
+    fail(quoted(name) + " is not a type; known types are char, uchar, short, ushort, int, uint, float, double");
   }
 
   InputFile& file_;

@@ -43,7 +43,7 @@ std::vector<Ray> read_rays(const std::string& path, std::stop_token stop) {
        {"length", unbounded, unbounded},
        {"power", 1.0, {}}},
       [&](const TableRow& row) { memory.push(rays, ray_in(row)); }, std::move(stop));
-  if (rays.empty()) throw FileError(path, "holds no ray; at least one is needed");
+  if (rays.empty()) throw FileError(path, "has no ray; at least one is needed");
   return rays;
 }
 

@@ -43,7 +43,7 @@ void TextLines::find_end() {
     if (size_ > longest) fail("the line is longer than " + std::to_string(longest) + " bytes");
   } while (size_ == file_.ahead().size() && file_.fetch(size_ + 1));
   if (size_ == file_.ahead().size()) return;
-  if (file_.ahead()[size_] == '\0') fail("holds a NUL byte, which no text does; is the file binary or damaged?");
+  if (file_.ahead()[size_] == '\0') fail("contains a NUL byte; is the file binary or damaged?");
   const bool cr = file_.ahead()[size_] == '\r';
   end_size_ = cr && file_.fetch(size_ + 2) && file_.ahead()[size_ + 1] == '\n' ? 2 : 1;
   cr_alone_ = cr && end_size_ == 1;

@@ -33,7 +33,7 @@ const BuiltIn& built_in_named(const std::string& name) {
     if (scene.name == name) return scene;
     known += (known.empty() ? "" : ", ") + scene.name;
   }
-  throw std::invalid_argument("no built-in scene is called " + shortened(name) + "; there are " + known);
+  throw std::invalid_argument("there is no built-in scene " + shortened(name) + "; known scenes are " + known);
 }
 
 Box box_of(const Scene& scene) {

@@ -102,12 +102,12 @@ TEST_SUITE("bad input") {
     std::string fifteen;
     for (int i = 0; i < 15; ++i) fifteen += "\\xff";
     for (const auto& [bound_content, reason] :
-         {std::pair<std::string, std::string>{"", ": is empty; wanted is a header a,b,c"},
+         {std::pair<std::string, std::string>{"", ": is empty; expected a header a,b,c"},
           {"\n \n", ": is empty"},
           {"a,b,radius\n", ":1: unknown column \"radius\"; known are a,b,c"},
           {"a,b,\n", ":1: unknown column \"\""},
           {"\na;b\n", ":2: unknown column \"a;b\""},
-          {"a,b,a\n", ":1: column a is there twice"},
+          {"a,b,a\n", ":1: column a appears twice"},
           {"a,c\n", ":1: the header has no column b; known are a,b,c"},
           {"1,2\n", ":1: unknown column \"1\""},
           {"a,b\n1\n", ":2: 1 fields, but the header has 2 columns"},

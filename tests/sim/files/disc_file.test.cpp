@@ -88,7 +88,7 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("a file without discs, or without a radius anywhere, is refused") {
-    CHECK(refusal("d.csv", "x,y,z,nx,ny,nz,radius\n").find("holds no disc") != std::string::npos);
+    CHECK(refusal("d.csv", "x,y,z,nx,ny,nz,radius\n").find("has no disc") != std::string::npos);
     CHECK(refusal("d.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n").find("no column radius, and no default") !=
           std::string::npos);
     CHECK(refusal("d.ply", ply_header + "end_header\n1 2 3 0 2 0\n").find("no property radius, and no default") !=

@@ -102,7 +102,7 @@ TEST_SUITE("bad input") {
          {Endless{"a.obj", "", "y\n", ":101: most lines"}, Endless{"b.obj", "", "v 1 x 3\n", ":1: \"x\""},
           Endless{"c.obj", "v ", "9", ":1: the line is longer than 16777216 bytes"},
           Endless{"d.obj", "v 1 2 3\n", "f 1 1 \\\n", ":2: the joined lines are longer"},
-          Endless{"e.ply", "", "y\n", ":1: is no PLY file"},
+          Endless{"e.ply", "", "y\n", ":1: is not a PLY file"},
           Endless{"f.ply", "ply\n", "comment c\n", "the header is longer"},
           Endless{"g.ply",
                   "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float "

@@ -112,7 +112,7 @@ TEST_SUITE("known answer") {
         folder.file("m.obj", "v 0 0 0\nv 1 0 0\n\x1b[2Jv 5 5 5\nv 0 1 0\nmaterial \n#\ng a b\nf 1 2 3\n"), notices);
     CHECK(mesh.positions.size() == 3);
     REQUIRE(notices.size() == 1);
-    CHECK(notices[0] == "lines of no kind that OBJ has, left out: 2, the first \"\\x1b[2Jv\" in line 3");
+    CHECK(notices[0] == "lines with keywords unknown to OBJ, skipped: 2, the first \"\\x1b[2Jv\" in line 3");
   }
 
   TEST_CASE("an OBJ polygon may have more than 255 corners") {
@@ -213,11 +213,11 @@ TEST_SUITE("bad input") {
           {triangle + "\r\nf 1//1 2//1 3//1\n", ":5: normal 1 is"},
           {triangle + "vn 0 0 1\rf 1//-2 2 3\n", ":5: normal -2 is"},
           {triangle + "f 1 2\n", ":4: a face needs"},
-          {triangle + "f 1 2 3x\n", ":4: \"3x\" is no corner"},
-          {triangle + "f 1 2 3.5\n", ":4: \"3.5\" is no corner"},
-          {triangle + "f 1 2 3/1/1/1\n", ":4: \"3/1/1/1\" is no corner"},
+          {triangle + "f 1 2 3x\n", ":4: \"3x\" is not a corner"},
+          {triangle + "f 1 2 3.5\n", ":4: \"3.5\" is not a corner"},
+          {triangle + "f 1 2 3/1/1/1\n", ":4: \"3/1/1/1\" is not a corner"},
           {triangle + "f 1 2 /3\n", ":4: vertex 0 is"},
-          {triangle + "f 1 2 \\ 3\n", ":4: \"\\\" is no corner"},
+          {triangle + "f 1 2 \\ 3\n", ":4: \"\\\" is not a corner"},
           {triangle + "\\\nf 1 2 \\\n9\n", ":4: vertex 9 is"},
           {triangle + "f 1 2 4294967299\n", ":4: vertex 4294967299 is"},
           {triangle + "f 1 2 -9223372036854775808\n", ":4: vertex -9223372036854775808 is"},

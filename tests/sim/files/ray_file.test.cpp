@@ -87,7 +87,7 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("a file without rays is refused, and an invalid ray in a PLY file with its number") {
-    CHECK(refusal("r.csv", "ox,oy,oz,dx,dy,dz\n").find("holds no ray") != std::string::npos);
+    CHECK(refusal("r.csv", "ox,oy,oz,dx,dy,dz\n").find("has no ray") != std::string::npos);
     CHECK(refusal("r.ply", ply_header + "end_header\n1 2 3 0 0 0\n").find("vertex 1 of 1: the direction is zero") !=
           std::string::npos);
   }

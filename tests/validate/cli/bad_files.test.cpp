@@ -89,12 +89,12 @@ TEST_SUITE("bad input") {
     };
     check_refused({discs("a,b,c\n1,2,3\n", ":1: unknown column \"a\"; known are x,y,z,nx,ny,nz,radius"),
                    discs("x,y,z,nx,ny\n1,2,3,4,5\n", ":1: the header has no column nz"),
-                   discs("x,y,z,nx,ny,nz,x\n1,2,3,4,5,6,7\n", ":1: column x is there twice"),
+                   discs("x,y,z,nx,ny,nz,x\n1,2,3,4,5,6,7\n", ":1: column x appears twice"),
                    discs("x,y,z,nx,ny,nz\n0,0,0,0,0,1\n", ":1: the header has no column radius"),
-                   discs("1,2,3,4,5,6,7\n", ":1: unknown column"), discs(disc_header, ": holds no disc"),
+                   discs("1,2,3,4,5,6,7\n", ":1: unknown column"), discs(disc_header, ": has no disc"),
                    rays(disc_header + "0,0,0,0,0,1,1\n", ":1: unknown column \"x\"; known are ox,oy,oz"),
                    rays("ox,oy,oz,dx,dy\n0,0,0,0,0\n", ":1: the header has no column dz"),
-                   rays(ray_header, ": holds no ray")});
+                   rays(ray_header, ": has no ray")});
   }
 
   TEST_CASE("a malformed row is refused with its line") {
@@ -182,10 +182,10 @@ TEST_SUITE("bad input") {
       return Refusal("validate --effort thorough --resume --checkpoint " + path, named);
     };
     check_refused(
-        {resumed("", "is no checkpoint"),
-         resumed("{\x1b[2J", "is no checkpoint"),
-         resumed("{}", "is no checkpoint"),
-         resumed(std::string(5000, '['), "is no checkpoint"),
+        {resumed("", "is not a checkpoint"),
+         resumed("{\x1b[2J", "is not a checkpoint"),
+         resumed("{}", "is not a checkpoint"),
+         resumed(std::string(5000, '['), "is not a checkpoint"),
          resumed(R"({"schema":{"name":"detp.sweep-checkpoint","version":1},"seed":7})", "was made with seed 7"),
          resumed(R"({"schema":{"name":"detp.sweep-checkpoint","version":9}})", "no checkpoint of this version"),
          {"validate --effort thorough --checkpoint " + folder.path("missing/c"), "cannot be written"},

@@ -134,10 +134,11 @@ TEST_SUITE("statistical") {
 
 TEST_SUITE("bad input") {
   TEST_CASE("an unknown built-in name is refused; the message lists the known ones") {
-    CHECK_THROWS_WITH_AS((void)open_scene({.name = "@forest", .samples = {}}),
-                         "no built-in scene is called @forest; there are @uniform, @tree, @tree-coarse, @courtyard, "
-                         "@cornell",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        (void)open_scene({.name = "@forest", .samples = {}}),
+        "there is no built-in scene @forest; known scenes are @uniform, @tree, @tree-coarse, @courtyard, "
+        "@cornell",
+        std::invalid_argument);
   }
 
   TEST_CASE("zero samples are refused") {
