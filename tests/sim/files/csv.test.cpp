@@ -123,7 +123,7 @@ TEST_SUITE("bad input") {
           {std::string("\xFF\xFE", 2) + "a,b\n", ": is text in UTF-16"},
           {"a,b\n1,1 2\n", ":2: b is \"1 2\", which"},
           {"a,b\n# comment\n", ":2: 1 fields, but"},
-          {std::string("a,b\n1,2\0\n", 9), ":2: holds a NUL byte"},
+          {std::string("a,b\n1,2\0\n", 9), ":2: contains a NUL byte"},
           {"a,b\n1," + std::string(99, '\xff') + "\n", ":2: b is \"" + fifteen + "...\", which"}}) {
       const auto& content = bound_content;
       CAPTURE(content.substr(0, 200));

@@ -124,14 +124,14 @@ TEST_SUITE("bad input") {
     const ScratchFolder folder;
     for (const char* name : {"zero.obj", "zero.ply"}) {
       std::filesystem::create_symlink("/dev/zero", folder.path(name));
-      CHECK(mesh_refusal(folder.path(name)).find(":1: holds a NUL byte") != std::string::npos);
+      CHECK(mesh_refusal(folder.path(name)).find(":1: contains a NUL byte") != std::string::npos);
     }
-    CHECK(support::file_error_of([] { (void)read_rays("/dev/zero"); }).find(":1: holds a NUL byte") !=
+    CHECK(support::file_error_of([] { (void)read_rays("/dev/zero"); }).find(":1: contains a NUL byte") !=
           std::string::npos);
     for (const char* name : {"sparse.ply", "sparse.obj", "sparse.csv"}) {
       const std::string path = folder.file(name, "");
       std::filesystem::resize_file(path, 5 * gigabyte);
-      CHECK(support::file_error_of([&] { (void)read_discs(path, 1.0); }).find(":1: holds a NUL byte") !=
+      CHECK(support::file_error_of([&] { (void)read_discs(path, 1.0); }).find(":1: contains a NUL byte") !=
             std::string::npos);
     }
   }

@@ -225,7 +225,7 @@ TEST_SUITE("bad input") {
           {"v 0 \x1b[31m 0\n" + triangle, ":1: \"\\x1b[31m\" is not a number"},
           {"v 0 \xc2\x9b 0\n" + triangle, ":1: \"\\xc2\\x9b\" is not a number"},
           {"v 0 " + std::string(3'000'000, '1') + "x 0\n", ":1: \"" + std::string(60, '1') + "...\" is not a number"},
-          {std::string("v 0 0 0\nv 1 0 0\0\nv 0 1 0\nf 1 2 3\n", 34), ":2: holds a NUL byte"},
+          {std::string("v 0 0 0\nv 1 0 0\0\nv 0 1 0\nf 1 2 3\n", 34), ":2: contains a NUL byte"},
           {std::string("\xFF\xFEv\0 \0", 6), ": is text in UTF-16"},
           {"\xEF\xBB\xBF\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", ":4: vertex 3 is"},
           {std::string(300, '\n') + "x\n", ": has no faces"},

@@ -164,7 +164,7 @@ TEST_SUITE("bad input") {
           {start + "element thing 1\nproperty \x1b]0;title\x07 a\n", ":4: \"\\x1b]0;title\\x07\" is not a type"},
           {start + "element thing 1\nproperty " + std::string(100'000, 'y') + " a\n", "yyy...\" is not a type"},
           {"ply\rformat ascii 1.0\rend_header\r", ":1: the lines end in CR alone"},
-          {std::string(5000, '\0'), ":1: holds a NUL byte"},
+          {std::string(5000, '\0'), ":1: contains a NUL byte"},
           {std::string("\xFE\xFF\0p\0l\0y", 8), ": is text in UTF-16"},
           {start + std::string(400'000, 'c'), ":3: the header is longer than 262144 bytes"}}) {
       const auto& content = bound_content;
