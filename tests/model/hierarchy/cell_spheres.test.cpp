@@ -41,7 +41,7 @@ TEST_SUITE("identity") {
     }
   }
 
-  TEST_CASE("with no level every ray is tested against every disc; the sums are those of the levels") {
+  TEST_CASE("without levels every ray is tested against every disc; with levels the counts are the levels' sums") {
     const Counts<double> none = model::cell_sphere_counts(workload, {0});
     CHECK(none.disc_tests == workload.rays * workload.samples);
     CHECK(none.cull_tests == 0);

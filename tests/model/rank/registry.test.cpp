@@ -8,7 +8,7 @@ using namespace detp;
 using namespace detp::model;
 
 TEST_SUITE("identity") {
-  TEST_CASE("every technique has its own entry; those with a prediction also say where it was not checked") {
+  TEST_CASE("every technique has its own entry, and each prediction has a check of its range") {
     for (const Technique technique : all_techniques) {
       const TechniqueModel& model = model_of(technique);
       CAPTURE(name(technique));

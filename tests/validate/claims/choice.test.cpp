@@ -129,7 +129,7 @@ TEST_SUITE("known answer") {
     CHECK(of_hits >= 5);
   }
 
-  TEST_CASE("one ray decides nothing, no question gives no claim, a stop leaves nothing half counted") {
+  TEST_CASE("one ray decides nothing; without a question there is no claim, and a stop leaves none half counted") {
     Experiment experiment = lines_in_a_cube();
     experiment.choice->rays.resize(1);
     for (const Claim& claim : judge_all(choice_findings(experiment)))
