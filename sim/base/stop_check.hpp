@@ -98,7 +98,7 @@ void for_each_checked(std::size_t first, std::size_t last, StopCheck& check, con
   }
 }
 
-/// The same, calling visit(item) for each item.
+/// Calls visit(item) for each item; each call is a unit of work. Throws Stopped between calls if a stop was requested.
 template <class T, class Visit>
 void for_each_checked(std::span<T> items, StopCheck& check, const Visit& visit) {
   for_each_checked(0, items.size(), check, [&](std::size_t i) { visit(items[i]); });

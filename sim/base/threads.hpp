@@ -9,7 +9,7 @@ inline constexpr int most_threads = 4096;
 /// The number of threads that an option means: 0 means all cores that this process may use.
 [[nodiscard]] int thread_count(int asked);
 
-/// The number of these threads that the system lets this process start, at least 1. A limit on processes or memory may
+/// How many of `threads` threads the system lets this process start, at least 1. A limit on processes or memory may
 /// prevent a start, and oneTBB then ends the process. To find out, starts threads: once for each number larger than all
 /// before.
 [[nodiscard]] int startable_threads(int threads);

@@ -36,7 +36,7 @@ class InputFile {
 
  private:
   bool fetch_more(std::size_t bytes);
-  /// Reads once; false at the end of the file.
+  /// Reads the next bytes into the buffer; false at the end of the file.
   bool read_once();
   void wait_for_input() const;
   void check_stop() const;

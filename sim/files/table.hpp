@@ -20,7 +20,7 @@ struct TableColumn {
   std::string_view remedy = {};  ///< ends the message about a missing column: ", and none is given"
 };
 
-/// One row of such a file.
+/// One row of a table.
 class TableRow {
  public:
   TableRow(const std::string& path, const std::vector<TableColumn>& columns)

@@ -23,7 +23,7 @@ class RayCaster {
   RayCaster(const RayCaster&) = delete;
   RayCaster& operator=(const RayCaster&) = delete;
 
-  /// Convert from scene coordinates to the caster's own, and back.
+  /// Conversion from scene coordinates to the caster's own, and back.
   [[nodiscard]] glm::dvec3 to_own(const glm::dvec3& point) const { return (point - centre_) / scale_; }
   [[nodiscard]] glm::dvec3 to_scene(const glm::dvec3& point) const { return centre_ + scale_ * point; }
   /// One of the caster's own units, in scene units; a power of two.

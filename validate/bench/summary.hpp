@@ -16,7 +16,7 @@ struct AgainstEmbree {
   std::size_t worst_entry;  ///< the entry that has the smallest ratio
 };
 
-/// Summary over the complete races with that many threads; nothing if there is none.
+/// Summary over the complete races with `threads` threads; nothing if there is none.
 [[nodiscard]] std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries, int threads);
 
 /// Whether all our techniques found the right hits in all races.

@@ -53,7 +53,7 @@ struct JobRequest {
 /// std::invalid_argument if a number is missing or out of range.
 [[nodiscard]] Workload workload_of_numbers(const JobRequest& request);
 
-/// The name of such a workload: "uniform samples in a cube", or "… on the faces of a cube".
+/// The name of a workload without a scene: "uniform samples in a cube", or "… on the faces of a cube".
 [[nodiscard]] std::string_view name_of_numbers(const Workload& workload);
 
 /// Rays and discs, with their workload and warnings.

@@ -36,7 +36,7 @@ namespace detp::validate {
                                                const Candidate& candidate, const std::stop_token& stop = {},
                                                bool front_facing = false);
 
-/// The same for the discs of a problem; its rays do not matter.
+/// Structural counts for the discs of a problem; its rays do not matter.
 [[nodiscard]] Counts<double> structural_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
                                                const std::stop_token& stop = {}, bool front_facing = false);
 

@@ -51,7 +51,7 @@ struct BoxTreeCounts {
   double listed = 0;  ///< rays listed, per ray: Σ P(node)
   double discs = 0;   ///< tests against discs, per ray: Σ_leaves P(leaf) discs(leaf)
   double culls = 0;   ///< nodes that are tested for at least one ray, summed over the blocks (rays_in_block)
-  double visits = 0;  ///< discs that are tested with at least one ray, likewise
+  double visits = 0;  ///< discs that are tested with at least one ray, summed over the blocks
 };
 
 /// Expected counts of `rays` isotropic lines in the box tree over the discs. The boxes are nested, so their lists are

@@ -106,8 +106,8 @@ void print_single(int dimension) {
   print(rows, "{:.4f},");
 }
 
-/// Spheres around runs of at least 64 samples: the ratio of a level's spheres to those that leaves of that size would
-/// have.
+/// Mean size of a level's spheres, divided by that of spheres around runs of the same samples alone. The runs have at
+/// least 64 samples.
 std::vector<Moments> nested_row(int dimension, int fan_out, std::size_t level) {
   const auto spread = static_cast<std::size_t>(std::pow(fan_out, level));
   const std::size_t leaf = std::max<std::size_t>(2, 64 / spread);

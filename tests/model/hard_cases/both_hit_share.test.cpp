@@ -57,8 +57,8 @@ Exact share_by_lenses(const Exact& a, const Exact& b, const Exact& c) {
   return (covered * (1 - sqrt(1 - p * p / (c * c))) + lenses) / area;
 }
 
-/// The same, integrated by parts: if the spheres overlap, as a difference from nested ones; otherwise without a
-/// difference.
+/// The share of both spheres, integrated by parts. If the spheres overlap, it is a difference from the share of nested
+/// spheres; otherwise there is no difference.
 Quad share_by_chords(const Quad& a, const Quad& b, const Quad& c) {
   const Quad small = std::min(a, b);
   const Quad p = abs(a - b);

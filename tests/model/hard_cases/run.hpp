@@ -51,7 +51,7 @@ inline void require_right(const Ledger& ledger) {
   CHECK_MESSAGE(ledger.failures() == 0, ledger.report());
 }
 
-/// The same for the long suite; also prints the table to standard output.
+/// Fails the test if an error is larger than allowed, and prints the table to standard output; for the long suite.
 inline void require_right_and_print(const Ledger& ledger) {
   fmt::print("{}", ledger.table());
   require_right(ledger);

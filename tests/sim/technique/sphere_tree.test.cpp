@@ -26,7 +26,7 @@ double out_of(const Sphere& inner, const Sphere& outer) {
   return glm::distance(inner.centre, outer.centre) + inner.radius - outer.radius;
 }
 
-/// The largest such distance of children from their parents and discs from their leaves.
+/// The largest distance by which a child extends outside its parent, or a disc outside its leaf.
 double worst_nesting(const SphereTree& tree, const std::vector<Disc>& discs, const SphereTreeParameters& parameters) {
   double worst = -1;
   for (std::size_t i = 0; i < discs.size(); ++i)

@@ -57,7 +57,7 @@ TEST_SUITE("known answer") {
       CHECK(json.at("spheres").back().at("radius").get<double>() >= disc);
       double rebuild_time = 0;
       double listed = rays;
-      // rays that cross the sphere around: the number of tests lies between it and the listed rays
+      // rays that cross the enclosing sphere; the tests lie between this number and the listed rays
       double around = rays;
       for (const Json& sphere : json.at("spheres")) {
         const int i = sphere.at("i");

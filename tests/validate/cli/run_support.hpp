@@ -86,7 +86,7 @@ inline const std::vector<std::string>& exact_techniques() {
   return all;
 }
 
-/// Each of these techniques once, with the parameters that the command finds best.
+/// Each exact technique once, with the parameters that the command finds best.
 inline const std::vector<std::string>& best_techniques() {
   static const std::vector<std::string> all{"",
                                             "--technique sphere-cache",

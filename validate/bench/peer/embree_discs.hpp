@@ -23,7 +23,7 @@ using EmbreeOwned = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree
 /// Throws std::runtime_error, with Embree's error number, if an Embree call of this thread has failed.
 void require_no_embree_error(RTCDevice device);
 
-/// A device that builds with that many threads. They have been started before it is returned.
+/// A device that builds with `threads` threads. They have been started before it is returned.
 [[nodiscard]] EmbreeOwned<RTCDevice> make_embree_device(int threads);
 
 /// A committed scene of oriented discs in single precision; primitive i is disc i. It calls the filter of the context.
