@@ -18,8 +18,8 @@ namespace detp::validate {
 ///     4 (h_x + |a| h_z)(h_y + |b| h_z)
 ///
 /// Multiplied by the cosine (1 + a² + b²)^{-1/2} this is the area perpendicular to the lines. The directions are
-/// integrated with dω = da db (1 + a² + b²)^{-3/2}. Summed over the three classes, and divided by the measure 2π · π r₀²
-/// of the lines through S₀,
+/// integrated with dω = da db (1 + a² + b²)^{-3/2}. The result is summed over the three classes, and divided by the
+/// measure 2π · π r₀² of the lines through S₀:
 ///
 ///     P = [F/4π + (2 ln(4/3)/π²) (h_x² + h_y² + h_z²)] / r₀²
 ///
