@@ -237,7 +237,7 @@ TEST_SUITE("bad input") {
              for (int i = 0; i < 101; ++i) text += "y\n";
              return text;
            }(),
-           ":101: most lines so far are of no kind"},
+           ":101: most lines so far have keywords unknown"},
           {triangle, ": has no faces"},
           {"", ": has no faces"}}) {
       const auto& content = bound_content;
