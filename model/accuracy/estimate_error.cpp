@@ -22,7 +22,7 @@ void require_curvature(const SmoothDensity& density) {
     throw std::invalid_argument("the Laplacian of the density must not be 0: without it no radius is best");
 }
 
-/// d/r₀, which may lie below the doubles.
+/// d/r₀, which may be below the range of doubles.
 long double size_of(DiscRadius disc, SphereRadius outer) {
   require_positive("disc radius", disc.value);
   require_positive("sphere radius", outer.value);

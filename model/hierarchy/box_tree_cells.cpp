@@ -9,12 +9,13 @@ namespace {
 using Flags = std::array<int, 3>;
 
 constexpr int most_halvings = 64;  // 2⁶⁴ cells
-// So deep, cells at the cube's edges, and at its corners, have few of the samples: they count as cells on its faces.
+// After so many halvings, cells at the cube's edges and corners have few of the samples. From there on they count as
+// cells on its faces.
 constexpr int edge_halvings = 21;
 constexpr int corner_halvings = 9;
 static_assert(edge_halvings % 3 == 0 && corner_halvings % 3 == 0);
 
-/// Halvings across an axis (0: first) among so many.
+/// The number of halvings across an axis (0 is halved first) after `halvings` halvings in all.
 int across(int axis, int halvings) { return (halvings + 2 - axis) / 3; }
 
 std::array<double, 3> sides_of(int halvings) {
@@ -37,8 +38,8 @@ std::vector<CellKind> volume_kinds() {
 
 int faces(const Flags& touched) { return touched[0] + touched[1] + touched[2]; }
 
-/// Kinds of cells of a cube whose faces alone hold samples. Cells on one face only are halved along it, whichever it
-/// is.
+/// Kinds of cells of a cube whose samples are all on its faces. A cell on one face only is halved along the face; all
+/// faces have the same kinds.
 class SurfaceKinds {
  public:
   SurfaceKinds() {
@@ -58,20 +59,20 @@ class SurfaceKinds {
   std::vector<CellKind> take() && { return std::move(kinds_); }
 
  private:
-  /// A kind, how often the cube was halved, and its place in an order in which parents come before children.
+  /// A kind, its number of halvings of the cube, and its place in an order in which parents come before children.
   struct Key {
     int halvings;
     int place;
     CellKind kind;
   };
 
-  static constexpr Flags edge{1, 0, 1};  ///< stands for those along the other axes too
+  static constexpr Flags edge{1, 0, 1};  ///< also represents edges along the other axes
 
   void add(int halvings, const Flags& touched) {
     const std::array<double, 3> side = sides_of(halvings);
     double area = 0;
     for (int axis = 0; axis < 3; ++axis) area += touched[axis] * side[(axis + 1) % 3] * side[(axis + 2) % 3];
-    // Those that are taken apart come before the faces' parts that they become.
+    // Cells that are split up into cells on faces come before these.
     const bool whole = halvings < (faces(touched) == 3 ? corner_halvings : edge_halvings) || faces(touched) > 3;
     keys_.push_back(
         {halvings, whole ? 4 * halvings : 4 * halvings - 3,
@@ -80,7 +81,7 @@ class SurfaceKinds {
   }
 
   void add_face(int halvings) {
-    // Even ones come up when the cube was halved across z, odd ones when across y; the first four never do.
+    // Even numbers occur if the cube was halved across z, odd numbers if across y; the first four never occur.
     const int place = std::max(1, halvings % 2 == 0 ? 6 * halvings - 2 : 6 * halvings);
     keys_.push_back({-1, place,
                      CellKind{.share = std::ldexp(1.0, -halvings) / 6,
@@ -89,7 +90,7 @@ class SurfaceKinds {
                               .halvings = halvings}});
   }
 
-  /// Number of the kind of those cells.
+  /// The number of that kind of cells.
   std::size_t find(int halvings, const Flags& touched) const {
     int of_face = -1;
     if (faces(touched) == 1) of_face = halvings - across(touched[0] ? 0 : touched[1] ? 1 : 2, halvings);

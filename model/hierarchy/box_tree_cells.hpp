@@ -4,25 +4,27 @@
 #include <cstdint>
 #include <vector>
 
-/// The cells that the tree of boxes is made of.
+/// The cells from which the box tree is made.
 ///
-/// The builder (sim/lists/simd/disc_tree.hpp) splits the discs where the Lebesgue curve leaves a cell: first the cube
-/// of the samples across x, then its halves across y, then z, x, … Lengths here are multiples of the cube's side.
+/// The builder (sim/lists/simd/disc_tree.hpp) splits the discs where the Morton curve (the paper: Lebesgue curve)
+/// leaves a cell: first the cube of the samples across x, then its halves across y, then z, x, … Lengths here are
+/// multiples of the cube's side.
 namespace detp::model::box_tree {
 
-/// Cells that are alike: in size, and in how they touch the samples' surface.
+/// A kind of cells that have the same size and touch the samples' surface in the same way.
 struct CellKind {
-  double cells = 0;                      ///< number of such cells
-  double share = 0;                      ///< of all samples that one such cell expects
-  std::array<double, 3> side{};          ///< 0 across a face of the cube, if all samples in the cell lie on it
-  std::array<int, 3> touched{};          ///< D = 2: faces of the cube, across each axis, that pass through the cell
-  int halvings = 0;                      ///< of the volume, or of a face's part; of cells with edges, of a like cell
-  std::array<std::uint16_t, 2> child{};  ///< kinds of its halves; 0: is not split further
-  std::array<double, 2> part{};          ///< of its samples that each half expects
+  double cells = 0;              ///< number of such cells
+  double share = 0;              ///< expected share of all samples in one cell
+  std::array<double, 3> side{};  ///< 0 across a face of the cube if all samples in the cell lie on that face
+  std::array<int, 3> touched{};  ///< D = 2: number of faces of the cube, across each axis, that pass through the cell
+  /// halvings of the volume, or of the part on a face; for cells with edges, those of a cell of the same size
+  int halvings = 0;
+  std::array<std::uint16_t, 2> child{};  ///< kinds of its halves; 0: not split further
+  std::array<double, 2> part{};          ///< expected share of its samples in each half
 };
 
-/// All kinds for samples uniform in a cube (3) or on its faces (2), each before its halves; the whole cube is the
-/// first.
+/// All kinds for samples uniform in a cube (3) or on its faces (2). Each kind comes before those of its halves; the
+/// whole cube is the first.
 [[nodiscard]] const std::vector<CellKind>& cell_kinds(int dimension);
 
 }  // namespace detp::model::box_tree

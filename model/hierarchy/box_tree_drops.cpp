@@ -9,14 +9,15 @@ namespace {
 
 using Row = Dropped::Row;
 
-// Of sim/lists/simd/disc_tree.cpp; there too the costs of lists are halved: of two splits about one is joined away.
+// Constants of sim/lists/simd/disc_tree.cpp. The costs of lists are halved there too, because about one of two splits
+// is joined to a wide node.
 constexpr double cull_cost = 1.6;
 constexpr double list_cost = 0.5;
 
 double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
 double normal_below(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
 
-/// Halves of m discs, each in either with the same probability.
+/// The distribution of m discs over two halves that are equally likely for each disc.
 const auto& halves() {
   static const auto table = [] {
     std::array<Row, most_dropped + 1> rows{};
@@ -38,12 +39,13 @@ const Row& powers() {
   return table;
 }
 
-/// More discs than these next to no cell has.
+/// Almost no cell has more discs than this.
 int most_discs(double expected) {
   return static_cast<int>(std::clamp(expected + deviations * std::sqrt(expected) + 10, 28.0, 1.0 * most_dropped));
 }
 
-/// Sets which pairs are dropped: those with a small area A, children > (2 - 1.6) A. The expected cost.
+/// Sets the share of dropped nodes with two discs. Pairs with a small area A are dropped: children > (2 - 1.6) A.
+/// Returns the expected cost.
 double drop_pair(Dropped& level, double area, double children) {
   constexpr double shape = 4;
   const double y = std::min(700.0, shape * children / ((2 - cull_cost) * area));
@@ -55,7 +57,7 @@ double drop_pair(Dropped& level, double area, double children) {
   return 2 * area * part + rest * children + cull_cost * area * (1 - part);
 }
 
-/// Sets which nodes of so many discs are dropped. The expected cost.
+/// Sets the share of dropped nodes with `discs` discs. Returns the expected cost.
 double drop(Dropped& level, int discs, double area, double children, double deviation, double of_points) {
   const double less = cull_cost * area + children - discs * area;
   if (std::abs(less) > deviations * deviation) {
@@ -80,10 +82,10 @@ Drops::Drops(int dimension, double samples, double radius, int leaf)
       leaf_(leaf),
       on_faces_(dimension == 2),
       least_side_(radius / 64),
-      // Fewer discs in a cell than these: next to none has more than a leaf.
+      // In cells that expect fewer discs than this, almost none has more discs than a leaf.
       least_discs_(std::exp((std::log(1e-4) + std::lgamma(leaf + 2)) / leaf) / (dimension == 2 ? 3 : 1)) {
   if (leaf >= most_dropped) return;
-  std::vector<const CellKind*> cells;  // by halvings
+  std::vector<const CellKind*> cells;  // by number of halvings
   for (const CellKind& kind : cell_kinds(dimension)) {
     if (on_faces_ && kind.side[2] > 0) continue;
     cells.resize(static_cast<std::size_t>(kind.halvings) + 1, nullptr);
@@ -97,7 +99,7 @@ Drops::Drops(int dimension, double samples, double radius, int leaf)
   for (std::size_t level = end + 1; level-- > 0;) {
     const double expected = samples * cells[level]->share;
     if (all_more_than(most_dropped, expected)) break;
-    const int most = most_discs(on_faces_ ? 3 * expected : expected);  // a corner has three faces' parts
+    const int most = most_discs(on_faces_ ? 3 * expected : expected);  // a corner has parts on three faces
     if (level == end)
       start(*cells[level], area, cost);
     else
@@ -113,7 +115,7 @@ bool Drops::matters(const CellKind& cell, double samples) const {
   return samples * cell.share > least_discs_ && cell.side[0] > least_side_;
 }
 
-/// Cells so small that all nodes are dropped.
+/// Starts with cells so small that all nodes are dropped.
 void Drops::start(const CellKind& cell, Row& area, Row& cost) {
   Dropped& level = levels_.back();
   level.share.fill(1);
@@ -125,19 +127,19 @@ void Drops::start(const CellKind& cell, Row& area, Row& cost) {
   }
 }
 
-/// Fitted: how much the two sides of the heuristic differ from node to node.
+/// Fitted: how much the two sides of the heuristic's inequality differ between nodes.
 double Drops::spread(double pairs_dropped) const {
   return 0.215 * (on_faces_ ? 1.1 : 1) * (leaf_ > 1 ? 1.13 : 1) * (1 + 1.2 * pairs_dropped * (1 - pairs_dropped));
 }
 
-/// Share of the mean box's area that there would be if the discs were points.
+/// The area that the mean box would have if the discs were points, as a share of its area.
 double Drops::of_points(const CellKind& cell, int discs, double area) const {
   const auto& side = cell.side;
   const double flat = side[0] * side[1] + (on_faces_ ? 0 : side[1] * side[2] + side[2] * side[0]);
   return flat * std::pow((discs - 1.0) / (discs + 1.0), 2) / area;
 }
 
-/// From the halves' areas and costs the cell's.
+/// Computes the cell's areas and costs from those of its halves.
 void Drops::halve(const CellKind& cell, int most, Row& area, Row& cost) {
   Dropped& level = levels_[cell.halvings];
   level.share.fill(1);

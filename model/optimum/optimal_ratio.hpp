@@ -2,30 +2,32 @@
 
 /// The radius ratio of the sphere cache in closed form.
 ///
-/// With samples of dimension D, many of them, and spheres down to far below the scene's size, m_i ∝ r_i^{-D} and
-/// n_i ∝ r_i², so that T_R ∝ Σ_i Q^{-(D-2)i-2}. The sum's largest terms are the innermost ones, whose size is given by
-/// d, whatever Q: T_R ∝ 1/(Q² (1 - Q^{D-2})), or 1/(Q² ln(1/Q)) for D = 2.
+/// With many samples of dimension D, and spheres down to far below the scene's size, m_i ∝ r_i^{-D} and n_i ∝ r_i², so
+/// T_R ∝ Σ_i Q^{-(D-2)i-2}. The sum's largest terms are the innermost ones, whose size is fixed by d for any Q:
+/// T_R ∝ 1/(Q² (1 - Q^{D-2})), or 1/(Q² ln(1/Q)) for D = 2.
 ///
-/// It tells what the published "0.6 to 0.7" is, and why; it knows nothing of the steps of k, of finite n_P and of the
-/// rest of T. `best_ratio` does.
+/// This explains the published "0.6 to 0.7". It neglects the steps of k, finite n_P and the other terms of T;
+/// `best_ratio` includes them.
 namespace detp::model {
 
 /// Q* = (2/D)^{1/(D-2)}: 2/3 for volumes, e^{-1/2} = 0.607 for surfaces.
 ///
 /// Source     our derivation (dT_R/dQ = 0).
-/// Accuracy   1.1e-16 against 100 digits, over 10⁶ D from 1 to 3, most of them next to 1, 2 or 3 (down to 1e-17);
-///            monotone (tests/model/hard_cases). Rests on long double's 64 bits, as the next one's.
+/// Accuracy   1.1e-16 compared with 100 digits, over 10⁶ D from 1 to 3, most of them close to 1, 2 or 3 (down to
+///            1e-17); monotone (tests/model/hard_cases). Needs long double's 64-bit mantissa, as does the next
+///            function.
 /// Throws     std::invalid_argument unless 1 <= D <= 3.
 [[nodiscard]] double optimal_ratio(double dimension);
 
-/// The same for volumes where copying a kept ray into a list costs c: minimises (1 + γQ²)/(Q²(1 - Q)), the root of
+/// Q* for volumes if copying a kept ray into a list costs c: minimises (1 + γQ²)/(Q²(1 - Q)). The result is the root of
 ///
 ///     γ Q³ + 3 Q - 2 = 0
 ///
 ///   where  γ   c/t, the cost of a copy over that of a ray-sphere test, >= 0
 ///
 /// Limits     γ = 0: 2/3.  γ → ∞: (2/γ)^{1/3}.
-/// Source     our derivation.   Accuracy  1.1e-16 over 10⁶ γ log-uniform over all doubles; monotone.
+/// Source     our derivation.
+/// Accuracy   1.1e-16 over 10⁶ γ log-uniform over all doubles; monotone.
 /// Throws     std::invalid_argument unless γ >= 0 and finite.
 [[nodiscard]] double optimal_ratio_with_copies(double copy_over_test);
 

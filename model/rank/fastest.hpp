@@ -7,14 +7,14 @@
 
 namespace detp::model {
 
-/// Keeps the fastest of the parameters it is shown that stay within the limits.
+/// Keeps the fastest of the parameters that it is called with, if they are within the limits.
 template <class P>
 class Fastest {
  public:
   Fastest(const UnitCosts& costs, Technique technique, const SearchLimits& limits)
       : costs_(costs), technique_(technique), limits_(limits) {}
 
-  /// The time that the counts take; infinite where there are too many references.
+  /// The time for these counts; infinite if there are too many references.
   double consider(const P& parameters, const Counts<double>& counts) {
     if (counts.references > limits_.most_references) return std::numeric_limits<double>::infinity();
     const double time = price(counts, costs_, technique_).total();
@@ -28,7 +28,7 @@ class Fastest {
 
   [[nodiscard]] std::optional<P> best() const { return found_ ? std::optional<P>(best_) : std::nullopt; }
 
-  /// The time of the best; infinite where there is none.
+  /// The time of the fastest; infinite if there is none.
   [[nodiscard]] double least() const { return least_; }
 
  private:

@@ -23,7 +23,7 @@ int compare(double ratio, std::int64_t n, double disc, double outer) {
   return radius.compare(Exact{disc});
 }
 
-/// ln(large/small), to the last digits also where the two are next to equal.
+/// ln(large/small), accurate to the last digits also if the two are almost equal.
 long double log_of_ratio(long double large, long double small) {
   return small > large / 2 ? -std::log1p((small - large) / large) : std::log(large / small);
 }
@@ -41,7 +41,7 @@ std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereR
   const long double nearest = std::round(exact);
   if (std::abs(exact - nearest) > 1e-12L * (1 + exact))
     return static_cast<std::int64_t>(form == Form::published ? std::ceil(exact) : std::floor(exact));
-  // The logarithms cannot tell on which side of a whole number this is: the powers can.
+  // The logarithms are not accurate enough to decide on which side of a whole number this is. The powers are.
   auto k = static_cast<std::int64_t>(nearest);
   while (k > 0 && compare(ratio.value, k, disc.value, outer.value) < 0) --k;
   while (compare(ratio.value, k + 1, disc.value, outer.value) >= 0) ++k;

@@ -2,8 +2,8 @@
 
 #include <string_view>
 
-/// Checks at public doors: always on, one wording for all. Each throws std::invalid_argument with the problem and the
-/// offending value: "disc radius must be > 0 and finite (got -1)".
+/// Checks of the arguments of public functions, always on, with one wording for all. Each throws std::invalid_argument,
+/// whose message names the problem and the value: "disc radius must be > 0 and finite (got -1)".
 namespace detp {
 
 /// Refuses NaN, infinities, zero and negative numbers.
@@ -15,10 +15,10 @@ void require_non_negative(std::string_view what, double value);
 /// Refuses NaN and infinities.
 void require_finite(std::string_view what, double value);
 
-/// Refuses all but 0 < value < 1.
+/// Accepts only 0 < value < 1.
 void require_ratio(std::string_view what, double value);
 
-/// Refuses all but whole numbers from least to most, given as a double because counts reach 1e18.
+/// Accepts only whole numbers from least to most. The value is a double because counts reach 1e18.
 void require_count(std::string_view what, double value, double least, double most);
 
 }  // namespace detp

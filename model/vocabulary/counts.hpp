@@ -4,23 +4,23 @@
 #include <cstddef>
 #include <string_view>
 
-/// What a technique does, counted: the same record for a prediction (double, an expectation) and for an observation
-/// (std::uint64_t), so that comparing the two is a subtraction term by term. A term means the same for every technique
-/// and engine.
+/// The counted operations of a technique. A prediction (double, an expectation) and an observation (std::uint64_t) use
+/// the same record, so comparing them is a subtraction term by term. A term means the same for every technique and
+/// engine.
 namespace detp {
 
 template <class T>
 struct Counts {
-  T cull_tests{};  ///< tests of a ray in a list against a sphere or box
-  T culls{};       ///< lists made: one for each sphere or box and each block of rays that it is made for
-  T listed{};      ///< rays put into these lists
-  T visits{};      ///< discs tested with a list that holds a ray: one for each disc and each such list
-  T disc_tests{};  ///< tests of a ray against a disc
-  T doubtful{};    ///< of these: decided again in double, because single precision was not certain
-  T steps{};       ///< cells of a grid visited by a ray
-  T nodes{};       ///< nodes of a tree, inner ones and leaves, visited by one ray or by one disc
+  T cull_tests{};  ///< ray-sphere and ray-box tests of rays in lists
+  T culls{};       ///< lists made: one for each sphere or box, and for each block of rays
+  T listed{};      ///< rays added to these lists
+  T visits{};      ///< disc visits to lists that hold a ray: one for each disc and each list
+  T disc_tests{};  ///< ray-disc tests
+  T doubtful{};    ///< of these, tests repeated in double because single precision was not certain
+  T steps{};       ///< grid cells visited by rays
+  T nodes{};       ///< tree nodes, inner nodes and leaves, visited by single rays or single discs
   T references{};  ///< disc references stored in an index
-  T placements{};  ///< discs put into a cell or node while an index is built, at all its levels
+  T placements{};  ///< insertions of a disc into a cell or node while an index is built, at all its levels
   T sorted{};      ///< discs sorted along a curve
   T hits{};        ///< (ray, disc) pairs found
 
@@ -66,13 +66,13 @@ constexpr void for_each_term(Counts<T>& counts, Visit&& visit) {
   for (const auto& [name, term] : count_terms<T>) visit(name, counts.*term);
 }
 
-/// Ray-sphere, ray-box and ray-disc tests together: the one number that compares techniques without a clock.
+/// Ray-sphere, ray-box and ray-disc tests together: a single number that compares techniques without measuring times.
 template <class T>
 [[nodiscard]] constexpr T tests(const Counts<T>& counts) {
   return counts.cull_tests + counts.disc_tests;
 }
 
-/// An observation as a prediction's record, for arithmetic.
+/// An observation converted to a prediction's record, for arithmetic.
 template <class T>
 [[nodiscard]] constexpr Counts<double> as_expected(const Counts<T>& counts) {
   Counts<double> expected;

@@ -1,18 +1,18 @@
 #pragma once
 
-/// Ways to build and to search an index of discs, beside its size.
+/// Variants of building and searching an index of discs, apart from its size.
 namespace detp {
 
 /// Which cells hold a reference to a disc.
 enum class Insertion {
-  exact,        ///< those that the disc overlaps
-  bounding_box  ///< those that its axis-aligned bounding box overlaps
+  exact,        ///< cells that the disc overlaps
+  bounding_box  ///< cells that its axis-aligned bounding box overlaps
 };
 
-/// By default what the techniques octree and grid do.
+/// The defaults are those of the techniques octree and grid.
 struct IndexVariant {
   Insertion insertion = Insertion::exact;
-  bool mailboxing = false;  ///< a disc met in several cells is tested in the first alone
+  bool mailboxing = false;  ///< a ray tests a disc only in the first of the cells in which it meets the disc
 
   bool operator==(const IndexVariant&) const = default;
 };

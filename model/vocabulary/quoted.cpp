@@ -6,14 +6,14 @@
 namespace detp {
 namespace {
 
-/// One character, or one byte that belongs to none.
+/// One character, or one byte that is not part of a valid character.
 struct Piece {
   std::size_t bytes = 1;
   char32_t point = 0;
   bool valid = false;
 };
 
-/// The character at the front of the text, which is not empty.
+/// The character at the front of the text. The text must not be empty.
 Piece first_piece(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned char lead = byte(0);
@@ -48,7 +48,7 @@ std::string escape_of(std::string_view bytes) {
   return text;
 }
 
-/// The next character of the text as a message shows it, cut off the front.
+/// Removes the next character from the front of the text, and returns it as a message shows it.
 std::string cut_shown(std::string_view& text) {
   const Piece piece = first_piece(text);
   const std::string_view bytes = text.substr(0, piece.bytes);
@@ -56,7 +56,7 @@ std::string cut_shown(std::string_view& text) {
   return piece.valid && is_safe(piece.point) ? std::string(bytes) : escape_of(bytes);
 }
 
-/// Characters that one piece takes on the screen: an escape has as many as bytes, all else is one.
+/// Width of one piece on the screen: an escape has one column per byte, everything else one column.
 std::size_t width(const std::string& shown) { return shown.front() == '\\' ? shown.size() : 1; }
 
 }  // namespace

@@ -3,24 +3,24 @@
 #include <string>
 #include <string_view>
 
-/// Text that came from outside (a file, an option, a file's name), made safe to stand in a message.
+/// Makes text from outside (a file, an option, a file's name) safe to show in a message.
 namespace detp {
 
-/// Most characters of one quoted piece of input.
+/// Maximum number of characters of one quoted piece of input.
 inline constexpr std::size_t longest_quote = 60;
 
 /// The text with everything escaped that could change how a terminal shows the rest: control characters (C0, DEL, C1),
-/// bytes that are no UTF-8, line separators and marks of writing direction, each byte as \x1b. Nothing else changes, so
-/// that escaping twice is the same as once.
+/// bytes that are not valid UTF-8, line separators and marks of writing direction, each byte as \x1b. Nothing else
+/// changes, so escaping twice equals escaping once.
 [[nodiscard]] std::string escaped(std::string_view text);
 
-/// Escaped and cut after `most` characters; "..." shows that it was cut.
+/// Escaped and truncated after `most` characters; "..." shows the truncation.
 [[nodiscard]] std::string shortened(std::string_view text, std::size_t most = longest_quote);
 
-/// Likewise, in double quotes.
+/// The text escaped, truncated after `longest_quote` characters, and in double quotes.
 [[nodiscard]] std::string quoted(std::string_view text);
 
-/// The name of a file: escaped, whole up to 200 characters, else its first and last characters.
+/// The name of a file: escaped; in full up to 200 characters, else its first and last characters.
 [[nodiscard]] std::string shown_path(std::string_view path);
 
 }  // namespace detp

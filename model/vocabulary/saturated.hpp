@@ -5,10 +5,12 @@
 
 namespace detp {
 
-/// A result as a double: rounded to nearest; the largest double of its sign where it lies beyond the range of doubles.
+/// Converts a result to double: rounds to nearest, and replaces values beyond the range of doubles by the largest
+/// double of the same sign.
 ///
-/// Formulas whose factors may leave that range, though the result does not, are evaluated in long double and end here.
-/// Accuracy then depends on long double having x87's 64 bits and range; what it brings is told at each formula.
+/// Some formulas have factors beyond the range of doubles although their result is within it. They are evaluated in
+/// long double and then converted by this function. Needs x87 long double (64-bit mantissa). Each formula documents the
+/// accuracy it gains.
 [[nodiscard]] inline double saturated(long double value) {
   constexpr long double largest = std::numeric_limits<double>::max();
   return static_cast<double>(std::clamp(value, -largest, largest));

@@ -7,7 +7,7 @@
 namespace detp {
 
 void check(const UnitCosts& costs) {
-  // Counts go up to some 1e55 (n_R n_P k): no time overflows.
+  // Counts reach about 1e55 (n_R n_P k), so no time overflows.
   constexpr double dearest = 1e200;
   for (const UnitCostTerm& term : unit_cost_terms)
     if (const double cost = costs.*term.cost; !(cost >= 0 && cost <= dearest))

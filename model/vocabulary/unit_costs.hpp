@@ -6,35 +6,35 @@
 #include "counts.hpp"
 #include "technique.hpp"
 
-/// Seconds from counts: what each counted operation takes on one machine.
+/// Unit costs, which convert counts to seconds on one machine.
 namespace detp {
 
-/// Time in seconds of each counted operation, on one machine. All from 0 to 1e200.
+/// Time in seconds of each counted operation on one machine; all from 0 to 1e200.
 ///
-/// The paper has t, u and (implicitly) v; the others are what its formulas leave out (science erratum: sort, copies).
-/// Each belongs to a term and an engine: those of lists to the engine that tests whole lists, the others to the one
+/// The paper has t, u and (implicitly) v; the others are operations that its formulas omit (sorting, copying). Each
+/// cost belongs to a term and an engine: those of lists to the engine that tests whole lists, the others to the one
 /// that tests one ray and one disc at a time.
 struct UnitCosts {
-  double cull_test = 1;   ///< t: one ray of a list against a sphere or a box
-  double disc_test = 1;   ///< u: one ray of a list against a disc
-  double index_test = 1;  ///< w: one ray against a disc of the cell it is in, where rays are searched one by one
-  double step = 1;        ///< v: one step to a cell of a grid
-  double node = 1;        ///< n: one visit to a node of a tree
-  double listed = 0;      ///< c: putting one ray into a list, beside its test
-  double placement = 0;   ///< b: placing one disc in one cell or node while an index is built
-  double leaf = 0;        ///< p: placing one disc in a leaf of a tree that lists are culled down
-  double sort = 0;        ///< s: ordering one disc along the curve
-  double cull = 0;        ///< r: fixed cost of one list, beside its tests and rays
-  double visit = 0;       ///< l: fixed cost of one disc's visit to a list, beside its tests
+  double cull_test = 1;   ///< t: testing one ray of a list against a sphere or a box
+  double disc_test = 1;   ///< u: testing one ray of a list against a disc
+  double index_test = 1;  ///< w: testing one ray against a disc of a cell, if rays are searched one by one
+  double step = 1;        ///< v: one step to a grid cell
+  double node = 1;        ///< n: one visit to a tree node
+  double listed = 0;      ///< c: adding one ray to a list, not including its test
+  double placement = 0;   ///< b: inserting one disc into one cell or node while an index is built
+  double leaf = 0;        ///< p: inserting one disc into a leaf of a tree of spheres or boxes
+  double sort = 0;        ///< s: sorting one disc along the curve
+  double cull = 0;        ///< r: fixed cost of one list, not including its tests and rays
+  double visit = 0;       ///< l: fixed cost of one disc's visit to a list, not including its tests
 
   bool operator==(const UnitCosts&) const = default;
 };
 
-/// A unit cost as results and the command line name it.
+/// A unit cost and its name in results and on the command line.
 struct UnitCostTerm {
   std::string_view symbol;  ///< "t"
   double UnitCosts::*cost;
-  std::string_view meaning;  ///< of what the time is
+  std::string_view meaning;  ///< operation whose time it is
 };
 
 inline constexpr std::array unit_cost_terms{
@@ -51,22 +51,22 @@ inline constexpr std::array unit_cost_terms{
     UnitCostTerm{"l", &UnitCosts::visit, "a disc's visit to a list, beside its tests"},
 };
 
-/// Throws std::invalid_argument, naming the time, where one is negative, above 1e200 or no number.
+/// Throws std::invalid_argument, which names the cost, if one is negative, above 1e200 or NaN.
 void check(const UnitCosts& costs);
 
-/// The time of a technique by part, in the unit of the UnitCosts it was made with.
+/// The time of a technique by part, in the unit of the UnitCosts from which it was computed.
 struct CostBreakdown {
   double order = 0;      ///< sorting the samples
   double build = 0;      ///< building an index
-  double rebuild = 0;    ///< T_R: tests of all lists, and their fixed cost
-  double copy = 0;       ///< rays put into lists
+  double rebuild = 0;    ///< T_R: tests of all lists, and the lists' fixed cost
+  double copy = 0;       ///< adding rays to lists
   double traverse = 0;   ///< steps through an index
-  double intersect = 0;  ///< T_I: ray-disc tests, and discs' visits to lists
+  double intersect = 0;  ///< T_I: ray-disc tests, and the discs' visits to lists
 
   [[nodiscard]] constexpr double total() const { return order + build + rebuild + copy + traverse + intersect; }
 };
 
-/// Counts × unit costs, part by part, of a technique that tests lists of rays.
+/// Counts × unit costs, part by part, for a technique that tests lists of rays.
 [[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs) {
   return {.order = counts.sorted * costs.sort,
           .build = counts.placements * costs.leaf,
@@ -76,7 +76,8 @@ struct CostBreakdown {
           .intersect = counts.disc_tests * costs.disc_test + counts.visits * costs.visit};
 }
 
-/// The same of any technique: where rays are searched one by one, disc tests and placements cost what they do there.
+/// Counts × unit costs, part by part, for any technique. If the technique searches rays one by one, uses its own costs
+/// of disc tests and insertions.
 [[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, UnitCosts costs, Technique technique) {
   if (record_of(technique).ray_by_ray) {
     costs.disc_test = costs.index_test;

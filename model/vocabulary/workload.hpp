@@ -2,34 +2,35 @@
 
 #include <array>
 
-/// What is asked of a technique, in numbers.
+/// The size of the problem that a technique must solve, in numbers.
 namespace detp {
 
 /// n_R rays against n_P discs of radius d inside the sphere S₀.
 ///
-/// The models take the rays as lines of the measure μ_ℓ through S₀, and the samples as uniform over a body of
-/// `dimension` (3: a volume, 2: surfaces) that fills the box.
+/// The models assume that the rays are lines of the measure μ_ℓ through S₀, and that the samples are uniform over a
+/// body of `dimension` (3: a volume, 2: surfaces) that fills the box.
 struct Workload {
   double rays = 0;                        ///< n_R, a whole number 1 … 1e18
   double samples = 0;                     ///< n_P, a whole number 1 … 1e18
   double disc_radius = 0;                 ///< d, length > 0
-  double sphere_radius = 0;               ///< r₀, length > 0; S₀ holds every disc whole
+  double sphere_radius = 0;               ///< r₀, length > 0; S₀ contains every disc completely
   std::array<double, 3> box = {0, 0, 0};  ///< sides of the samples' bounding box, lengths >= 0, not all 0
   double dimension = 3;                   ///< D of the sample set, 1 … 3
-  double sample_extent = 0;    ///< volume (D = 3) or area (D = 2) that the samples fill; 0: the box, or its faces
-  double sample_distance = 0;  ///< mean distance between neighbouring samples, length; 0: from the extent
+  /// volume (D = 3) or area (D = 2) that the samples fill; 0: that of the box, or of its faces
+  double sample_extent = 0;
+  double sample_distance = 0;  ///< mean distance between neighbouring samples, length; 0: computed from the extent
   double path_length = 0;      ///< mean length of the rays inside the box; 0: unbounded lines
   bool front_facing = false;   ///< only rays that arrive at a disc's front count as hits
 };
 
-/// Throws std::invalid_argument where a number is out of its range, or the scene's scale beyond 1e±90.
+/// Throws std::invalid_argument if a number is out of its range, or the scene's scale is beyond 1e±90.
 void check(const Workload& workload);
 
-/// Volume (D = 3), area (D = 2) or, between, the geometric interpolation of both, that the samples fill. Accuracy:
+/// Volume (D = 3) or area (D = 2) that the samples fill; for D between 2 and 3 their geometric interpolation. Accuracy:
 /// 4.4e-16; of sample_distance 3.4e-16, of enclosing_radius 2.8e-16, over 10⁶ workloads (tests/model/hard_cases).
 [[nodiscard]] double sample_extent(const Workload& workload);
 
-/// Mean distance between neighbouring samples: given, or (extent / n_P)^(1/D).
+/// Mean distance between neighbouring samples: the workload's value if it is set, else (extent / n_P)^(1/D).
 [[nodiscard]] double sample_distance(const Workload& workload);
 
 /// The longest side of the samples' box: s.
@@ -38,7 +39,7 @@ void check(const Workload& workload);
 /// r₀ of the sphere around a cube of side s whose samples carry discs of radius d: s√3/2 + d.
 [[nodiscard]] double enclosing_radius(double side, double disc_radius);
 
-/// n_P samples in a cube of side s, or on its faces where dimension is 2.
+/// n_P samples in a cube of side s, or on its faces if dimension is 2.
 [[nodiscard]] Workload cube_workload(double rays, double samples, double disc_radius, double side,
                                      double dimension = 3);
 
