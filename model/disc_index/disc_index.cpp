@@ -20,7 +20,7 @@ Counts<double> leaf_counts(const Workload& workload, const Cells& cells, const I
 /// Grid cells that a ray steps through: the cells' parts inside the discs' box, by their mean surface and volume.
 double steps_of_ray(const Workload& workload, const Cells& cells) {
   std::array<double, 3> length = workload.box;
-  for (double& side : length) side += 2 * std::min(workload.disc_radius, 1e99);  // their volume is no overflow
+  for (double& side : length) side += 2 * std::min(workload.disc_radius, 1e99);  // so that the volume does not overflow
   double faces = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
     faces += 2 * cells.along[axis] * length[(axis + 1) % 3] * length[(axis + 2) % 3];
@@ -38,7 +38,7 @@ std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, con
     throw std::invalid_argument("an octree with neighbour links has no closed form; the other traversals have");
   std::vector<Counts<double>> by_depth;
   double above = 0;       // nodes visited by a ray above this level
-  double left_out = 0;    // visits of its descents to octants left out, down to this level
+  double left_out = 0;    // visits on the way to omitted octants, down to this level
   double placements = 0;  // down to this level
   double parents = 0;     // occupied nodes one level up
   for (int level = 0; level <= deepest.depth; ++level) {

@@ -6,9 +6,9 @@
 
 /// Index of discs, corrected: cubic cells, each with a reference to every disc that overlaps it.
 ///
-/// The cells fill the samples' box grown by d on all sides, so that no disc pokes out. A ray enters cells from outside,
-/// tests all discs referenced there, and may meet a disc in several cells. The expected number of bodies that random
-/// lines meet is a sum of surface areas, so for any structure
+/// The cells fill the samples' box grown by d on all sides, so that it contains every disc. A ray enters cells from
+/// outside, tests all discs referenced there, and may meet a disc in several cells. The expected number of bodies that
+/// random lines meet is a sum of surface areas, so for any structure
 ///
 ///     tests = n_R Σ_cells P(cell) references(cell) = n_R P(cell) n_P E
 ///     steps = n_R Σ_cells P(cell)        (a tree: nodes visited, summed over all its nodes)
@@ -17,8 +17,8 @@
 ///                  side, Σ_cells P = 2^k and P = 1/4^k
 ///          E       expected cells that a disc overlaps
 ///
-/// Against the paper's eq (22): it multiplies the tests by the depth, and puts each disc in one cell (E = 1). There is
-/// no factor log n_P even in a plain octree: the nodes above the leaves add as many steps again as there are leaves.
+/// The paper's eq (22) differs: it multiplies the tests by the depth, and puts each disc in one cell (E = 1). Even a
+/// plain octree has no factor log n_P: the nodes above the leaves only double the number of steps.
 namespace detp::model {
 
 /// Expected counts of an octree whose leaves all lie at one depth k, empty nodes left out, for every depth from 0 to
@@ -47,7 +47,7 @@ namespace detp::model {
 [[nodiscard]] Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters,
                                            const IndexVariant& variant = {});
 
-/// Expected counts of a uniform grid; empty cells are stepped through too.
+/// Expected counts of a uniform grid. Rays step through empty cells too.
 ///
 ///     steps   n_R 2 (m_1 L_2 L_3 + m_2 L_3 L_1 + m_3 L_1 L_2)/(4π r₀²)
 ///

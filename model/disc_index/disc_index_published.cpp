@@ -6,7 +6,7 @@
 namespace detp::model::published {
 namespace {
 
-/// What octree_depth gives for the largest double as side and the smallest as d.
+/// The result of octree_depth for the largest double as side and the smallest as d.
 constexpr int deepest = 2096;
 
 void check_depth(int depth) { require_count("depth", depth, 0, deepest); }
@@ -24,7 +24,7 @@ long double time(const Workload& workload, int depth, double disc_test) {
 int octree_depth(DiscRadius disc, double side) {
   require_positive("disc radius", disc.value);
   require_positive("scene side", side);
-  int depth = std::ilogb(side) - std::ilogb(disc.value) - 1;  // right, or one too many
+  int depth = std::ilogb(side) - std::ilogb(disc.value) - 1;  // right, or one too large
   if (std::ldexp(disc.value, depth + 1) > side) --depth;
   return std::max(depth, 0);
 }

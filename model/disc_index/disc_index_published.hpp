@@ -2,25 +2,25 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// Index of discs (octree) as the paper has it: cells as wide as a disc, each disc in one cell.
+/// Index of discs (octree) as in the paper: cells as wide as a disc, each disc in one cell.
 ///
-/// The paper works in a scene of side 2; here its side s is explicit. For what really happens see disc_index.hpp.
+/// The paper uses a scene of side 2; here its side s is explicit. disc_index.hpp has the corrected formulas.
 ///
-/// Valid      any positive doubles d and s; depths 0 … 2096, the deepest that two doubles make.
-/// Limits     results beyond the largest double saturate there; below the smallest normal one they are right to one
-///            space between doubles.
-/// Accuracy   1.1e-16 against 100 digits, over 10⁶ inputs log-uniform over that domain (tests/model/hard_cases).
+/// Valid      any positive doubles d and s; depths 0 … 2096, the largest depth for any two doubles.
+/// Limits     results above the largest double saturate; below the smallest normal double the error is at most one
+///            spacing of doubles.
+/// Accuracy   1.1e-16 compared with 100 digits, over 10⁶ inputs log-uniform over that domain (tests/model/hard_cases).
 /// Throws     std::invalid_argument for numbers out of range.
 namespace detp::model::published {
 
-/// k = ⌊log₂(s/(2d))⌋, the depth at which a cell is just no narrower than a disc; at least 0 (eqs 20, 21).
-/// Exact for the given doubles: right for all of 3.6·10⁶ inputs, most of them within an ulp of a power of two.
+/// k = ⌊log₂(s/(2d))⌋, the largest depth at which a cell is at least as wide as a disc; at least 0 (eqs 20, 21). Exact
+/// for the doubles passed: right for all of 3.6·10⁶ inputs, most of them within an ulp of a power of two.
 [[nodiscard]] int octree_depth(DiscRadius disc, double side);
 
-/// 2^k: cells crossed by a line (section 4.2). This is exactly the mean, over lines that hit the cube.
+/// 2^k: cells crossed by a line (section 4.2). This is exactly the mean over lines that hit the cube.
 [[nodiscard]] double cells_per_line(int depth);
 
-/// n_P/8^k: discs in a cell, as if each disc lay in one only.
+/// n_P/8^k: discs in a cell, if each disc lay in only one.
 [[nodiscard]] double discs_per_cell(double samples, int depth);
 
 /// n_P/4^k: ray-disc tests of a line.

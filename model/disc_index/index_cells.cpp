@@ -9,7 +9,7 @@
 namespace detp::model {
 namespace {
 
-/// The three axes; along the first the centres may be fixed.
+/// The three axes. Along the first the centres may have a fixed coordinate.
 using Axes = std::array<Crossings, 3>;
 
 double planes_across(const Axes& n) { return n[0].one + n[1].one + n[2].one; }
@@ -61,7 +61,8 @@ void put_overlapped(Cells& cells, const Workload& workload) {
       add({one(axis, centres), uniform[(axis + 1) % 3], uniform[(axis + 2) % 3]}, faces * shares[axis] / 2);
 }
 
-/// The chance that a disc overlaps a cell, by the terms of E: centred in its slabs, or reaching in.
+/// The probability that a disc overlaps a cell, from the terms of E: along each axis the centre lies in the cell's
+/// slab, or the disc reaches into it.
 double overlap_chance(const std::array<const Slabs*, 3>& slabs, std::size_t fixed, Centres centres, double two) {
   const auto at = static_cast<std::size_t>(centres);
   const Slabs& j = *slabs[(fixed + 1) % 3];
@@ -75,7 +76,7 @@ double overlap_chance(const std::array<const Slabs*, 3>& slabs, std::size_t fixe
          reached.two * in_one + reached.three * in_none;
 }
 
-/// The same, over where the samples are.
+/// The probability that a disc overlaps a cell, averaged over the places of the samples.
 class OverlapChance {
  public:
   OverlapChance(const Workload& workload, Insertion insertion)
@@ -100,7 +101,7 @@ class OverlapChance {
 Cells index_cells(const Workload& workload, double parts, Insertion insertion) {
   check(workload);
   require_positive("cells along the longest side", parts);
-  const double d = std::min(workload.disc_radius, 1e99);  // larger than all cells, and its volume is no overflow
+  const double d = std::min(workload.disc_radius, 1e99);  // larger than all cells, but its volume does not overflow
   Cells cells{.side = (scene_side(workload) + 2 * d) / parts, .insertion = insertion};
   for (std::size_t axis = 0; axis < 3; ++axis)
     cells.along[axis] = std::max(1.0, std::ceil((workload.box[axis] + 2 * d) / cells.side * (1 - 1e-12)));
@@ -134,7 +135,7 @@ double occupied_cells(const Workload& workload, const Cells& cells) {
       for (std::size_t k = 0; k < axes[2].size; ++k) {
         const std::array<const Slabs*, 3> slabs{&axes[0].runs[i], &axes[1].runs[j], &axes[2].runs[k]};
         const double q = chance(slabs);
-        // Beyond 40 discs a cell, empty ones are fewer than 1e-17.
+        // With more than 40 expected discs in a cell, the share of empty cells is below 1e-17.
         const double held = workload.samples * q < 40 ? -std::expm1(workload.samples * std::log1p(-q)) : 1;
         occupied += slabs[0]->count * slabs[1]->count * slabs[2]->count * held;
       }

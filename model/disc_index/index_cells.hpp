@@ -6,19 +6,22 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "index_overlap.hpp"
 
-/// The cells of an index of discs: how many, how often overlapped, met by rays, and left empty.
+/// The cells of an index of discs: how many there are, how many a disc overlaps, how many rays meet them, and how many
+/// are occupied.
 namespace detp::model {
 
-/// The cells of an index, and what follows from their side.
+/// The cells of an index, and the numbers that follow from their side.
 struct Cells {
   double side = 0;                       ///< a, length
   std::array<double, 3> along{1, 1, 1};  ///< cells along each axis
   Insertion insertion = Insertion::exact;
-  double overlapped = 1;  ///< E, by one disc, in a box that ends: its outermost planes are never crossed
-  double seen = 6;        ///< S, of the cells that one disc overlaps: lines that meet one of them or more, over those
-                          ///< that meet a square of side a (6 for one cell)
-  double crossing = 0;    ///< P(cell), of all rays of the workload
-  double meeting = 0;     ///< P(a cell or more of those that one disc overlaps), of all rays
+  /// E: cells that one disc overlaps, in a box of finite size, whose outermost planes are never crossed
+  double overlapped = 1;
+  /// S: lines that meet at least one of the cells that one disc overlaps, divided by those that meet a square of side a
+  /// (6 for one cell)
+  double seen = 6;
+  double crossing = 0;  ///< P(cell), for all rays of the workload
+  double meeting = 0;   ///< P(at least one of the cells that one disc overlaps), for all rays
 
   [[nodiscard]] double count() const { return along[0] * along[1] * along[2]; }
 };

@@ -5,11 +5,11 @@
 
 namespace detp::model {
 
-/// Bytes of the parts of an index; by default as the simulation's indices lay them out.
+/// Bytes of the parts of an index; the defaults are those of the simulation's indices.
 struct IndexLayout {
   double node = 12;      ///< of an octree
-  double cell = 8;       ///< of a grid: where its references start
-  double reference = 4;  ///< to a disc
+  double cell = 8;       ///< of a grid: start of its references
+  double reference = 4;  ///< of a disc
 };
 
 /// Expected bytes of memory of an octree between building and searching:

@@ -15,11 +15,11 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr double most_planes = 64;   // across a radius: more cross as in endless cells
-constexpr double most_cells = 1e15;  // of an axis: more cannot be told apart
+constexpr double most_planes = 64;   // across a radius; with more, treated as endless cells
+constexpr double most_cells = 1e15;  // along an axis; larger numbers are not distinguished
 constexpr double two_pi_squared = 8 / (pi * pi);
 
-/// ∫ √(1 - u²) du from u = 0, as if √ were 0 beyond ±1.
+/// ∫ √(1 - u²) du from u = 0; the integrand is 0 beyond ±1.
 double half_chords(double u) {
   const double v = std::clamp(u, -1.0, 1.0);
   return 0.5 * (v * std::sqrt((1 - v) * (1 + v)) + std::asin(v));
@@ -32,7 +32,7 @@ double mean_reach_around(double z) {
   return 2 / pi * std::sqrt(most) * boost::math::ellint_2(s2 / 2 / std::sqrt(most));
 }
 
-/// Of a plane that far from the centre, in disc radii.
+/// Crossings of a plane at that distance from the centre, in disc radii.
 Crossings crossings_at(double distance, Insertion insertion) {
   const double u = std::abs(distance);
   if (u >= 1) return {};
@@ -47,7 +47,7 @@ Crossings crossings_at(double distance, Insertion insertion) {
           2 * two_pi_squared * Rule::integrate(mean_reach_around, 0, k)};
 }
 
-/// Share of the lines along an axis that pierce the disc at up to u d beyond its centre, less ½.
+/// Share of the lines along an axis that pierce the disc at most u d beyond its centre, minus ½.
 double pierced_up_to(double distance) {
   const double u = std::min(1.0, std::abs(distance));
   const double share =
@@ -59,12 +59,12 @@ bool spread(const IndexAxis& axis, Centres centres) {
   return centres == Centres::uniform && axis.room > 1e-6 * axis.disc;
 }
 
-/// The one place where the centres are, if they are not spread.
+/// The common coordinate of the centres, if they are not spread.
 double centre_of(const IndexAxis& axis, Centres centres) {
   return centres == Centres::high_face ? axis.disc + axis.room : axis.disc;
 }
 
-/// Of a plane that cuts the disc, its centre below the plane.
+/// Crossings of a plane that cuts the disc, for centres below the plane.
 Crossings crossings_from_below(const IndexAxis& axis, double plane, Centres centres, Insertion insertion) {
   if (!spread(axis, centres)) {
     const double at = centre_of(axis, centres);
@@ -88,7 +88,7 @@ Crossings crossings_from_above(const IndexAxis& axis, double plane, Centres cent
   return uniform_crossings(chords * axis.disc / axis.room, insertion);
 }
 
-/// The chance that the centre lies between two planes.
+/// The probability that the centre lies between two planes.
 double centred_between(const IndexAxis& axis, double low, double high, Centres centres) {
   if (!spread(axis, centres)) {
     const double at = centre_of(axis, centres);
@@ -103,7 +103,7 @@ double pierced_between(const IndexAxis& axis, double low, double high, Centres c
   return pierced_up_to((high - at) / axis.disc) - pierced_up_to((low - at) / axis.disc);
 }
 
-/// First and last plane that crosses as in endless cells, 2d and more from both ends of the room grown by d.
+/// First and last plane that is crossed as in endless cells: at least 2d from both ends of the room grown by d.
 std::array<double, 2> inner_planes(const IndexAxis& axis) {
   return {std::ceil(2 * axis.disc / axis.side), std::min(axis.cells - 1, std::floor(axis.room / axis.side))};
 }
@@ -126,7 +126,7 @@ class Collector {
  public:
   Collector(const IndexAxis& axis, Insertion insertion) : axis_(axis), insertion_(insertion) {}
 
-  /// Slabs from `first` up to `last` in at most 5 runs, the shorter ones towards the axis's end.
+  /// Adds the slabs from `first` up to `last` in at most 5 runs; the runs towards the axis's end are shorter.
   void add_end(double first, double last, bool low_end) {
     const double count = last - first;
     const double runs = std::min(count, 5.0);
@@ -141,7 +141,7 @@ class Collector {
     }
   }
 
-  /// `count` slabs that are all as the one at `first`.
+  /// Adds `count` slabs that are all equal to the one at `first`.
   void add_like(double first, double count) {
     Slabs& slabs = slabs_.runs[slabs_.size++];
     slabs.count = 1;
@@ -149,7 +149,7 @@ class Collector {
     slabs.count = count;
   }
 
-  /// All slabs alike.
+  /// Adds all slabs as equal ones, with mean values.
   void add_mean() {
     Slabs& slabs = slabs_.runs[slabs_.size++];
     slabs.count = axis_.cells;
@@ -204,7 +204,7 @@ Crossings crossings(const IndexAxis& axis, Centres centres, Insertion insertion)
   const auto [first, last] = inner_planes(axis);
   double plane = 1;
   for (; plane < std::min(first, axis.cells); ++plane) add(plane);
-  if (last >= plane) {  // where the centres are on a face, these cross nothing
+  if (last >= plane) {  // if the centres are on a face, these cross nothing
     if (centres == Centres::uniform)
       all += uniform_crossings((last - plane + 1) * 0.5 * pi * axis.disc / axis.room, insertion);
     plane = last + 1;

@@ -4,15 +4,16 @@
 
 #include "detp/model/vocabulary/index_variant.hpp"
 
-/// How many cubic cells an isotropic disc overlaps.
+/// The number of cubic cells that an isotropic disc overlaps.
 ///
-/// Where d is the disc's radius, a the cell's side, x = d/a, and the disc reaches h_i = d √(1 - n_i²) along axis i.
+/// Notation: d is the disc's radius, a the cell's side, x = d/a; the disc extends h_i = d √(1 - n_i²) from its centre
+/// along axis i (its reach).
 namespace detp::model {
 
-/// Mean product of the reaches along two axes, over d²: E[√((1 - n₁²)(1 - n₂²))], n uniform over the unit sphere.
+/// Mean product of the reaches along two axes, divided by d²: E[√((1 - n₁²)(1 - n₂²))], n uniform over the unit sphere.
 /// Along one axis it is π/4. Both constants by 160-point Gauss rules.
 inline constexpr double mean_reach_product_2 = 0.5932132264;
-/// The same of all three axes, over d³.
+/// Mean product of the reaches along all three axes, divided by d³.
 inline constexpr double mean_reach_product_3 = 0.4218115748;
 
 /// Cells that a uniformly placed disc overlaps, in endless cubic cells:
@@ -35,7 +36,7 @@ inline constexpr double mean_reach_product_3 = 0.4218115748;
 [[nodiscard]] double boxed_cells(double x);
 
 /// One axis of an index: cells from 0 in steps of a, and discs whose centres lie from d to d + room. The last cell may
-/// reach beyond 2d + room; no disc does.
+/// extend beyond 2d + room; no disc does.
 struct IndexAxis {
   double cells = 1;
   double side = 1;  ///< a, length
@@ -43,15 +44,15 @@ struct IndexAxis {
   double disc = 0;  ///< d, length
 };
 
-/// Where along an axis the centres are.
+/// Where the centres are along an axis.
 enum class Centres {
-  uniform,   ///< everywhere in the room
-  low_face,  ///< at its low end, as of samples on a face of their box
+  uniform,   ///< anywhere in the room
+  low_face,  ///< at its low end, like samples on a face of their box
   high_face
 };
 
-/// Expected planes of an axis that cross the disc, in three weights: cells are planes, and lines and corners where
-/// planes of different axes meet.
+/// Expected planes of an axis that cross the disc, with three weights: for the planes themselves, and for the lines and
+/// corners where planes of different axes meet.
 ///
 ///     E = 1 + Σ one_i + two_i (one_j + one_k) + c₂ one_j one_k + three_i one_j one_k
 ///
@@ -59,13 +60,13 @@ enum class Centres {
 ///          c₂       two/one of uniform centres
 ///          exact    one = Σ_p √(1 - u²), two = Σ_p (8/π²) [E(k) - u² K(k)], three = 0
 ///          boxes    one the same, two = Σ_p (8/π²) ∫₀^k E(√(1 - z²)) dz, three = Σ_p (16/π²) ∫₀^k B(z) dz
-///          u, k     |p - c|/d, of plane p and centre c, within 1; √(1 - u²)
-///          E, K     complete elliptic integrals;   B   mean of √((1 - n₂²)(1 - n₃²)) where n₁ = z
+///          u, k     u = |p - c|/d <= 1 for plane p and centre c; k = √(1 - u²)
+///          E, K     complete elliptic integrals;   B   mean of √((1 - n₂²)(1 - n₃²)) for n₁ = z
 ///
-/// Source     our derivation. h > u d with the chance √(1 - u²). A line of the grid at the distance ρ d from the centre
-///            pierces the disc with the chance (2/π) acos ρ: two is that, integrated along the plane.
-/// Limits     uniform centres in endless cells: one = (π/2) x; two/one = 2/π (exact), 0.9616 (boxes); three/one =
-/// 0.8706.
+/// Source     our derivation. h > u d with probability √(1 - u²). A line of the grid at the distance ρ d from the
+///            centre pierces the disc with probability (2/π) acos ρ; `two` is the integral of this along the plane.
+/// Limits     uniform centres in endless cells: one = (π/2) x; two/one = 2/π (exact), 0.9616 (boxes);
+///            three/one = 0.8706.
 struct Crossings {
   double one = 0;
   double two = 0;
@@ -77,24 +78,24 @@ struct Crossings {
   }
 };
 
-/// Crossings of `one` planes of an axis along which the centres are uniform.
+/// Crossings if the centres are uniform along the axis; `one` is the expected number of planes.
 [[nodiscard]] Crossings uniform_crossings(double one, Insertion insertion);
 
-/// Crossings of all planes of the axis; those at the index's own ends cross no disc. Exact up to x = 64 (but for two
-/// and three of uniform centres, taken as in endless cells); beyond, as in endless cells.
+/// Crossings of all planes of the axis. Those at the index's own ends cross no disc. Exact up to x = 64, except that
+/// `two` and `three` of uniform centres are those of endless cells; beyond, as in endless cells.
 [[nodiscard]] Crossings crossings(const IndexAxis& axis, Centres centres, Insertion insertion);
 
-/// A run of like slabs of an axis: what lies between neighbouring planes. Means over the run, by `Centres`.
+/// A run of equal slabs of an axis. A slab is the space between neighbouring planes. Means over the run, by `Centres`.
 struct Slabs {
   double count = 0;
-  std::array<double, 3> centred{};     ///< chance that the disc's centre lies in one
-  std::array<double, 3> pierced{};     ///< share of the lines along the axis that pierce the disc in one
-  std::array<Crossings, 3> reached{};  ///< that its centre lies outside, and it reaches in
+  std::array<double, 3> centred{};     ///< probability that the disc's centre lies in one of them
+  std::array<double, 3> pierced{};     ///< share of the lines along the axis that pierce the disc inside one of them
+  std::array<Crossings, 3> reached{};  ///< discs that have their centre outside and reach into one of them
 };
 
-/// The slabs of an axis, for the cells that hold a disc. (A line along the axis pierces a disc at up to u d beyond its
-/// centre with the chance ½ + (4/π) [¾ u √(1 - u²) + ¼ asin u - ½ u² acos u]; of uniform centres and of boxes the
-/// shares are taken as those of the centres.) In at most 5 runs from each side and one between.
+/// The slabs of an axis, for the cells that hold a disc, in at most 5 runs from each side and one between. (A line
+/// along the axis pierces a disc at most u d beyond its centre with probability ½ + (4/π) [¾ u √(1 - u²) + ¼ asin u - ½
+/// u² acos u]. For uniform centres and for boxes the shares of the centres are used instead.)
 struct SlabRuns {
   std::array<Slabs, 11> runs{};
   std::size_t size = 0;

@@ -32,14 +32,14 @@ class Crossing {
   [[nodiscard]] double operator()(const Sums& sums) const { return sums.count * share(sums); }
 
  private:
-  static constexpr double unit = 0x1p-40;  // so small that no probability is 1
+  static constexpr double unit = 0x1p-40;  // so small that every probability is below 1
   static constexpr double largest = 1e300;
 
   double of_surface_;
   double of_volume_;
 };
 
-/// What rays meet in the wide tree, per ray; `culls` and `visits` for all.
+/// Expected counts in the wide tree: per ray, except that `culls` and `visits` are for all rays.
 struct Met {
   double tests = 0;
   double listed = 0;
@@ -48,7 +48,7 @@ struct Met {
   double visits = 0;
 };
 
-/// The inner nodes of the binary tree, joined into wide ones.
+/// Joins the inner nodes of the binary tree to wide nodes.
 class Widening {
  public:
   Widening(const std::vector<LevelNodes>& nodes, const std::vector<CellKind>& kinds, int fan_out)
@@ -60,7 +60,7 @@ class Widening {
     }
   }
 
-  /// Calls visit(number of the kind, wide nodes, their children each) for kinds with wide nodes.
+  /// Calls visit(kind of cell, number of wide nodes, children of each) for each kind that has wide nodes.
   template <class Visit>
   void for_each(const Visit& visit) {
     if (nodes_.empty()) return;
@@ -70,13 +70,13 @@ class Widening {
   }
 
  private:
-  /// The halves of an inner node, as far as they are inner themselves.
+  /// The halves of an inner node that are inner nodes themselves.
   struct Link {
     std::array<std::size_t, 2> child{};
-    std::array<double, 2> inner{};  ///< probability
+    std::array<double, 2> inner{};  ///< their probability
   };
 
-  /// Number of inner nodes at most so deep below one, itself counted: means and variances.
+  /// Mean and variance of the number of inner nodes at most `depth` levels below an inner node, including itself.
   struct Moments {
     std::array<double, box_tree_most_children> mean{};
     std::array<double, box_tree_most_children> variance{};
@@ -110,7 +110,7 @@ class Widening {
     }
   }
 
-  /// E[min(opened, X)] of a normal X.
+  /// E[min(opened, X)] for a normal X.
   [[nodiscard]] double at_most_opened(double mean, double variance) const {
     const double most = opened_;
     if (variance < 1e-9) return std::min(most, mean);
@@ -123,7 +123,8 @@ class Widening {
     return std::min(mean - excess, std::min(mean, most));
   }
 
-  /// Opens inner nodes below a wide one, the largest first, which are the least deep. What is not opened is wide.
+  /// Joins inner nodes to the wide node above them, the largest first: these are the least deep. Inner nodes that are
+  /// not joined start wide nodes. Returns the number joined.
   double open(std::size_t number) {
     const Moments& moments = moments_[number];
     frontier_.assign(1, {number, 1.0});
@@ -157,7 +158,7 @@ class Widening {
 
   const std::vector<LevelNodes>& nodes_;
   const std::vector<CellKind>& kinds_;
-  int opened_;  ///< inner nodes of the binary tree that are one wide node, at most
+  int opened_;  ///< maximum number of inner nodes of the binary tree in one wide node
   std::vector<double> wide_;
   std::vector<Link> links_;
   std::vector<Moments> moments_;
@@ -209,7 +210,7 @@ Counts<double> box_tree_counts(const Workload& workload, const BoxTreeParameters
   }
   const int fan_out = std::min(parameters.fan_out, box_tree_most_children);
   const int leaf = std::min(parameters.leaf, box_tree_largest_leaf);
-  // Larger leaves: as many nodes as with proportionally fewer samples.
+  // Leaves larger than the largest tabulated: as many nodes as for proportionally fewer samples.
   const double in_one = static_cast<double>(parameters.leaf) / leaf;
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
   const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);

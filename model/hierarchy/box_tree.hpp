@@ -30,7 +30,8 @@
 /// For samples between D = 2 and D = 3 logarithms of the counts are interpolated.
 namespace detp::model {
 
-/// Beyond these, counts are those of this fan-out, and of a leaf so large with proportionally fewer samples.
+/// Larger fan-outs have the counts of this one. Larger leaves have the counts of a leaf of this size with
+/// proportionally fewer samples.
 inline constexpr int box_tree_most_children = 16;
 inline constexpr int box_tree_largest_leaf = 256;
 

@@ -10,12 +10,12 @@ namespace {
 
 using std::numbers::pi;
 
-/// E[y] over L + d, tabulated when first used.
+/// E[y]/(L + d), tabulated on first use.
 class MissingTable {
  public:
-  static constexpr int steps = 4;              // of d over L, an octave
+  static constexpr int steps = 4;              // of d/L, per octave
   static constexpr int rows = 28 * steps + 1;  // from 2⁻¹⁴ to 2¹⁴
-  static constexpr int exact = 64;             // m = 1, 2 … 64, then four an octave
+  static constexpr int exact = 64;             // m = 1, 2 … 64, then four values per octave
   static constexpr int columns = exact + 4 * 16;
 
   MissingTable() {
@@ -27,7 +27,7 @@ class MissingTable {
  private:
   static constexpr int points = 128;
 
-  /// ∫₀^v P(d - reach < w) dw, for d = 1.
+  /// ∫₀^v P(d - reach < w) dw for d = 1.
   static double below(double v) {
     if (v >= 1) return pi / 4 + v - 1;
     const double t = 1 - v;
@@ -36,11 +36,11 @@ class MissingTable {
 
   void tabulate(int row) {
     const double ratio = std::exp2(static_cast<double>(row) / steps - 14);
-    const double side = 1 / ratio;  // over d
+    const double side = 1 / ratio;  // divided by d
     auto& entries = table_[row];
     entries.fill(0);
     for (int point = 0; point < points; ++point) {
-      // y = (L + d) t⁴: most of the integral is next to 0.
+      // Substitutes y = (L + d) t⁴, because most of the integral is near 0.
       const double t = (point + 0.5) / points;
       const double y = (side + 1) * std::pow(t, 4);
       const double weight = 4 * std::pow(t, 3) / points;
@@ -115,7 +115,7 @@ double CellBoxes::side_of(const Axis& axis, double discs) const {
   const double whole = axis.length + 2 * radius_;
   if (axis.touched == 0) return whole - 2 * missing(axis.uniform, discs);
   if (axis.uniform_share <= 0) return axis.touched == 1 ? 2 * (radius_ - missing(flat_, discs)) : whole;
-  // Where no disc is on the face, or all are, the others make the box's end.
+  // If no disc is on the face, or all are, the others determine the box's end.
   const double none_on = std::exp(discs * axis.log_off_face);
   const double uniform = missing(axis.uniform, axis.uniform_share * discs);
   const double at_face = (1 - none_on) * missing(flat_, axis.on_face * discs) + none_on * uniform;

@@ -13,17 +13,18 @@ struct MeanBox {
   double volume = 0;
 };
 
-/// The mean box around m discs in a cell, all turned isotropically.
+/// The mean box around m isotropic discs in a cell.
 ///
-/// Along an axis where the samples are uniform in [0, L], the box ends before L + d by y, the least of m differences
+/// Along an axis where the samples are uniform in [0, L], the box ends at L + d - y. Here y is the smallest of m values
 /// (L - x) + (d - reach), with reach = d √(1 - u²), u uniform in [0, 1]:
 ///
 ///     E[y] = ∫₀^{L+d} (1 - G(y))^m dy      G(y) = (1/L) ∫ P(d - reach < v) dv, over v from y - L (or 0) to y
 ///
-///   where  P(d - reach < v)   √(1 - (1 - v/d)²) for v < d, beyond 1; L = 0, samples on a face of the cube: G itself
+///   where  P(d - reach < v)   √(1 - (1 - v/d)²) for v < d, 1 beyond
+///          L = 0              samples on a face of the cube: G(y) = P(d - reach < y)
 ///
-/// and the sides of the box are L + 2d less both ends' E[y]. Sides along different axes are taken as independent, and
-/// products of means for means of products: exact for d = 0, where E[side] = L (m - 1)/(m + 1).
+/// The sides of the box are L + 2d minus E[y] at both ends. Sides along different axes are taken as independent, and
+/// the mean of a product as the product of the means: exact for d = 0, where E[side] = L (m - 1)/(m + 1).
 ///
 /// Source     our derivation.
 /// Accuracy   E[y], interpolated, 0.2 %.
@@ -31,14 +32,14 @@ class CellBoxes {
  public:
   CellBoxes(const CellKind& cell, double disc_radius);
 
-  /// m >= 1, any number.
+  /// m >= 1, not necessarily a whole number.
   [[nodiscard]] MeanBox operator()(double discs) const;
 
  private:
-  /// E[y] of one L and d: between two rows of a table.
+  /// E[y] for one L and d: interpolated between two rows of a table.
   struct Row {
     const double* entries = nullptr;
-    double weight = 0;  ///< of the next row
+    double weight = 0;  ///< weight of the next row
     double scale = 0;   ///< L + d
     double single = 0;  ///< E[y] of one disc
   };
@@ -46,11 +47,11 @@ class CellBoxes {
   struct Axis {
     double length = 0;
     Row uniform;         ///< along it
-    int touched = 0;     ///< CellKind
-    double on_face = 0;  ///< share of the discs that lies on each face across it
+    int touched = 0;     ///< as in CellKind
+    double on_face = 0;  ///< share of the discs on each of the faces across it
     double uniform_share = 1;
-    double log_off_face = 0;  ///< logarithms of shares: of discs off that face,
-    double log_on_faces = 0;  ///< on either
+    double log_off_face = 0;  ///< logarithms of the shares of discs that are not on that face, …
+    double log_on_faces = 0;  ///< … and not on either face
   };
 
   static Row row_of(double side, double radius, double log_radius);

@@ -12,7 +12,7 @@ namespace {
 
 /// ln(n (n - 1) … (n - k + 1)/n^k).
 double log_falling(double n, double k) {
-  constexpr double many = 1e5;  // so that n! keeps its digits
+  constexpr double many = 1e5;  // above this, n! would lose digits
   if (n < many) return std::lgamma(n + 1) - std::lgamma(n - k + 1) - k * std::log(n);
   return -k * (k - 1) / (2 * n) * (1 + (2 * k - 1) / (6 * n));
 }
@@ -39,7 +39,7 @@ void binomial(double trials, double share, int last, std::vector<double>& out) {
   for (int k = start; k > 0 && out[k] > 1e-14; --k) out[k - 1] = out[k] * (k / ((trials - k + 1) * odds));
 }
 
-/// a(m) of a kind of cells, times their number until it is complete; empty where all cells are nodes.
+/// a(m) of a kind of cells; while it is being summed, times their number. Empty if all these cells are nodes.
 using Alive = std::vector<double>;
 
 class Levels {
@@ -74,7 +74,7 @@ class Levels {
   }
 
  private:
-  /// More discs than these no cell of so many expected ones has, as far as is counted.
+  /// The largest number of discs considered for a cell that expects `expected`.
   [[nodiscard]] int most_of(double expected) const {
     return static_cast<int>(std::min<double>(most_, expected + deviations * std::sqrt(expected) + 10));
   }
@@ -101,13 +101,14 @@ class Levels {
     if (cell.child[0] != cell.child[1]) pass_on(number, 1, 1);
   }
 
-  /// Of nodes with so many discs, those that are leaves.
+  /// The share of leaves among nodes with `discs` discs.
   [[nodiscard]] double leaf_share(const CellKind& cell, const Dropped* dropped, int discs) const {
     if (discs <= leaf_) return 1;
     if (dropped == nullptr || discs > most_dropped) return 0;
     const double share = dropped->share[discs];
     if (cell.touched[0] + cell.touched[1] + cell.touched[2] <= 1) return share;
-    // Where the cube's edges pass, halves differ: of nodes that are seldom dropped, more are (fitted).
+    // If an edge of the cube passes through the cell, its halves differ. Then more of the nodes that are seldom dropped
+    // are dropped (fitted).
     const double kept = 1 - share;
     return share * (1 + 0.75 * kept * kept * kept * kept * kept);
   }
@@ -122,7 +123,7 @@ class Levels {
     double above = 1 - probability_[0];
     double discs_above = expected;
     for (int first = 1; first <= last;) {
-      // Boxes of neighbouring numbers of discs are alike.
+      // Neighbouring numbers of discs have about equal boxes, so evaluate them together.
       int end = first + std::max(1, first / 5);
       if (first <= leaf_) end = std::min(end, leaf_ + 1);
       end = std::min(end, last + 1);
@@ -151,10 +152,10 @@ class Levels {
     if (above > 1e-9) nodes.inner.add(cell.cells * above, boxes(discs_above / above));
   }
 
-  /// Boxes around the discs in either half.
+  /// Mean boxes around the discs in either half.
   using Halves = std::optional<std::array<CellBoxes, 2>>;
 
-  static constexpr double most_in_one_half = 10;  ///< discs; more are in both
+  static constexpr double most_in_one_half = 10;  ///< discs; if there are more, both halves have some
 
   [[nodiscard]] Halves halves_of(const CellKind& cell) const {
     if (leaf_ >= most_in_one_half || cell.child[0] == 0) return {};
@@ -163,7 +164,8 @@ class Levels {
     return {{first, CellBoxes(kinds_[cell.child[1]], radius_)}};
   }
 
-  /// The share of cells with discs in both halves: others are no nodes, their half is. Makes the mean box theirs.
+  /// The share of cells with discs in both halves. Other cells are not nodes; their half is. Changes the mean box to
+  /// that of the nodes.
   static double split_share(const CellKind& cell, const Halves& halves, double discs, MeanBox& box) {
     if (!halves || discs > most_in_one_half) return 1;
     double split = 1;
@@ -181,7 +183,7 @@ class Levels {
     return split;
   }
 
-  /// Nodes of about so many discs, of which a share is leaves, with another share of the boxes.
+  /// Adds nodes of about `discs` discs. `leaves` is the share of leaves, `leaf_boxes` their share of the boxes.
   static void add(LevelNodes& nodes, double cells, double discs, const MeanBox& box, double leaves, double leaf_boxes) {
     const double in_leaves = leaf_boxes * cells;
     nodes.leaves.count += leaves * cells;
@@ -195,7 +197,7 @@ class Levels {
     nodes.inner.volume += (1 - leaf_boxes) * cells * box.volume;
   }
 
-  /// Adds to a(m) of a child what this parent gives.
+  /// Adds this parent's contribution to a(m) of a child.
   void pass_on(std::size_t number, int side, double times) {
     const CellKind& parent = kinds_[number];
     const CellKind& child = kinds_[parent.child[side]];
@@ -206,7 +208,7 @@ class Levels {
     const double expected = samples_ * child.share;
     const double rest = 1 - child.share;
     const double sibling = rest > 0 ? std::min(1.0, (parent.share - child.share) / rest) : 1;
-    // For as many discs as are expected, and moved for others: the sibling has the rest.
+    // Computed for the expected number of discs, and shifted for other numbers, because the sibling has the rest.
     const int first = std::max(1, static_cast<int>(expected - deviations * std::sqrt(expected)));
     const int last = most_of(expected);
     const double others = std::floor(samples_ - expected);
@@ -223,7 +225,7 @@ class Levels {
     }
   }
 
-  /// The share of a kind's cells that are inner nodes, by their discs.
+  /// The share of a kind's cells that are inner nodes, by their number of discs.
   void goes_on(std::size_t number) {
     if (all_inner(kinds_[kinds_[number].child[0]]) && all_inner(kinds_[kinds_[number].child[1]])) return;
     const Alive& alive = alive_[number];
@@ -238,7 +240,7 @@ class Levels {
   void convolve(std::size_t first, std::size_t last) {
     conditional_.assign(static_cast<std::size_t>(most_) + 2, 0);
     double rest = 1;
-    if (leaf_ >= most_dropped) {  // all with more than a leaf
+    if (leaf_ >= most_dropped) {  // all nodes with more discs than a leaf are inner nodes
       for (const double p : probability_) rest -= p;
       double sum = std::max(0.0, rest);
       std::size_t s = probability_.size();

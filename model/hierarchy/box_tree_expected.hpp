@@ -4,10 +4,10 @@
 
 #include "box_tree_boxes.hpp"
 
-/// The binary tree that the tree of boxes is made of, on average over sets of samples.
+/// The binary tree from which the box tree is made, on average over sets of samples.
 namespace detp::model::box_tree {
 
-/// Sums over bodies: their number, and of their boxes surface and volume (MeanBox).
+/// Sums over bodies: their number, and the surface and volume of their boxes (MeanBox).
 struct Sums {
   double count = 0;
   double surface = 0;

@@ -15,18 +15,18 @@ void require_level(int level) { require_count("level", level, 0, 300); }
 /// 1 - (1 - p)^n.
 double occupied(double share, double samples) { return -std::expm1(samples * std::log1p(-std::min(1.0, share))); }
 
-/// Equal cells in a row along one side of the box.
+/// A row of equal cells along one side of the box.
 struct Row {
   double cells = 0;
-  double share = 1;  ///< of the side, that one of them holds
-  double ends = 0;   ///< of the side, at which they lie: 0, 1, or 2 where one cell holds the whole side
+  double share = 1;  ///< share of the side that one cell covers
+  double ends = 0;   ///< number of the side's ends in the cell: 0, 1, or 2 if one cell covers the whole side
 };
 
 /// The first cell of a side, those between, and the last.
 using Side = std::array<Row, 3>;
 
 Side cells_along(double side, double cell) {
-  constexpr double many = 0x1p30;  // then a cut cell is no matter
+  constexpr double many = 0x1p30;  // with more cells, a cut cell makes no difference
   if (!(side > cell)) return {{{1, 1, 2}}};
   const double count = side / cell > many ? side / cell : std::ceil(side / cell);
   const double share = count > many ? 1 / count : cell / side;
@@ -102,7 +102,7 @@ double occupied_cell_spheres(const Workload& workload, int level) {
 
 double rays_in_cell_sphere(const Workload& workload, int level) {
   using std::numbers::pi;
-  const double r = std::min(cell_sphere_radius(workload, level), 1e99);  // its volume is no overflow
+  const double r = std::min(cell_sphere_radius(workload, level), 1e99);  // so that the volume does not overflow
   return workload.rays * crossing_probability(workload, 4 * pi / 3 * r * r * r, 4 * pi * r * r);
 }
 

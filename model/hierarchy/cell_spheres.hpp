@@ -4,20 +4,20 @@
 
 /// Spheres anchored to the cells of an octree: a cache whose costs are known exactly.
 ///
-/// S_i belongs to the cell of side s_i = s/2^i that holds the sample: its centre is the cell's, its radius
-/// r_i = s_i√3/2 + d, so that it holds the discs of all samples in the cell.
+/// S_i belongs to the cell of side s_i = s/2^i that holds the sample. Its centre is the cell's; its radius is
+/// r_i = s_i√3/2 + d, so it contains the discs of all samples in the cell.
 ///
-/// Nested. The child cell's centre lies s_{i+1}√3/2 from its parent's: half the child's diagonal. The radii differ by
-/// r_i - r_{i+1} = (s_i - s_{i+1})√3/2 = s_{i+1}√3/2, just as much. Hence S_{i+1} ⊂ S_i, touching it from inside: a
-/// list made from the parent's lacks no ray, and holds n_i = n_R (r_i/r₀)² of them, exactly as for spheres in S₀.
-/// (Lists lack no ray whether or not spheres are nested, as long as each holds all discs of its cell: a ray that hits
-/// such a disc crosses all spheres around it. Nesting is what makes n_i exact.)
+/// Nested: the child cell's centre is s_{i+1}√3/2, half the child's diagonal, away from its parent's. The radii differ
+/// by r_i - r_{i+1} = (s_i - s_{i+1})√3/2 = s_{i+1}√3/2, which is the same. So S_{i+1} ⊂ S_i, touching it from inside:
+/// a list culled from the parent's loses no ray, and holds n_i = n_R (r_i/r₀)² rays, exactly as for spheres in S₀. (A
+/// list loses no ray even if the spheres are not nested, as long as each contains all discs of its cell, because a ray
+/// that hits such a disc crosses all spheres around it. Only because of the nesting is n_i exact.)
 ///
-/// Inside S₀. In a cube S_0 of the walk is S₀ itself, r_0 = s√3/2 + d, and all others lie in it. In a flat box cells
-/// are cubes on its longest side, which poke out of S₀: there n_i is an upper bound.
+/// Inside S₀: in a cube S_0 of the walk is S₀ itself, r_0 = s√3/2 + d, and all others lie in it. In a flat box the
+/// cells are those of a cube on its longest side, and spheres extend outside S₀; then n_i is an upper bound.
 ///
-/// Built once. Along the Lebesgue curve all samples of a cell are visited one after another: a cell that holds a sample
-/// is built once, whatever comes before. No law of first exits, no ratio to tune, nothing lost.
+/// Built once: along the Morton curve all samples of a cell are visited consecutively, so a cell that holds a sample is
+/// built exactly once. There is no law of rebuilds, no ratio to tune, and no ray is lost.
 namespace detp::model {
 
 /// r_i = s/2^i √3/2 + d.
@@ -34,15 +34,16 @@ namespace detp::model {
 ///
 ///   where  p   share of the samples in the cell
 ///
-/// Samples uniform in the box, no extent given: p = cell's part of the box over the box: the formula above, in a cube.
-/// On the box's faces (D = 2): p = its part of the faces over all of them: in a cube the cells at a face, at two and at
-/// three have 1, 2 and 3 times 4^{-i}/6. Box sides that are no whole number of cells end in a cut one. Between D = 2
-/// and D = 3 the geometric interpolation of both.
+/// Samples uniform in the box, without an extent of their own: p is the cell's part of the box divided by the box; in a
+/// cube this is the formula above. On the box's faces (D = 2): p is the cell's part of the faces divided by all faces;
+/// in a cube the cells at one, two and three faces have 1, 2 and 3 times 4^{-i}/6. If a box side is not a whole number
+/// of cells, the last cell is cut. For D between 2 and 3: the geometric interpolation of both.
 ///
-/// Samples of an extent of their own, volume V or area A: as many equal cells as they reach, V/s_i³ or (a random plane
-/// crosses cells so often) 1.5 A/s_i², but no more than 8^i.
+/// Samples with an extent of their own, volume V or area A: as many equal cells as it covers, V/s_i³ or (as often as a
+/// random plane crosses cells) 1.5 A/s_i², but at most 8^i.
 ///
-/// Source     our derivation.   Accuracy  1e-14 in a cube and on its faces; own extents: an estimate.
+/// Source     our derivation.
+/// Accuracy   1e-14 in a cube and on its faces; with an extent of their own: an estimate.
 /// Throws     std::invalid_argument unless 0 <= level <= 300.
 [[nodiscard]] double occupied_cell_spheres(const Workload& workload, int level);
 

@@ -20,10 +20,10 @@ constexpr std::size_t nested_steps = 25;  // of log₂N, each ½
 
 #include "sphere_tree_tables.inc"
 
-/// Which of the two kinds of numbers in the tables.
+/// The two kinds of numbers in the tables.
 enum Term : std::size_t { square_of_mean, mean_square };
 
-/// Linear between the entries of a row, at `place` counted in entries.
+/// Interpolates linearly between the entries of a row; `place` is counted in entries.
 template <class Entry>
 double between(double place, std::size_t entries, const Entry& entry) {
   const double last = static_cast<double>(entries - 1);
@@ -33,7 +33,7 @@ double between(double place, std::size_t entries, const Entry& entry) {
   return (1 - weight) * entry(low) + weight * entry(low + 1);
 }
 
-/// Place of a run among single_runs, by its logarithm.
+/// Place of a run length among single_runs, by its logarithm.
 double run_place(double run) {
   const auto next = std::find_if(single_runs.begin() + 1, single_runs.end() - 1, [&](double r) { return r >= run; });
   return static_cast<double>(next - single_runs.begin()) - std::log2(*next / run) / std::log2(*next / *(next - 1));
@@ -46,8 +46,8 @@ double single_entry(std::size_t dimension, Term term, double run, double step) {
   });
 }
 
-/// R. Beyond the table, what one more halving of the cells adds is what the last one added, times 2^{p-D} for the p-th
-/// moment: so much do the additional jumps of the curve weigh.
+/// R. Beyond the table each further halving of the cells adds what the last one added, times 2^{p-D} for the p-th
+/// moment: the weight of the curve's additional jumps.
 double single_radius(std::size_t dimension, Term term, double run, double log_runs) {
   if (run <= 1) return 0;
   constexpr double last = single_steps - 1;
@@ -93,7 +93,7 @@ double radius(const Workload& workload, const SphereTreeParameters& parameters, 
 double crossed(const Workload& workload, double run, double r) {
   using std::numbers::pi;
   if (workload.path_length > 0) {
-    const double bounded = std::min(r, 1e99);  // its volume is no overflow
+    const double bounded = std::min(r, 1e99);  // so that the volume does not overflow
     return crossing_probability(workload, 4 * pi / 3 * bounded * bounded * bounded, 4 * pi * bounded * bounded);
   }
   const SphereTreeParameters alone;
@@ -101,7 +101,7 @@ double crossed(const Workload& workload, double run, double r) {
   const double around_run = radius(workload, alone, mean_square, run, 0);
   const double inside = around_all > 0 ? std::min(1.0, around_run / around_all) : 1;
   const double offset = std::sqrt(mean_square_distance(workload) * (1 - inside));
-  if (r >= workload.sphere_radius + offset) return 1;  // it holds S₀
+  if (r >= workload.sphere_radius + offset) return 1;  // it contains S₀
   const double ratio = r / workload.sphere_radius;
   return std::min(1.0, ratio * ratio * both_hit_share(workload.sphere_radius, r, offset));
 }
@@ -109,9 +109,10 @@ double crossed(const Workload& workload, double run, double r) {
 TreeLevel level_of(const Workload& workload, const SphereTreeParameters& parameters, double run, double level) {
   const double d = workload.disc_radius;
   const double square = radius(workload, parameters, mean_square, run, level);
-  // Near the root all spheres are alike, and the tables' last digit must not make their mean the larger.
+  // Near the root all spheres are about equal. Rounding in the tables must not make their mean larger than the root of
+  // their mean square.
   const double mean = std::sqrt(std::min(square, radius(workload, parameters, square_of_mean, run, level)));
-  const long double moment = square + d * (2.0L * mean + d);  // in doubles the square of d may be 0, or overflow
+  const long double moment = square + d * (2.0L * mean + d);  // in doubles the square of d may be 0 or overflow
   const double r = std::max(d, static_cast<double>(std::sqrt(moment)));
   return {.nodes = std::ceil(workload.samples / run),
           .samples = run,
@@ -127,7 +128,8 @@ std::vector<TreeLevel> sphere_tree_levels(const Workload& workload, const Sphere
   check(Candidate{Technique::sphere_tree, parameters});
   std::vector<TreeLevel> levels;
   double run = std::min<double>(parameters.leaf, workload.samples);
-  // Samples have no extent of their own: spheres around leaves of one are spheres around samples alone.
+  // A sphere around a single sample has no extent. So with leaves of one sample the nesting of spheres starts above the
+  // leaves, which are level -1.
   for (double level = parameters.leaf == 1 ? -1 : 0;;
        ++level, run = std::min(run * parameters.fan_out, workload.samples)) {
     levels.push_back(level_of(workload, parameters, run, level));
@@ -142,7 +144,7 @@ Counts<double> sphere_tree_counts(const Workload& workload, const SphereTreePara
   Counts<double> counts{.sorted = workload.samples, .hits = expected_hits(workload)};
   double around = workload.rays;
   for (const TreeLevel& level : sphere_tree_levels(workload, parameters)) {
-    counts.culls += level.nodes * -std::expm1(-around);  // those whose parent's list holds a ray
+    counts.culls += level.nodes * -std::expm1(-around);  // nodes whose parent's list holds at least one ray
     counts.cull_tests += level.nodes * around;
     counts.listed += workload.samples / level.samples * level.rays;
     around = level.rays;

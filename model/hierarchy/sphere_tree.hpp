@@ -4,41 +4,42 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// The ray-stream sphere tree: lists of rays culled down a tree of nested spheres.
+/// The sphere tree: lists of rays are culled down a tree of nested spheres.
 ///
-/// Runs of consecutive samples along the Lebesgue curve make leaves, f consecutive nodes a parent. Each node's sphere
-/// holds its children's spheres whole (a leaf's, its discs), and its list is culled from its parent's.
+/// Runs of consecutive samples along the Morton curve (the paper: Lebesgue curve) are leaves; f consecutive nodes have
+/// one parent. Each node's sphere contains its children's spheres (a leaf's contains its discs), and its list is culled
+/// from its parent's.
 ///
-/// Nested: S(child) ⊂ S(parent) by construction, down from the root. So every ray that crosses a node's sphere is in
-/// its parent's list, the node's own holds just those, and
+/// Nested: S(child) ⊂ S(parent) by construction, from the root down. So every ray that crosses a node's sphere is in
+/// its parent's list, and the node's own list holds exactly these rays:
 ///
-///     sphere tests = n_R (1 + Σ_nodes but the root P(parent))      disc tests = n_R Σ_leaves P(leaf) samples(leaf)
+///     sphere tests = n_R (1 + Σ_{nodes except the root} P(parent))      disc tests = n_R Σ_leaves P(leaf)
+///     samples(leaf)
 ///
-///   where  P   share of the rays that cross a node's sphere: F(node)/F(S₀) for lines, times, where it pokes out of S₀,
-///              both_hit_share; for segments crossing_probability
+///   where  P   share of the rays that cross a node's sphere. Lines: F(node)/F(S₀), times both_hit_share if it extends
+///              outside S₀. Segments: crossing_probability
 ///
-/// That is exact once the spheres are known (validate/structural_hierarchy.hpp). From numbers alone their areas must be
-/// estimated: a level of N nodes over runs of c = leaf f^l samples has
+/// This is exact if the spheres are known (validate/structural_hierarchy.hpp). From the workload's numbers alone, their
+/// areas must be estimated. For a level of N nodes over runs of c = leaf f^l samples
 ///
 ///     mean F = 4π (<ρ²> + 2d <ρ> + d²)      <ρ²> = a² N^{-2/D} R(N, c) K(f, l)
 ///
-///   where  ρ   radius of the sphere around the samples themselves, length, and <ρ> its mean, of the same form
+///   where  ρ   radius of the sphere around the samples themselves, length; <ρ> is its mean, of the same form
 ///          a   side of the cube that has the samples' volume (D = 3), or that has their area on its faces (D = 2)
-///          R   of spheres around runs of c samples alone. On surfaces it grows with ln N without end: the curve's
-///          jumps
-///              of each size, 2^{-j} a and 4^j in number, add as much to the sum of all ρ² as those of any other size
-///          K   how much larger spheres around nested spheres are, l levels above the leaves: at f = 8 from 1.04
-///          to 1.43,
-///              at f = 2 from 1.08 to 2.26, largest near the root
+///          R   factor for spheres around runs of c samples alone. On surfaces it grows with ln N without limit: the
+///              curve
+///              has 4^j jumps of size 2^{-j} a, and those of each size add as much to the sum of all ρ² as any other
+///          K   how much larger spheres around nested spheres are, l levels above the leaves: for f = 8 from 1.04 to
+///              1.43, for f = 2 from 1.08 to 2.26, largest near the root
 ///
-/// A sphere around a run pokes out of S₀ as one does whose centre lies √(M (1 - q)) from that of S₀, M the mean square
-/// distance of the samples from there, q what <ρ²> of runs alone is of that around all samples: spread within runs and
-/// between them add up to M.
+/// A sphere around a run extends outside S₀ like a sphere whose centre is √(M (1 - q)) from that of S₀. M is the mean
+/// square distance of the samples from there; q is <ρ²> of runs alone divided by that of a sphere around all samples.
+/// (The spreads within runs and between runs add up to M.)
 ///
 /// R and K are tabulated (sphere_tree_tables.inc, made by validate/tools/sphere_tree_table.cpp).
 namespace detp::model {
 
-/// One level of the tree, expected.
+/// Expected values of one level of the tree.
 struct TreeLevel {
   double nodes = 1;        ///< N, exact: those of the last run, cut short, too
   double samples = 1;      ///< c, in each node but the last

@@ -30,12 +30,12 @@ long double crossing(const Workload& workload, long double volume, long double a
 }
 
 /// The limits p < q of the integral over s, the distance of the circles' centres, and the integrand's next zero f >= q.
-/// Differences are taken before they lose digits.
+/// Differences are computed before they lose digits.
 struct Range {
   long double p;         // |a - b|
   long double q;         // min(c, a + b)
   long double f;         // max(c, a + b)
-  long double q_less_p;  // <= 0: one sphere in the other
+  long double q_less_p;  // <= 0: one sphere is inside the other
   long double f_less_q;
   bool meet;  // c < a + b
 };
@@ -51,19 +51,19 @@ Range range_of(long double a, long double b, long double c) {
   return {p, std::min(c, sum), std::max(c, sum), meet ? c_less_p : 2 * small, std::abs(short_of_sum), meet};
 }
 
-/// The trapezoidal rule over τ = ln((s - p)/(q - s)). All other singularities lie on Im τ = ±π, whatever p, q and f:
-/// the error goes with e^{-2π²/h}, times (2π/h)⁴ for the pole that s = ∞ becomes.
+/// The trapezoidal rule over τ = ln((s - p)/(q - s)). All other singularities lie on Im τ = ±π, for any p, q and f: the
+/// error is proportional to e^{-2π²/h}, times (2π/h)⁴ for the pole to which s = ∞ is mapped.
 struct Node {
   double v = 0;       // (s - p)/(q - p)
   double rest = 0;    // (q - s)/(q - p)
-  double weight = 0;  // of √((q - s)(s - p)) ds over (q - p)²
+  double weight = 0;  // of √((q - s)(s - p)) ds / (q - p)²
 };
 
 const auto& nodes() {
   static const auto table = [] {
     constexpr double step = 0.4;
-    constexpr int first = -98;  // the integrand goes with e^τ, if a = b, …
-    constexpr int last = 66;    // … and with e^{-3τ/2}, if c ≠ a + b: below 1e-17 outside
+    constexpr int first = -98;  // the integrand is proportional to e^τ if a = b, …
+    constexpr int last = 66;    // … and to e^{-3τ/2} if c ≠ a + b: below 1e-17 outside
     std::array<Node, last - first + 1> all;
     for (int i = first; i <= last; ++i) {
       const double v = 1 / (1 + std::exp(-step * i));

@@ -4,14 +4,14 @@
 
 /// What a uniform, isotropic random line hits.
 ///
-/// Every expected count here rests on one fact of integral geometry: lines distributed by the measure μ_ℓ, invariant
+/// Every expected count here follows from one fact of integral geometry: lines with the measure μ_ℓ, which is invariant
 /// under rotation and translation, meet a convex body in proportion to its surface area. So P(hit inner | hit outer) is
-/// a ratio of areas, whatever the position, as long as the inner body lies inside the outer one. Where it does not, the
-/// ratio is an upper bound, and `both_hit_share` tells how far it is off.
+/// a ratio of areas for any position, as long as the inner body lies inside the outer one. Otherwise the ratio is an
+/// upper bound, and `both_hit_share` gives the correction.
 ///
-/// Accuracies are largest relative errors against 100 digits, over 10⁶ inputs log-uniform over the domain, lengths over
-/// all doubles, workloads over all that check(workload) admits (tests/model/hard_cases). Below the smallest normal
-/// double, results are right to one space between doubles.
+/// Accuracies are the largest relative errors compared with 100 digits, over 10⁶ inputs log-uniform over the domain:
+/// lengths over all doubles, workloads over all that check(workload) accepts (tests/model/hard_cases). Below the
+/// smallest normal double, the error is at most one spacing of doubles.
 namespace detp::model {
 
 /// Probability that a line through a sphere also crosses a smaller sphere inside it.
@@ -22,7 +22,7 @@ namespace detp::model {
 ///          r₀   radius of the outer sphere, length
 ///
 /// Source     the paper's eq (3); Santaló, Integral Geometry, III.14.2.
-/// Valid      the inner sphere inside the outer one.   Accuracy  3.3e-16.
+/// Valid      the inner sphere lies inside the outer one. Accuracy: 3.3e-16.
 /// Throws     std::invalid_argument unless 0 < r₁ <= r₀, both finite.
 [[nodiscard]] double sphere_hit_probability(SphereRadius inner, SphereRadius outer);
 
@@ -33,11 +33,11 @@ namespace detp::model {
 ///   where  d    disc radius, length
 ///          r₀   sphere radius, length; the disc lies inside the sphere
 ///
-/// A disc is a convex body with two faces, F = 2πd²: hence the 2 that a sphere of the same radius does not have.
+/// A disc is a convex body with two faces, F = 2πd², half the surface of a sphere of the same radius: hence the 2.
 ///
 /// Source     Santaló, III.14.2; the paper's eq (3), for a disc: our derivation.
 /// Valid      any position and orientation inside the sphere.
-/// Limits     d → 0: 0.  d = r₀: ½.   Accuracy  5.2e-16.
+/// Limits     d → 0: 0.  d = r₀: ½.   Accuracy: 5.2e-16.
 /// Throws     std::invalid_argument unless 0 < d <= r₀, both finite.
 [[nodiscard]] double disc_hit_probability(DiscRadius disc, SphereRadius outer);
 
@@ -58,11 +58,11 @@ namespace detp::model {
 
 /// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².
 ///
-/// Half of them where only rays that arrive at a disc's front count (our derivation): a ray that crosses the disc
-/// arrives at its front or at its back. Reversing the directions of all rays exchanges the two and leaves the isotropic
-/// measure as it is, so that both are equally likely.
+/// If only rays that arrive at a disc's front count, half of them (our derivation): a ray that crosses the disc arrives
+/// either at its front or at its back. Reversing all rays exchanges front and back and does not change the isotropic
+/// measure, so both are equally likely.
 ///
-/// Valid      fronts: isotropic directions; photons prefer the side that the light comes from.
+/// Valid      fronts: isotropic directions; photons mostly arrive on the side of the light.
 /// Accuracy   1.1e-16.
 [[nodiscard]] double expected_hits(const Workload& workload);
 
@@ -71,22 +71,23 @@ namespace detp::model {
 ///     share = ∫₀¹ lens(c √(1-μ²); a, b) dμ / (π b²)
 ///
 ///   where  a, b   radii of A and B, length;   c   distance of their centres, length
-///          lens   area common to two circles of radii a, b: the spheres seen along a direction
+///          lens   area common to two circles of radii a, b: the spheres projected along a direction
 ///          μ      cosine between the direction and the line of centres, uniform in [0, 1]
 ///
-/// By parts, with s = c√(1-μ²), p = |a-b|, q = min(c, a+b), and the two circles' common chord in place of their lens:
+/// Integrated by parts, with s = c√(1-μ²), p = |a-b|, q = min(c, a+b), this becomes an integral over the common chord
+/// of the two circles:
 ///
 ///     c < a+b     share = min(a, b)²/b² - ∫_p^q √((c²-s²)(s²-p²)((a+b)²-s²)) ds/s / (π c b²)
 ///     c >= a+b    share = ∫_p^q √((q²-s²)(s²-p²)) s ds/(1 + √(1-s²/c²)) / (π c² b²)
 ///
-/// so that neither tangency nor containment, nor a great distance, costs digits. The integrals are evaluated by the
-/// trapezoidal rule over ln((s-p)/(q-s)), with 165 points.
+/// This form loses no digits near tangency, near containment, or at a great distance. The integrals are evaluated by
+/// the trapezoidal rule over ln((s-p)/(q-s)), with 165 points.
 ///
 /// Limits     B inside A (c + b <= a): 1.  A inside B: a²/b².  c → ∞: a²/(2c²).
 /// Source     our derivation, from Santaló's projection formula.
-/// Accuracy   4.2e-15 against the lenses in 100 digits (244 inputs), 5.4e-15 against the chords in 113 bits (20 000,
-/// most
-///            of them next to where the spheres touch or part): worst at a + b = c. Monotone in c to 1e-15.
+/// Accuracy   4.2e-15 compared with the lenses in 100 digits (244 inputs), 5.4e-15 compared with the chords in 113 bits
+///            (20 000 inputs, most of them close to where the spheres touch or separate): worst at a + b = c. Monotone
+///            in c to 1e-15.
 /// Throws     std::invalid_argument unless a, b > 0 and c >= 0, all finite.
 [[nodiscard]] double both_hit_share(double a, double b, double c);
 

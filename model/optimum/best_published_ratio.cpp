@@ -20,7 +20,7 @@ struct Jet {
   double slope = 0;
   double curvature = 0;
 
-  /// Adds factor e^{rate x}, given its value.
+  /// Adds factor · e^{rate x}; `term` is its value.
   void add(double term, double rate) {
     value += term;
     slope += rate * term;
@@ -28,7 +28,7 @@ struct Jet {
   }
 };
 
-/// T over x = ln Q on one part: k = spheres, of which the outer `sparse` are rebuilt less than n_P times.
+/// T over x = ln Q on one part: `spheres` is k; the outer `sparse` spheres are rebuilt fewer than n_P times.
 class ConvexPart {
  public:
   ConvexPart(const Workload& workload, const UnitCosts& costs, std::int64_t spheres, std::int64_t sparse)
@@ -50,7 +50,7 @@ class ConvexPart {
     return jet;
   }
 
-  /// Where T is least on [low, high], at the ends of which T' has different signs: Newton's method on T'.
+  /// The minimum of T on [low, high], if T' has different signs at the ends: Newton's method on T'.
   [[nodiscard]] double minimum(double low, double high) const {
     const auto slope = [&](double x) {
       const Jet jet = at(x);
@@ -68,7 +68,7 @@ class ConvexPart {
   std::int64_t sparse_;
 };
 
-/// Keeps the least T found, and a bound below all that was passed over.
+/// Keeps the smallest T found, and a lower bound for all parts that were skipped.
 class Search {
  public:
   Search(const Workload& workload, const UnitCosts& costs) : workload_(workload), costs_(costs) {}
@@ -89,7 +89,7 @@ class Search {
   }
 
  private:
-  /// ln Q between the ends at which the J-th sphere's m_J = n_P, in rising order.
+  /// ln Q at which m_J = n_P for some sphere J, between the two ends, in rising order.
   [[nodiscard]] std::vector<double> kinks(double left, double right) const {
     std::vector<double> all;
     const double third = -std::log(workload_.samples) / 3;
@@ -113,7 +113,7 @@ class Search {
     found(spheres, x, jet.value - std::abs(jet.slope) * (right - left));
   }
 
-  /// The value at which the tangents at both ends of a part meet: T is nowhere less.
+  /// The value at which the tangents at both ends of a part meet. T is not smaller anywhere on the part.
   static double tangents_meet(const Jet& left, const Jet& right, double width) {
     const double along = (right.value - left.value - right.slope * width) / (left.slope - right.slope);
     return left.value + left.slope * along;

@@ -14,7 +14,7 @@
 namespace detp::model {
 namespace {
 
-/// T of the sphere cache at one Q for all stops, in one pass from the outside in.
+/// T of the sphere cache at one Q for all numbers of spheres, in one pass from the outside in.
 class Times {
  public:
   Times(const Workload& workload, const UnitCosts& costs) : workload_(workload), costs_(costs) {
@@ -25,10 +25,10 @@ class Times {
     costs_.visit *= blocks;
   }
 
-  /// Spheres whose counts were evaluated so far.
+  /// Number of spheres whose counts have been evaluated.
   [[nodiscard]] std::int64_t looked_at() const { return looked_at_; }
 
-  /// T with no sphere; any Q will do.
+  /// T without spheres; Q does not matter.
   [[nodiscard]] BestRatio without_spheres() const {
     return {published_ratio, 0, price(sphere_cache_counts(workload_, {published_ratio, 0}), costs_).total()};
   }
@@ -47,8 +47,8 @@ class Times {
     return time;
   }
 
-  /// The fastest of the stops 1 … last; spheres = 0 if last = 0. Gives up where the spheres alone take longer than
-  /// `enough`: what it returns is then slower than that.
+  /// The fastest number of spheres among 1 … last; spheres = 0 if last = 0. Stops early if the spheres alone take
+  /// longer than `enough`; the result is then slower than that.
   [[nodiscard]] BestRatio best_stop(double ratio, std::int64_t last, double enough) const {
     BestRatio best{ratio, 0, 0};
     if (last >= 1)
@@ -60,9 +60,9 @@ class Times {
   }
 
  private:
-  static constexpr std::int64_t summed_one_by_one = 4096;  // more are summed in groups
+  static constexpr std::int64_t summed_one_by_one = 4096;  // larger numbers are summed in groups
 
-  /// Calls visit(i, T with i spheres, the same without testing discs) until it returns false.
+  /// Calls visit(i, T with i spheres, T without disc tests) until it returns false.
   template <class Visit>
   void pass(double ratio, std::int64_t last, const Visit& visit) const {
     double spheres = (costs_.sort + costs_.visit) * workload_.samples;
@@ -78,11 +78,11 @@ class Times {
   mutable std::int64_t looked_at_ = 0;
 };
 
-/// ln(ln 1/Q): sphere i moves by i steps of ln Q, and spheres down to d take ln(d/r₀)/ln Q, so that T has about as many
-/// ups and downs in each unit of it.
+/// ln(ln 1/Q), the coordinate of the search. Changing ln Q by a step moves sphere i by i steps, and there are
+/// ln(d/r₀)/ln Q spheres; so T has about as many local minima in each unit of this coordinate.
 double place_of(double ratio) { return std::log(-std::log(ratio)); }
 
-/// The first ratios of a search, with all steps Q_j of j <= most_spheres.
+/// The first ratios of a search, including all steps Q_j with j <= most_spheres.
 std::vector<double> first_ratios(const StepPieces& pieces, std::int64_t most_spheres) {
   constexpr int parts = 128;
   const double from = place_of(least_ratio);
@@ -95,17 +95,18 @@ std::vector<double> first_ratios(const StepPieces& pieces, std::int64_t most_sph
   return ratios;
 }
 
-/// Halves, best first, the intervals that may hold a better ratio, and narrows down the minima that are left.
+/// Halves the intervals that may hold a better ratio, the most promising first, and then refines the remaining minima.
 class Search {
  public:
-  /// Stops up to most_spheres are free; 0: `run` is given one. A ratio takes `spheres` spheres at most.
+  /// Searches numbers of spheres up to most_spheres; if most_spheres is 0, `run` decides the number. One ratio takes at
+  /// most `spheres` spheres.
   Search(const Times& times, const StepPieces& pieces, std::int64_t most_spheres, std::int64_t spheres)
       : times_(times),
         pieces_(pieces),
         most_spheres_(most_spheres),
         most_looked_at_(most_looked_at * (std::clamp<std::int64_t>(spheres, 40, 4000) / 40)) {}
 
-  /// The best of evaluate(Q, enough) from the first to the last of the ratios.
+  /// The best result of evaluate(Q, enough) for Q between the first and the last of the ratios.
   template <class Evaluate>
   BestRatio run(const std::vector<double>& ratios, const Evaluate& evaluate) {
     for (const double ratio : ratios) add(evaluate(ratio, enough()));
@@ -128,16 +129,16 @@ class Search {
   struct Interval {
     BestRatio left;
     BestRatio right;
-    double hope;  ///< the least T that it may hold
+    double hope;  ///< a lower bound for T in the interval, if T is no steeper than `steepness`
 
     bool operator<(const Interval& other) const { return hope > other.hope; }
   };
 
-  /// By how much, relatively, T may fall in a unit of ln(ln 1/Q): seen to suffice, not proved.
+  /// Assumed largest relative slope of T over ln(ln 1/Q). Sufficient in all cases tried, but not proved.
   static constexpr double steepness = 5;
-  static constexpr double narrowest = 2.5e-4;              ///< in ln(ln 1/Q)
-  static constexpr double next_to = 1.0005;                ///< minima of T that near the best are narrowed down
-  static constexpr std::int64_t evaluations_at_once = 60;  ///< of Brent's method
+  static constexpr double narrowest = 2.5e-4;  ///< width of the narrowest interval, in ln(ln 1/Q)
+  static constexpr double next_to = 1.0005;    ///< minima with T up to this factor above the best are refined
+  static constexpr std::int64_t evaluations_at_once = 60;  ///< largest number of evaluations by Brent's method
 
   [[nodiscard]] double enough() const { return best_.spheres > 0 ? 1.2 * best_.time : HUGE_VAL; }
 
@@ -171,7 +172,7 @@ class Search {
     }
   }
 
-  /// The point's stop, and those beside it that are about as good there; only itself where k is given.
+  /// The point's number of spheres, and its neighbours that are about as good there. Only itself if k is fixed.
   [[nodiscard]] std::vector<std::int64_t> stops_around(const BestRatio& point) const {
     std::vector<std::int64_t> stops{point.spheres};
     for (const std::int64_t k : {point.spheres - 1, point.spheres + 1})
@@ -179,8 +180,8 @@ class Search {
     return stops;
   }
 
-  /// The least T with k spheres for Q from low to high: kinks may lie closer together than the points of the search,
-  /// and make several minima between them.
+  /// Searches for the smallest T with k spheres for Q from low to high. Between two points of the search there may be
+  /// several kinks, and so several minima.
   void minimise(double low, double high, std::int64_t k) {
     constexpr int parts = 16;
     if (!(low < high) || (most_looked_at_ - times_.looked_at()) / k <= parts) return;
@@ -197,7 +198,7 @@ class Search {
     }
   }
 
-  /// Brent's method, in a coordinate from -1 to 1: its tolerance is then 4e-6 of the width, at a kink too.
+  /// Brent's method in a coordinate from -1 to 1, in which its tolerance is 4e-6 of the width, at a kink too.
   void follow(double low, double high, std::int64_t k) {
     const std::int64_t evaluations_left = (most_looked_at_ - times_.looked_at()) / k - 1;
     if (evaluations_left < 2) return;
@@ -247,7 +248,7 @@ BestRatio good_ratio_and_stop(const Workload& workload, const UnitCosts& costs) 
   const Times times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   BestRatio best;
-  // Chosen one after the other, each to lower the mean square of what is left above the best T.
+  // The ratios were chosen one after another. Each minimises the remaining mean square excess over the best T.
   for (const double ratio : {0.575, 0.47, 0.765, 0.425, 0.49, 0.6, 0.455, 0.635}) {
     const BestRatio stop = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), HUGE_VAL);
     if (best.spheres == 0 || stop.time < best.time) best = stop;

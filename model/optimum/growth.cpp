@@ -26,7 +26,7 @@ Growth published_growth(const GrowthCase& asked) {
   return {.power = 1 - 2 / asked.dimension, .logarithms = asked.technique == Technique::octree ? 1 : 0};
 }
 
-/// Corrected, the discs shrinking.
+/// The corrected growth if the discs shrink.
 Growth corrected_growth(const GrowthCase& asked) {
   if (asked.technique == Technique::grid) return {.power = third, .logarithms = 0};
   return {.power = 1 - 2 / asked.dimension, .logarithms = asked.dimension == 2 ? 1 : 0};

@@ -7,8 +7,8 @@
 ///
 ///     T = Θ(n_R n_P^p (log n_P)^q)
 ///
-/// in n_R always with power 1. Beside it, and free of n_R, stands the ordering of the samples, Θ(n_P log n_P), which
-/// the paper leaves out, and the building of an index.
+/// It is always proportional to n_R. Two terms are not included, because they do not depend on n_R: sorting the
+/// samples, Θ(n_P log n_P), which the paper omits, and building an index.
 namespace detp::model {
 
 struct Growth {
@@ -18,17 +18,17 @@ struct Growth {
   bool operator==(const Growth&) const = default;
 };
 
-/// What happens to the discs when samples are added to the same scene.
+/// How the disc radius changes when samples are added to the same scene.
 enum class DiscRule {
-  fixed,              ///< d stays: each disc has as many hits as before, so that nothing beats n_R n_P
-  as_sample_distance  ///< d ∝ n_P^{-1/D}, as where d is half the distance between samples
+  fixed,              ///< d is constant: each disc keeps its number of hits, so every technique takes at least n_R n_P
+  as_sample_distance  ///< d ∝ n_P^{-1/D}, for instance half the distance between samples
 };
 
 struct GrowthCase {
   Technique technique = Technique::brute_force;
   DiscRule disc = DiscRule::as_sample_distance;
   double dimension = 3;                       ///< D of the samples, 2 … 3
-  SampleOrder order = SampleOrder::lebesgue;  ///< of the spheres; with none each sample rebuilds them all
+  SampleOrder order = SampleOrder::lebesgue;  ///< of the sphere cache; if unsorted, each sample rebuilds all spheres
   Form form = Form::corrected;
 };
 

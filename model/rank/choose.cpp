@@ -8,7 +8,7 @@
 namespace detp::model {
 namespace {
 
-/// The technique's defaults with what is given. Throws as set_parameter.
+/// The technique's defaults with the values in `wish`. Throws as set_parameter.
 Candidate with(Technique technique, const Wish& wish) {
   Candidate candidate = default_candidate(technique);
   for (const auto& [name, value] : wish.given) set_parameter(candidate, name, value);
@@ -53,7 +53,7 @@ std::optional<Ranked> best_of(Technique technique, const Workload& workload, con
   const auto candidate = complete(technique, {}, workload, costs, limits);
   if (!candidate) return std::nullopt;
   const auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
-  if (cache != nullptr && cache->spheres == 0) return std::nullopt;  // that is brute force
+  if (cache != nullptr && cache->spheres == 0) return std::nullopt;  // this is brute force
   return assess(workload, *candidate, costs);
 }
 

@@ -6,7 +6,7 @@
 
 #include "registry.hpp"
 
-/// Which technique, with which parameters: from numbers alone.
+/// Chooses a technique and its parameters from the numbers of a workload alone.
 namespace detp::model {
 
 /// A technique with its best parameters for a workload.
@@ -14,7 +14,7 @@ struct Ranked {
   Candidate candidate;
   Counts<double> counts;                  ///< expected
   CostBreakdown time;                     ///< expected, in the unit of the costs
-  std::vector<std::string> extrapolated;  ///< why the counts are (extrapolations); empty: they are not
+  std::vector<std::string> extrapolated;  ///< reasons why the counts are extrapolations; empty if they are not
 };
 
 /// All exact techniques with a closed form, each with its best parameters, fastest first. After a stop request those

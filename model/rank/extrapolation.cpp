@@ -12,7 +12,8 @@
 namespace detp::model {
 namespace {
 
-/// The samples of a file's scene fill their box less evenly than samples of a cube, whose own box is a little smaller.
+/// The tolerance for scenes from files: their samples fill the box less evenly than samples of a cube, whose own box is
+/// slightly smaller than the cube.
 constexpr double about_equal = 0.1;
 
 bool differ(double a, double b) { return std::abs(a - b) > about_equal * b; }
@@ -21,7 +22,7 @@ bool differ(double a, double b) { return std::abs(a - b) > about_equal * b; }
 void uncounted_scene(const Workload& workload, Reasons& reasons) {
   const double side = scene_side(workload);
   if (workload.path_length > 0) reasons.add("rays that end: only lines were counted");
-  constexpr double exactly = 0.05;  // as measured of samples that fill a volume or surfaces
+  constexpr double exactly = 0.05;  // the accuracy of a measured dimension
   if (workload.dimension < 2 - exactly)
     reasons.add(fmt::format("dimension {:.4g} below 2", workload.dimension));
   else if (workload.dimension > 2 + exactly && workload.dimension < 3 - exactly)

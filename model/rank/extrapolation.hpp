@@ -7,26 +7,26 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// Where a prediction leaves the range in which its formula was compared with counts.
+/// Detects predictions outside the range in which their formula was compared with counts.
 ///
-/// What was counted (validate/sweep/results.md): isotropic lines through S₀, samples uniform in a cube or on its faces,
-/// n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3; of each technique the parameters below. Outside, the closed forms are
-/// extended as they end, and this has not been checked.
+/// Compared with counts (validate/sweep/results.md): isotropic lines through S₀, samples uniform in a cube or on its
+/// faces, n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3, and the parameters below. Outside these ranges the closed forms
+/// are still evaluated, but have not been checked.
 ///
-///     sphere-cache (both)   Q 0.3 … 0.9, no more spheres than hold a disc, samples sorted
+///     sphere-cache (both)   Q 0.3 … 0.9, at most as many spheres as can hold a disc, samples sorted
 ///     cell-spheres          depth 1 … 6
 ///     sphere-tree           fan-out 4 … 8, leaf 4 … 16
 ///     box-tree              n_P 2¹⁰ … 2²⁰, d 2⁻¹⁰ … 2³ sample distances and up to 0.16 of the side; fan-out 2 … 16,
 ///                           leaf 1 … 256
 ///     octree, grid          depth 1 … 7, 2 … 128 cells a side
 ///
-/// Brute force tests n_R n_P pairs whatever they are, and so does a sphere cache without spheres.
+/// Brute force always tests n_R n_P pairs, and so does a sphere cache without spheres.
 namespace detp::model {
 
-/// Collects the inputs that lie outside, each as a short text.
+/// Collects the inputs that are outside, each as a short text.
 class Reasons {
  public:
-  /// An end of the range, reached except for rounding, is inside.
+  /// Adds a reason unless least <= value <= most, except for rounding.
   void range(std::string_view what, double value, double least, double most);
   void add(std::string reason) { reasons_.push_back(std::move(reason)); }
   [[nodiscard]] std::vector<std::string> take() && { return std::move(reasons_); }
@@ -43,8 +43,8 @@ void uncounted_box_tree(const Workload& workload, const Parameters& parameters, 
 void uncounted_octree(const Workload& workload, const Parameters& parameters, Reasons& reasons);
 void uncounted_grid(const Workload& workload, const Parameters& parameters, Reasons& reasons);
 
-/// Why the counts that `predict` gives for the candidate are extrapolated: a short text for each input that lies
-/// outside, as "d over r0 1e-05 below 0.0001". Empty where they are not.
+/// The reasons why the counts that `predict` returns for the candidate are extrapolated: a short text for each input
+/// that is outside, such as "d over r0 1e-05 below 0.0001". Empty if they are not extrapolated.
 ///
 /// Throws std::invalid_argument for a workload or parameters out of range.
 [[nodiscard]] std::vector<std::string> extrapolations(const Workload& workload, const Candidate& candidate);

@@ -8,9 +8,9 @@
 namespace detp::model {
 namespace {
 
-constexpr double enough = 3;    // times the least time
-constexpr double ripple = 1.4;  // how far from the best step the least time may lie, as a factor
-constexpr int most_tried = 64;  // numbers of cells in that range
+constexpr double enough = 3;    // stop when a time is this many times the smallest
+constexpr double ripple = 1.4;  // how far, as a factor, the minimum may be from the best step
+constexpr int most_tried = 64;  // largest number of cell counts tried in that range
 
 }  // namespace
 

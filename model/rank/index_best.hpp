@@ -4,8 +4,8 @@
 
 #include "registry.hpp"
 
-/// The size of an index that takes the least time, in place of the paper's, whose cells are as wide as a disc (eq 21).
-/// Nothing where each size takes more than the limits allow. Throws std::invalid_argument for a workload out of range.
+/// The size of an index with the smallest time; the paper's cells are as wide as a disc (eq 21) instead. Nothing if
+/// every size exceeds the limits. Throws std::invalid_argument for a workload out of range.
 namespace detp::model {
 
 /// Depth of the fastest octree, searched top-down: all depths tried, each level predicted once.

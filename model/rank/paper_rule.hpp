@@ -4,20 +4,20 @@
 
 namespace detp::model {
 
-/// The processor's cache that the inner sphere's rays should fit, and what a ray takes of it.
+/// The processor's cache that the inner sphere's rays should fit, and the memory of a ray.
 struct ProcessorCache {
   double bytes = 1 << 20;     ///< size of the cache, bytes > 0; the default is a common L2
   double bytes_per_ray = 64;  ///< origin, direction, length and power in double precision
 };
 
-/// The paper's rule for the technique, kept as a baseline to be beaten.
+/// The paper's rule for choosing a technique, kept as a baseline for comparison.
 ///
 ///     X = mean distance between samples / d
 ///     X <= 2       index of discs, cells as wide as a disc (eq 21)
 ///     X >= 6       sphere cache, Q = 0.65
 ///     between      sphere cache if the rays of S_k fit the processor's cache, else index of discs
 ///
-/// Source     section 5 (and 3: the zones were read off measurements of one scene in 2006).
+/// Source     sections 5 and 3; the paper took the limits of X from measurements of one scene in 2006.
 /// Throws     std::invalid_argument for a workload out of range.
 [[nodiscard]] Candidate paper_rule(const Workload& workload, const ProcessorCache& cache = {});
 

@@ -10,22 +10,22 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "extrapolation.hpp"
 
-/// The model of each technique: what predicts it, what finds its best parameters, and where it was checked.
+/// The model of each technique: its prediction, its best parameters, and the range in which it was checked.
 namespace detp::model {
 
-/// Limits of the parameters searched.
+/// Limits on the parameters searched.
 struct SearchLimits {
   int most_depth = 14;           ///< of an octree, and of cells with spheres
-  double most_cells = 1 << 26;   ///< of a grid, all together: 8 bytes each
-  double most_references = 1e9;  ///< to discs in an index: 4 bytes each
-  std::stop_token stop = {};     ///< ends the search: what it has found by then is given
+  double most_cells = 1 << 26;   ///< total number in a grid: 8 bytes each
+  double most_references = 1e9;  ///< references to discs in an index: 4 bytes each
+  std::stop_token stop = {};     ///< ends the search, which then returns what it has found so far
 };
 
-/// Parameters that are given by name; the others are to be found.
+/// Parameters that the user fixes by name; the others are to be found.
 struct Wish {
   std::vector<std::pair<std::string_view, ParameterValue>> given = {};
 
-  /// The value of a parameter of that type, if it is given.
+  /// The value of a parameter of that type, if it is fixed.
   template <class T>
   [[nodiscard]] std::optional<T> value(std::string_view name) const {
     for (const auto& [parameter, value] : given)
@@ -50,8 +50,8 @@ struct TechniqueModel {
 
 [[nodiscard]] const TechniqueModel& model_of(Technique technique);
 
-/// Whether the closed forms predict its counts, so that it can be chosen without being run. There is none for trees
-/// whose shape depends on the samples themselves (bsp, bvh).
+/// Whether closed forms predict the technique's counts, so that it can be chosen without a run. Trees whose shape
+/// depends on the individual samples (bsp, bvh) have none.
 [[nodiscard]] inline bool has_closed_form(Technique technique) { return model_of(technique).predict != nullptr; }
 
 }  // namespace detp::model

@@ -16,12 +16,12 @@ constexpr std::array outer_disc_shares{0.0, 0.05, 0.2};                   // d/r
 constexpr std::size_t densities = 13;                                     // λ = 2⁻¹², 2⁻¹⁰ … 2¹²
 constexpr double least_power = -12;
 constexpr std::size_t depths = 16;  // log₂(r₀/r_i) = 1/4, 2/4 … 4
-constexpr double shallow_to = 4;    // fading from half an octave before
+constexpr double shallow_to = 4;    // the effect fades out over the last half octave before this
 constexpr std::array shallow_samples{1e3, 1e5};
 
 #include "listed_rays_tables.inc"
 
-/// Where a value lies on a grid: between two points, or (with a weight outside 0 … 1) beyond its ends.
+/// The place of a value on a grid: between two points, or (with a weight outside 0 … 1) beyond its ends.
 struct Place {
   std::size_t left = 0;
   double weight = 0;
@@ -45,7 +45,7 @@ Place place_on(std::size_t size, double value) {
   return {left, inside - static_cast<double>(left)};
 }
 
-/// Rays lost far inside S₀.
+/// Share of rays that are not listed, for a sphere far inside S₀.
 double deep(int dimension, double log_lambda, const Place& octaves, double disc_share) {
   const Place density = place_on(densities, (log_lambda - least_power) / 2);
   const Place disc = place_on(disc_shares, disc_share);
@@ -55,17 +55,17 @@ double deep(int dimension, double log_lambda, const Place& octaves, double disc_
       return disc.mix([&](std::size_t k) { return deep_table[row * disc_shares.size() + k]; });
     });
   });
-  // Fewer samples: all spheres of about this size share their centres. The power is a fit.
+  // With fewer samples, all spheres of about this size share their centres. The exponent is fitted.
   return lost * std::exp2(std::min(0.0, log_lambda - least_power) * 1.4 / dimension);
 }
 
-/// log₂(r_i/s) in the cubes that the tables were made in.
+/// log₂(r_i/s) for the cubes from which the tables were made.
 double in_sides(double outer_disc, double depth) { return std::log2(std::sqrt(0.75) / (1 - outer_disc)) - depth; }
 
-/// log₂ of the cube's volume or faces, in cubes or squares of its side.
+/// log₂ of the cube's volume (in cubes of its side) or surface (in squares of its side).
 double log_extent(int dimension) { return dimension == 3 ? 0 : std::log2(6.0); }
 
-/// What being near S₀ adds to that, by a column of the table.
+/// The additional share lost near S₀, in one column of the table.
 double added_near(int dimension, std::size_t count, std::size_t disc, double depth, const Place& octaves) {
   const std::size_t columns =
       (static_cast<std::size_t>(dimension - 2) * shallow_samples.size() + count) * outer_disc_shares.size() + disc;
@@ -88,7 +88,7 @@ double near_outermost(int dimension, double log_lambda, double outer_disc, doubl
   const double added = count.mix([&](std::size_t i) {
     return disc.mix([&](std::size_t j) { return added_near(dimension, i, j, depth, octaves); });
   });
-  // Beyond the table, spheres about as large as the disc leave their discs no room to be off centre.
+  // Beyond the table: the closer the spheres' size is to the discs', the less a disc can be off centre.
   const double rest = std::min(1.0, (1 - outer_disc) / (1 - outer_disc_shares.back()));
   return added * rest * std::min(1.0, 2 * (shallow_to - depth));
 }
@@ -142,7 +142,8 @@ double listed_share(const Workload& workload, double radius, double octaves) {
   const double log_lambda =
       std::log2(workload.samples / sample_extent(workload)) + workload.dimension * std::log2(radius);
   const Place place = place_on(octave_grid, octaves);
-  const double farther = std::exp2(-2 * std::max(0.0, octaves - octave_grid.back()));  // lost ∝ Q², as in the table
+  // the lost share is proportional to Q², as in the table
+  const double farther = std::exp2(-2 * std::max(0.0, octaves - octave_grid.back()));
   const double outer_disc = std::min(1.0, workload.disc_radius / workload.sphere_radius);
   const auto lost = [&](int dimension) {
     const double far = deep(dimension, log_lambda, place, workload.disc_radius / radius);

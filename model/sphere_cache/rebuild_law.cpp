@@ -16,16 +16,16 @@ constexpr std::size_t phases = 32;
 constexpr int least_power = -9;
 constexpr std::size_t single_rows = 23;
 constexpr std::size_t columns = 5;          // 10³ … 10⁷ samples
-constexpr std::size_t coarse_columns = 17;  // the same by quarters of a decade
+constexpr std::size_t coarse_columns = 17;  // 10³ … 10⁷ samples, four columns a decade
 constexpr double coarse_from = -1;
-constexpr double coarse_to = 4.5;  // fading from half a halving before
+constexpr double coarse_to = 4.5;  // the effect fades out over the last half halving before this
 constexpr std::size_t coarse_phases = 64;
 constexpr std::size_t coarse_steps = 353;
 constexpr double chain_from = 0.5;
-constexpr std::array<std::size_t, 2> dense_chain_steps{401, 305};  // of the last column
-constexpr std::size_t chain_steps = 129;                           // of the others
+constexpr std::array<std::size_t, 2> dense_chain_steps{401, 305};  // number in the last column
+constexpr std::size_t chain_steps = 129;                           // number in the other columns
 constexpr std::array octave_steps{2.,  3.,  4.,  5.,  6.,  7.,  8.,  10., 12., 14., 16., 18.,
-                                  20., 22., 24., 26., 28., 30., 32., 36., 40., 48., 56., 72.};  // 32 u
+                                  20., 22., 24., 26., 28., 30., 32., 36., 40., 48., 56., 72.};  // u, in units of 1/32
 
 #include "rebuild_law_tables.inc"
 
@@ -33,14 +33,14 @@ static_assert(coarse_table.size() == 2 * 2 * coarse_columns * coarse_steps);
 static_assert(chain_table.size() ==
               (8 * chain_steps + dense_chain_steps[0] + dense_chain_steps[1]) * octave_steps.size());
 
-/// A digit of base 90: the characters from '#' on, the question mark and the backslash left out.
+/// A digit of base 90: the characters from '#' on, without the question mark and the backslash.
 int digit(char character) { return character - '#' - (character > '?' ? 1 : 0) - (character > '\\' ? 1 : 0); }
 
 double mix(double a, double b, double weight) { return (1 - weight) * a + weight * b; }
 
 double weight_of_volume(double dimension) { return std::clamp(dimension - 2, 0.0, 1.0); }
 
-/// A law of surfaces (2) and of volumes (3), for a dimension between.
+/// Interpolates a law between surfaces (2) and volumes (3) for a dimension between them.
 template <class Law>
 double between_dimensions(double dimension, const Law& law) {
   const double weight = weight_of_volume(dimension);
@@ -48,23 +48,23 @@ double between_dimensions(double dimension, const Law& law) {
   return weight >= 1 ? law(3) : mix(law(2), law(3), weight);
 }
 
-/// ln(m/n) at a tabulated phase; the rows go by λ 2^{Dφ}, so that one set of samples serves all phases.
+/// ln(m/n) at a tabulated phase. Rows are by λ 2^{Dφ}, so that one set of samples gives all phases.
 double log_share_at(int dimension, double log_lambda, std::size_t phase) {
   const auto at = [&](std::size_t row) {
     return single_table[(static_cast<std::size_t>(dimension - 2) * single_rows + row) * phases + phase];
   };
   constexpr double last = single_rows - 1;
   const double place = log_lambda + dimension * static_cast<double>(phase) / phases - least_power;
-  if (place <= 0) return at(0) * std::exp2(place);  // 1 - m/n ∝ λ
+  if (place <= 0) return at(0) * std::exp2(place);  // 1 - m/n is proportional to λ
   if (place >= last) return at(single_rows - 1) - (place - last) * std::numbers::ln2;
   const auto row = static_cast<std::size_t>(place);
   return mix(at(row), at(row + 1), place - static_cast<double>(row));
 }
 
-/// log₂ λ, for the λ of a double's range.
+/// log₂ λ; λ below the range of doubles is clamped.
 double log_of(double lambda) { return std::log2(std::max(lambda, 1e-300)); }
 
-/// ln(m/n) of surfaces (2) or volumes (3), linear between the phases, which wrap around.
+/// ln(m/n) of surfaces (2) or volumes (3), linear between the phases, which are periodic.
 double log_share(int dimension, double log_lambda, double phase) {
   const double place = phase * phases;
   const auto left = static_cast<std::size_t>(place) % phases;
@@ -72,19 +72,19 @@ double log_share(int dimension, double log_lambda, double phase) {
              place - std::floor(place));
 }
 
-/// log₂ of the cube's volume or faces, in cubes or squares of its side.
+/// log₂ of the cube's volume (in cubes of its side) or surface (in squares of its side).
 double log_extent(int dimension) { return dimension == 3 ? 0 : 2.584962500721156; }
 
 constexpr double log2_of_10 = 3.321928094887362;
 
-/// Decades above 10³, where a table's columns start, of as many samples as the cube would hold at the ball's density;
-/// at most to its last column, of 10⁷.
+/// The place among a table's columns, in decades above 10³: for the number of samples that the cube would hold at the
+/// ball's density, at most 10⁷, the last column.
 double decades_of(int dimension, double log_lambda, double halvings) {
   const double log_samples = log_lambda + log_extent(dimension) + dimension * halvings;
   return std::clamp(log_samples / log2_of_10 - 3, 0.0, columns - 1.0);
 }
 
-/// ln of a large ball's count among as many samples as a column of the table stands for, over the law of small balls.
+/// ln(count of a large ball / law of small balls), for the number of samples of one column of the table.
 double coarse_column(int dimension, std::size_t column, double halvings) {
   const double place = std::max(halvings - coarse_from, 0.0) * coarse_phases;
   const auto step = std::min(static_cast<std::size_t>(place), coarse_steps - 2);
@@ -107,9 +107,9 @@ double log_coarse_factor(int dimension, double log_lambda, double halvings) {
   return factor * std::min(1.0, 2 * (coarse_to - halvings));
 }
 
-/// Probability that two uniform points of a unit cube lie within t of each other.
+/// Probability that two uniform points of a unit cube are within t of each other.
 ///
-/// Exact for t <= 1 (cube line picking); beyond, a cubic to 1 at √3, off by less than 0.01.
+/// Exact for t <= 1 (cube line picking); beyond, a cubic that reaches 1 at √3, with an error below 0.01.
 double cube_distance_cdf(double t) {
   using std::numbers::pi;
   if (t <= 1) return t * t * t * (4 * pi / 3 - 1.5 * pi * t + 1.6 * t * t - t * t * t / 6);
@@ -135,13 +135,13 @@ void require_share(std::string_view what, double value) {
     throw std::invalid_argument(fmt::format("{} must be from 0 to 1 (got {})", what, value));
 }
 
-/// b as a digit of the table has it: 90 b/(1 + b).
+/// b from a digit of the table, which is 90 b/(1 + b).
 double tabulated_b(std::size_t row, std::size_t octaves) {
   const int ninetieths = digit(chain_table[row * octave_steps.size() + octaves]);
   return ninetieths / (90.0 - ninetieths);
 }
 
-/// A column's b, linear between its halvings and its octaves.
+/// b of a column, linear between its halvings and its octaves.
 double chain_column(int dimension, std::size_t column, double halvings, double octaves) {
   const std::size_t surfaces = (columns - 1) * chain_steps + dense_chain_steps[0];
   const std::size_t first = (dimension == 3 ? surfaces : 0) + column * chain_steps;
@@ -156,7 +156,7 @@ double chain_column(int dimension, std::size_t column, double halvings, double o
   return mix(at(first + step), at(first + step + 1), place - static_cast<double>(step));
 }
 
-/// b of a large ball: between the columns by the number of samples.
+/// b of a large ball, interpolated between the columns by the number of samples.
 double large_ball_b(int dimension, double log_lambda, double halvings, double octaves) {
   const double place = decades_of(dimension, log_lambda, halvings);
   const auto column = std::min(static_cast<std::size_t>(place), columns - 2);
@@ -164,7 +164,8 @@ double large_ball_b(int dimension, double log_lambda, double halvings, double oc
              place - static_cast<double>(column));
 }
 
-/// b of a small ball: in the column of 10⁷ samples, at the halvings of the same phase between which a ball has this λ.
+/// b of a small ball, from the column of 10⁷ samples: interpolated between the halvings of the same phase around the
+/// one at which a ball has this λ.
 double small_ball_b(int dimension, double log_lambda, double halvings, double octaves) {
   constexpr double least = coarse_to - 0.5;
   const double same_lambda = (7 * log2_of_10 - log_extent(dimension) - log_lambda) / dimension;
@@ -186,7 +187,7 @@ double chain_b(int dimension, const Ball& ball, double octaves) {
 
 constexpr double least_octaves = 1.0 / 16;
 
-/// m_{i-1}/s_i in a nest of the smallest tabulated ratio whose balls hold many samples: as m ∝ ρ^{-D},
+/// m_{i-1}/s_i in a nest with the smallest tabulated ratio whose balls hold many samples. Because m ∝ ρ^{-D}, it solves
 /// x (2^{D/16} - 1) = e^{-bx}, by Newton's method.
 double crowding_of_nest(int dimension, double b) {
   const double growth = std::exp2(dimension * least_octaves) - 1;

@@ -2,45 +2,50 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// How often a sphere of the cache must be rebuilt along the Lebesgue curve, corrected: m_i.
+/// How often a sphere of the cache is rebuilt along the Morton curve (the paper: Lebesgue curve): m_i, corrected.
 ///
-/// One ball alone. A ball of radius ρ is centred at a sample and kept as long as the next samples lie in it. The curve
-/// is self-similar under halving, so that the share m/n of samples that start a new ball depends, but for the ends of
-/// the cube, on two numbers only:
+/// One ball alone. A ball of radius ρ is centred at a sample and kept while the next samples lie in it. The curve is
+/// self-similar under halving. So, away from the cube's faces, the share m/n of samples that start a new ball depends
+/// on only two numbers:
 ///
 ///     m/n = F_D(λ, φ)      λ = n ρ^D / extent      φ = frac(h),  h = log₂(s/ρ)
 ///
 ///   where  n        samples;   D   their dimension;   extent   the volume (D = 3) or area (D = 2) that they fill
-///          ρ        radius of the ball, length: r_i - d, for the disc must lie in the sphere, not only its centre
+///          ρ        radius of the ball, length: r_i - d, because the whole disc must lie in the sphere
 ///          s        side of the curve's cube, length;   h   halvings from it to the ball
-///          λ        samples in a cube of side ρ;   φ   where ρ lies between two halvings
+///          λ        samples in a cube of side ρ;   φ   place of ρ between two halvings
 ///
-/// F_D → 1 for λ → 0 (each sample starts a ball) and ∝ 1/λ for λ → ∞: m ∝ ρ^{-D}, times a factor periodic in log ρ that
-/// varies by a factor of two, with jumps where the ball just holds a cell of the curve. Balls larger than a sixteenth
-/// of the cube see its ends: their counts, in a cube or on its faces, are tabulated apart, by quarters of a decade in
-/// n: the more samples, the smaller the ball at which the count jumps, so that between whole decades it would be
-/// smoothed.
-/// Against 355 such spheres of nests, r_i from 0.3 of the side, at random n_P 10³ … 10⁶ and Q over other samples, m_1
-/// is off by 0.4, 1.9, 3.5 % (D = 2: median, 95th percentile, worst) and 0.6, 3.1, 8.1 % (D = 3), those inside it
-/// by 1.1, 4.7, 5.9 % and 1.2, 4.0, 10.0 %; the noise is 0.6 % in the mean.
+/// F_D → 1 for λ → 0 (each sample starts a ball), and ∝ 1/λ for λ → ∞: then m ∝ ρ^{-D}, times a factor that is periodic
+/// in log ρ and varies by a factor of two, with jumps where the ball just contains a cell of the curve.
 ///
-/// Nested balls. S_i is rebuilt where the sphere around it is, and at those of its own rebuilds that still come:
+/// Balls larger than a sixteenth of the cube are affected by its faces. Their counts, in a cube or on its faces, are
+/// tabulated separately, for four values of n per decade: with more samples the count jumps at a smaller ball, and
+/// interpolation between whole decades would smooth the jumps. Compared with 355 such spheres of nests, r_i from 0.3 of
+/// the side, at random n_P 10³ … 10⁶ and Q, over other samples, the deviations (median, 95th percentile, largest) of
+/// m_1 are 0.4, 1.9, 3.5 % (D = 2) and 0.6, 3.1, 8.1 % (D = 3), of the spheres inside it 1.1, 4.7, 5.9 % and 1.2, 4.0,
+/// 10.0 %; the noise is 0.6 % in the mean.
+///
+/// Nested balls. S_i is rebuilt whenever the sphere around it is, and for those of its own rebuilds that remain:
 ///
 ///     m_i = m_{i-1} + s_i (1 - m_{i-1}/n) w      w = exp(-b m_{i-1}/s_i)
 ///
-///   where  s_i  rebuilds of S_i alone;   m_{i-1}/s_i   how crowded they are by those of the sphere around it
-///          w    share of them that remain at samples at which the outer sphere stays: would S_i move in equal steps
-///               that knew nothing of S_{i-1}, b would be about ½; as both follow the same curve, it depends on the
-///               ratio of the balls, on their phase and on λ
+///   where  s_i            rebuilds of S_i alone
+///          m_{i-1}/s_i    rebuilds of the sphere around it relative to these, the crowding
+///          w              share of its own rebuilds that remain at samples at which the outer sphere stays. If S_i
+///                         moved in
+///                         equal steps independent of S_{i-1}, b would be about ½. Both follow the same curve, so b
+///                         depends
+///                         on the ratio of the balls, on their phase and on λ
 ///
-/// For ever more spheres (ratio → 1) the samples' own distance matters: a ball that is but a little smaller than the
-/// one around it is left alone only if a sample lands between both. So w ∝ the logarithm of the ratio, once that is
-/// less than the distance of samples over ρ, λ^{-1/D}.
+/// With ever more spheres (ratio → 1) the distance between samples matters: a ball that is only slightly smaller than
+/// the one around it is rebuilt alone only if a sample falls between both. So w is proportional to the logarithm of the
+/// ratio once this is less than the distance of samples divided by ρ, λ^{-1/D}.
 ///
-/// All is tabulated (rebuild_law_tables.inc, made by validate/tools/rebuild_law_table.cpp).
+/// F, b and the counts of large balls are tabulated (rebuild_law_tables.inc, made by
+/// validate/tools/rebuild_law_table.cpp).
 namespace detp::model {
 
-/// A ball around a sample, as the curve sees it.
+/// A ball around a sample, in the numbers of the rebuild law.
 struct Ball {
   double lambda = 0;    ///< λ: samples in a cube of its radius
   double halvings = 0;  ///< h = log₂(s/ρ)
@@ -59,8 +64,8 @@ struct Ball {
 /// s_i along the curve: rebuilds of one ball alone among so many samples, from 1 to all.
 [[nodiscard]] double single_rebuilds(double dimension, double samples, const Ball& ball);
 
-/// Throws std::invalid_argument for the Hilbert order: the law is tabulated along the Lebesgue curve, and there is no
-/// formula for another.
+/// Throws std::invalid_argument for the Hilbert order: the law is tabulated along the Morton curve, and there is no
+/// formula for other curves.
 void require_rebuild_law(SampleOrder order);
 
 /// The same for the workload's samples in order or in none. ρ <= 0: each sample. Throws as require_rebuild_law does.
@@ -68,16 +73,16 @@ void require_rebuild_law(SampleOrder order);
 
 /// w: share of a ball's own rebuilds that remain inside another.
 ///
-///   octaves    log₂(ρ_{i-1}/ρ_i), >= 0; tabulated from 1/16 to 9/4, beyond which b is kept
+///   octaves    log₂(ρ_{i-1}/ρ_i), >= 0; tabulated from 1/16 to 9/4; beyond 9/4 b is constant
 ///   crowding   m_{i-1}/s_i, >= 0
 ///
-/// Source     b: our tabulation over nests of one ratio. Below 1/16 of an octave w is taken from there, at the crowding
-///            that such a nest has, and lowered by (1 - e^{-x}) in x = octaves/(c λ^{-1/D}); c = 0.9 (D = 2) and 0.45
-///            (D = 3): our fit to nests of 1/32 … 1/256.
+/// Source     b: our tabulation over nests of one ratio. Below 1/16 of an octave w is taken from 1/16, at the crowding
+///            of such a nest, and multiplied by a factor proportional to 1 - e^{-x}, x = octaves/(c λ^{-1/D}); c = 0.9
+///            (D = 2) and 0.45 (D = 3) are our fit to nests of 1/32 … 1/256.
 /// Throws     std::invalid_argument for a number out of range.
 [[nodiscard]] double own_rebuild_share(double dimension, const Ball& ball, double octaves, double crowding);
 
-/// m_i from the rebuilds of S_i alone, those of S_{i-1} and w. From m_{i-1} to n.
+/// m_i, computed from the rebuilds of S_i alone, those of S_{i-1}, and w. Between m_{i-1} and n.
 [[nodiscard]] double nested_rebuilds(double alone, double outer, double own_share, double samples);
 
 }  // namespace detp::model

@@ -14,9 +14,9 @@ namespace detp::model {
 namespace {
 
 constexpr std::size_t remembered = 6;
-constexpr std::int64_t most_groups = 4096;  // of equal ratio
+constexpr std::int64_t most_groups = 4096;  // number of groups of equal ratio
 
-/// Goes through the spheres from the outside in.
+/// Walks through the spheres from the outside in.
 class Walk {
  public:
   Walk(const Workload& workload, const SphereCacheParameters& parameters)
@@ -29,7 +29,7 @@ class Walk {
         .radius = workload.sphere_radius, .rays = workload.rays, .listed = workload.rays, .served = workload.rays};
   }
 
-  /// The sphere i, `step` spheres inside the last one.
+  /// Moves to sphere i, which is `step` spheres inside the current one.
   const SphereLevel& to(std::int64_t i, std::int64_t step) {
     const SphereLevel outer = current_;
     const auto spheres = static_cast<double>(step);
@@ -45,7 +45,8 @@ class Walk {
   [[nodiscard]] const SphereLevel& innermost() const { return current_; }
 
  private:
-  /// m_i, `step` spheres inside the last: at each, n - m shrinks by the same share, that of the sphere in the middle.
+  /// m_i, `step` spheres inside the current one. At each sphere n - m shrinks by the same factor, computed for the
+  /// middle one.
   [[nodiscard]] double rebuilds(const SphereLevel& outer, double step) const {
     const double n = workload_.samples;
     const double d = workload_.disc_radius;
@@ -65,7 +66,8 @@ class Walk {
     return std::max(alone, n - (n - outer.rebuilds) * shrinking);
   }
 
-  /// L_{i-1}, mean over the builds of S_i; `step` spheres inside the last, between its list and the new one.
+  /// L_{i-1}, mean over the builds of S_i, for a sphere `step` spheres inside the current one: between the current list
+  /// and the new one.
   [[nodiscard]] double tests(const SphereLevel& outer, double step) const {
     const double more = outer.rebuilds / current_.rebuilds;
     const double again = step == 1 ? more : std::pow(more, 1 / step);
@@ -78,7 +80,7 @@ class Walk {
     return longer(around, lengthening);
   }
 
-  /// A list's length, mean over what happens while it serves instead of over its builds.
+  /// A list's length, averaged over its uses instead of over its builds.
   [[nodiscard]] double longer(const SphereLevel& sphere, double lengthening) const {
     if (sphere.i == 0 || parameters_.order == SampleOrder::none || !(sphere.rays > 0)) return sphere.listed;
     return sphere.listed * (1 + lengthening * (1 - sphere.listed / sphere.rays));
@@ -99,11 +101,11 @@ class Walk {
   SphereCacheParameters parameters_;
   double log_ratio_ = 0;
   SphereLevel current_;
-  std::vector<Enclosing> around_;  ///< the nearest first; of samples in no order
+  std::vector<Enclosing> around_;  ///< the nearest first; for unsorted samples
 };
 
-/// Sum of `terms` terms at one ratio, the last of them b, a being the one before the first; where b is too small for a
-/// double, with the ratio given by `log_ratio`.
+/// Sum of `terms` terms of a geometric sequence. Its last term is b, and a is the one before the first. If b is too
+/// small for a double, `log_ratio` gives the ratio.
 double sum_of_terms(double a, double b, double terms, double log_ratio) {
   if (terms == 1) return b;
   if (!(a > 0)) return terms * b / 2;
@@ -143,7 +145,7 @@ Counts<double> sphere_cache_counts(const Workload& workload, const SphereCachePa
   Counts<double> counts{.visits = workload.samples,
                         .sorted = parameters.order == SampleOrder::none ? 0 : workload.samples,
                         .hits = expected_hits(workload)};
-  const double vanishing = 2 * std::log(parameters.ratio);  // lists of spheres too small to see: ∝ r_i²
+  const double vanishing = 2 * std::log(parameters.ratio);  // lists of very small spheres are proportional to r_i²
   double tests = 0;
   double copies = 0;
   double rebuilds = 0;

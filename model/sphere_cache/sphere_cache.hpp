@@ -8,11 +8,11 @@
 
 /// The sphere cache with its exact walk, corrected.
 ///
-/// What differs from the paper's account (sphere_cache_published.hpp):
-///  - A sphere serves a disc only if the disc lies in it and in all larger ones; else rays are lost. So the walk goes
-///    from the outermost sphere inwards, and rebuilds all from the first that does not hold the disc.
+/// Differences from the paper's version (sphere_cache_published.hpp):
+///  - A sphere serves a disc only if the disc lies in it and in all larger ones; otherwise rays would be lost. So the
+///    walk goes from the outermost sphere inwards, and rebuilds all from the first that does not contain the disc.
 ///  - m_i follows rebuild_law.hpp.
-///  - S_i, centred where it was rebuilt, need not lie inside S_{i-1}: its list has but a share of its rays
+///  - S_i is centred where it was rebuilt and need not lie inside S_{i-1}, so its list holds only a share of its rays
 ///    (listed_rays.hpp).
 ///  - Copying the lists and sorting the samples take time too.
 ///
@@ -22,8 +22,8 @@
 ///
 ///   where  n_i   expected rays in S_i: n_R P(hit S_i)
 ///          L_i   expected rays listed for S_i, mean over its builds;   g_i   listed_share
-///          L'_i  mean over the builds of S_{i+1};   L"_k   mean over the discs: long lists serve longer than short
-///                ones. Our fits to counted walks; they add up to 4 % and 8 %
+///          L'_i  mean over the builds of S_{i+1};   L"_k   mean over the discs. Both are longer than L, because long
+///                lists are used for longer than short ones. Our fits to counted walks; they add up to 4 % and 8 %
 namespace detp::model {
 
 /// One sphere of the cache.
@@ -34,7 +34,7 @@ struct SphereLevel {
   double listed = 0;    ///< L_i: rays in its list
   double rebuilds = 0;  ///< m_i
   double tests = 0;     ///< ray-sphere tests of one rebuild: L'_{i-1}
-  double served = 0;    ///< L"_i: ray-disc tests of a disc, were S_i the innermost sphere
+  double served = 0;    ///< L"_i: ray-disc tests of a disc if S_i is the innermost sphere
 };
 
 /// The first `most` of the k spheres. Throws std::invalid_argument for numbers out of range, and for the

@@ -13,7 +13,7 @@ void check_arguments(RadiusRatio ratio, std::int64_t i) {
   require_count("index of the sphere", static_cast<double>(i), 0, 9e18);
 }
 
-/// Qⁿ: in long double, so that a large exponent costs no digits.
+/// Qⁿ in long double, so that a large exponent loses no digits.
 long double power(RadiusRatio ratio, long double exponent) {
   return std::exp(exponent * std::log(static_cast<long double>(ratio.value)));
 }

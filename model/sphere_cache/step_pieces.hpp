@@ -5,16 +5,16 @@
 
 #include "sphere_count.hpp"
 
-/// The pieces of Q between the steps of k, at Q_j = (d/r₀)^{1/j}, where r_j = d. The published T_I has its minima, all
-/// alike, just there (the paper's text to its fig 12 calls them peaks).
+/// The intervals of Q between the steps of k, at Q_j = (d/r₀)^{1/j}, where r_j = d. The published T_I has its minima,
+/// all equal, at these Q_j (the paper's text on its fig 12 calls them peaks).
 namespace detp::model {
 
-/// The ratios among which the best is looked for.
+/// The ratios among which the best is searched.
 inline constexpr double least_ratio = 0.02;
 inline constexpr double most_ratio = 0.98;
 
-/// Ends of the pieces, a little off the steps: 4e-12 of ln Q, so that plain arithmetic knows k there (see sphere_count)
-/// and T is within 1e-10 of its value at the step.
+/// Ends of the intervals, slightly off the steps: by 4e-12 of ln Q. There plain arithmetic gives the right k (see
+/// sphere_count), and T is within 1e-10 of its value at the step.
 class StepPieces {
  public:
   /// Throws std::invalid_argument for a workload out of range or d >= r₀: then there is no sphere.

@@ -8,11 +8,11 @@
 #include <type_traits>
 #include <variant>
 
-/// A parameter of a technique as a line of a table. Checks, descriptions, JSON, options of the command line and the
-/// variants that tests run all follow from the table.
+/// A technique's parameter as a row of a table. Checks, descriptions, JSON, command-line options and the variants that
+/// tests run all follow from the table.
 namespace detp {
 
-/// The names of an enumeration's values, in their order from 0; empty for a type that is no choice.
+/// The names of an enumeration's values, in their order from 0; empty for a type that is not a choice.
 template <class E>
 inline constexpr std::array<std::string_view, 0> choice_names{};
 
@@ -25,7 +25,7 @@ template <Choice E>
   return choice_names<E>[static_cast<std::size_t>(value)];
 }
 
-/// The value of that name, or nothing.
+/// The value with that name; nullopt if there is none.
 template <Choice E>
 [[nodiscard]] constexpr std::optional<E> choice_named(std::string_view wanted) {
   for (std::size_t i = 0; i < choice_names<E>.size(); ++i)
@@ -36,16 +36,16 @@ template <Choice E>
 /// A parameter's value: a real number, a whole number, or the name of a choice.
 using ParameterValue = std::variant<double, std::int64_t, std::string_view>;
 
-/// One line of a technique's table. `Parameters` is the variant of all techniques' parameters.
+/// One row of a technique's table. `Parameters` is the variant of all techniques' parameters.
 template <class Parameters>
 struct ParameterRecord {
-  std::string_view name;    ///< on the command line, "fan-out"; in JSON with underscores
+  std::string_view name;    ///< on the command line: "fan-out"; in JSON with underscores
   std::string_view symbol;  ///< in descriptions: "Q"
   std::string_view what;    ///< in messages: "radius ratio Q"
   std::string_view help;    ///< what it does, in a few words
-  double least = 0;         ///< of a number; 0 and 1 of a ratio are excluded
+  double least = 0;         ///< smallest value of a number; for a ratio 0 and 1 are excluded
   double most = 0;
-  ParameterValue small = std::int64_t{0};          ///< a value for few samples, as in tests and first trials
+  ParameterValue small = std::int64_t{0};          ///< a value for few samples, for tests and first trials
   std::span<const std::string_view> choices = {};  ///< of a choice: the names
   ParameterValue (*get)(const Parameters&) = nullptr;
   void (*set)(Parameters&, const ParameterValue&) = nullptr;

@@ -8,8 +8,8 @@
 
 #include "parameters.hpp"
 
-/// The techniques: one record each. A new one is a record here, a line in each registry (model, sim, validate) and a
-/// file in sim/technique.
+/// The techniques, one record each. A new technique is a record here, a line in each registry (model, sim, validate)
+/// and a file in sim/technique.
 namespace detp {
 
 enum class Technique {
@@ -95,14 +95,14 @@ inline constexpr std::array photon_map{number<&PhotonMapParameters::nearest>(
 
 }  // namespace records
 
-/// All that is to be known of a technique without running it.
+/// Properties of a technique that do not depend on a run.
 struct TechniqueRecord {
   Technique technique;
   std::string_view name;  ///< on the command line and in files
   std::span<const Parameter> parameters;
   Parameters defaults;
   bool exact = true;        ///< finds every hit
-  bool ray_by_ray = false;  ///< tests one ray and one disc at a time, rather than lists of rays
+  bool ray_by_ray = false;  ///< tests one ray and one disc at a time, not lists of rays
   bool simd = false;        ///< has a simd engine
 };
 
@@ -141,7 +141,7 @@ static_assert([] {
 
 [[nodiscard]] constexpr std::string_view name(Technique technique) { return record_of(technique).name; }
 
-/// The technique of that name, or nothing.
+/// The technique with that name; nullopt if there is none.
 [[nodiscard]] std::optional<Technique> technique_named(std::string_view name);
 
 /// One technique with its parameters.
@@ -156,17 +156,18 @@ struct Candidate {
   return {technique, record_of(technique).defaults};
 }
 
-/// The technique's parameter of that name; null where it has none.
+/// The technique's parameter with that name; null if it has none.
 [[nodiscard]] const Parameter* find_parameter(Technique technique, std::string_view name);
 
-/// Changes a parameter. Throws std::invalid_argument for a value out of range, or of another kind, or where the
+/// Changes a parameter. Throws std::invalid_argument if the value is out of range or of another kind, or if the
 /// technique has no such parameter.
 void set_parameter(Candidate& candidate, std::string_view name, const ParameterValue& value);
 
-/// The parameters for a reader: "Q 0.607, k 9"; choices where they differ from the default. Empty where there are none.
+/// The parameters as text: "Q 0.607, k 9". Choices are only shown if they differ from the default. Empty if there are
+/// no parameters.
 [[nodiscard]] std::string describe(const Candidate& candidate);
 
-/// Throws std::invalid_argument where a parameter is out of its range or not one of the technique's.
+/// Throws std::invalid_argument if a parameter is out of range or does not belong to the technique.
 void check(const Candidate& candidate);
 
 /// The technique with small parameters, and with each parameter at its least value and at each of its choices: those

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The words that prediction and simulation share, and nothing else: no formula of a model is reachable from here.
+/// The types that prediction and simulation share. Contains no formulas of the models, and includes none.
 #include "checks.hpp"
 #include "counts.hpp"
 #include "engine.hpp"
