@@ -6,7 +6,8 @@
 namespace detp::sim {
 namespace {
 
-/// Rays go through the tree front to back, each with the stretch of it that is in the node. Empty leaves are kept.
+/// Rays traverse the tree front to back. Each node receives the interval of the ray that lies in it. Empty leaves are
+/// kept.
 class Bsp {
  public:
   Bsp(const Problem& problem, const BspParameters& parameters, const std::stop_token& stop)
@@ -38,8 +39,8 @@ class Bsp {
       show(node.first + above, part_of(box, node.axis, node.plane, above), level + 1, visit);
   }
 
-  /// The ray is in the node, grown by the slack, for that stretch: it goes on into the part that it enters first, and
-  /// then into the other. The parts are grown too, so that near the plane it is in both.
+  /// `stretch` is the ray's interval in the node, grown by the slack. Continues in the part that the ray enters first,
+  /// and then in the other. The parts are grown too, so that near the plane the ray is in both.
   template <class Search>
   void enter(std::uint32_t number, const Stretch& stretch, std::uint32_t ray, const ClippedRay& clipped,
              Search& search) const {

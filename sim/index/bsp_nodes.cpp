@@ -11,7 +11,8 @@
 namespace detp::sim {
 namespace {
 
-/// Of sides or costs that differ by less, rounding and the slack do not choose: the same discs get the same tree.
+/// Sides or costs that differ by less count as equal, so that rounding and the slack decide nothing: the same discs
+/// always give the same tree.
 constexpr double clear = 1 - 1e-9;
 
 using Discs = std::vector<std::uint32_t>;
@@ -77,7 +78,7 @@ class Builder {
     for (unsigned part = 0; part < 2; ++part) build(first + part, boxes[part], level + 1, std::move(parts[part]));
   }
 
-  /// Whether the search of the halves is expected to be cheaper than testing all discs.
+  /// Whether searching the halves is expected to be cheaper than testing all discs.
   [[nodiscard]] bool pays(const Split& split, const Box& box, const Discs& discs) {
     double in_parts = 0;
     for_each_checked(std::span(discs), check_, [&](std::uint32_t disc) {
@@ -104,7 +105,7 @@ class Builder {
     return inside;
   }
 
-  /// Predicted bytes with so many more references. What is built is copied at the end, to fit.
+  /// Predicted bytes with `more` additional references. Includes the copy that trims the arrays at the end.
   [[nodiscard]] double needed(std::size_t more) const {
     const std::size_t references = tree_.references.size() + more;
     return static_cast<double>(bounds_.size()) * sizeof(Box) +
@@ -114,7 +115,7 @@ class Builder {
            grown_bytes(tree_.nodes.size() + 2, sizeof(BspNode));
   }
 
-  /// For the halves of a node with so many discs, or its references.
+  /// Checks the memory for splitting a node with `discs` discs, or for its references.
   void require_room(std::size_t discs) const {
     require_memory("the BSP tree", needed(discs) + 2 * static_cast<double>(discs) * sizeof(std::uint32_t));
     if (tree_.references.size() + discs >= UINT32_MAX || tree_.nodes.size() + 2 >= UINT32_MAX)
@@ -125,8 +126,8 @@ class Builder {
   const BspParameters& parameters_;
   StopCheck check_;
   std::vector<Box> bounds_;
-  std::size_t listed_ = 0;       ///< in the lists of nodes not yet built
-  std::size_t most_listed_ = 0;  ///< at any time
+  std::size_t listed_ = 0;       ///< discs in the lists of unfinished nodes
+  std::size_t most_listed_ = 0;  ///< the largest value of listed_
   BspNodes tree_;
 };
 

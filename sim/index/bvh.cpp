@@ -17,15 +17,15 @@
 namespace detp::sim {
 namespace {
 
-/// What single precision may misplace, in own units, several times over: sim/geometry/proofs.md, "The culls".
+/// Several times the rounding error of single precision, in own units: sim/geometry/proofs.md, "The culls".
 constexpr double margin = 0x1p-18;
-/// More than S₀ and the slack reach from where a ray passes their centre, in own units.
+/// More than the distance from S₀'s centre to the end of S₀ and the slack, in own units.
 constexpr double half_stretch = 1.5;
 
-/// What Embree takes to build, at its peak, of pages in use; measured, 60 to 84 for 2·10⁵ discs.
+/// Peak memory of Embree's build, in pages used; 60 to 84 were measured for 2·10⁵ discs.
 constexpr double bytes_per_disc = 95;
 
-/// Coordinates in which S₀, grown by the slack, has a radius of 0.5 … 1 around the origin: what Embree sees in single
+/// Coordinates in which S₀, grown by the slack, has a radius of 0.5 … 1 around the origin. Embree uses them in single
 /// precision. The unit is a power of two, so that scaling is exact.
 class OwnFrame {
  public:
@@ -34,13 +34,14 @@ class OwnFrame {
         unit_(std::exp2(std::ilogb(problem.enclosing.radius + problem.slack) + 1)),
         growth_(problem.slack / unit_ + margin) {}
 
-  /// Holds the disc, and every point within the slack of it, with room for the errors of single precision.
+  /// A box that contains the disc and every point within the slack of it, with a margin for the errors of single
+  /// precision.
   [[nodiscard]] Box box(const Disc& disc) const {
     return bounds({(disc.centre - centre_) / unit_, disc.normal, disc.radius / unit_}, growth_);
   }
 
-  /// The part of the ray that comes near S₀; nothing where none does. It starts near S₀ in double precision, however
-  /// far away the ray does, and is a little longer than the part, so that no end is lost.
+  /// The part of the ray near S₀; nullopt if there is none. Its origin, computed in double precision, is near S₀ even
+  /// if the ray's is far away. It is slightly longer than the part, so that no end is lost.
   [[nodiscard]] std::optional<RTCRay> stretch(const Ray& ray) const {
     const glm::dvec3 origin = (ray.origin - centre_) / unit_;
     const double abreast = -glm::dot(origin, ray.direction);
@@ -65,17 +66,17 @@ class OwnFrame {
   double growth_;
 };
 
-/// Is shown discs whose box the ray being traced meets.
+/// Receives the discs whose box the traced ray meets.
 class DiscTest {
  public:
-  /// False if it wants to see no more.
+  /// Returns false to end the traversal.
   virtual bool test(std::uint32_t disc) noexcept = 0;
 
  protected:
   ~DiscTest() = default;
 };
 
-/// What Embree hands back to us with each disc; the context proper must come first.
+/// Data that Embree passes to our callback with each disc. Embree's own context must come first.
 struct Query {
   RTCIntersectContext context;
   DiscTest* discs;
@@ -101,11 +102,11 @@ class Bvh {
     rtcSetGeometryOccludedFunction(geometry.get(), show_disc);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene_.get(), geometry.get());
-    // (A device made with "threads=1" would hold the whole process to one thread.)
+    // (A device created with "threads=1" would limit the whole process to one thread.)
     on_threads(thread_count(threads), [&] { embree::commit(device_.get(), scene_.get(), stop, "building the BVH"); });
   }
 
-  /// Shows the query every disc whose box the ray meets.
+  /// Passes every disc whose box the ray meets to the query.
   void trace(const Ray& ray, Query& query) const {
     if (std::optional<RTCRay> stretch = frame_.stretch(ray)) rtcOccluded1(scene_.get(), &query.context, &*stretch);
   }
@@ -119,7 +120,7 @@ class Bvh {
     *arguments->bounds_o = {low.x, low.y, low.z, 0, high.x, high.y, high.z, 0};
   }
 
-  /// Says of no disc that it was met, so that Embree goes on, unless it shall end.
+  /// Reports no hit, so that Embree continues, unless the query ends the traversal.
   static void show_disc(const RTCOccludedFunctionNArguments* arguments) {
     if (arguments->valid[0] != 0 && !reinterpret_cast<Query*>(arguments->context)->discs->test(arguments->primID))
       RTCRayN_tfar(arguments->ray, arguments->N, 0) = -INFINITY;
@@ -153,7 +154,7 @@ class BvhSearch final : public RaySearch, private DiscTest {
  private:
   bool test(std::uint32_t disc) noexcept override {
     tally_.add(&Counts<std::uint64_t>::disc_tests);
-    try {  // nothing thrown must pass through Embree
+    try {  // no exception must pass through Embree
       check_.after(1);
       if (counts_as_hit(problem_, problem_.rays[ray_], problem_.discs[disc])) hits_->push_back({ray_, disc});
     } catch (...) {
@@ -171,23 +172,24 @@ class BvhSearch final : public RaySearch, private DiscTest {
   std::exception_ptr failure_;
 };
 
-/// Bounding volume hierarchy over the discs by Embree. It shows the discs whose box a ray meets (and others of the same
-/// leaf where discs are few); each is a disc test in double precision. None is missed: sim/geometry/proofs.md,
-/// "The culls". Embree does not report the nodes it visits. It advises to flush tiny numbers to zero; the decision's doubles are
-/// left as they are.
+/// Bounding volume hierarchy over the discs by Embree. It reports the discs whose box a ray meets (and others in the
+/// same leaf if discs are few); each is tested in double precision. None is missed: sim/geometry/proofs.md, "The
+/// culls". Embree does not report the nodes it visits. Embree's advice to flush tiny numbers to zero is not followed,
+/// because the decision in double precision needs them.
 ///
-/// Boxes are a user geometry, whose callback decides. Beside them Embree's own points of inflated radius, with the same
-/// decision in a filter (build + search, ms of processor time; tests a hit; one thread, the least of 11 runs):
+/// The boxes are a user geometry, whose callback makes the decision. For comparison, the table also has Embree's own
+/// point geometries with enlarged radius and the same decision in a filter (build + search, ms of processor time; tests
+/// per hit; one thread, minimum of 11 runs):
 ///
 ///                                @uniform, 100 000 discs, 50 000 lines    @tree, 85 967 discs, 100 000 paths
 ///     boxes, low quality         11 + 103; 2.3                            9 + 93; 3.0
 ///     boxes, medium quality      44 + 97;  2.3                            34 + 87; 3.0
 ///     oriented discs             33 + 89;  1.0                            29 + 94; 2.0     loses grazing rays
 ///     discs facing the ray       32 + 124; 2.0                            28 + 108; 3.4
-///     spheres                    33 + 140; 4.0                            28 + 129; 6.4    shows each disc twice
+///     spheres                    33 + 140; 4.0                            28 + 129; 6.4    reports each disc twice
 ///
 /// Points get the same tree at low quality as at medium. Low quality is the default: with 10³ … 3·10⁵ rays on four
-/// scenes it took 0.3 to 1.1 times what medium did.
+/// scenes it took 0.3 to 1.1 times as long as medium.
 class BvhIndex final : public Index {
  public:
   BvhIndex(const Problem& problem, BuildQuality quality, const RunOptions& options)
@@ -215,7 +217,7 @@ class BvhIndex final : public Index {
 
 }  // namespace
 
-/// Throws std::runtime_error where Embree fails.
+/// Throws std::runtime_error if Embree fails.
 std::unique_ptr<Index> prepare_bvh(const Problem& problem, const Parameters& parameters, const RunOptions& options) {
   return std::make_unique<BvhIndex>(problem, std::get<BvhParameters>(parameters).quality, options);
 }

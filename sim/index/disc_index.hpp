@@ -5,39 +5,41 @@
 #include "detp/model/vocabulary/index_variant.hpp"
 #include "detp/sim/search/index.hpp"
 
-/// The indices of discs behind the techniques octree, grid and bsp: in their variants, and as they stand when built.
+/// The indices of discs behind the techniques octree, grid and bsp: their variants, and access to the built index.
 namespace detp::sim {
 
 /// A node of an octree or a BSP tree, or a cell of a grid.
 struct IndexNode {
-  Box box;  ///< where rays meet it; of a grid's outermost cells the part inside the grid's box
+  Box box;  ///< the box in which rays meet it; for a grid's outermost cells the part inside the grid's box
   int level = 0;
   bool leaf = false;
-  std::size_t references = 0;  ///< discs listed here, in leaves
+  std::size_t references = 0;  ///< number of discs listed here; 0 for inner nodes
 };
 
-/// What an index holds.
+/// The size of an index.
 struct IndexSize {
-  std::size_t nodes = 0;  ///< of a tree, leaves included; of a grid its cells
+  std::size_t nodes = 0;  ///< nodes of a tree including leaves, or cells of a grid
   std::size_t references = 0;
-  std::size_t placements = 0;  ///< discs found to overlap a cell or node, at all levels
-  std::size_t bytes = 0;       ///< of memory, between building and searching
-  double building_bytes = 0;   ///< predicted memory while it is built, at its peak
+  std::size_t placements = 0;  ///< insertions of a disc into a cell or node, at all levels
+  std::size_t bytes = 0;       ///< bytes of memory after building and before searching
+  double building_bytes = 0;   ///< predicted peak memory while it is built
 };
 
 using VisitNode = std::function<void(const IndexNode&)>;
 
-/// Builds an octree, needing no ray, and shows its nodes, parents before children.
-/// Throws as run does for parameters out of range, and for an index that would not fit the memory; Stopped if a stop
-/// was requested while it was built.
+/// Builds an octree, without any rays, and calls `visit` for its nodes, parents before children. Throws as run does for
+/// parameters out of range, and for an index that would not fit in memory; Stopped if a stop was requested while it was
+/// built.
 IndexSize inspect_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
                          const VisitNode& visit, const std::stop_token& stop = {});
 
-/// The same for a grid: its cells, empty ones too.
+/// Builds a grid, without any rays, and calls `visit` for its cells, including empty ones. Throws as inspect_octree
+/// does.
 IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
                        const VisitNode& visit, const std::stop_token& stop = {});
 
-/// The same for a BSP tree, empty leaves too.
+/// Builds a BSP tree, without any rays, and calls `visit` for its nodes, including empty leaves. Throws as
+/// inspect_octree does.
 IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, const VisitNode& visit,
                       const std::stop_token& stop = {});
 
@@ -45,7 +47,7 @@ IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, c
 [[nodiscard]] std::unique_ptr<Index> index_octree(const Problem& problem, const OctreeParameters& parameters,
                                                   const IndexVariant& variant, const RunOptions& options = {});
 
-/// Prepares a variant of the grid; there is only one way to walk it.
+/// Prepares a variant of the grid. There is only one way to traverse it.
 [[nodiscard]] std::unique_ptr<Index> index_grid(const Problem& problem, const GridParameters& parameters,
                                                 const IndexVariant& variant, const RunOptions& options = {});
 

@@ -13,7 +13,7 @@ namespace {
 
 using Cell = std::array<std::int64_t, 3>;
 
-/// Cubic cells over the box of the discs, and for each cell its discs, in one array (compressed rows).
+/// Cubic cells over the box of the discs, and the discs of each cell in one array (compressed rows).
 class Grid {
  public:
   Grid(const Problem& problem, int cells, Insertion insertion, const std::stop_token& stop)
@@ -48,8 +48,8 @@ class Grid {
         }
   }
 
-  /// Goes from cell to cell along the ray. The place of each plane is computed anew from its number, so that errors do
-  /// not add up; a cell missed by rounding is no loss, for the discs near its faces are in the next cell too.
+  /// Steps from cell to cell along the ray. The place of each plane is recomputed from its number, so errors do not
+  /// accumulate. A cell missed by rounding does no harm, because discs near its faces are in the next cell too.
   template <class Search>
   void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(traced);
@@ -74,7 +74,7 @@ class Grid {
   }
 
  private:
-  /// How far along the ray it leaves the cell across an axis.
+  /// Distance along the ray at which it leaves the cell across an axis.
   double leaving(const ClippedRay& ray, const Cell& cell, int axis) const {
     if (std::isinf(ray.inverse[axis])) return unbounded;
     const auto plane = static_cast<double>(cell[axis] + (ray.inverse[axis] > 0 ? 1 : 0));
@@ -122,7 +122,8 @@ class Grid {
     std::uint32_t disc;
   };
 
-  /// The cells, and so many placements; then the cells twice, and placements with the references that they become.
+  /// Peak bytes: first the cells and the placements; then the cells twice, and the placements with the references made
+  /// from them.
   [[nodiscard]] double building_bytes(std::size_t placements) const {
     constexpr double each = sizeof(Placement) + sizeof(std::uint32_t);
     const double cells = static_cast<double>(starts_.size()) * sizeof(starts_[0]);

@@ -13,11 +13,11 @@
 
 namespace detp::sim {
 
-/// Traces rays through an index and tests each against the discs of the cells it enters. The hit of a disc met in
-/// several cells is kept once. Without mailboxes the disc is tested in each (what is tested again counts again, though
-/// the answer is known).
+/// Traces rays through an index and tests each against the discs of the cells that it enters. A disc hit in several
+/// cells is recorded once. Without mailboxes it is tested in each cell (repeated tests count, although the answer is
+/// known).
 ///
-/// An index offers trace(ray, number, search), which calls visit and test, and size().
+/// An index provides trace(ray, number, search), which calls visit and test, and size().
 template <bool counting, bool mailboxing, class Cells>
 class IndexedSearch final : public RaySearch {
  public:
@@ -65,7 +65,8 @@ class IndexedSearch final : public RaySearch {
   std::vector<Pair>* hits_ = nullptr;
 };
 
-/// An index of cells over discs, and its search. `Cells` is made of a problem's discs and further arguments.
+/// An index of cells over discs, and its search. The constructor of `Cells` receives the problem and the further
+/// arguments.
 template <class Cells>
 class TracedIndex final : public Index {
  public:
@@ -91,7 +92,7 @@ class TracedIndex final : public Index {
   }
 
  private:
-  /// The index, the mailboxes of its search, the sums and the outcome.
+  /// Bytes of the index, the mailboxes of its search, the sums and the outcome.
   [[nodiscard]] double searching_bytes(const Problem& problem, const RunOptions& options) const {
     const double mailboxes = thread_count(options.threads) * static_cast<double>(sizeof(std::uint32_t)) *
                              static_cast<double>(problem.discs.size());
@@ -112,7 +113,7 @@ class TracedIndex final : public Index {
   Cells cells_;
 };
 
-/// The box around the discs' centres, grown by the largest radius: no disc pokes out.
+/// The box around the discs' centres, grown by the largest radius, so that it contains every disc.
 [[nodiscard]] inline Box index_box(std::span<const Disc> discs) {
   Box box;
   double largest = 0;
@@ -123,12 +124,13 @@ class TracedIndex final : public Index {
   return {box.low - largest, box.high + largest};
 }
 
-/// What the cells of an index fill: over 2 slack beyond the discs, so that a ray along an outer face, or just outside
-/// it, is still among the cells when it passes the discs that touch that face (sim/geometry/proofs.md, "The culls").
+/// The box that the cells of an index fill. It is more than 2 slack larger than the discs' box, so that a ray along an
+/// outer face, or just outside it, is still in the cells when it passes discs that touch that face
+/// (sim/geometry/proofs.md, "The culls").
 ///
-/// Discs of man-made scenes lie just where the box is halved or quartered. The planes there move by a part of the
-/// margin that depends on their place; were it one slack for any j/N of small N, rounding would tell which cells they
-/// overlap.
+/// In man-made scenes, discs often lie exactly where the box is halved or quartered. The margin moves each plane by an
+/// amount that depends on the plane's place. If this were exactly one slack for some j/N with small N, rounding would
+/// decide which cells these discs overlap.
 [[nodiscard]] inline Box index_box(const Problem& problem) {
   constexpr double slacks = 2.618;
   const Box box = index_box(problem.discs);

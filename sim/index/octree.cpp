@@ -60,7 +60,8 @@ class Octree {
       for_each_child(node, box, [&](std::uint32_t child, const Box& part) { show(child, part, level + 1, visit); });
   }
 
-  /// Bytes while the tree is built, or its nodes are linked, each with the number of the one that it was made of.
+  /// Peak bytes while the tree is built, or while its nodes are linked, each with the number of the node from which it
+  /// was made.
   [[nodiscard]] double linking_bytes() const {
     return std::max(tree_.building_bytes,
                     static_cast<double>(tree_bytes()) +
@@ -71,8 +72,7 @@ class Octree {
     return tree_.nodes.size() * sizeof(OctreeNode) + tree_.references.size() * sizeof(std::uint32_t);
   }
 
-  /// From the root towards that place among the leaves: tests the discs of the leaf there, or finds the octant that was
-  /// left out.
+  /// Descends from the root towards that leaf place. Tests the discs of the leaf there, or finds the omitted octant.
   template <class Search>
   LeafCube from_root(const Leaf& place, std::uint32_t ray, Search& search) const {
     std::uint32_t number = 0;
@@ -89,8 +89,8 @@ class Octree {
     return cube_around(place, 1);
   }
 
-  /// From a leaf or empty octant (at first the root) across its face, and down to the leaf or empty octant at that
-  /// place, which `number` becomes.
+  /// Moves from a leaf or empty octant (at first the root) across `face`, and down to the leaf or empty octant at
+  /// `place`. Sets `number` to that node.
   template <class Search>
   LeafCube along_link(std::uint32_t& number, const Leaf& place, int face, std::uint32_t ray, Search& search) const {
     if (face >= 0) number = linked_[number].links[static_cast<std::size_t>(face)];
@@ -108,7 +108,7 @@ class Octree {
   Traversal traversal_;
   OctreeNodes tree_;
   LeafWalk walk_;
-  std::vector<LinkedNode> linked_;  ///< only for the traversal that needs it
+  std::vector<LinkedNode> linked_;  ///< only for neighbour_links
 };
 
 }  // namespace

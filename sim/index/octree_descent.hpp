@@ -15,20 +15,20 @@ void for_each_child(const OctreeNode& node, const Box& box, const VisitChild& vi
     if (node.octants >> octant & 1) visit(child++, octant_of(box, octant));
 }
 
-/// One ray, which crosses the cube, on its way from the root of an octree into every node that it crosses.
+/// The descent of one ray, which crosses the cube, from the root of an octree into every node that it crosses.
 class OctreeDescent {
  public:
   OctreeDescent(const OctreeNodes& tree, const ClippedRay& clipped, double slack)
       : tree_(tree), clipped_(clipped), slack_(slack) {}
 
-  /// Children in the order of their octants.
+  /// Visits children in the order of their octants.
   template <class Search>
   void all(std::uint32_t ray, Search& search) const {
     all(0, tree_.cube, 0, ray, search);
   }
 
-  /// The same nodes: of each node's children that first which the ray enters first; of those that it enters together,
-  /// the lower octant.
+  /// Visits the same nodes. Of each node's children, the one that the ray enters first comes first; of children entered
+  /// together, the lower octant.
   template <class Search>
   void in_order(std::uint32_t ray, Search& search) const {
     in_order(0, tree_.cube, 0, ray, search);

@@ -17,7 +17,7 @@ std::vector<LinkedNode> lay_out(const OctreeNodes& tree, StopCheck& check) {
   if (total >= no_node)
     throw std::length_error("the octree would have 2^32 or more linked nodes; a smaller depth is needed");
   std::vector<LinkedNode> nodes;
-  std::vector<std::uint32_t> source{0};  // the node there; no_node for an octant left out
+  std::vector<std::uint32_t> source{0};  // the node there; no_node for an omitted octant
   nodes.reserve(total);
   source.reserve(total);
   const LinkedNode unlinked{.links = {no_node, no_node, no_node, no_node, no_node, no_node}};
@@ -41,7 +41,7 @@ std::vector<LinkedNode> lay_out(const OctreeNodes& tree, StopCheck& check) {
   return nodes;
 }
 
-/// Links a node's children: to each other, and across its faces by its own links.
+/// Links a node's children to each other and, by the node's own links, across its faces.
 void link_children(std::vector<LinkedNode>& nodes, const LinkedNode& node) {
   for (unsigned octant = 0; octant < 8; ++octant)
     for (unsigned face = 0; face < 6; ++face) {

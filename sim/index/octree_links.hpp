@@ -9,23 +9,23 @@ namespace detp::sim {
 
 inline constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max();
 
-/// An inner node, a leaf, or an octant without a disc, which is a leaf without references.
+/// An inner node, a leaf, or an octant without discs, which is a leaf without references.
 struct LinkedNode {
-  /// Across each face, 2 axis + (1 for the upper): the node as large as this one, or the larger leaf there; no_node
-  /// outside the cube.
+  /// For each face, number 2 axis + (1 for the upper): the adjacent node of the same size, or the larger leaf there;
+  /// no_node outside the cube.
   std::array<std::uint32_t, 6> links;
-  std::uint32_t first = 0;  ///< the first of eight children, or of the references
-  std::uint32_t count = 0;  ///< references
+  std::uint32_t first = 0;  ///< number of the first of eight children, or of the first reference
+  std::uint32_t count = 0;  ///< number of references
   std::uint8_t level = 0;
   bool inner = false;
 };
 
-/// The same tree with all eight children of each inner node, every node linked to its neighbours: the root first,
-/// parents before children.
+/// Converts an octree to one with all eight children of each inner node, and with every node linked to its neighbours.
+/// The root is first, parents come before children.
 ///
-/// Source  H. Samet: Implementing ray tracing with octrees and neighbor finding (1989); the links are kept here, not
+/// Source  H. Samet: Implementing ray tracing with octrees and neighbor finding (1989); here the links are stored, not
 ///         found while tracing.
-/// Throws  std::length_error, naming the bytes, where it would not fit the memory.
+/// Throws  std::length_error, naming the bytes, if it would not fit in memory.
 [[nodiscard]] std::vector<LinkedNode> link_neighbours(const OctreeNodes& tree, const std::stop_token& stop);
 
 }  // namespace detp::sim

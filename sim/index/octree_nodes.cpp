@@ -63,7 +63,7 @@ class Builder {
       }
   }
 
-  /// The discs of each octant. Only those octants are looked at that the disc's bounds reach into.
+  /// The discs of each octant. Examines only the octants that the disc's bounds overlap.
   std::array<std::vector<std::uint32_t>, 8> split(const Box& box, const std::vector<std::uint32_t>& discs) {
     std::array<std::vector<std::uint32_t>, 8> parts;
     const glm::dvec3 middle = box.centre();
@@ -83,7 +83,7 @@ class Builder {
     return parts;
   }
 
-  /// Predicted bytes with so many more references. What is built is copied at the end, to fit.
+  /// Predicted bytes with `more` additional references. Includes the copy that trims the arrays at the end.
   [[nodiscard]] double needed(std::size_t more = 0) const {
     const std::size_t references = tree_.references.size() + more;
     return static_cast<double>(most_listed_) * sizeof(std::uint32_t) +
@@ -101,8 +101,8 @@ class Builder {
   const Problem& problem_;
   Insertion insertion_;
   StopCheck check_;
-  std::size_t listed_ = 0;       ///< in the lists of the nodes under way
-  std::size_t most_listed_ = 0;  ///< at any time
+  std::size_t listed_ = 0;       ///< discs in the lists of unfinished nodes
+  std::size_t most_listed_ = 0;  ///< the largest value of listed_
   OctreeNodes tree_;
 };
 

@@ -8,32 +8,32 @@
 
 namespace detp::sim {
 
-/// A node's children lie together, in the order of their octants; a leaf's are references to discs.
+/// A node. Its children are adjacent, in the order of their octants; a leaf has references to discs.
 struct OctreeNode {
   std::uint32_t first = 0;   ///< first child, or first reference
-  std::uint32_t count = 0;   ///< references of a leaf
-  std::uint8_t octants = 0;  ///< which children there are: bit (x + 2y + 4z)
+  std::uint32_t count = 0;   ///< number of references of a leaf
+  std::uint8_t octants = 0;  ///< the existing children: bit (x + 2y + 4z)
 };
 
-/// A cube cut into octants `depth` times, those without a disc left out; the discs of each leaf.
+/// A cube cut into octants `depth` times, without octants that have no disc; and the discs of each leaf.
 struct OctreeNodes {
   Box cube;
   int depth = 0;
   std::vector<OctreeNode> nodes;  ///< the root first
   std::vector<std::uint32_t> references;
   std::size_t placements = 0;
-  double building_bytes = 0;  ///< predicted memory while it was built, at its peak
+  double building_bytes = 0;  ///< predicted peak memory while it was built
 
   [[nodiscard]] std::span<const std::uint32_t> references_in(const OctreeNode& leaf) const {
     return std::span(references).subspan(leaf.first, leaf.count);
   }
 };
 
-/// One eighth of a box: its upper half along axis i where bit i of the octant is set.
+/// One eighth of a box: its upper half along axis i if bit i of the octant is set.
 [[nodiscard]] Box octant_of(const Box& box, unsigned octant);
 
-/// Builds the octree of a problem's discs. Throws Stopped if a stop was requested, and
-/// std::length_error, naming the bytes, where it would not fit the memory.
+/// Builds the octree of a problem's discs. Throws Stopped if a stop was requested, and std::length_error, naming the
+/// bytes, if it would not fit in memory.
 [[nodiscard]] OctreeNodes build_octree(const Problem& problem, int depth, Insertion insertion,
                                        const std::stop_token& stop);
 

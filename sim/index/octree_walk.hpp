@@ -16,22 +16,22 @@ struct LeafCube {
   std::int64_t side;
 };
 
-/// The cube of that side, a power of two, that holds the leaf.
+/// The cube with that side, a power of two, that contains the leaf.
 [[nodiscard]] inline LeafCube cube_around(const Leaf& leaf, std::int64_t side) {
   LeafCube cube{leaf, side};
   for (std::int64_t& low : cube.low) low -= low % side;
   return cube;
 }
 
-/// The octant that holds the leaf, in the node whose octants have that many levels below them.
+/// The octant that contains the leaf, in the node whose octants have `levels_below` levels below them.
 [[nodiscard]] inline unsigned octant_of(const Leaf& leaf, int levels_below) {
   unsigned octant = 0;
   for (int axis = 0; axis < 3; ++axis) octant |= static_cast<unsigned>(leaf[axis] >> levels_below & 1) << axis;
   return octant;
 }
 
-/// Goes through an octree's cube from leaf to leaf, as the grid does from cell to cell, but over octants left out in
-/// one step. The place of each plane is computed anew from its number, so that errors do not add up.
+/// Steps through an octree's cube from leaf to leaf, as the grid does from cell to cell, but crosses an omitted octant
+/// in one step. The place of each plane is recomputed from its number, so errors do not accumulate.
 class LeafWalk {
  public:
   LeafWalk(const Box& cube, int depth)
@@ -39,9 +39,9 @@ class LeafWalk {
         leaves_(std::int64_t{1} << depth),
         side_(cube.size().x / static_cast<double>(std::int64_t{1} << depth)) {}
 
-  /// Along a ray that is in the cube for that stretch. `enter(leaf, face)` deals with the leaf, and returns what the
-  /// ray may skip: the cube of a leaf or of an octant left out. It was entered across that face, 2 axis + (1 for the
-  /// upper), of the cube before; -1 for the first.
+  /// Walks along a ray; `stretch` is its interval in the cube. `enter(leaf, face)` processes the leaf, and returns the
+  /// cube that the ray may skip: that of a leaf or of an omitted octant. `face` is the face of the previous cube
+  /// through which the ray left it, 2 axis + (1 for the upper); -1 for the first.
   template <class Enter>
   void go(const Ray& ray, const ClippedRay& clipped, const Stretch& stretch, const Enter& enter) const {
     Leaf place = leaf_at(clipped.origin + stretch.from * ray.direction, {{}, leaves_});
@@ -68,7 +68,7 @@ class LeafWalk {
   }
 
  private:
-  /// The leaf of a point, or the nearest in the cube.
+  /// The leaf that contains the point, or the nearest leaf in the cube.
   [[nodiscard]] Leaf leaf_at(const glm::dvec3& point, const LeafCube& within) const {
     Leaf leaf{};
     for (int axis = 0; axis < 3; ++axis) {

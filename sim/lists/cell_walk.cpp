@@ -11,10 +11,10 @@ namespace {
 
 constexpr int code_digits = 16;
 
-/// The code's octal digit that chooses a cell of that level, 1 … 16, in the one around it.
+/// The code's octal digit that selects the cell of that level, 1 … 16, inside the one around it.
 std::uint64_t octant(std::uint64_t code, int level) { return code >> 3 * (code_digits - level) & 7; }
 
-/// Levels at which both codes have the same cell, less 1: that of the last such level.
+/// The last level at which both codes have the same cell.
 int last_common_level(std::uint64_t a, std::uint64_t b) {
   const int leading_zeros_of_48 = std::countl_zero(a ^ b) - 16;
   return leading_zeros_of_48 / 3;

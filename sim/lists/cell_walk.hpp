@@ -6,15 +6,16 @@
 
 #include "list_walk.hpp"
 
-/// The cells of an octree that samples lie in, met along the Lebesgue curve, and spheres around them.
+/// The octree cells of the samples, visited along the Morton curve (the paper: Lebesgue curve), and spheres around
+/// them.
 namespace detp::sim {
 
-/// The cell of level i (0: the samples' cube) is that of the first i octal digits of the sample's Lebesgue code. Its
-/// sphere has the cell's centre, and radius s_i √3/2 + d: it holds the discs of all samples in the cell, and lies in
-/// the sphere of the cell around it (proof: model/hierarchy/cell_spheres.hpp).
+/// The cell of level i (0: the samples' cube) is that of the first i octal digits of the sample's Morton code. Its
+/// sphere has the cell's centre and the radius s_i √3/2 + d. It contains the discs of all samples in the cell, and lies
+/// in the sphere of the cell around it (proof: model/hierarchy/cell_spheres.hpp).
 ///
-/// Exact in floating point too: a sample may be coded into the cell beside its own, but then it lies within 3 ulp of
-/// the cube's size and place from that cell, the culls' slack being thousands of times more.
+/// This also holds with rounding: a sample's code may be that of the adjacent cell, but then the sample lies within 3
+/// ulp (of the cube's size and place) of that cell, and the culls' slack is thousands of times larger.
 class CellWalk : public ListWalk {
  public:
   /// For levels 0 … depth.
@@ -26,7 +27,7 @@ class CellWalk : public ListWalk {
   [[nodiscard]] int innermost() const override { return deepest(); }
   [[nodiscard]] int deepest() const override { return static_cast<int>(spheres_.size()) - 1; }
 
-  /// The sphere of the cell of that level around the disc entered last.
+  /// The sphere of the cell of that level around the current disc.
   [[nodiscard]] const Sphere& sphere(int level) const override { return spheres_[static_cast<std::size_t>(level)]; }
 
  private:

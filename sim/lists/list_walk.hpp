@@ -7,9 +7,9 @@
 
 namespace detp::sim {
 
-/// Nested spheres that follow the discs, one disc after another: which must be rebuilt, and where each then is.
+/// Nested spheres that follow the discs, one disc after another. Decides which spheres must be rebuilt, and where.
 ///
-/// Level 0 is S₀, which holds all rays and is never built. Level i's list of rays is made from level i - 1's.
+/// Level 0 is S₀, which holds all rays and is never rebuilt. Level i's list of rays is culled from level i - 1's.
 class ListWalk {
  public:
   virtual ~ListWalk() = default;
@@ -21,10 +21,10 @@ class ListWalk {
   /// The level whose list the disc is tested against.
   [[nodiscard]] virtual int innermost() const = 0;
 
-  /// The largest level that there can be.
+  /// The largest possible level.
   [[nodiscard]] virtual int deepest() const = 0;
 
-  /// Where a level stands; only of 1 … innermost().
+  /// The sphere of a level; only for 1 … innermost().
   [[nodiscard]] virtual const Sphere& sphere(int level) const = 0;
 };
 

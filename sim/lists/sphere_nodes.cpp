@@ -14,10 +14,10 @@ struct Node {
   Box box;
 };
 
-/// The child's sphere that reaches farthest from a point: how far, and where it does.
+/// The farthest distance of a child's sphere from a point, and the direction to it.
 struct Reach {
   double distance = 0;
-  glm::dvec3 towards{0};  ///< unit, or zero from the child's own centre
+  glm::dvec3 towards{0};  ///< unit length, or zero if the point is the child's centre
 };
 
 Reach farthest_reach(std::span<const Node> children, const glm::dvec3& from, StopCheck& check) {
@@ -39,7 +39,7 @@ Reach farthest_reach(std::span<const Node> children, const glm::dvec3& from, Sto
 
 Node around(std::span<const Node> children, StopCheck& check) {
   constexpr int steps = 6;
-  constexpr double first_step = 0.1;  // of the distance
+  constexpr double first_step = 0.1;  // as a share of the distance
   constexpr double shrink = 0.7;
   if (children.size() == 1) return children.front();
   Node node{{{}, unbounded}, {}};
@@ -57,7 +57,7 @@ Node around(std::span<const Node> children, StopCheck& check) {
   return node;
 }
 
-/// The nodes one level above: one for each `run` in a row.
+/// The nodes one level above: one for each `run` consecutive nodes.
 std::vector<Node> level_above(const std::vector<Node>& below, std::size_t run, StopCheck& check) {
   std::vector<Node> level;
   level.reserve((below.size() - 1) / run + 1);

@@ -9,16 +9,18 @@ namespace detp::sim {
 
 /// The sphere cache's spheres S₁ … S_k, of radius r₀Qⁱ, around the discs for which they were built.
 ///
-/// From the first that does not serve the disc, all are built anew around its centre, as long as they hold it.
+/// From the first sphere that does not serve the disc, all are rebuilt around its centre, as long as they contain it.
 class SphereWalk : public ListWalk {
  public:
   /// Which spheres serve a disc.
   enum class Serving {
-    all_that_hold,        ///< those that hold it, from the outermost inwards without a gap: exact
-    innermost_that_holds  ///< the paper's (section 2.2): whether or not those around it do; its list may lack rays
+    all_that_hold,  ///< those that contain it, from the outermost inwards without a gap: exact
+    /// the paper's rule (section 2.2): the innermost that contains it, even if a larger one does not; its list may lack
+    /// rays
+    innermost_that_holds
   };
 
-  /// Spheres smaller than the smallest disc, which would never be built, are left out.
+  /// Omits spheres smaller than the smallest disc, which would never be built.
   SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, Serving serving);
 
   /// How many spheres those are. At most about 10⁹·ln(r₀/r) where Q = 1 - 1e-9: their memory is worth a check first.

@@ -10,7 +10,7 @@
 
 namespace detp::sim {
 
-/// Counts what a technique does, or nothing: then a count costs nothing.
+/// Counts the operations of a technique, or does nothing, at no cost, if counting is off.
 template <bool counting>
 class Tally {
  public:
@@ -23,15 +23,15 @@ class Tally {
   Counts<std::uint64_t> counts_;
 };
 
-/// Whether the ray counts as a hit of the disc: the canonical predicate, and the problem's wish for a face.
+/// Whether the ray counts as a hit of the disc, by the canonical predicate and the problem's front_facing.
 [[nodiscard]] inline bool counts_as_hit(const Problem& problem, const Ray& ray, const Disc& disc) {
   return hits(ray, disc) && (!problem.front_facing || arrives_in_front(ray, disc));
 }
 
-/// Decides by the canonical predicate, and keeps what was hit.
+/// Decides by the canonical predicate, and collects the hits.
 ///
-/// Every technique must show it the rays of one disc and one dominant axis in rising order of their index: then powers
-/// are summed in the same order by all, and irradiance is the same to the last bit.
+/// For each disc and dominant axis, every technique must pass the rays in rising order of their index. Then all
+/// techniques add powers in the same order, and irradiance is the same to the last bit.
 class HitCollector {
  public:
   /// Borrows the problem, and the options' totals if there are any.
@@ -66,7 +66,7 @@ class HitCollector {
     if (shared_ == nullptr) finish(own_, problem_.discs, outcome);
   }
 
-  /// For a search that takes one disc after another: only after this may it call give_discs.
+  /// For a search that processes one disc after another. Must be called before give_discs.
   void take_discs() {
     if (shared_ != nullptr) before_ = *shared_;
   }

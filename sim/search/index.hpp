@@ -5,24 +5,25 @@
 #include "outcome.hpp"
 #include "problem.hpp"
 
-/// One door to every search: `prepare` builds what depends on the discs alone, `search` uses it.
+/// The interface of every search: `prepare` builds the index, which depends on the discs alone; `search` uses it.
 namespace detp::sim {
 
-/// What building an index took, and what it holds.
+/// The time and memory for building an index, and its counts.
 struct Built {
-  Phases seconds;                ///< of sorting and building
+  Phases seconds;                ///< for sorting and building
   Counts<std::uint64_t> counts;  ///< of building: sorted, placements, references
-  double bytes = 0;              ///< predicted memory while it is built, at its peak
+  double bytes = 0;              ///< predicted peak memory while it is built
 };
 
-/// What a technique makes of discs before it sees a ray: const, so that many threads may search it at once.
+/// The data structure that a technique builds from the discs, before any ray. It is const, so many threads may search
+/// it at once.
 class Index {
  public:
   virtual ~Index() = default;
 
   /// Finds the hits of the problem's rays and fills in the outcome, except for its times. The problem must have the
-  /// discs that the index was made for, and no more slack. Counts are those of the search alone. Throws
-  /// std::length_error, naming the bytes, before it would take more than the memory budget.
+  /// discs from which the index was made, and at most the same slack. Counts are those of the search alone. Throws
+  /// std::length_error, naming the bytes, before it would exceed the memory budget.
   virtual void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const = 0;
 
   [[nodiscard]] const Built& built() const { return built_; }
@@ -31,14 +32,14 @@ class Index {
   Built built_;
 };
 
-/// Throws std::invalid_argument for options that no technique can run with.
+/// Throws std::invalid_argument for options that are invalid for every technique.
 void check_options(const RunOptions& options, const Problem& problem);
 
-/// The outcome of a run that was stopped before it searched.
+/// The outcome of a run that was stopped before its search.
 [[nodiscard]] Outcome nothing_found(const Problem& problem, const RunOptions& options);
 
 /// Searches an index for the hits of the problem's rays. Throws as Index::search does, and std::invalid_argument for
-/// options out of range. A search that is stopped before it found anything has an outcome without hits.
+/// options out of range. If a search is stopped before it found anything, the outcome has no hits.
 [[nodiscard]] Outcome search(const Index& index, const Problem& problem, const RunOptions& options);
 
 }  // namespace detp::sim

@@ -11,7 +11,7 @@
 #include "hit_batches.hpp"
 #include "totals.hpp"
 
-/// How a search is run, and what it found.
+/// The options of a search, and its results.
 namespace detp::sim {
 
 struct Pair {
@@ -33,18 +33,18 @@ struct RunOptions {
   bool pairs = false;  ///< fill in Outcome::pairs
   Engine engine = Engine::simd;
   std::stop_token stop = {};  ///< checked in every phase, after at most StopCheck::most_work units of work
-  /// 0: all cores; at most 4096. What is found and counted does not depend on it. Techniques that trace rays one by one
-  /// use them all, those that cull lists of rays one.
+  /// 0: all cores; at most 4096. Results and counts do not depend on it. Techniques that trace rays one by one use all
+  /// threads, plain techniques that cull lists of rays use one.
   int threads = 1;
-  /// Sums of rays before these: the run adds to them and leaves hits and irradiance to `finish`. If empty, it starts
-  /// them. So blocks of rays run one after another give, bit for bit, what one run over all of them gives.
+  /// Sums of earlier rays. The run adds to them, and leaves hits and irradiance to `finish`. If empty, the run creates
+  /// them. So running blocks of rays one after another gives, bit for bit, the result of one run over all of them.
   Totals* totals = nullptr;
 };
 
-/// Vectors of lanes that the simd engine spent, full or not. They depend on the instruction set.
+/// SIMD vectors that the simd engine processed, full or not. They depend on the instruction set.
 struct Vectors {
-  std::uint64_t cull = 0;  ///< of rays tested against a sphere or box
-  std::uint64_t test = 0;  ///< of rays tested against a disc
+  std::uint64_t cull = 0;  ///< vectors of rays tested against a sphere or box
+  std::uint64_t test = 0;  ///< vectors of rays tested against a disc
 
   Vectors& operator+=(const Vectors& more) {
     cull += more.cull;
@@ -53,42 +53,41 @@ struct Vectors {
   }
 };
 
-/// What happened to one sphere of the cache, counted.
+/// Counts of one sphere of the cache.
 struct SphereCounts {
-  std::uint64_t rebuilds = 0;  ///< times it was built
+  std::uint64_t rebuilds = 0;  ///< number of builds
   std::uint64_t tests = 0;     ///< ray-sphere tests of all its builds
-  std::uint64_t listed = 0;    ///< rays listed by all its builds
+  std::uint64_t listed = 0;    ///< rays listed in all its builds
 };
 
-/// What a technique found, per disc in the order of the problem's discs.
+/// The results of a technique, per disc in the order of the problem's discs.
 struct Outcome {
   std::vector<std::uint64_t> hits;  ///< rays that cross the disc
-  /// Their power over π d²: ((x + y) + z) / π d², each of x, y, z the sum, in the rays' order, over the rays of that
-  /// dominant_axis. All exact techniques give the same bits.
+  /// Power of the rays that cross the disc, divided by π d²: ((x + y) + z) / π d². Each of x, y, z is the sum, in ray
+  /// order, over the rays with that dominant_axis. All exact techniques give the same bits.
   std::vector<double> irradiance;
   std::uint64_t total_hits = 0;
-  Counts<std::uint64_t> counts;       ///< all zero unless asked for (`hits` always holds total_hits)
+  Counts<std::uint64_t> counts;       ///< all zero unless requested (`hits` always holds total_hits)
   Vectors vectors;                    ///< of the simd engine
-  std::vector<SphereCounts> spheres;  ///< S₁ … S_k of a sphere cache; empty unless counting
-  std::vector<Pair> pairs;            ///< sorted by ray, then disc; empty unless asked for, and of a stopped run
-  /// Predicted memory at its peak, beside rays and discs, checked before it was taken; what the heap keeps of arrays
-  /// that were freed is left out.
+  std::vector<SphereCounts> spheres;  ///< S₁ … S_k of a sphere cache; empty unless counts are requested
+  std::vector<Pair> pairs;            ///< sorted by ray, then disc; empty unless requested, and for a stopped run
+  /// Predicted peak memory, in addition to rays and discs, checked before it is allocated. Does not include memory that
+  /// the heap keeps after arrays are freed.
   double bytes = 0;
   Phases seconds;
-  bool stopped = false;  ///< a stop request ended the run: hits and irradiance are partial
-  /// How far the run came. In rays: hits and irradiance are those of the first `done` rays, none of whose hits is
-  /// missing. In discs: `done` discs, those marked in done_discs, were tested against all rays; hits and irradiance of
-  /// the others are 0 and say nothing.
+  bool stopped = false;  ///< true if a stop request ended the run: hits and irradiance are partial
+  /// The progress of the run. If its unit is rays, hits and irradiance are exactly those of the first `done` rays. If
+  /// its unit is discs, the `done` discs marked in done_discs were tested against all rays; hits and irradiance of the
+  /// others are 0 and have no meaning.
   Progress progress;
-  std::vector<bool> done_discs;  ///< empty unless progress is in discs
-  HitBatches batches;            ///< the hits of the rays done, batch by batch; empty where progress is in discs
+  std::vector<bool> done_discs;  ///< empty unless the progress is in discs
+  HitBatches batches;            ///< hits of the finished rays, batch by batch; empty if the progress is in discs
 };
 
 /// Fills in the outcome's hits and irradiance from totals, one for each disc.
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
 
-/// Of a stopped outcome whose done_discs are marked: drops the hits of all other discs, and sets its progress and
-/// total.
+/// For a stopped outcome with marked done_discs: removes the hits of all other discs, and sets progress and total.
 void keep_done_discs(Outcome& outcome);
 
 }  // namespace detp::sim

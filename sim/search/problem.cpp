@@ -36,19 +36,19 @@ Radii radii_of(std::span<const Disc> discs, StopCheck& check) {
   return radii;
 }
 
-/// The largest power of which 2⁶⁴ rays can be summed, and divided by the area of the smallest disc.
+/// The largest power for which the sum over 2⁶⁴ rays, divided by the area of the smallest disc, does not overflow.
 double most_power_for(double smallest_radius) {
   const double area = std::numbers::pi * smallest_radius * smallest_radius;
   return 0.99 * std::numeric_limits<double>::max() * 0x1p-64 * std::min(1.0, area);
 }
 
-/// What make_problem promises. sim/geometry/proofs.md proves it enough for every cull.
+/// The slack as documented at make_problem. sim/geometry/proofs.md proves that it is sufficient for every cull.
 double cull_slack(const Problem& problem, double largest_radius) {
   double offset = 0;
   for (int axis = 0; axis < 3; ++axis) offset = std::max(offset, std::abs(problem.enclosing.centre[axis]));
   const double extent = problem.farthest + problem.enclosing.radius;
   const double rounding = 2e-15;
-  // In shares of the extent: the product of three small lengths would underflow.
+  // Computed relative to the extent, because the product of three small lengths would underflow.
   const double grazing = std::cbrt(2 * (largest_radius / extent) * rounding * rounding);
   return (16e-12 + grazing) * extent + 1e-15 * offset;
 }
@@ -60,7 +60,7 @@ void set_farthest(Problem& problem, double farthest, double largest_radius) {
   problem.slack = cull_slack(problem, largest_radius);
 }
 
-/// What enclosing_sphere promises.
+/// The sphere as documented at enclosing_sphere.
 Sphere sphere_around(std::span<const Disc> discs, StopCheck& check) {
   Box box;
   double largest = 0;
@@ -71,14 +71,14 @@ Sphere sphere_around(std::span<const Disc> discs, StopCheck& check) {
     sum += 0 * (disc.centre.x + disc.centre.y + disc.centre.z + disc.radius);
   });
   const glm::dvec3 centre = box.centre();
-  // To the farther corner, as computed: half the diagonal can be an ulp short of it.
+  // Uses the farther corner, with rounding: half the diagonal can be an ulp shorter.
   const double reach = std::max(glm::distance(centre, box.low), glm::distance(centre, box.high));
   const double radius = (reach + largest) * (1 + 1e-15);
   if (!(radius > 0 && radius + sum < unbounded)) require_sound(discs, check);
   return {centre, radius};
 }
 
-/// Checks the discs and takes them into the problem; their radii.
+/// Checks the discs and stores them in the problem. Returns their radii.
 Radii take_discs(Problem& problem, std::span<const Disc> discs, bool front_facing, const std::stop_token& stop) {
   require_number("disc", discs.size());
   StopCheck check(stop, checking);
@@ -91,7 +91,7 @@ Radii take_discs(Problem& problem, std::span<const Disc> discs, bool front_facin
   return radii;
 }
 
-/// Checks the rays and takes them into the problem; the distance of the farthest origin.
+/// Checks the rays and stores them in the problem. Returns the distance of the farthest origin.
 double take_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uint64_t first,
                  const std::stop_token& stop) {
   require_number("ray", rays.size());

@@ -21,13 +21,13 @@ struct Chunk {
   std::vector<Pair>* hits = nullptr;
 };
 
-/// Cuts the rays into chunks; those under way take turns with the buffers for their hits.
+/// Cuts the rays into chunks. Chunks in flight use the buffers for their hits in turn.
 class Chunks {
  public:
   Chunks(std::size_t rays, std::size_t under_way, const std::stop_token& stop)
       : rays_(rays), buffers_(under_way), stop_(stop) {}
 
-  /// False after the last one, or when asked to stop.
+  /// False after the last chunk, or after a stop request.
   bool next(Chunk& chunk) {
     if (begun_ >= rays_ || stop_.stop_requested()) return false;
     const std::size_t end = std::min(begun_ + chunk_rays, rays_);
@@ -45,7 +45,7 @@ class Chunks {
   const std::stop_token& stop_;
 };
 
-/// Adds up the hits of one chunk after another.
+/// Adds up the hits, chunk by chunk.
 class Sum {
  public:
   explicit Sum(HitCollector& collector) : collector_(collector) {}
@@ -69,7 +69,7 @@ Counts<std::uint64_t> search_alone(Chunks& chunks, const MakeRaySearch& make, Su
       search->search(chunk.first, chunk.last, *chunk.hits);
       sum.add(chunk);
     }
-  } catch (const Stopped&) {  // the chunk under way is left out
+  } catch (const Stopped&) {  // the unfinished chunk is left out
   }
   return search->counts();
 }
@@ -91,7 +91,7 @@ Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, con
       make_filter<Chunk, void>(filter_mode::serial_in_order, [&](const Chunk& chunk) { total.add(chunk); });
   try {
     parallel_pipeline(under_way, cut & search & sum);
-  } catch (const Stopped&) {  // chunks under way are left out
+  } catch (const Stopped&) {  // unfinished chunks are left out
   }
   Counts<std::uint64_t> counts;
   for (const std::unique_ptr<RaySearch>& one : searches) counts += one->counts();

@@ -7,10 +7,10 @@
 #include "outcome.hpp"
 #include "problem.hpp"
 
-/// Techniques that trace rays one by one, on any number of threads.
+/// The search of techniques that trace rays one by one, on any number of threads.
 namespace detp::sim {
 
-/// What one thread searches with: mailboxes and counts of its own.
+/// The search object of one thread, with its own mailboxes and counts.
 class RaySearch {
  public:
   virtual ~RaySearch() = default;

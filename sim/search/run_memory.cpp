@@ -9,7 +9,7 @@
 namespace detp::sim {
 namespace {
 
-/// Of pages not wholly used, small arrays, threads' stacks.
+/// For partly used pages, small arrays and threads' stacks.
 constexpr double small_bytes = 0x1p19;
 
 double given_bytes(const Problem& problem) {

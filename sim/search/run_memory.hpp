@@ -5,22 +5,22 @@
 #include "outcome.hpp"
 #include "problem.hpp"
 
-/// Memory that a run takes beside the problem's rays and discs: predicted, and refused before it is taken.
+/// The memory of a run in addition to the problem's rays and discs: it is predicted, and checked before allocation.
 namespace detp::sim {
 
-/// Whether so many bytes fit the memory beside the problem's rays and discs.
+/// Whether `bytes` fit in memory, in addition to the problem's rays and discs.
 [[nodiscard]] bool fits_memory(double bytes, const Problem& problem);
 
-/// Throws std::length_error where they do not.
+/// Throws std::length_error if `bytes` do not fit in memory, in addition to the problem's rays and discs.
 void require_memory_for(std::string_view what, double bytes, const Problem& problem);
 
-/// The same for so many bytes and half a MiB for all that is small; their sum.
+/// Adds half a MiB for small allocations to `bytes`, and checks that the sum fits in memory. Returns the sum.
 double checked_bytes(std::string_view what, double bytes, const Problem& problem);
 
-/// The same, and enters into the outcome that the run takes them.
+/// Checks the memory as checked_bytes does, and adds the bytes to the outcome.
 void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome);
 
-/// Bytes of a run's own totals, hits and irradiance; none where its totals are another's.
+/// Bytes of a run's own totals, hits and irradiance; 0 if the totals are the caller's.
 [[nodiscard]] double found_bytes(const Problem& problem, const RunOptions& options);
 
 }  // namespace detp::sim

@@ -15,7 +15,7 @@ inline void add_pair(std::vector<Pair>& pairs, const Pair& pair) {
   pairs.push_back(pair);
 }
 
-/// Sorts by ray, then disc; false where a stop request ended it: the order is then any.
+/// Sorts by ray, then disc. Returns false if a stop request ended it; the order is then unspecified.
 [[nodiscard]] inline bool sort_pairs(std::vector<Pair>& pairs, const std::stop_token& stop) {
   StopCheck check(stop, "sorting pairs");
   try {

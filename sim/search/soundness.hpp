@@ -8,30 +8,31 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 
-/// What make_problem accepts, and how it makes directions and normals unit. All throw Stopped on a stop request.
+/// The checks of make_problem, and its normalisation of directions and normals. All throw Stopped on a stop request.
 namespace detp::sim {
 
-/// No disc is smaller: squares must not underflow.
+/// Lower bound on disc radii, so that squares do not underflow.
 inline constexpr double least_radius = 1e-100;
 
 /// Throws std::invalid_argument, with the disc's number, for a number that is not finite, a coordinate or radius beyond
 /// 1e100, a radius below 1e-100, and a normal of length 0. Normals may have any other length.
 void require_sound(std::span<const Disc> discs, StopCheck& check);
 
-/// A copy of the discs with unit normals; null if all are unit to 1e-12. Throws as require_sound does.
+/// A copy of the discs with unit normals; null if all have unit length to within 1e-12. Throws as require_sound does.
 [[nodiscard]] std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Disc> discs,
                                                                             StopCheck& check);
 
-/// What check_rays finds out.
+/// The results of check_rays.
 struct CheckedRays {
-  double farthest = 0;                                ///< distance of the farthest origin from the centre
-  bool one_power = false;                             ///< all carry the same power
-  bool segments = false;                              ///< one of them ends
-  std::shared_ptr<const std::vector<Ray>> unit = {};  ///< copies with unit directions; null if all were unit to 1e-12
+  double farthest = 0;     ///< distance of the farthest origin from the centre
+  bool one_power = false;  ///< all carry the same power
+  bool segments = false;   ///< at least one is a segment
+  /// copies with unit directions; null if all have unit length to within 1e-12
+  std::shared_ptr<const std::vector<Ray>> unit = {};
 };
 
-/// Checks the rays, on all threads of oneTBB's arena. The first of them is number `first`, for messages.
-/// Throws std::invalid_argument, with the ray's number, for a number that is not finite (of lengths: but +infinity), a
+/// Checks the rays, on all threads of oneTBB's arena. The first ray is number `first` in messages. Throws
+/// std::invalid_argument, with the ray's number, for a number that is not finite (except a length of +infinity), a
 /// coordinate beyond 1e100, a direction of length 0, a length <= 0, and a power that is negative or above most_power.
 [[nodiscard]] CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power,
                                      std::uint64_t first, const StopCheck& check);

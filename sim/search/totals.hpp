@@ -7,19 +7,19 @@
 
 #include "detp/sim/geometry/geometry.hpp"
 
-/// What is summed over rays, in the one order that all techniques keep to.
+/// Sums over rays, in the order that all techniques use.
 namespace detp::sim {
 
-/// The rays that hit one disc.
+/// The sums over the rays that hit one disc.
 struct DiscTotals {
   std::uint64_t hits = 0;
-  glm::dvec3 power{0.0};  ///< by the rays' dominant_axis: three sums, each in the rays' order
+  glm::dvec3 power{0.0};  ///< by the rays' dominant_axis: three sums, each in ray order
 };
 
 /// One for each disc, in their order. (32 bytes together: a hit touches one line of the cache.)
 using Totals = std::vector<DiscTotals>;
 
-/// Power over the disc's area.
+/// Power divided by the disc's area.
 [[nodiscard]] inline double irradiance(const DiscTotals& totals, const Disc& disc) {
   const glm::dvec3& power = totals.power;
   return ((power.x + power.y) + power.z) / (std::numbers::pi * disc.radius * disc.radius);

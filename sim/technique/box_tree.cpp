@@ -15,7 +15,7 @@ using stream::DiscTree;
 using stream::Frame;
 using stream::TreeNode;
 
-/// The box of a node in scene units, grown by what floats may misplace and by the slack.
+/// The box of a node in scene units, grown by the rounding errors of floats and by the slack.
 Box grown_box(const TreeNode& node, const Frame& frame) {
   Box box;
   for (int axis = 0; axis < 3; ++axis) {
@@ -26,16 +26,16 @@ Box grown_box(const TreeNode& node, const Frame& frame) {
   return box;
 }
 
-/// Lists in `inside` those rays of `around` that meet the box.
+/// Lists in `inside` the rays of `around` that meet the box.
 void cull(const RayList& around, const Box& box, RayList& inside, StopCheck& check) {
   inside.clear();
-  inside.reserve(around.size());  // pages are touched only as far as it is filled
+  inside.reserve(around.size());  // pages are only touched as far as the list is filled
   for_each_checked(std::span(around), check, [&](const ListedRay& listed) {
     if (!ClippedRay(listed.ray).inside(box).empty()) inside.push_back(listed);
   });
 }
 
-/// The same tree in double, one ray and one disc at a time.
+/// Searches the same tree in double, one ray and one disc at a time.
 template <bool counting>
 class PlainSearch {
  public:
@@ -48,7 +48,7 @@ class PlainSearch {
     try {
       visit(searched_.tree.nodes.front(), 0, list_of(searched_.problem.rays));
       done_ = order.size();
-    } catch (const Stopped&) {  // the disc or node under way is left out
+    } catch (const Stopped&) {  // the unfinished disc or node is left out
     }
     outcome.counts = tally_.counts();
     if (done_ < order.size())
@@ -76,7 +76,7 @@ class PlainSearch {
     }
   }
 
-  /// Where the discs below a node end.
+  /// One past the last of the discs below a node.
   [[nodiscard]] std::size_t end_of(const TreeNode& node) const {
     const stream::DiscRun run = discs_below(searched_.tree, node);
     return std::size_t{run.first} + run.count;

@@ -8,7 +8,7 @@
 namespace detp::sim {
 namespace {
 
-/// A chunk of rays stays in the cache while disc after disc is tested against it.
+/// Tests disc after disc against a chunk of rays that fits the cache.
 template <bool counting>
 class BruteForceSearch final : public RaySearch {
  public:
@@ -39,7 +39,7 @@ void search_all(const Problem& problem, const RunOptions& options, Outcome& outc
       problem, options, [&] { return std::make_unique<BruteForceSearch<counting>>(problem, options.stop); }, outcome);
 }
 
-/// Every disc against every ray, in double. There is nothing to build.
+/// Tests every disc against every ray, in double. Builds nothing.
 class PlainBruteForce final : public Index {
  public:
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {

@@ -4,8 +4,8 @@
 
 namespace detp::sim {
 
-/// Spheres anchored to the cells of an octree (CellWalk), each built once along the Morton curve from the list of the
-/// one around it; the innermost's is tested.
+/// Spheres anchored to the cells of an octree (CellWalk). Each is built once along the Morton curve from the list of
+/// the sphere around it. Discs are tested against the innermost list.
 std::unique_ptr<Index> prepare_cell_spheres(const Problem& problem, const Parameters& parameters,
                                             const RunOptions& options) {
   const auto& own = std::get<CellSpheresParameters>(parameters);

@@ -14,8 +14,8 @@
 namespace detp::sim {
 namespace {
 
-/// What is kept of a level beside its rays: of three walks (one for each class of rays), and of the one that they are
-/// copies of.
+/// Bytes of a level, not including its rays: for three walks (one for each class of rays), and for the walk from which
+/// they are copied.
 constexpr double bytes_a_level =
     3 * (sizeof(Sphere) + sizeof(stream::RayList) + sizeof(stream::ListArena::Mark) + sizeof(SphereCounts)) +
     sizeof(SphereCounts) + sizeof(Sphere);

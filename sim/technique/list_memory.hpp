@@ -5,40 +5,40 @@
 #include "detp/sim/search/outcome.hpp"
 #include "detp/sim/search/problem.hpp"
 
-/// Predicted memory of techniques that cull lists of rays, beside rays, discs and pairs.
+/// Predicted memory of techniques that cull lists of rays, in addition to rays, discs and pairs.
 ///
-/// How many rays a list holds is random. Predicted is what lines need, isotropic and uniform through all of S₀: a
-/// list's share of them is that of its sphere's surface. Rays that crowd into one place need more.
+/// The number of rays in a list is random. The prediction is for isotropic lines, uniform through all of S₀: a list's
+/// share of them is proportional to its sphere's surface. Rays that are concentrated in one place need more.
 namespace detp::sim {
 
-/// The nested lists of a walk: one a level.
+/// The nested lists of a walk, one for each level.
 struct NestedLists {
   double levels = 0;
-  double rays = 0;   ///< rays in all lists inside the outermost, as a share of its own
-  double first = 0;  ///< the outermost's of these
-  double last = 0;   ///< the innermost's
+  double rays = 0;   ///< rays in all lists inside the outermost, as a share of the outermost list
+  double first = 0;  ///< rays in the first list inside the outermost, as a share of the outermost list
+  double last = 0;   ///< rays in the innermost list, as a share of the outermost list
 
   [[nodiscard]] stream::ListRoom room() const { return {first, first + rays - last}; }
 };
 
-/// Those of a sphere cache.
+/// The lists of a sphere cache.
 [[nodiscard]] NestedLists lists_of(const Problem& problem, const SphereCacheParameters& parameters);
 
-/// Those of cell spheres, likewise.
+/// The lists of cell spheres.
 [[nodiscard]] NestedLists lists_of(const Problem& problem, const CellSpheresParameters& parameters);
 
-/// Bytes of a walk that has such lists, plainly or in floats.
+/// Bytes of a walk with nested lists, with the plain or the float engine.
 [[nodiscard]] double walk_bytes(const Problem& problem, const RunOptions& options, const NestedLists& lists,
                                 bool plain);
 
-/// Bytes of a plain search of lists, which inside the outermost hold so many times its rays: the discs' order, their
-/// totals and outcome (or a copy of another's totals), the lists.
+/// Bytes of a plain search of lists: the discs' order, their totals and outcome (or a copy of the caller's totals), and
+/// the lists. The lists inside the outermost hold `nested` times its rays.
 [[nodiscard]] double listing_bytes(const Problem& problem, const RunOptions& options, double nested);
 
-/// Bytes while a tree of spheres is built, sorting before it included.
+/// Peak bytes while a sphere tree is built, including sorting before.
 [[nodiscard]] double building_bytes(const Problem& problem, const SphereTreeParameters& parameters);
 
-/// Bytes while it is searched, which is always done plainly.
+/// Bytes while it is searched; the search is always plain.
 [[nodiscard]] double searching_bytes(const Problem& problem, const RunOptions& options, const SphereTree& tree);
 
 }  // namespace detp::sim

@@ -18,7 +18,7 @@
 namespace detp::sim {
 namespace {
 
-/// Where a ray ends.
+/// The end point of a ray.
 struct Photon {
   glm::dvec3 place;
   std::uint32_t ray;
@@ -34,8 +34,8 @@ std::vector<Photon> photons_of(std::span<const Ray> rays, StopCheck& check) {
   return photons;
 }
 
-/// The photons as nanoflann wants to see them. Whoever builds a tree of them looks at nothing else, so that a stop
-/// request can end that: with Stopped.
+/// The photons in the form that nanoflann requires. Building a tree calls these functions for every photon, so they
+/// also check for a stop request, and throw Stopped.
 struct Cloud {
   std::vector<Photon> photons;
   StopCheck* building;  ///< null once the tree is built
@@ -52,7 +52,7 @@ struct Cloud {
 };
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, std::uint32_t>;
 
-/// Takes in the nearest photons to a disc's centre, nanoflann's way; only those that arrive in front, if that is asked.
+/// Collects the nearest photons to a disc's centre for nanoflann; with front_facing only those that arrive in front.
 class Nearest {
  public:
   using DistanceType = double;
@@ -65,7 +65,7 @@ class Nearest {
     found_.init(indices_.data(), squares_.data());
   }
 
-  // What nanoflann asks.
+  // nanoflann calls this for each candidate.
   bool addPoint(double square, std::uint32_t photon) {
     const bool counts = !problem_.front_facing || arrives_in_front(problem_.rays[cloud_.photons[photon].ray], *disc_);
     return !counts || found_.addPoint(square, photon);
@@ -73,14 +73,14 @@ class Nearest {
   [[nodiscard]] double worstDist() const { return found_.worstDist(); }
   [[nodiscard]] bool full() const { return found_.full(); }
 
-  /// The rays of the photons nearer than the farthest; none where fewer than wanted were found.
+  /// The rays of the photons nearer than the farthest; empty if fewer photons than wanted were found.
   [[nodiscard]] std::vector<std::uint32_t> rays() const {
     std::vector<std::uint32_t> rays;
     for (std::size_t i = 0; full() && i + 1 < indices_.size(); ++i) rays.push_back(cloud_.photons[indices_[i]].ray);
     return rays;
   }
 
-  /// r_k², of the farthest.
+  /// r_k² of the farthest.
   [[nodiscard]] double square() const { return squares_.back(); }
 
  private:
@@ -129,7 +129,7 @@ class PhotonMap {
   }
 
  private:
-  /// After that many of the discs.
+  /// Fills in the outcome after `done` discs.
   void finish(std::uint32_t done, const RunOptions& options, Outcome& outcome) const {
     outcome.counts.hits = outcome.total_hits;
     outcome.bytes += grown_bytes(outcome.pairs.size(), sizeof(Pair));
@@ -162,8 +162,9 @@ class PhotonMap {
   Tree tree_{3, cloud_};
 };
 
-/// Photons, their numbers in the order of nanoflann's tree, its nodes, and the outcome. Leaves hold up to 10 photons:
-/// cells halved until they do hold 5 to 6 on average where photons fall evenly, fewer where they crowd.
+/// Bytes of the photons, of their numbers in the order of nanoflann's tree, of its nodes, and of the outcome. Leaves
+/// hold up to 10 photons. If photons are even, repeated halving leaves 5 to 6 on average in a leaf, and fewer if they
+/// are concentrated.
 double map_bytes(const Problem& problem) {
   constexpr double in_a_leaf = 5.5;
   constexpr double node = sizeof(Tree::Node);
@@ -173,23 +174,23 @@ double map_bytes(const Problem& problem) {
          static_cast<double>(problem.discs.size()) * (sizeof(std::uint64_t) + sizeof(double));
 }
 
-/// Another estimator, for comparison: the irradiance at a disc's centre from the k nearest photons, wherever they came
-/// from. A photon is the end of a ray with a length; lines have none.
+/// Another estimator, for comparison: the irradiance at a disc's centre from the k nearest photons. A photon is the end
+/// of a ray of finite length; lines have none.
 ///
 ///     E = (power of the k - 1 nearest) / (π r_k²)        r_k: distance of the k-th nearest
 ///
-/// Not k: that would be k/(k - 1) times too much where photons fall evenly (García, Ureña, Sbert, CGF 2012; its spread
-/// and bias: model/accuracy/nearest_photons.hpp). The discs' radii and normals do not matter, except that with
-/// front_facing only photons count that arrive in front; a disc that fewer than k of them reach has irradiance 0.
+/// With k instead of k - 1 the result would be k/(k - 1) times too large for even photons (García, Ureña, Sbert, CGF
+/// 2012; its deviation and bias: model/accuracy/nearest_photons.hpp). The discs' radii and normals do not matter,
+/// except that with front_facing only photons count that arrive in front. If fewer than k photons count for a disc, its
+/// irradiance is 0.
 ///
-/// Hits and pairs are the k - 1 photons used; counted are the photons stored (references) and these hits. On one
-/// thread.
+/// Hits and pairs are the k - 1 photons used. Counts are the stored photons (references) and these hits. On one thread.
 class PhotonMapIndex final : public Index {
  public:
   explicit PhotonMapIndex(int nearest) : nearest_(nearest) {}
 
-  /// Throws std::invalid_argument where no ray has a length, where there are fewer than k photons or k of them in the
-  /// very place of a disc's centre, and for totals to go on with, which nearest photons do not have.
+  /// Throws std::invalid_argument if no ray has a finite length, if there are fewer than k photons, if k of them are
+  /// exactly at a disc's centre, and for totals to continue, which this estimator does not have.
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     if (options.totals != nullptr)
       throw std::invalid_argument("photon-map needs all rays at once: the nearest of each block are not those of all");

@@ -23,9 +23,9 @@ struct Cell {
   [[nodiscard]] bool is_split() const { return first != 0; }
 };
 
-/// A kd-tree over rays. A cell is halved across its longest side when a disc looks into it, as long as it has more rays
-/// than a leaf and is longer than the largest disc is wide: below that, a disc would look into most of its parts.
-/// Halves that would hold most rays twice, as where rays coincide, are not made.
+/// A kd-tree over rays. When a disc searches a cell, the cell is halved across its longest side, as long as it has more
+/// rays than a leaf and is longer than the largest disc is wide: in smaller cells a disc would search most of the
+/// parts. A split is not made if most rays would be in both halves, for instance if rays coincide.
 ///
 /// Source  V. Havran, J. Bittner, H.-P. Seidel: Ray Maps for Global Illumination (2004); the splitting rule is ours.
 template <bool counting>
@@ -70,7 +70,7 @@ class RayMap {
     return !cell.final && cell.rays.size() > leaf_ && std::max({size.x, size.y, size.z}) > narrowest_;
   }
 
-  /// The part of a box, grown by the slack: rays near the middle plane are in both.
+  /// One half of a box, grown by the slack, so that rays near the middle plane are in both halves.
   [[nodiscard]] Cell half_of(const Cell& cell, int axis, bool upper) {
     Cell half{cell.box, {}};
     (upper ? half.box.low : half.box.high)[axis] = cell.box.centre()[axis];
@@ -89,7 +89,7 @@ class RayMap {
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     Cell lower = half_of(cells_[number], axis, false);
     Cell upper = half_of(cells_[number], axis, true);
-    constexpr double most_twice = 1.9;  // of the rays; a line meets 4/3 halves of a cube
+    constexpr double most_twice = 1.9;  // rays in both halves, per ray; a line meets 4/3 halves of a cube
     const auto in_halves = static_cast<double>(lower.rays.size() + upper.rays.size());
     cells_[number].final = in_halves > most_twice * static_cast<double>(cells_[number].rays.size());
     if (cells_[number].final) return;
@@ -127,7 +127,7 @@ class RayMap {
   std::vector<std::uint32_t> found_;
 };
 
-/// Discs look up the rays that cross them. There is nothing to build before rays come. On one thread.
+/// Each disc looks up the rays that cross it. Builds nothing before the rays are known. On one thread.
 class RayMapIndex final : public Index {
  public:
   explicit RayMapIndex(int leaf) : leaf_(leaf) {}
@@ -148,7 +148,7 @@ class RayMapIndex final : public Index {
     try {
       for (; done < problem.discs.size(); ++done)
         for (const std::uint32_t ray : map.find(done)) collector.keep(ray, done);
-    } catch (const Stopped&) {  // the disc under way is left out
+    } catch (const Stopped&) {  // the unfinished disc is left out
     }
     outcome.counts = map.counts();
     if (done == problem.discs.size()) return std::move(collector).give(problem.rays.size(), outcome);

@@ -4,7 +4,7 @@
 
 namespace detp::sim {
 
-// Each in a file of its own.
+// Each is defined in its own file.
 Prepare prepare_brute_force, prepare_sphere_cache, prepare_sphere_cache_published, prepare_cell_spheres,
     prepare_sphere_tree, prepare_box_tree, prepare_octree, prepare_grid, prepare_bsp, prepare_bvh, prepare_ray_map,
     prepare_photon_map;

@@ -2,7 +2,7 @@
 
 #include "detp/sim/search/index.hpp"
 
-/// What prepares the search of each technique. Parameters have been checked and are the technique's own.
+/// The function that prepares the search of each technique. Parameters have been checked and belong to the technique.
 namespace detp::sim {
 
 using Prepare = std::unique_ptr<Index>(const Problem& problem, const Parameters& parameters, const RunOptions& options);

@@ -17,20 +17,22 @@ WalkedSpheres spheres_of(const Problem& problem, const SphereCacheParameters& pa
 
 }  // namespace
 
-/// Nested spheres with their rays, walked from the outermost inwards: nothing is lost.
+/// Nested spheres with lists of their rays, walked from the outermost inwards, so that no hit is lost.
 ///
-/// A sphere serves a disc if the disc lies in it and in every larger one. From the first that does not hold the disc,
-/// all are rebuilt around the disc's centre, each from the list of the one around it, as long as they hold the disc.
+/// A sphere serves a disc if the disc lies in it and in every larger one. From the first sphere that does not contain
+/// the disc, all spheres are rebuilt around the disc's centre, each from the list of the one around it, as long as they
+/// contain the disc.
 std::unique_ptr<Index> prepare_sphere_cache(const Problem& problem, const Parameters& parameters,
                                             const RunOptions& options) {
   const auto& own = std::get<SphereCacheParameters>(parameters);
   return prepare_walk(problem, spheres_of(problem, own, SphereWalk::Serving::all_that_hold), options);
 }
 
-/// The paper's walk (section 2.2), kept for study: it asks from the innermost sphere outwards for the first that holds
-/// the disc. That sphere's list may lack rays, for it need not lie inside the larger ones: hits are lost.
+/// The paper's walk (section 2.2), kept for study: searches from the innermost sphere outwards for the first that
+/// contains the disc. This sphere need not lie inside the larger ones, so its list may lack rays, and hits are lost.
 ///
-/// Always in double: which hits it loses depends on every ray that a sphere lists, and floats list a few more.
+/// Always in double: which hits are lost depends on every ray in a sphere's list, and the lists of the float engine
+/// hold a few more.
 std::unique_ptr<Index> prepare_sphere_cache_published(const Problem& problem, const Parameters& parameters,
                                                       const RunOptions& options) {
   const auto& own = std::get<SphereCacheParameters>(parameters);

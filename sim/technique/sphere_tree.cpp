@@ -29,7 +29,7 @@ class Search {
     try {
       visit(tree_.levels.size() - 1, 0, list_of(problem_.rays));
       place_ = order_.size();
-    } catch (const Stopped&) {  // the disc or node under way is left out
+    } catch (const Stopped&) {  // the unfinished disc or node is left out
     }
     outcome.counts = tally_.counts();
     if (place_ < order_.size())
@@ -53,7 +53,7 @@ class Search {
     level == 0 ? test_discs(number, inside) : visit_children(level, number, inside);
   }
 
-  /// Discs below a node of that level, if it and all below are full.
+  /// Number of discs below a node of that level if the node and all below are full.
   std::size_t discs_below(std::size_t level) const {
     auto discs = static_cast<std::size_t>(parameters_.leaf);
     for (std::size_t i = 0; i < level && discs < order_.size(); ++i)
@@ -86,7 +86,8 @@ class Search {
   std::size_t place_ = 0;       ///< the discs before it in the order are done
 };
 
-/// The list of rays is culled down the tree, depth first, and tested against the leaves' discs. One list a level.
+/// Culls the list of rays down the tree, depth first, and tests it against the leaves' discs. Has one list for each
+/// level.
 class SphereTreeIndex final : public Index {
  public:
   SphereTreeIndex(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options)

@@ -52,7 +52,7 @@ class Stream {
         outcome.stopped = run_.stop.stop_requested();
         if (!outcome.stopped) search(first);
       }
-    } catch (const Stopped&) {  // while rays were made
+    } catch (const Stopped&) {  // stopped while making rays
       outcome.stopped = true;
     }
     if (outcome.stopped) outcome.pairs.clear();
@@ -69,7 +69,7 @@ class Stream {
           fmt::format("{} rays are too many for pairs; the most is {}", source_.size(), UINT32_MAX - 1));
   }
 
-  /// Predicted bytes beside what each block's search takes. Refuses what would not fit, before it is taken.
+  /// Predicts the bytes in addition to those of each block's search. Throws before allocation if they do not fit.
   void predict_bytes() {
     constexpr double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double);
     own_bytes_ =

@@ -5,7 +5,7 @@
 #include "detp/sim/rays/ray_source.hpp"
 #include "technique.hpp"
 
-/// Any number of rays in bounded memory: read in blocks, searched one block after another.
+/// Searches any number of rays in bounded memory: reads and searches them block by block.
 namespace detp::sim {
 
 struct StreamOptions {
@@ -16,18 +16,18 @@ struct StreamOptions {
 };
 
 struct Streamed {
-  Outcome outcome;           ///< over all rays; pairs name rays by their number in the source
-  double read_seconds = 0;   ///< making or reading the rays, not in outcome.seconds
-  double check_seconds = 0;  ///< checking rays and discs, S₀; not in outcome.seconds either
+  Outcome outcome;           ///< over all rays; pairs have the rays' numbers in the source
+  double read_seconds = 0;   ///< time for making or reading the rays, not in outcome.seconds
+  double check_seconds = 0;  ///< time for checking rays and discs and for S₀; not in outcome.seconds either
   std::size_t block = 0;     ///< rays in memory at a time
-  double bytes = 0;          ///< predicted memory at its peak, with discs and a block of rays; pairs left out
+  double bytes = 0;          ///< predicted peak memory, including discs and a block of rays, without pairs
 };
 
 /// As many rays as discs, rounded up to a power of two, but at least 2²⁰ and at most 2²²: 64 to 256 MiB.
 ///
-/// Each block costs techniques that cull lists a pass over the discs, and needs to bring as many rays to pay. The
-/// processor's caches have no say: techniques that trace rays one by one walk a block in chunks of 64, and the time of
-/// a grid (10⁶ discs) is the same for blocks of 2¹⁶ and of 10⁶ rays.
+/// For techniques that cull lists, each block costs a pass over the discs, which pays off only if the block has about
+/// as many rays. The processor's caches do not matter: techniques that trace rays one by one process a block in chunks
+/// of 64, and a grid (10⁶ discs) takes the same time for blocks of 2¹⁶ and of 10⁶ rays.
 [[nodiscard]] std::size_t default_block(std::size_t discs);
 
 /// What run gives, bit for bit (hits, irradiance, pairs), whatever the block. The index over the discs is built once.

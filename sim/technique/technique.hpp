@@ -3,7 +3,7 @@
 #include "detp/sim/search/outcome.hpp"
 #include "detp/sim/search/problem.hpp"
 
-/// One question, many techniques: which rays cross which discs? All exact techniques give the same answer.
+/// Runs any technique: finds which rays cross which discs. All exact techniques give the same result.
 namespace detp::sim {
 
 /// Runs one technique: prepares its index, and searches it once. Throws std::invalid_argument for a problem that

@@ -8,16 +8,16 @@
 
 namespace detp::sim {
 
-/// What a technique whose spheres follow the discs is made of.
+/// The parts of a technique whose spheres follow the discs.
 struct WalkedSpheres {
   SampleOrder order = SampleOrder::lebesgue;  ///< in which the discs are visited
-  MakeWalk make_walk;                         ///< of a walk that has not yet met a disc
-  NestedLists lists;                          ///< what its lists are expected to take
+  MakeWalk make_walk;                         ///< makes a walk that has not met a disc yet
+  NestedLists lists;                          ///< expected sizes of its lists
   std::string what;                           ///< in messages: "4 spheres and their lists of rays"
 };
 
-/// The index of such a technique: its discs in order. In single precision unless the engine is plain or rays start too
-/// far away for that.
+/// Makes the index of a technique whose spheres follow the discs: its discs in order. The search is in single
+/// precision, unless the engine is plain or rays start too far away.
 [[nodiscard]] std::unique_ptr<Index> prepare_walk(const Problem& problem, WalkedSpheres spheres,
                                                   const RunOptions& options);
 

@@ -6,10 +6,10 @@
 namespace detp::cli {
 namespace {
 
-/// A name in it may be no UTF-8.
+/// Converts to text. File names in it may be invalid UTF-8.
 std::string text_of(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// Each input's value, or a list of its values where rows differ.
+/// For each input its value, or a list of its values if rows differ.
 Json shared_inputs(const std::vector<AnswerRow>& rows) {
   Json inputs = Json::object();
   if (rows.empty()) return inputs;

@@ -10,27 +10,28 @@
 
 namespace detp::cli {
 
-/// One answer among those that a command line asks for.
+/// One result of a command line that asks for several.
 struct AnswerRow {
-  Json inputs;              ///< resolved
-  Json answer;              ///< as JSON shows it
-  std::vector<Json> cells;  ///< rows of the CSV table, one at least
+  Json inputs;              ///< resolved inputs
+  Json answer;              ///< as in JSON
+  std::vector<Json> cells;  ///< rows of the CSV table, at least one
 };
 
-/// What the text's table of several answers shows.
+/// The columns of the text table of several results.
 struct TextColumns {
-  Columns inputs;   ///< as columns where rows differ, above the table where all are the same
+  Columns inputs;   ///< as columns if rows differ; above the table if all are the same
   Columns answers;  ///< always as columns, if any row has them
 };
 
-/// Rows of both lists' combinations. Throws std::length_error for more than most_rows.
+/// Number of rows for all combinations of both lists. Throws std::length_error for more than most_rows.
 [[nodiscard]] inline std::size_t rows_in(ValueLists& problems, ValueLists& candidates) {
   require_rows(problems.rows(), candidates.rows());
   return problems.rows() * candidates.rows();
 }
 
-/// The answers to all combinations, in order: prepare() makes what the rows of one problem share, answer(shared) one of
-/// them. After a stop, those before it; throws sim::Stopped where there is none.
+/// The results for all combinations, in order. prepare() makes the data that the rows of one problem share;
+/// answer(shared) makes the result of one row. After a stop request, returns the rows before it; throws sim::Stopped if
+/// there is none.
 template <class Prepare, class Answer>
 [[nodiscard]] std::vector<AnswerRow> answer_all(ValueLists& problems, ValueLists& candidates,
                                                 const std::stop_token& stop, Prepare prepare, Answer answer) {
@@ -52,9 +53,9 @@ template <class Prepare, class Answer>
   return rows;
 }
 
-/// The answers in the three formats. One alone keeps its own shape in JSON, and its text is the caller's; several are
-/// JSON's `rows`, each with inputs and answer, and a table of the text. `expected`: rows asked for; if there are fewer,
-/// or the last one says so, the command was stopped.
+/// The results in the three formats. A single one keeps its own form in JSON, and its text is the caller's; several are
+/// `rows` in JSON, each with inputs and answer, and a table in the text. `expected`: number of rows requested. If there
+/// are fewer, or the last one is marked as stopped, the command was stopped.
 [[nodiscard]] Result result_of(const std::vector<AnswerRow>& rows, std::size_t expected, const Columns& columns,
                                const TextColumns& text);
 

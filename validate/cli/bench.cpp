@@ -12,7 +12,7 @@
 namespace detp::cli {
 namespace {
 
-/// Texts as they were given; parsed when the command runs.
+/// The option texts; parsed when the command runs.
 struct BenchCommand {
   std::string effort = "quick";
   std::optional<std::string> scene;
@@ -63,7 +63,7 @@ std::vector<Technique> techniques_of(const BenchCommand& command) {
   return techniques;
 }
 
-/// One thread and all cores, or the number asked for.
+/// One thread and all cores, or the number of threads requested.
 std::vector<int> threads_of(const CommonOptions& common) {
   if (common.threads > 0) return {common.threads};
   const int cores = static_cast<int>(std::thread::hardware_concurrency());

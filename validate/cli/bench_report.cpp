@@ -69,7 +69,8 @@ Json to_json(const AgainstEmbree& summary, const BenchResult& bench) {
           {"worst_row", worst_json(bench.entries[summary.worst_entry])}};
 }
 
-/// Of the first number of threads at the top, as the contract has it; of each of them in a list.
+/// The summary for the first number of threads at the top level, as the contract requires, and for each number in a
+/// list.
 Json summary_json(const BenchResult& bench, const validate::BenchOptions& options) {
   Json all = Json::array();
   for (const int threads : options.threads)
@@ -136,7 +137,7 @@ std::string to_text(const BenchResult& bench, const validate::BenchOptions& opti
   return text + summary_text(bench, options) + left_out_text(bench, missing);
 }
 
-/// The best technique of each race is marked: `best` is "ours" or "embree".
+/// Marks the best technique of each race: `best` is "ours" or "embree".
 std::string to_csv(const BenchResult& bench) {
   Table table(Columns{"scene", "field", "rays", "samples", "disc_radius", "threads"} + candidate_columns() +
               Columns{"call", "coherent", "seconds", "runs", "hits", "wrong_hits", "right_hits_by", "best"});

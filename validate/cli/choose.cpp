@@ -23,7 +23,7 @@ struct ChooseOptions {
   bool analyze = false;
 };
 
-/// How far the ranking came, if a stop request ended it.
+/// Ranks the candidates. Returns the progress if a stop request ended it.
 std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
@@ -45,7 +45,7 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs
   return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
 }
 
-/// What the structures built of the discs say of a candidate.
+/// A candidate with structural counts, from the structures built from the discs.
 model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const UnitCosts& costs,
                                   const std::stop_token& stop) {
   const Counts<double> counts =
@@ -53,7 +53,7 @@ model::Ranked assess_structurally(const validate::Job& job, const Candidate& can
   return {candidate, counts, price(counts, costs, candidate.technique), {}};
 }
 
-/// A candidate that was not ranked; nothing where neither a closed form nor its structure predicts it.
+/// The prediction for a candidate that was not ranked; nothing if neither a closed form nor its structure gives one.
 std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
                                        const UnitCosts& costs, const std::stop_token& stop) {
   try {
@@ -68,8 +68,8 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
   }
 }
 
-/// Ranks again by what the samples, and the structures built of them, say. A stop request leaves the ranking as it was:
-/// then, how many candidates had been counted.
+/// Ranks again by structural counts. After a stop request the ranking is unchanged, and the result is the number of
+/// candidates that had been counted.
 std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const validate::Job& job, const UnitCosts& costs,
                                                  const std::stop_token& stop) {
   if (job.field != sim::Field::isotropic)
@@ -90,7 +90,7 @@ std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const val
   return std::nullopt;
 }
 
-/// How far putting the choice to the test came.
+/// Progress of running and timing the candidates.
 sim::Progress measured(const validate::Analysis& analysis) {
   const auto done = std::count_if(analysis.candidates.begin(), analysis.candidates.end(),
                                   [](const validate::Analysed& one) { return one.seconds.has_value(); });

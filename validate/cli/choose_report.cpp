@@ -13,7 +13,7 @@
 namespace detp::cli {
 namespace {
 
-/// A row of the answer: a candidate, predicted or run or both.
+/// A row of the result: a candidate that was predicted or run or both.
 struct Row {
   Candidate candidate;
   const model::Ranked* predicted = nullptr;
@@ -21,7 +21,7 @@ struct Row {
   bool chosen = false;
 };
 
-/// As ranked; then, with an analysis, the others that were tried.
+/// In the order of the ranking; with an analysis, then the others that were tried.
 std::vector<Row> rows_of(const ChooseAnswer& answer) {
   std::vector<Row> rows;
   if (!answer.analysis) {
@@ -193,7 +193,7 @@ Json cells_of(const ChooseAnswer& answer, const Row& row) {
   return cells;
 }
 
-/// "choice"; with an analysis "predicted choice" too, where another one was measured to be faster.
+/// "choice"; with an analysis also "predicted choice" if another candidate was measured to be faster.
 const char* role_of(const ChooseAnswer& answer, const Row& row, bool first) {
   if (row.chosen) return "choice";
   return first && answer.analysis ? "predicted choice" : "candidate";

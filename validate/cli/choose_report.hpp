@@ -10,7 +10,7 @@
 
 namespace detp::cli {
 
-/// Everything that the answer shows.
+/// The content of the result.
 struct ChooseAnswer {
   std::string title;  ///< first lines of the text: scene and rays
   Workload workload;
@@ -19,7 +19,7 @@ struct ChooseAnswer {
   std::optional<validate::Analysis> analysis;
   std::string rigor = "estimate";
   UnitCosts costs;
-  bool costs_given = false;  ///< by the user; else the built-in unit costs
+  bool costs_given = false;  ///< true: from the user; false: the built-in unit costs
   double choosing_seconds = 0;
   std::vector<std::string> warnings;
 };
@@ -27,8 +27,8 @@ struct ChooseAnswer {
 [[nodiscard]] Json to_json(const ChooseAnswer& answer);
 [[nodiscard]] std::string to_text(const ChooseAnswer& answer);
 
-/// A row for each candidate, as ranked, those tried beside, and one for the paper's rule. The workload is taken from
-/// the resolved inputs.
+/// A row for each candidate in the order of the ranking, for other candidates that were tried, and for the paper's
+/// rule. The workload's columns come from the resolved inputs.
 [[nodiscard]] std::string to_csv(const ChooseAnswer& answer, const Json& inputs);
 
 }  // namespace detp::cli

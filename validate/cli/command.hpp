@@ -10,7 +10,7 @@
 
 #include "detp/sim/base/progress.hpp"
 
-/// What the commands share: their options, and the shape of their results.
+/// What the commands share: their options, and the form of their results.
 namespace detp::cli {
 
 using Json = nlohmann::ordered_json;
@@ -28,18 +28,19 @@ struct CommonOptions {
   std::optional<std::string> memory_limit;
 };
 
-/// What a command found, in the three formats. `main` adds the envelope of the JSON (schema, provenance) and how a
-/// stopped command says so.
+/// A command's result in the three formats. `main` adds the JSON envelope (schema, provenance), and marks the result of
+/// a stopped command.
 struct Result {
   Json inputs;
   Json json;
   std::string text;
   std::string csv;
   ExitCode code = ExitCode::done;
-  std::optional<sim::Progress> stopped = {};  ///< how far it came, if a stop request ended it: the rest is partial
+  /// progress, if a stop request ended the command; the result is then partial
+  std::optional<sim::Progress> stopped = {};
 };
 
-/// One command: its parser, and what runs once options have been parsed.
+/// One command: its parser, and the function that runs it after the options have been parsed.
 struct Command {
   CLI::App* app;
   std::function<Result(const CommonOptions&, std::stop_token)> run;
@@ -52,7 +53,7 @@ struct Command {
 [[nodiscard]] Command scene_command(CLI::App& program);
 [[nodiscard]] Command bench_command(CLI::App& program);
 
-/// Warns or informs on stderr, unless quiet.
+/// Prints a warning or a notice to stderr, unless quiet.
 void note(const CommonOptions& common, const std::string& message);
 
 /// Shows what is being done on a terminal's last line; nothing elsewhere, or if quiet. Wiped when it goes out of scope.

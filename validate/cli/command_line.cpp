@@ -13,7 +13,7 @@
 namespace detp::cli {
 namespace {
 
-/// Up to 2⁶⁴ - 1, which no double holds.
+/// Up to 2⁶⁴ - 1, which a double cannot represent.
 std::uint64_t parse_seed(const std::string& text) {
   std::uint64_t seed = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
@@ -57,7 +57,7 @@ CommandLine::CommandLine()
 
 const Command& CommandLine::parse(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
-    if (*argv[i] == '\0')  // the parser would take an empty value for none, as of --rays "$n" where n is not set
+    if (*argv[i] == '\0')  // the parser would treat an empty value as absent, for instance --rays "$n" if n is not set
       throw std::invalid_argument(fmt::format("argument {} is empty, after {}; give it a value", i, argv[i - 1]));
   program_.parse(argc, argv);
   for (const Command& command : commands_)

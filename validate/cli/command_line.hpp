@@ -6,15 +6,15 @@
 
 namespace detp::cli {
 
-/// The parser of the command line. Parsing fills in options, and does nothing else.
+/// The parser of the command line. Parsing sets the options, and does nothing else.
 class CommandLine {
  public:
   CommandLine();
   CommandLine(const CommandLine&) = delete;  // the parsers point into this object
   CommandLine& operator=(const CommandLine&) = delete;
 
-  /// The command that the arguments name, ready to run. Throws CLI::ParseError for bad usage, and where help or the
-  /// version is wanted; std::invalid_argument for an empty argument and where no command is named.
+  /// The command that the arguments name, ready to run. Throws CLI::ParseError for bad usage, and if help or the
+  /// version is requested; std::invalid_argument for an empty argument and if no command is named.
   [[nodiscard]] const Command& parse(int argc, char** argv);
 
   [[nodiscard]] const CommonOptions& common() const { return common_; }

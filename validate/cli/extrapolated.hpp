@@ -8,10 +8,10 @@
 #include "command.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// How results tell that a prediction is extrapolated (detp/model/extrapolation.hpp).
+/// How results mark an extrapolated prediction (detp/model/extrapolation.hpp).
 namespace detp::cli {
 
-/// "extrapolated", and "extrapolated_because" with the reasons.
+/// The keys "extrapolated", and "extrapolated_because" with the reasons.
 [[nodiscard]] Json extrapolated_json(const std::vector<std::string>& reasons);
 
 /// For text: a line for each reason, with the techniques whose rows are marked with ~ for it. Empty where none is.

@@ -12,10 +12,11 @@
 namespace detp::cli {
 namespace {
 
-/// What ends the wait for signals when the program ends; by default it does nothing, so that no one else misses it.
+/// The signal that ends the wait for signals when the program ends. Its default action is to do nothing, so nobody else
+/// needs it.
 constexpr int wake_up = SIGURG;
 
-constexpr double longest = 1e9;  // seconds: what a clock can add to its time without overflow
+constexpr double longest = 1e9;  // seconds: can be added to a clock's time without overflow
 
 bool ignored(int signal) {
   struct sigaction action {};

@@ -8,20 +8,20 @@
 namespace detp::cli {
 
 /// Turns Ctrl-C (SIGINT), SIGTERM, SIGHUP or the end of a time limit into a stop request, so that a command can print
-/// what it has. A second signal ends the program at once. A SIGHUP that was ignored when the program started (nohup)
-/// stays so.
+/// its results so far. A second signal ends the program at once. If SIGHUP was ignored when the program started
+/// (nohup), it stays ignored.
 ///
-/// To be made before any other thread: they inherit that the signals are not theirs.
+/// Must be created before any other thread, because threads inherit the signal mask.
 class Interruption {
  public:
   Interruption();
 
-  /// The time limit, in seconds since this was made. 0 or less is no limit.
+  /// Sets the time limit, in seconds since construction. 0 or less means no limit.
   void limit(double seconds);
 
   [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
 
-  /// Seconds since the stop request; 0 where there was none.
+  /// Seconds since the stop request; 0 if there was none.
   [[nodiscard]] double seconds_since_request() const;
 
  private:

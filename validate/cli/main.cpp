@@ -36,7 +36,7 @@ Json envelope(const std::string& command, const CommonOptions& common, int threa
   return json;
 }
 
-/// Throws where a number is NaN or infinite, which JSON cannot hold: a defect of ours, not of the input.
+/// Throws if a number is NaN or infinite, which JSON cannot represent: this is a bug, not an error in the input.
 void require_finite_numbers(const Json& json) {
   if (json.is_number_float() && !std::isfinite(json.get<double>()))
     throw std::logic_error("a result is not a finite number");
@@ -62,7 +62,7 @@ void set_memory_limit(const std::string& size) {
   }
 }
 
-/// A command that was stopped before it had an answer says so on stderr, too.
+/// If a command is stopped before it has a result, also reports this on stderr.
 Result result_of(const Command& command, const CommonOptions& common, const std::stop_token& stop) {
   try {
     return command.run(common, stop);
@@ -90,7 +90,7 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   if (common.format == "json") {
     const Json json = envelope(command.app->get_name(), common, threads, result);
     require_finite_numbers(json);
-    // A file's name may be no UTF-8, which JSON must be.
+    // A file's name may be invalid UTF-8, but JSON must be valid.
     print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", common);
   } else {
     print(common.format == "csv" ? result.csv : safe_text(result.text), common);

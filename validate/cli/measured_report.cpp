@@ -21,10 +21,10 @@ std::string why_not_measured(const validate::Analysis& analysis, const validate:
   return analysis.stopped ? "stopped before" : "not timed";
 }
 
-/// Null where it is not finite.
+/// Null if the number is not finite.
 Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
-/// The choice as it was predicted, and the fastest, if that is another and was predicted at all.
+/// The predicted choice, and the fastest candidate if that is another one and has a prediction.
 std::vector<const validate::Analysed*> to_explain(const validate::Analysis& analysis) {
   std::vector<const validate::Analysed*> runs{&analysis.candidates.front()};
   if (analysis.best && *analysis.best != 0) runs.push_back(&analysis.candidates[*analysis.best]);

@@ -8,10 +8,11 @@ namespace detp::cli {
 [[nodiscard]] std::string measured_head(bool second_line);
 [[nodiscard]] std::string measured_columns(const validate::Analysed& run);
 
-/// Appends what a run of the candidate showed: `counted`, `measured_seconds`, … or why it was not measured.
+/// Appends the results of a candidate's run: `counted`, `measured_seconds`, …, or the reason why it was not measured.
 void add_measured(Json& json, const validate::Analysis& analysis, const validate::Analysed& run);
 
-/// Predicted over counted and measured, as `missed` has them: empty where the candidate was not predicted or not timed.
+/// The ratios predicted over counted and over measured, as in `missed`: empty if the candidate was not predicted or not
+/// timed.
 [[nodiscard]] Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs);
 
 /// "choice" and "missed" lines: the measured winner, and what the prediction said instead.

@@ -34,7 +34,7 @@ void shorten(std::string& message, std::string_view piece) {
 void prepare_streams() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  // The lowest free number is what open() returns. The wrong direction, so that using the stream fails.
+  // open() returns the lowest free number. The direction is wrong on purpose, so that using the stream fails.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
@@ -55,7 +55,7 @@ void write_result(const std::string& text) {
 }
 
 void check_written() {
-  errno = EIO;  // for a stream that does not say why
+  errno = EIO;  // for a stream that does not report a reason
   if (!std::cout.flush() || std::fflush(stdout) != 0) throw_not_written();
 }
 

@@ -6,11 +6,11 @@
 
 #include "command.hpp"
 
-/// What goes to the standard streams besides results, and what may go wrong with them.
+/// Output to the standard streams except results, and its errors.
 namespace detp::cli {
 
-/// Makes a closed pipe and a limit of file size errors of the write, instead of the end of the program; and keeps a
-/// closed stdin, stdout or stderr from becoming the first file that is opened. To be called first.
+/// Turns a closed pipe and the file size limit into errors of the write; by default they would end the program. Also
+/// prevents that a closed stdin, stdout or stderr becomes the first file that is opened. Must be called first.
 void prepare_streams();
 
 /// The text of a result, which may hold names of files, without control characters except ends of lines.
@@ -19,16 +19,17 @@ void prepare_streams();
 /// Writes to stdout. Throws sim::FileError with the system's reason.
 void write_result(const std::string& text);
 
-/// Throws likewise where what std::cout was given could not be written.
+/// Throws likewise if std::cout could not be written.
 void check_written();
 
-/// Writes to stderr; where that fails, there is nobody to tell.
+/// Writes to stderr. Ignores errors, because they cannot be reported.
 void write_error(std::string_view text);
 
-/// Writes the message as one line to stderr, whatever is in it, and at most 500 characters of it; returns the code.
+/// Writes the message to stderr as one line of at most 500 characters, made safe to show. Returns the code.
 int fail(ExitCode code, std::string message);
 
-/// The message with each argument that it repeats, or each part of one, made safe to show and cut after 60 characters.
+/// The message, with each argument or part of an argument that it repeats made safe to show and truncated after 60
+/// characters.
 [[nodiscard]] std::string with_short_arguments(std::string message, std::span<char* const> arguments);
 
 }  // namespace detp::cli

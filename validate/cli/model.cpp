@@ -28,7 +28,7 @@ struct ModelOptions {
 
 using Answer = ModelAnswer(const ModelQuestion& question);
 
-/// Techniques of whose parts the model says more than counts and times.
+/// Techniques whose results have parts in addition to counts and times.
 const std::map<Technique, Answer*>& answers() {
   static const std::map<Technique, Answer*> all{{Technique::sphere_cache, sphere_cache_answer},
                                                 {Technique::sphere_cache_published, sphere_cache_answer},
@@ -93,7 +93,7 @@ const Columns& per_line() {
   return columns;
 }
 
-/// What the technique's answer says of one sphere is named after its number i.
+/// Columns of values of one sphere; their names end in its number i.
 const Columns& of_one_sphere() {
   static const Columns columns{"i", "radius_i", "rays_i", "listed_i", "rebuilds_i", "rebuild_cost_i", "samples_i"};
   return columns;
@@ -111,7 +111,7 @@ Columns columns() {
          per_line() + count_columns() + unit_cost_columns() + of_one_sphere();
 }
 
-/// A row for each sphere listed, or one where there is none; what holds of all is in each.
+/// A row for each sphere in the list, or one row if there is none. Values common to all are in each row.
 std::vector<Json> cells_of(const Json& inputs, const Candidate& candidate, const Json& json) {
   Json shared = workload_cells(inputs);
   shared.update(candidate_cells(candidate));
@@ -133,7 +133,7 @@ void require_finite_time(const Json& json) {
     throw std::invalid_argument("with these unit costs the time exceeds 1.8e308; give smaller costs");
 }
 
-/// What the rows of one workload share.
+/// The data that the rows of one workload share.
 struct Measured {
   Workload workload;
   Json inputs;

@@ -4,10 +4,10 @@
 #include "detp/model/vocabulary/form.hpp"
 #include "workload_options.hpp"
 
-/// What the closed forms say of each technique, as the `model` command shows it.
+/// The results of the closed forms for each technique, as the `model` command shows them.
 namespace detp::cli {
 
-/// A resolved question to the closed forms.
+/// Resolved inputs of the closed forms.
 struct ModelQuestion {
   Workload workload;
   Technique technique;
@@ -17,7 +17,7 @@ struct ModelQuestion {
   const CandidateOptions& options;
 };
 
-/// The technique's parameters, complete, and what JSON shows.
+/// The technique's complete parameters, and the content of JSON.
 struct ModelAnswer {
   Parameters parameters;
   Json json;
@@ -25,18 +25,18 @@ struct ModelAnswer {
 
 [[nodiscard]] ModelAnswer sphere_cache_answer(const ModelQuestion& question);
 
-/// Any technique with a closed form: parameters, times by part, counts. Parameters left out are the best at the unit
-/// costs.
+/// For any technique with a closed form: parameters, times by part, counts. Parameters that are not set are the best at
+/// the unit costs.
 [[nodiscard]] ModelAnswer technique_answer(const ModelQuestion& question);
 
-/// The same with the spheres of each level.
+/// As technique_answer, plus the spheres of each level.
 [[nodiscard]] ModelAnswer cell_spheres_answer(const ModelQuestion& question);
 [[nodiscard]] ModelAnswer sphere_tree_answer(const ModelQuestion& question);
 
 [[nodiscard]] ModelAnswer octree_answer(const ModelQuestion& question);
 [[nodiscard]] ModelAnswer grid_answer(const ModelQuestion& question);
 
-/// Throws std::invalid_argument where the published form is asked for and the paper has none.
+/// Throws std::invalid_argument if the published form is requested and the paper has none.
 void refuse_published(const ModelQuestion& question);
 
 }  // namespace detp::cli

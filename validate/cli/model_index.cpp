@@ -29,7 +29,7 @@ Json corrected_index(const ModelQuestion& question, double parts, const Counts<d
   const double references = question.workload.samples * cells.overlapped;
   double area = 0;
   for (std::size_t axis = 0; axis < 3; ++axis) area += 2 * cells.along[axis] * cells.along[(axis + 1) % 3];
-  const double share = 6 / area;  // P(cell) over P(box): areas in units of a cell's face
+  const double share = 6 / area;  // P(cell)/P(box): areas in units of a cell's face
   const CostBreakdown time = price(counts, question.costs, question.technique);
   return {{"cells_per_line", cells.count() * share},
           {"discs_per_cell", references / cells.count()},

@@ -89,7 +89,7 @@ Json corrected_cache(const ModelQuestion& question, const SphereCacheParameters&
           {"counts", to_json(counts)}};
 }
 
-/// Parameters, time by part and counts, after the levels.
+/// Adds parameters, time by part and counts to the levels.
 ModelAnswer with_spheres(const ModelQuestion& question, const Parameters& parameters, Json levels) {
   const Candidate candidate{question.technique, parameters};
   const Counts<double> counts = model::predict(question.workload, candidate, question.options.engine);

@@ -7,11 +7,11 @@
 #include <string>
 #include <string_view>
 
-/// One rule for every number on the command line: a decimal number, and nothing around it. (CLI11 alone would take
+/// One rule for every number on the command line: a decimal number, with nothing around it. (CLI11 would also accept
 /// 0x10, inf and " 5".)
 namespace detp::cli {
 
-/// Throws std::invalid_argument, naming the option, for anything but one decimal number in the range of doubles.
+/// Throws std::invalid_argument, naming the option, unless the text is a decimal number in the range of doubles.
 [[nodiscard]] double parse_number(std::string_view option, std::string_view text);
 
 /// The same for a whole number from least to most: "1000" or "1e3".

@@ -6,14 +6,14 @@
 
 namespace detp::cli {
 
-/// A file that a command is to write, and the option that names it.
+/// A file that a command will write, and the option that names it.
 struct Output {
   std::string option;
   std::optional<std::string> path;
 };
 
-/// Refuses, before any work, what could not be written after it. Throws sim::FileError where a file cannot be written,
-/// and std::invalid_argument where two options name one place, however they spell it.
+/// Checks the outputs before any work. Throws sim::FileError if a file cannot be written, and std::invalid_argument if
+/// two options name the same place, however they spell it.
 void check_outputs(std::initializer_list<Output> outputs);
 
 }  // namespace detp::cli

@@ -27,8 +27,8 @@ struct RunOptions {
   std::optional<std::string> pairs;
 };
 
-/// The technique asked for, or the one that the closed forms choose; parameters left out are the best by the same
-/// forms.
+/// The requested technique, or the one that the closed forms choose. Parameters that are not set are the best by the
+/// closed forms.
 Candidate complete(const CandidateOptions& options, const Workload& workload) {
   const UnitCosts costs = validate::built_in_unit_costs();
   const Technique technique = options.technique ? options.technique_or(Technique::brute_force)
@@ -64,14 +64,15 @@ void write_per_disc(const std::string& path, const sim::Outcome& outcome, const 
   file.commit();
 }
 
-/// Refused before the work is done where a row's hits would overwrite another's.
+/// Throws before the work if the hits of one row would overwrite those of another.
 void check_files(const RunOptions& options, const CommonOptions& common, std::size_t rows) {
   if (rows > 1 && (options.per_disc || options.pairs))
     throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
   check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
 }
 
-/// How far a run and the writing of its hits came, if a stop request ended them. A file is written whole or not at all.
+/// Writes the files of hits. Returns the progress if a stop request ended the run or the writing. A file is written
+/// completely or not at all.
 std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnswer& answer, const CommonOptions& common,
                                         const std::stop_token& stop) {
   const sim::Outcome& outcome = answer.run.outcome;
@@ -91,7 +92,7 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnsw
   return std::nullopt;
 }
 
-/// A photon map looks for rays in any order and wants all of them in memory.
+/// A photon map accesses rays in any order and needs all of them in memory.
 bool can_stream(CandidateOptions& options, std::size_t rows) {
   for (std::size_t row = 0; row < rows; ++row) {
     options.lists.choose_row(row);

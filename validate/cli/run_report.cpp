@@ -32,12 +32,12 @@ double hits_per_disc(const sim::Outcome& outcome) {
   return static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size());
 }
 
-/// Nothing where there is no closed form of the candidate.
+/// Nothing if there is no closed form for the candidate.
 std::optional<Counts<double>> prediction(const Workload& workload, const Candidate& candidate, Engine engine) {
   if (!model::has_closed_form(candidate.technique)) return {};
   try {
     return model::predict(workload, candidate, engine);
-  } catch (const std::invalid_argument&) {  // of these parameters: another order, tree or traversal
+  } catch (const std::invalid_argument&) {  // no closed form for these parameters: another order, tree or traversal
     return {};
   }
 }
@@ -52,7 +52,7 @@ void add_stops(const Workload& workload, const Candidate& candidate, Json& json)
   json["k_best"] = stops.best;
 }
 
-/// Nothing where the rays done, if any, do not say what the others are like.
+/// Nothing if the finished rays, if any, are not representative of all rays.
 std::optional<sim::HitEstimate> estimate(const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   if (!answer.random_rays || outcome.batches.rays == 0) return std::nullopt;

@@ -7,19 +7,19 @@
 
 namespace detp::cli {
 
-/// What one run found, and how long it took.
+/// The results and times of one run.
 struct RunAnswer {
   Candidate candidate = {};
   Engine engine = Engine::simd;
   TimedRun run = {};
   Timing timing = {};
-  int repeat = 0;            ///< timed runs asked for
-  bool random_rays = false;  ///< of a field: the first ones say what all are like
+  int repeat = 0;            ///< timed runs requested
+  bool random_rays = false;  ///< true for rays of a random field: the first ones are representative of all
 };
 
-/// Hits, counts and seconds; beside them what the closed forms predict of the same workload, where there are any. A
-/// stopped run has no `hits` and no irradiance but `hits_so_far` (of the rays or discs done) and, where those are
-/// random rays, `hits_estimate` for all rays.
+/// Hits, counts and seconds; and the closed forms' predictions for the same workload, if there are any. A stopped run
+/// has no `hits` and no irradiance, but `hits_so_far` (of the finished rays or discs) and, if these are random rays,
+/// `hits_estimate` for all rays.
 [[nodiscard]] AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer);
 
 [[nodiscard]] Columns run_columns();

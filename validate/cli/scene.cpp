@@ -31,7 +31,7 @@ void write_mesh(const std::string& path, const validate::JobRequest& request, co
   sim::write_ply(path, scene.mesh, stop);
 }
 
-/// One row: the workload, what is measured of it, effects and warnings.
+/// One row: the workload, its measured properties, effects and warnings.
 std::string csv_of(const Json& inputs, const Json& json) {
   const Columns columns{"triangles", "box_x", "box_y", "box_z", "distance_over_radius", "read_seconds"};
   Json row = workload_cells(inputs);

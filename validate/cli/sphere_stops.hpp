@@ -5,10 +5,10 @@
 
 namespace detp::cli {
 
-/// The two stops k of a sphere cache of ratio Q that a user may want.
+/// The two numbers of spheres k that a user may want for a sphere cache of ratio Q.
 struct SphereStops {
-  std::int64_t max = 0;   ///< the form's own k: how many spheres can hold a disc
-  std::int64_t best = 0;  ///< the fastest by that form; 0 where max is 0
+  std::int64_t max = 0;   ///< the form's own k: the number of spheres that can hold a disc
+  std::int64_t best = 0;  ///< the fastest by that form; 0 if max is 0
 };
 
 /// Throws as model::sphere_count and model::best_stop do.

@@ -3,14 +3,13 @@
 #include "command.hpp"
 #include "detp/sim/base/stopped.hpp"
 
-/// What a stop request leaves of an answer.
+/// Results of commands that a stop request ended.
 namespace detp::cli {
 
-/// The result of a command that a stop request ended before there was any: how far it came, and the options it was
-/// given.
+/// The result of a command that was stopped before it had any: its progress, and its options.
 [[nodiscard]] Result stopped_result(const CLI::App& command, const sim::Stopped& stopped);
 
-/// Says in all formats that the result is partial, and how far the work came. `seconds`: from the stop request to now.
+/// Marks the result as partial in all formats, with the progress of the work. `seconds`: from the stop request to now.
 ///
 /// JSON: `stopped_after` {`done`, `of`, `unit`} and `stop_seconds`; text: a first line; CSV: the columns
 /// `stopped_after`, `stopped_of` and `stopped_unit` in every row.

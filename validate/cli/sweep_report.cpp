@@ -52,7 +52,7 @@ std::string to_text(const std::vector<DeviationSummary>& summaries) {
   return text;
 }
 
-/// A row beside those of the claims, under their names where they mean the same.
+/// A row in the table of the claims. Uses the claims' column names for values with the same meaning.
 Json cells_of(const Deviation& row) {
   Json cells{{"scene", row.dimension == 3 ? "uniform samples in a cube" : "uniform samples on the faces of a cube"},
              {"field", name(sim::Field::isotropic)},

@@ -6,10 +6,10 @@
 
 namespace detp::cli {
 
-/// Columns of a comparison beside those of a claim.
+/// Columns of a comparison in addition to those of a claim.
 [[nodiscard]] Columns sweep_columns();
 
-/// Adds a sweep to what a command found: a summary for each quantity ("sweep" in JSON, a table in the text), and every
+/// Adds a sweep to a command's result: a summary for each quantity ("sweep" in JSON, a table in the text), and every
 /// comparison as a row of the table.
 void report_sweep(const validate::SweepResult& sweep, Table& table, Result& result);
 

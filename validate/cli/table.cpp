@@ -28,7 +28,7 @@ std::string csv_field(const Json& value) {
   return std::isfinite(number) ? fmt::format("{}", number) : "";
 }
 
-/// A cell for a reader: floating-point numbers in six digits.
+/// A cell as text: floating-point numbers with six digits.
 std::string text_field(const Json& row, const std::string& column) {
   if (!row.contains(column)) return "";
   const Json& value = row[column];

@@ -7,15 +7,15 @@
 
 namespace detp::cli {
 
-/// What each name of --costs stands for, a line each: for the help.
+/// The meaning of each name of --costs, one per line, for the help.
 [[nodiscard]] std::string unit_cost_help();
 
-/// Reads "t=1e-9,u=2e-9": names as the help explains them, in any order, each at most once; what is not named is 0. An
-/// empty text gives `otherwise`. Throws std::invalid_argument for anything else, and for a cost that is negative or not
-/// finite.
+/// Reads "t=1e-9,u=2e-9": names as in the help, in any order, each at most once; costs that are not named are 0. An
+/// empty text returns `otherwise`. Throws std::invalid_argument for anything else, and for a cost that is negative or
+/// not finite.
 [[nodiscard]] UnitCosts parse_unit_costs(const std::string& text, const UnitCosts& otherwise);
 
-/// By the same names.
+/// As JSON, with the same names.
 [[nodiscard]] nlohmann::ordered_json to_json(const UnitCosts& costs);
 
 /// The names of the costs that are 0: "t, u".

@@ -43,8 +43,8 @@ validate::Experiment uniform_experiment(validate::JobRequest request, const std:
   return experiment;
 }
 
-/// The choice's question is what choose would make of the same options. The other claims are on lines: as many as there
-/// are rays, if a number was given.
+/// The choice's question is the one that choose would make from the same options. The other claims are about lines: as
+/// many as the number of rays, if it is set.
 validate::Experiment scene_experiment(const validate::JobRequest& request, const CommonOptions& common,
                                       const std::stop_token& stop, Result& result) {
   validate::Job job = validate::make_job(request, stop);
@@ -70,7 +70,7 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
   return experiment;
 }
 
-/// Null where the number is not known: an error of observations that were all zero.
+/// Null if the number is unknown: a relative error if all observations are zero.
 Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
 Json to_json(const Claim& claim) {
@@ -95,7 +95,7 @@ Json to_json(const Claim& claim) {
           {"seconds", claim.seconds}};
 }
 
-/// A field of the text; "?" likewise.
+/// A field of the text; "?" if the number is unknown.
 std::string known_text(double number, const char* shape) {
   return std::isfinite(number) ? fmt::format(fmt::runtime(shape), number) : "?";
 }
@@ -133,7 +133,7 @@ std::string legend(const std::vector<Claim>& claims) {
   return text;
 }
 
-/// ", 2 to 10 %,"; empty where it is not known.
+/// ", 2 to 10 %,"; empty if unknown.
 std::string range_of_controls(const std::vector<Claim>& claims) {
   double least = INFINITY;
   double most = 0;
@@ -210,7 +210,7 @@ validate::SweepOptions sweep_options(const ValidateOptions& options, const Commo
   return sweep;
 }
 
-/// Before any work.
+/// Checks the files before any work.
 void check_files(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   Output checkpoint{"--checkpoint", std::nullopt};
   if (options.sweep.checkpoint) checkpoint.path = options.sweep.checkpoint->string();

@@ -22,7 +22,7 @@ std::vector<std::string> split(std::string_view text, char separator) {
   return parts;
 }
 
-/// Digits behind the point of a decimal number: 2 of "0.05" and "5e-2", none of "1e3".
+/// Digits behind the decimal point of a number: 2 for "0.05" and "5e-2", 0 for "1e3".
 int decimals(std::string_view number) {
   const std::size_t exponent_at = std::min(number.find_first_of("eE"), number.size());
   const std::size_t point = number.substr(0, exponent_at).find('.');
@@ -45,9 +45,9 @@ struct Range {
   double start = 0;
   double end = 0;
   double step = 0;
-  int decimals = 0;  ///< of all its values
+  int decimals = 0;  ///< of all values
 
-  /// Rounded to those decimals, in the shortest form of the double.
+  /// Rounded to that number of decimals, in the shortest form of the double.
   [[nodiscard]] double value(double i) const {
     const std::string text = fmt::format("{:.{}f}", start + i * step, decimals);
     double value = 0;

@@ -26,7 +26,7 @@ struct SharedParameter {
   std::string help;
 };
 
-/// All parameters by their names, in the order of the techniques.
+/// All parameters by name, in the order of the techniques.
 std::vector<SharedParameter> shared_parameters() {
   std::vector<SharedParameter> all;
   for (const TechniqueRecord& record : technique_records)

@@ -11,7 +11,7 @@
 
 namespace detp::cli {
 
-/// The options that name rays and discs (or a workload in numbers). The parser points into it.
+/// The options for rays and discs (or for a workload without a scene). The parser keeps pointers to this object.
 class WorkloadOptions {
  public:
   WorkloadOptions() = default;
@@ -29,13 +29,14 @@ class WorkloadOptions {
   validate::JobRequest request_;
 };
 
-/// Where a sphere cache stops that is not given its k.
+/// The innermost sphere of a sphere cache whose k is not set.
 enum class SphereStop {
   max,  ///< at the form's own k
-  best  ///< where it is fastest, by the model
+  best  ///< the k at which it is fastest, by the model
 };
 
-/// The options that name a technique and its parameters; those left out are filled in. The parser points into it.
+/// The options for a technique and its parameters; those that are not set are chosen. The parser keeps pointers to this
+/// object.
 class CandidateOptions {
  public:
   CandidateOptions() = default;
@@ -46,16 +47,16 @@ class CandidateOptions {
 
   ValueLists lists;  ///< of the options that may have many values
   std::optional<std::string> technique;
-  std::optional<SphereStop> stop;  ///< instead of the number of spheres
+  std::optional<SphereStop> stop;  ///< used instead of the number of spheres
   Engine engine = Engine::simd;
 
-  /// The technique of that name, or `otherwise`. Throws std::invalid_argument for an unknown one, naming the known.
+  /// The technique of that name, or `otherwise`. Throws std::invalid_argument for an unknown one, listing the known.
   [[nodiscard]] Technique technique_or(Technique otherwise) const;
 
-  /// What is given of the technique's parameters. Throws std::invalid_argument for a parameter that it does not have.
+  /// The technique's parameters that are set. Throws std::invalid_argument for a parameter that it does not have.
   [[nodiscard]] model::Wish wish(Technique technique) const;
 
-  /// The value of a parameter of that type, if it is given.
+  /// The value of a parameter of that type, if it is set.
   template <class T>
   [[nodiscard]] std::optional<T> given(std::string_view parameter) const {
     const auto found = given_.find(parameter);
@@ -75,10 +76,10 @@ class CandidateOptions {
 [[nodiscard]] Json to_json(const Candidate& candidate);
 [[nodiscard]] Json to_json(const Workload& workload);
 
-/// Resolved inputs of a workload given in numbers alone.
+/// Resolved inputs of a workload without a scene.
 [[nodiscard]] Json numbers_json(const Workload& workload);
 
-/// A count as JSON writes it: a whole number without a point.
+/// A count for JSON: a whole number without a decimal point.
 [[nodiscard]] inline Json whole(double count) { return static_cast<std::int64_t>(count); }
 template <class T>
 [[nodiscard]] Json to_json(const Counts<T>& counts) {
@@ -87,19 +88,19 @@ template <class T>
   return json;
 }
 
-/// Resolved inputs of a job; the files as they were asked for.
+/// Resolved inputs of a job; file names as the user wrote them.
 [[nodiscard]] Json to_json(const validate::Job& job, const validate::JobRequest& request);
 
-/// The deviations from the plain model that this workload shows and the closed forms take into account.
+/// The workload's deviations from the basic model that the closed forms take into account.
 [[nodiscard]] Json effects_json(const Workload& workload);
 
-/// The same as cells of a table: "finite_paths" (true or false) and "finite_paths_evidence" of each effect.
+/// The effects as cells of a table: "finite_paths" (true or false) and "finite_paths_evidence" of each effect.
 [[nodiscard]] Json effect_cells(const Json& effects);
 
-/// Notices and warnings of a job, on stderr.
+/// Prints the notices and warnings of a job to stderr.
 void note_all(const CommonOptions& common, const validate::Job& job);
 
-/// "scene" and "rays" lines of the text output.
+/// The lines "scene" and "rays" of the text output.
 [[nodiscard]] std::string describe(const validate::Job& job);
 
 }  // namespace detp::cli

@@ -10,10 +10,10 @@
 #include "detp/sim/geometry/lebesgue.hpp"
 #include "detp/sim/search/hit_collector.hpp"
 
-/// Lists of rays, which spheres cull: the work that all techniques with spheres share.
+/// Lists of rays, culled by spheres: shared by all techniques with spheres.
 namespace detp::sim {
 
-/// A ray in a list, with its number. Copied, so that a list is read from one end to the other.
+/// A ray in a list, with its number. Rays are copied, so that a list is read sequentially.
 struct ListedRay {
   Ray ray;
   std::uint32_t index;
@@ -30,12 +30,12 @@ using RayList = std::vector<ListedRay>;
   return list;
 }
 
-/// Lists in `inside` those rays of `around` that come within `slack` of the sphere: all that hit a disc in it, if
-/// `around` holds them.
+/// Lists in `inside` the rays of `around` that come within `slack` of the sphere. These include all rays that hit a
+/// disc in the sphere, if `around` holds them.
 inline void cull(const RayList& around, const Sphere& sphere, double slack, RayList& inside, StopCheck& check) {
   const Sphere grown{sphere.centre, sphere.radius + slack};
   inside.clear();
-  inside.reserve(around.size());  // pages are touched only as far as it is filled
+  inside.reserve(around.size());  // pages are only touched as far as the list is filled
   for_each_checked(std::span(around), check, [&](const ListedRay& listed) {
     if (hits(listed.ray, grown)) inside.push_back(listed);
   });
@@ -51,7 +51,7 @@ void test_disc(const RayList& rays, const Disc& disc, std::uint32_t index, HitCo
   tally.add(&Counts<std::uint64_t>::disc_tests, rays.size());
 }
 
-/// The discs' numbers in that order of their centres; by default along the Lebesgue curve. Throws Stopped if a stop was
+/// The discs' numbers in that order of their centres; by default along the Morton curve. Throws Stopped if a stop was
 /// requested.
 [[nodiscard]] inline std::vector<std::uint32_t> along_curve(std::span<const Disc> discs,
                                                             SampleOrder order = SampleOrder::lebesgue,

@@ -16,8 +16,8 @@ inline void add_spheres(const std::vector<SphereCounts>& spheres, Counts<std::ui
   }
 }
 
-/// The plain version of all techniques whose spheres follow the discs: tests each disc, in that order, against the
-/// innermost list, after rebuilding what the walk says.
+/// The plain engine of all techniques whose spheres follow the discs: rebuilds the levels that the walk returns, and
+/// then tests each disc, in that order, against the innermost list.
 template <bool counting>
 void search_along_counting(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,
                            const RunOptions& options, Outcome& outcome) {
@@ -47,7 +47,7 @@ void search_along_counting(ListWalk& walk, const Problem& problem, std::span<con
   };
   try {
     for (; done < order.size(); ++done) take(order[done]);
-  } catch (const Stopped&) {  // the disc under way is left out
+  } catch (const Stopped&) {  // the unfinished disc is left out
   }
   outcome.counts = tally.counts();
   if constexpr (counting) {

@@ -6,37 +6,37 @@
 #include "disc_tree.hpp"
 #include "ray_list.hpp"
 
-/// What the searches share while they find the hits of one block of rays.
+/// Shared data of the searches for the hits of one block of rays.
 namespace detp::sim::stream {
 
 /// Hits of one disc by rays of each class.
 using ClassCounts = std::array<std::uint32_t, classes>;
 
-/// A node with fewer tests to make than this is not worth tasks of its own.
+/// A node with fewer tests than this does not get tasks of its own.
 inline constexpr std::size_t least_work = std::size_t{1} << 16;
 
-/// What all threads read while a block of rays is searched for.
+/// Data that all threads read during the search of a block of rays.
 struct BlockSearch {
   const Problem& problem;
   const Frame& frame;
   const DiscTree& tree;
-  std::uint32_t first_ray;  ///< the block's
-  bool segments;            ///< its lists tell where rays end
-  bool pairs;               ///< wanted
-  bool vectors;             ///< to be counted
-  ClassCounts* hits;        ///< in the discs' order here; what is of one disc and one class is written by one thread
-  DiscTotals* totals;       ///< likewise: powers are summed here; null where hits need only be counted
+  std::uint32_t first_ray;  ///< number of the block's first ray
+  bool segments;            ///< its lists have the rays' ends
+  bool pairs;               ///< record pairs
+  bool vectors;             ///< count vectors
+  ClassCounts* hits;        ///< by place in the tree's order; only one thread writes the element of one disc and class
+  DiscTotals* totals;       ///< likewise: sums of power; null if it is enough to count hits
 };
 
-/// Tests of a ray against a box, a sphere or a disc that make a unit of work (StopCheck): those of a vector.
+/// Number of tests of a ray against a box, a sphere or a disc in a unit of work (StopCheck): about those of one vector.
 inline constexpr std::size_t tests_a_unit = 16;
 
-/// Units of work of testing a list of rays `times`.
+/// Units of work for testing a list of rays `times` times.
 [[nodiscard]] constexpr std::uint64_t test_work(std::size_t rays, std::size_t times = 1) {
   return rays * times / tests_a_unit + 1;
 }
 
-/// What one thread has of its own.
+/// The data of one thread.
 struct Worker {
   /// Lists are expected to take so many floats.
   explicit Worker(std::stop_token stop = {}, std::size_t floats = 0)

@@ -15,13 +15,13 @@
 namespace detp::sim::stream {
 namespace {
 
-/// Discs that stay in the first-level cache while vector after vector of rays passes.
+/// Number of discs that stay in the first-level cache while all vectors of rays are tested against them.
 constexpr std::size_t chunk = 512;
 
 /// Rays tested against a chunk between two checks for a stop request.
 constexpr std::size_t rays_at_once = StopCheck::most_work * tests_a_unit / chunk;
 
-/// Whether it was finished: not after a stop request.
+/// Returns false if a stop request ended it.
 bool test_chunk(const BlockSearch& block, const RayLists& lists, const DiscRun& discs, Worker& worker) {
   for (int k = 0; k < classes; ++k) {
     const RayList& rays = lists[static_cast<std::size_t>(k)];

@@ -33,7 +33,7 @@ struct FloatBox {
     }
   }
 
-  /// Half its surface: in proportion to the lines that cross it.
+  /// Half its surface, which is proportional to the number of lines that cross it.
   [[nodiscard]] float area() const {
     const float x = high[0] - low[0];
     const float y = high[1] - low[1];
@@ -56,17 +56,17 @@ FloatBox box_of(const FloatDisc& disc) {
   return box;
 }
 
-/// What a ray costs, in disc tests: measured on lists of some hundred rays.
-constexpr float cull_cost = 1.6F;  ///< one test of a ray against a box, with its share of the list that is made
-constexpr float list_cost = 1.0F;  ///< each ray that is listed
+/// Costs for one ray, in units of disc tests; measured on lists of a few hundred rays.
+constexpr float cull_cost = 1.6F;  ///< one test of a ray against a box, with its share of making the list
+constexpr float list_cost = 1.0F;  ///< each listed ray
 
-/// A node of the binary tree: a leaf, or followed by its left child.
+/// A node of the binary tree: either a leaf, or its left child follows it.
 struct Binary {
   FloatBox box;
   std::uint32_t first;
   std::uint32_t count;
   std::uint32_t right;  ///< number of the right child; 0: a leaf
-  float cost;           ///< expected, times the area
+  float cost;           ///< expected cost, times the area
   [[nodiscard]] bool leaf() const { return right == 0; }
 };
 
@@ -87,7 +87,7 @@ class Builder {
 
   void build() {
     const auto discs = static_cast<std::uint32_t>(tree_.discs.size());
-    // Room for the most nodes that there can be: pages are touched only as far as nodes are written.
+    // Reserves space for the largest possible number of nodes. Pages are only touched as far as nodes are written.
     binary_ = std::make_unique_for_overwrite<Binary[]>(2 * std::size_t{discs});
     split_in_parallel(0, discs, 0);
     tree_.binary_nodes = written_;
@@ -97,10 +97,10 @@ class Builder {
   }
 
  private:
-  /// Writes the binary tree over a run of discs, its root at that number, its other nodes at the 2 count - 2 that
-  /// follow. Its shape does not depend on threads.
+  /// Writes the binary tree over a run of discs: its root at `number`, its other nodes among the following 2 count - 2.
+  /// Its shape does not depend on threads.
   void split_in_parallel(std::uint32_t first, std::uint32_t count, std::uint32_t number) {
-    constexpr std::uint32_t least = 1U << 15;  // discs that are worth a task
+    constexpr std::uint32_t least = 1U << 15;  // smallest number of discs for a task of its own
     StopCheck check(stop_, doing);
     check.after(2 * std::min(count, least));
     check.now();
@@ -119,7 +119,7 @@ class Builder {
     ++written_;
   }
 
-  /// Writes the tree over a run of discs from that number on; the number after its last.
+  /// Writes the tree over a run of discs from `number` on. Returns the number after its last node.
   std::uint32_t split(std::uint32_t first, std::uint32_t count, std::uint32_t number) {
     binary_[number] = {.box = nothing, .first = first, .count = count, .right = 0, .cost = 0};
     if (count <= leaf_) {
@@ -133,7 +133,7 @@ class Builder {
     return binary_[number].leaf() ? number + 1 : end;
   }
 
-  /// Makes a node of its children, or a leaf that drops them, where that costs less.
+  /// Makes an inner node from its children, or drops them and makes a leaf if that costs less.
   void join(std::uint32_t number, std::uint32_t right_number) {
     Binary& node = binary_[number];
     const Binary& left = binary_[number + 1];
@@ -142,7 +142,7 @@ class Builder {
     node.box.include(right.box);
     const float area = node.box.area();
     const float children = left.box.area() + right.box.area();
-    // Joined into wide nodes, about every other split costs nothing.
+    // About every other split is joined to a wide node and then costs nothing.
     const float inner = cull_cost * area + 0.5F * list_cost * children + left.cost + right.cost;
     const float as_leaf = static_cast<float>(node.count) * area;
     const bool drop = as_leaf <= inner && node.count <= most_in_a_leaf;
@@ -155,7 +155,7 @@ class Builder {
     node.cost = static_cast<float>(node.count) * node.box.area();
   }
 
-  /// Where the run leaves the first half of the smallest cell that holds it.
+  /// The place at which the run leaves the first half of the smallest cell that contains it.
   std::uint32_t boundary(std::uint32_t first, std::uint32_t count) const {
     const std::uint32_t low = place_code(places_[first]);
     const std::uint32_t high = place_code(places_[first + count - 1]);
@@ -167,7 +167,7 @@ class Builder {
     return static_cast<std::uint32_t>(found - places_.begin());
   }
 
-  /// Writes the node at that place, and its descendants. `around` is the room for lists that are made before its own.
+  /// Writes the node at `place`, and its descendants. `around` is the size of the lists that are made before its own.
   void widen(std::uint32_t number, std::size_t place, double around) {
     const Binary& node = binary_[number];
     widening_.after(1);
@@ -195,7 +195,7 @@ class Builder {
     for (std::size_t i = 0; i < children.size(); ++i) widen(children[i], first + i, room);
   }
 
-  /// Of lines through S₀, those through a node's box.
+  /// Share of the lines through S₀ that cross a node's box.
   double share(std::uint32_t number) const { return std::min(1.0, binary_[number].box.area() / sphere_area_); }
 
   float inner_area(std::uint32_t number) const { return binary_[number].leaf() ? -1.0F : binary_[number].box.area(); }
@@ -250,11 +250,11 @@ DiscRun discs_below(const DiscTree& tree, const TreeNode& node) {
 
 namespace {
 
-/// On the threads of the caller's arena.
+/// Runs on the threads of the caller's arena.
 DiscTree put_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
                       const std::stop_token& stop) {
   constexpr std::size_t grain = 4096;
-  constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
+  constexpr std::size_t ahead = 32;  // number of discs to prefetch
   DiscTree tree;
   tree.order = std::move(order);
   tree.discs.resize(tree.order.size());

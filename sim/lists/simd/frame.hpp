@@ -4,7 +4,7 @@
 
 #include "detp/sim/search/problem.hpp"
 
-/// Where rays and discs are when they are floats: the scene moved to the origin and scaled to about 1.
+/// The coordinates of rays and discs in floats: the scene is moved to the origin and scaled to about 1.
 namespace detp::sim::stream {
 
 /// u = 2⁻²⁴: half the distance from 1 to the next float.
@@ -16,16 +16,17 @@ struct FloatSphere {
   float radius;
 };
 
-/// Coordinates of the float kernels, and how far they may be off. The bounds are proved in sim/lists/simd/floats.md.
+/// Coordinates of the float kernels, and their error bounds. The bounds are proved in sim/lists/simd/floats.md.
 struct Frame {
   glm::dvec3 centre{0.0};  ///< of S₀
   double scale = 1;        ///< a power of two: r₀ scale is in [½, 1)
-  double slack = 0;        ///< Problem::slack in these units
-  float margin = 0;        ///< 64u + 2 slack: by how much boxes and spheres are grown
+  double slack = 0;        ///< Problem::slack in frame units
+  float margin = 0;        ///< 64u + 2 slack: boxes and spheres are grown by this
 
   explicit Frame(const Problem& problem);
 
-  /// 32u + 128u d + 4 slack: within this of the rim, within half of it of an end, a decision is made again in double.
+  /// 32u + 128u d + 4 slack. A decision is repeated in double if it is within this distance of the rim, or within half
+  /// of it of an end.
   [[nodiscard]] float band(double radius) const {
     return static_cast<float>(32 * float_unit + 128 * float_unit * radius + 4 * slack);
   }
@@ -35,7 +36,7 @@ struct Frame {
 };
 
 /// A ray in a list belongs to one of three classes, by the dominant axis of its direction. The coordinates of class k
-/// are (x, y, z) = the axes (k + 1, k + 2, k) modulo 3: its rays are x = p + a z, y = q + b z with |a|, |b| <= 1.
+/// are (x, y, z) = the axes (k + 1, k + 2, k) modulo 3. Its rays are x = p + a z, y = q + b z with |a|, |b| <= 1.
 inline constexpr int classes = 3;
 
 [[nodiscard]] constexpr std::array<int, 3> axes_of_class(int k) { return {(k + 1) % 3, (k + 2) % 3, k}; }

@@ -12,12 +12,12 @@
 namespace detp::sim::stream {
 namespace {
 
-/// Sums of the same power added to 0, once, twice, …
+/// Sums of n equal powers, added one by one to 0, for n = 0, 1, 2, …
 class RepeatedSums {
  public:
   explicit RepeatedSums(double power) : power_(power) {}
 
-  /// The sum after `count` more were added to `sum`, one after another.
+  /// The result of adding `count` more powers to `sum`, one by one.
   [[nodiscard]] double add(double sum, std::uint32_t count) {
     if (sum == 0) return from_zero(count);
     for (std::uint32_t i = 0; i < count; ++i) sum += power_;
@@ -84,7 +84,8 @@ void Gathering::add_up() {
 }
 
 void Gathering::end_wholly(const Block& block, std::uint64_t tests) {
-  // A copy takes some nanoseconds a disc, a test a sixth of one: this bounds its cost to about a hundredth.
+  // A copy takes a few nanoseconds per disc, a test a sixth of one. So this limits the copies to about a hundredth of
+  // the time.
   constexpr std::uint64_t tests_for_each_disc = 4096;
   rays_ = block.first() + block.size();
   if (rays_ == problem_.rays.size() || tests - tests_when_kept_ < tests_for_each_disc * tree_.discs.size()) return;
@@ -92,7 +93,7 @@ void Gathering::end_wholly(const Block& block, std::uint64_t tests) {
   if (room_to_keep()) keep();
 }
 
-/// Counts the copy as memory that the run takes. Without room for it, a stopped run knows less.
+/// Adds the copy to the memory of the run. If it does not fit, a stopped run has an older result.
 bool Gathering::room_to_keep() {
   const double copy = bytes_of(hits_) + bytes_of(totals_);
   const double more = copy - bytes_of(kept_.counts) - bytes_of(kept_.totals);
@@ -154,7 +155,7 @@ void Gathering::finish_outcome(std::span<const DiscRun> skipped) {
   if (by_discs_) mark_done(skipped);
 }
 
-/// Of rays that all carry the same power, and no others before them: no totals are needed.
+/// For rays that all have the same power, with no earlier totals: no totals are needed.
 void Gathering::give_counted() const {
   outcome_.hits.resize(hits_.size());
   outcome_.irradiance.resize(hits_.size());
@@ -164,7 +165,8 @@ void Gathering::give_counted() const {
   outcome_.total_hits = found;
 }
 
-/// The same of the discs at some places; the number of their hits.
+/// Computes hits and irradiance of the discs at places first … last - 1, if hits were only counted. Returns the number
+/// of their hits.
 std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last) const {
   constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
   RepeatedSums sums(*counted_power_);
@@ -177,7 +179,7 @@ std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last) const
       hwy::Prefetch(&outcome_.irradiance[later]);
     }
     const auto& [x, y, z] = hits_[place];
-    if ((x | y | z) == 0) continue;  // with few rays most
+    if ((x | y | z) == 0) continue;  // the most frequent case with few rays
     const std::uint32_t disc = tree_.order[place];
     const DiscTotals totals{.hits = std::uint64_t{x} + y + z,
                             .power = {sums.add(0, x), sums.add(0, y), sums.add(0, z)}};

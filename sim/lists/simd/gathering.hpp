@@ -10,22 +10,22 @@
 
 namespace detp::sim::stream {
 
-/// What has been found so far, disc by disc in the order of a DiscTree.
+/// The results so far, disc by disc in the order of a DiscTree.
 ///
-/// Where all rays of a block carry the same power, hits are only counted; their powers are added up when that changes
-/// or at the end, in ray order as usual.
+/// If all rays of a block have the same power, hits are only counted. Their powers are added up when that changes, or
+/// at the end, in ray order as usual.
 ///
-/// A stop request ends a block when some discs have been searched and others not. What is given is then what there was
-/// after an earlier block, of which a copy is kept now and then; or, of a single block, the discs searched.
+/// A stop request ends a block when some discs have been searched and others not. The result is then that of an earlier
+/// block, of which a copy is made now and then; or, if there is a single block, the discs that were searched.
 class Gathering {
  public:
-  /// Borrows all four. Goes on with the options' totals, if there are any.
+  /// Keeps references to all four. Continues the options' totals, if there are any.
   Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome);
 
-  /// What the search of a block of such rays needs.
+  /// The data for the search of a block of rays with these traits.
   [[nodiscard]] BlockSearch begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits);
 
-  /// After the search of a block.
+  /// To be called after the search of a block.
   template <class Workers>
   void end(const Block& block, const Workers& workers) {
     const bool skipped =
@@ -37,7 +37,7 @@ class Gathering {
     end_wholly(block, tests);
   }
 
-  /// Fills in the outcome: hits, irradiance, pairs, and what the workers counted.
+  /// Fills in the outcome: hits, irradiance, pairs, and the workers' counts.
   template <class Workers>
   void give(Workers& workers) {
     std::vector<DiscRun> skipped;
@@ -51,7 +51,7 @@ class Gathering {
   }
 
  private:
-  /// What had been found when so many of the first rays had been searched.
+  /// A copy of the results after the first `rays` rays.
   struct Found {
     std::size_t rays = 0;
     std::uint64_t hits = 0;
@@ -61,11 +61,11 @@ class Gathering {
     std::uint64_t in_totals = 0;
   };
 
-  /// Gives back each worker's when they are copied.
+  /// Frees each worker's pairs after copying them.
   template <class Workers>
   void take_pairs(Workers& workers) {
     std::size_t count = 0;
-    double bytes = 0;  // while they grew
+    double bytes = 0;  // peak bytes while they grew
     for (const Worker& worker : workers) {
       count += worker.pairs.size();
       bytes += grown_bytes(worker.pairs.size(), sizeof(Pair));
@@ -100,10 +100,10 @@ class Gathering {
   Totals totals_;                        ///< empty as long as hits have only been counted
   std::vector<ClassCounts> hits_;        ///< not yet in the totals
   std::optional<double> counted_power_;  ///< what each of those carries; nothing if their powers are in the totals
-  std::uint64_t found_ = 0;              ///< hits in the totals that were not there at first
-  std::size_t rays_ = 0;                 ///< the first so many have been searched for all discs
-  bool partial_ = false;                 ///< some discs have been searched for more of them
-  bool by_discs_ = false;                ///< … for all of them
+  std::uint64_t found_ = 0;              ///< hits in the totals, not including those of earlier runs
+  std::size_t rays_ = 0;                 ///< number of first rays that have been searched for all discs
+  bool partial_ = false;                 ///< some discs have been searched for more rays
+  bool by_discs_ = false;                ///< … for all rays
   std::uint64_t tests_when_kept_ = 0;
   Found kept_;
   HitBatches batches_;

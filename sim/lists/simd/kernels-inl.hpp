@@ -25,13 +25,13 @@ using WordLanes = hn::CappedTag<std::uint32_t, padding>;
 using Floats = hn::Vec<FloatLanes>;
 using Mask = hn::Mask<FloatLanes>;
 
-/// How many vectors hold so many rays.
+/// Number of vectors that hold so many rays.
 HWY_INLINE std::size_t vectors_of(std::size_t rays) {
   const FloatLanes lanes;
   return (rays + hn::Lanes(lanes) - 1) / hn::Lanes(lanes);
 }
 
-/// The same of the lists of all classes.
+/// Number of vectors that hold the lists of all classes.
 HWY_INLINE std::size_t vectors_of(const RayLists& lists) {
   return vectors_of(lists[0].size) + vectors_of(lists[1].size) + vectors_of(lists[2].size);
 }
@@ -42,10 +42,10 @@ HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
   return hn::FirstN(lanes, HWY_MIN(size - first, hn::Lanes(lanes)));
 }
 
-/// Appends those lanes of a list's vector that start at `first`.
+/// Appends the kept lanes of the vector at `first`.
 ///
-/// Where each lane goes is found once, by one Compress; the arrays are then permuted. (A Compress of each takes five
-/// cycles on Zen 5, and a table lookup of its own before AVX-512.)
+/// The target of each lane is computed once, by one Compress; the arrays are then permuted. (A Compress of each array
+/// takes five cycles on Zen 5, and before AVX-512 a table lookup each.)
 template <bool segments>
 HWY_INLINE void append(const RayList& from, std::size_t first, Floats a, Floats b, Floats p, Floats q, Mask kept,
                        RayList& to) {
@@ -68,10 +68,10 @@ HWY_INLINE void append(const RayList& from, std::size_t first, Floats a, Floats 
   to.size = end + hn::CountTrue(lanes, kept);
 }
 
-/// Lists those rays that may cross the box grown by `margin`, all that do among them.
+/// Lists all rays that cross the box grown by `margin`, and some that miss it.
 ///
-/// A ray x = p + a z is in the box's slab of x, as long as it is in that of z, only if
-/// |p + a c_z - c_x| <= h_x + |a| h_z. Likewise y. (The third separating axis, z × D, would spare one ray in ten.)
+/// While a ray x = p + a z is in the box's slab of z, it can be in the slab of x only if |p + a c_z - c_x| <= h_x + |a|
+/// h_z. The same for y. (Testing the third separating axis, z × D, would list one ray in ten fewer.)
 template <bool segments, int k>
 HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin, RayList& inside) {
   const FloatLanes lanes;
@@ -87,7 +87,7 @@ HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin,
   const Floats hz = hn::Set(lanes, box.half[z] + margin);
   [[maybe_unused]] const Floats low = hn::Set(lanes, box.centre[z] - (box.half[z] + margin));
   [[maybe_unused]] const Floats high = hn::Set(lanes, box.centre[z] + (box.half[z] + margin));
-  // Copies, which stay in registers: for all the compiler knows, storing a vector may change the lists themselves.
+  // Local copies, so that the compiler can keep them in registers: a vector store might otherwise alias the lists.
   const RayList around = rays;
   RayList kept_rays = inside;
   kept_rays.size = 0;
@@ -110,11 +110,11 @@ HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin,
   inside.size = kept_rays.size;
 }
 
-/// Lists those rays that may come within the sphere, whose radius has been grown by Frame::margin.
+/// Lists the rays that may come within the sphere, whose radius already includes Frame::margin.
 ///
-/// With w = (P, Q, 0) from the sphere's centre to the ray at the centre's z, the ray's distance is |w × D|/|D|. Of
-/// segments it is only asked besides whether they reach the sphere's extent in z: those that end before it in its
-/// corner are listed for nothing.
+/// With w = (P, Q, 0) from the sphere's centre to the ray at the centre's z, the ray's distance is |w × D|/|D|.
+/// Segments are additionally clipped against the sphere's extent in z; segments that end before the sphere in a corner
+/// of its bounding box are listed although they miss it.
 template <bool segments, int k>
 HWY_INLINE void cull_sphere(const RayList& rays, const FloatSphere& sphere, RayList& inside) {
   const FloatLanes lanes;
@@ -125,7 +125,7 @@ HWY_INLINE void cull_sphere(const RayList& rays, const FloatSphere& sphere, RayL
   const Floats square = hn::Set(lanes, sphere.radius * sphere.radius);
   [[maybe_unused]] const Floats low = hn::Set(lanes, sphere.centre[axes[2]] - sphere.radius);
   [[maybe_unused]] const Floats high = hn::Set(lanes, sphere.centre[axes[2]] + sphere.radius);
-  // Copies, which stay in registers: for all the compiler knows, storing a vector may change the lists themselves.
+  // Local copies, so that the compiler can keep them in registers: a vector store might otherwise alias the lists.
   const RayList around = rays;
   RayList kept_rays = inside;
   kept_rays.size = 0;
@@ -150,13 +150,13 @@ HWY_INLINE void cull_sphere(const RayList& rays, const FloatSphere& sphere, RayL
   inside.size = kept_rays.size;
 }
 
-/// Which lanes hit a disc for certain, and which may or may not.
+/// The lanes that certainly hit a disc, and the lanes that possibly do.
 struct Decision {
   Mask sure;
   Mask unsure;
 };
 
-/// A disc, spread over the lanes, in the coordinates of a class.
+/// A disc in the coordinates of class k; each number is broadcast to all lanes.
 template <int k>
 struct SpreadDisc {
   Floats cx, cy, cz, nx, ny, nz, radius, band, ends;
@@ -179,7 +179,7 @@ struct SpreadDisc {
   }
 };
 
-/// As many rays of a list as there are lanes.
+/// One vector of rays of a list.
 template <bool segments>
 struct RayVector {
   Floats a, b, p, q, from, to;
@@ -198,11 +198,12 @@ struct RayVector {
   }
 };
 
-/// The canonical decision (predicates.hpp) in floats, where it is certain.
+/// The canonical decision (predicates.hpp) in floats, if it is certain.
 ///
 /// With w = (P, Q, 0) from the disc's centre to the ray at the centre's z, D = (a, b, 1), φ = n·D and g = n·w, the
-/// crossing lies (wφ - Dg)/φ from the centre: a hit if |wφ - Dg| <= d|φ|, and of segments from <= c_z - g/φ <= to.
-/// Within `band` of the rim, `ends` of an end, it is not certain (sim/lists/simd/floats.md).
+/// crossing is at (wφ - Dg)/φ from the centre. The ray hits if |wφ - Dg| <= d|φ| and, for segments,
+/// from <= c_z - g/φ <= to. The decision is uncertain within `band` of the rim or within `ends` of an end
+/// (sim/lists/simd/floats.md).
 template <bool segments, bool front_facing, int k>
 HWY_INLINE Decision decide(const RayVector<segments>& rays, const SpreadDisc<k>& disc) {
   const FloatLanes lanes;
@@ -221,7 +222,7 @@ HWY_INLINE Decision decide(const RayVector<segments>& rays, const SpreadDisc<k>&
   Mask sure = hn::Lt(square, hn::Mul(inner, inner));
   Mask possible = hn::Le(square, hn::Mul(outer, outer));
   if constexpr (segments) {
-    // -g sgn φ, which is to lie between (from - c_z)|φ| and (to - c_z)|φ|.
+    // -g sgn φ, which must lie between (from - c_z)|φ| and (to - c_z)|φ|.
     const Floats along = hn::Xor(hn::Neg(height), hn::And(facing, hn::SignBit(lanes)));
     const Floats after = hn::NegMulAdd(hn::Sub(rays.from, disc.cz), size, along);
     const Floats before = hn::MulSub(hn::Sub(rays.to, disc.cz), size, along);
@@ -230,10 +231,10 @@ HWY_INLINE Decision decide(const RayVector<segments>& rays, const SpreadDisc<k>&
     possible = hn::And(possible, hn::Ge(within, hn::Neg(disc.ends)));
   }
   if constexpr (front_facing) {
-    // The direction is ±(a, b, 1): it arrives in front if its product with the normal is negative.
+    // The direction is ±(a, b, 1). The ray arrives in front if its product with the normal is negative.
     const Floats falls = hn::BitCast(lanes, hn::Load(WordLanes{}, rays.id));
     const Mask in_front = hn::Lt(hn::Xor(facing, hn::And(falls, hn::SignBit(lanes))), hn::Zero(lanes));
-    // A certain hit is certain about its face; the others are asked again anyway.
+    // If a hit is certain, so is its face; uncertain ones are decided again anyway.
     possible = hn::And(possible, hn::Or(in_front, hn::Not(sure)));
     sure = hn::And(sure, in_front);
   }

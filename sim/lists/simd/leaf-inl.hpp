@@ -11,12 +11,12 @@
 #include "detp/sim/search/sort_pairs.hpp"
 #include "kernels-inl.hpp"
 
-/// Lists of rays against the discs of a leaf: which hit, exactly, and what becomes of them.
+/// Tests lists of rays against the discs of a leaf: decides exactly which hit, and records the hits.
 HWY_BEFORE_NAMESPACE();
 namespace detp::sim::stream {
 namespace HWY_NAMESPACE {
 
-/// Asks the canonical predicate about the lanes of a vector that floats could not decide; the lanes that hit.
+/// Decides with the canonical predicate the lanes of a vector that floats could not decide. Returns the lanes that hit.
 HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc, const std::uint32_t* ids, Mask unsure,
                                       Worker& worker) {
   const FloatLanes lanes;
@@ -32,7 +32,7 @@ HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc
   return hn::LoadMaskBits(lanes, bytes);
 }
 
-/// Which of the rays hit the disc at that place.
+/// The rays that hit the disc at that place.
 template <bool segments, bool front_facing, int k>
 HWY_INLINE Mask test(const BlockSearch& block, const RayVector<segments>& rays, Mask there, std::uint32_t place,
                      Worker& worker) {
@@ -45,7 +45,7 @@ HWY_INLINE Mask test(const BlockSearch& block, const RayVector<segments>& rays, 
   return hn::Or(sure, decide_again(block, block.problem.discs[block.tree.order[place]], rays.id, unsure, worker));
 }
 
-/// Of rays that all carry the same power: hits need only be counted.
+/// For rays that all have the same power: it is enough to count hits.
 template <bool segments, int k>
 HWY_INLINE void count_hits(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
   const FloatLanes lanes;
@@ -58,7 +58,7 @@ HWY_INLINE void count_hits(const BlockSearch& block, const TreeNode& leaf, const
   }
 }
 
-/// Adds up the powers of those rays that hit, in their order, and writes down pairs.
+/// Adds up the powers of the rays that hit, in ray order, and records pairs.
 HWY_INLINE void keep_hits(const BlockSearch& block, Mask hit, const std::uint32_t* ids, std::uint32_t place, int k,
                           Worker& worker) {
   const FloatLanes lanes;

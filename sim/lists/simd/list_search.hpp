@@ -2,10 +2,10 @@
 
 #include "block_search.hpp"
 
-/// One list against one sphere or one disc: compiled for each instruction set.
+/// Operations on one list with one sphere or one disc, compiled for each instruction set.
 namespace detp::sim::stream {
 
-/// Lists those rays of class k that may come within the sphere. `inside` must have room for all of `around`.
+/// Lists the rays of class k that may come within the sphere. `inside` must have room for all of `around`.
 void cull_sphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside,
                  Worker& worker);
 

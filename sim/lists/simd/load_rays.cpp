@@ -21,23 +21,23 @@ using WordLanes = hn::Rebind<std::uint32_t, DoubleLanes>;
 using Doubles = hn::Vec<DoubleLanes>;
 using Mask = hn::Mask<DoubleLanes>;
 
-/// Beyond the ball around the origin of radius 1, with room for the slack: |p| and |q| of a ray that meets it are no
-/// more than √2.
+/// More than the radius 1 of the ball around the origin, with a margin for the slack: if a ray meets the ball, |p| and
+/// |q| are at most √2.
 constexpr double outside = 2;
 
-/// Three coordinates of as many rays as there are lanes.
+/// Three coordinates of one vector of rays.
 struct Triple {
   Doubles x, y, z;
 };
 
-/// For each ray the component along the axis k + shift, k its class (first: class 0; second: class 1).
+/// For each ray the component along the axis k + shift, where k is its class (first: class 0; second: class 1).
 HWY_INLINE Doubles turned(const Triple& v, Mask first, Mask second, int shift) {
   const Doubles axes[3] = {v.x, v.y, v.z};
   const Doubles of_third = axes[(2 + shift) % 3];
   return hn::IfThenElse(first, axes[shift % 3], hn::IfThenElse(second, axes[(1 + shift) % 3], of_third));
 }
 
-/// As many rays as there are lanes, before they are sorted into classes.
+/// One vector of rays before they are sorted into classes.
 struct Lines {
   hn::Vec<FloatLanes> a, b, p, q, from, to;
   hn::Vec<WordLanes> id;
@@ -50,7 +50,7 @@ struct Lines {
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(DoubleLanes(), hn::And(chosen, near), bits);
     const auto kept = hn::LoadMaskBits(floats, bits);
-    // As in kernels-inl.hpp: one Compress tells the places of all arrays.
+    // As in kernels-inl.hpp: one Compress gives the places in all arrays.
     const auto kept_lanes = hn::Compress(hn::Iota(numbers, 0), hn::RebindMask(numbers, kept));
     const auto places = hn::IndicesFromVec(floats, kept_lanes);
     const std::size_t end = list.size;
@@ -65,7 +65,7 @@ struct Lines {
   }
 };
 
-/// A Ray as doubles: where its fields are.
+/// Number of doubles in a Ray.
 constexpr std::size_t doubles_in_ray = sizeof(Ray) / sizeof(double);
 constexpr std::size_t direction_at = offsetof(Ray, direction) / sizeof(double);
 constexpr std::size_t length_at = offsetof(Ray, length) / sizeof(double);
@@ -77,7 +77,7 @@ HWY_INLINE void load_fields(const Ray* ray, Doubles* fields) {
   for (std::size_t j = 0; j < doubles_in_ray; ++j) fields[j] = hn::Load(DoubleLanes(), &ray->origin.x + j);
 }
 #else
-/// The columns of n × n doubles, n the number of lanes, whose rows are a ray apart.
+/// The columns of an n × n matrix of doubles, n the number of lanes. Its rows are one Ray apart.
 template <std::size_t n>
 HWY_INLINE void transpose(const double* rows, Doubles* columns) {
   const DoubleLanes lanes;
@@ -112,22 +112,22 @@ HWY_INLINE void transpose(const double* rows, Doubles* columns) {
   }
 }
 
-/// The fields of as many rays as there are lanes. (Gathers of eight lanes take three times as long on Zen 5.)
+/// The fields of one vector of rays. (Gathers of eight lanes take three times as long on Zen 5.)
 HWY_INLINE void load_fields(const Ray* rays, Doubles* fields) {
   constexpr std::size_t n = hn::MaxLanes(DoubleLanes());
   for (std::size_t first = 0; first < doubles_in_ray; first += n) transpose<n>(&rays->origin.x + first, fields + first);
 }
 #endif
 
-constexpr std::size_t ahead = 64;  ///< rays that memory is asked for before they are needed
+constexpr std::size_t ahead = 64;  ///< number of rays to prefetch
 
-/// What the rays have in common, so far.
+/// Properties that all rays so far have in common.
 struct Seen {
   Mask bounded;
   Mask other_power;
 };
 
-/// Loads as many rays as there are lanes, the first `count` of which count.
+/// Loads one vector of rays, of which the first `count` are valid.
 HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t number, const Frame& frame, Doubles power,
                           RayLists& lists, Seen& seen) {
   const DoubleLanes lanes;
@@ -187,8 +187,8 @@ HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t numb
 }
 
 RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& filled) {
-  // Copies, which stay in registers: for all the compiler knows, storing a vector may change what it is told by
-  // reference.
+  // Local copies, so that the compiler can keep them in registers: a vector store might otherwise alias data that is
+  // passed by reference.
   const Frame frame = given;
   RayLists lists = filled;
   const DoubleLanes lanes;
@@ -197,7 +197,7 @@ RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& fill
   Seen seen{hn::FirstN(lanes, 0), hn::FirstN(lanes, 0)};
   std::size_t i = 0;
   for (; i + step <= rays.size(); i += step) {
-    // Blocks may come from memory. (Where they come from the third-level cache, asking early makes no difference.)
+    // Prefetches for blocks that come from memory. (Prefetching did not help if they are in the third-level cache.)
     for (std::size_t j = i + ahead; j < HWY_MIN(i + ahead + step, rays.size()); ++j) hwy::Prefetch(&rays[j]);
     load_some(&rays[i], step, static_cast<std::uint32_t>(i), frame, power, lists, seen);
   }

@@ -6,7 +6,7 @@
 
 #include "load_rays.hpp"
 
-/// The rays, block by block.
+/// Reads the rays block by block.
 namespace detp::sim::stream {
 
 /// A block of rays, loaded.
@@ -16,7 +16,7 @@ class Block {
   void load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size);
 
   [[nodiscard]] std::size_t first() const { return first_; }
-  [[nodiscard]] std::size_t size() const { return size_; }  ///< with those that pass S₀
+  [[nodiscard]] std::size_t size() const { return size_; }  ///< including those that miss S₀
   [[nodiscard]] const RayLists& lists() const { return lists_; }
   [[nodiscard]] const RayTraits& traits() const { return traits_; }
 
@@ -26,7 +26,7 @@ class Block {
   RayTraits traits_;
   std::size_t first_ = 0;
   std::size_t size_ = 0;
-  std::size_t capacity_ = 0;  ///< of its lists: the same for a smaller block, so that no other pages are touched
+  std::size_t capacity_ = 0;  ///< of its lists; not reduced for a smaller block, so that no other pages are touched
 };
 
 /// Calls search(block) for one block after another, until all have been or the stop is asked for. The next one is

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t line = 16;  // floats in a cache line
 
-/// Whole cache lines, an odd number of them: arrays of one list do not fall on the same sets of the cache.
+/// An odd number of whole cache lines, so that the arrays of one list do not fall on the same cache sets.
 std::size_t stride_for(std::size_t capacity) {
   const std::size_t lines = (capacity + padding + line - 1) / line;
   return (lines | 1) * line;

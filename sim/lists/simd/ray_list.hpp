@@ -11,34 +11,34 @@
 /// Lists of rays as structures of arrays.
 namespace detp::sim::stream {
 
-/// More floats than any vector holds: arrays are readable and writable that far beyond their end.
+/// Arrays are readable and writable this many floats beyond their end. At least the size of the largest vector.
 inline constexpr std::size_t padding = 16;
 
-/// Rays of one class, in rising order of their numbers. Borrows its arrays from a ListArena.
+/// Rays of one class, in rising order of their numbers. Its arrays belong to a ListArena.
 struct RayList {
   std::size_t size = 0;
   float* a = nullptr;           ///< dx/dz
   float* b = nullptr;           ///< dy/dz
   float* p = nullptr;           ///< x at z = 0
   float* q = nullptr;           ///< y at z = 0
-  std::uint32_t* id = nullptr;  ///< number in the block; the top bit is set if the ray goes towards falling z
-  float* from = nullptr;        ///< of segments: the lower end's z; null in a list of lines
-  float* to = nullptr;          ///< of segments: the upper end's z
+  std::uint32_t* id = nullptr;  ///< number in the block; the top bit is set if the ray goes towards smaller z
+  float* from = nullptr;        ///< segments only: the lower end's z; null in a list of lines
+  float* to = nullptr;          ///< segments only: the upper end's z
 };
 
 inline constexpr std::uint32_t falling = 1U << 31;
 
-/// `count` rays of a list from number `first` on, a multiple of the padding.
+/// `count` rays of a list from number `first` on; `first` is a multiple of the padding.
 [[nodiscard]] inline RayList part_of(const RayList& list, std::size_t first, std::size_t count) {
   const auto from = [first](auto* array) { return array == nullptr ? array : array + first; };
   return {count, from(list.a), from(list.b), from(list.p), from(list.q), from(list.id), from(list.from), from(list.to)};
 }
 
-/// What lists inside one another are expected to take, over the list of all rays. Each has room for all rays of the one
-/// around it.
+/// Expected sizes of nested lists, relative to the list of all rays. Each list has room for all rays of the one around
+/// it.
 struct ListRoom {
-  double first = 0;  ///< the outermost, touched only as far as it is filled
-  double all = 0;    ///< that one, and the whole of the others
+  double first = 0;  ///< the outermost list, touched only as far as it is filled
+  double all = 0;    ///< the outermost list, and the whole of the others
 };
 
 /// One list for each class.
@@ -46,17 +46,17 @@ using RayLists = std::array<RayList, classes>;
 
 [[nodiscard]] inline std::size_t size(const RayLists& lists) { return lists[0].size + lists[1].size + lists[2].size; }
 
-/// Memory for lists, last in, first out. Pages are touched only as far as lists are filled. Throws std::length_error
-/// before it takes more than the memory budget.
+/// Memory for lists, last in, first out. Pages are only touched as far as lists are filled. Throws std::length_error
+/// before it would exceed the memory budget.
 class ListArena {
  public:
   /// Lists that take so many floats altogether will lie in one chunk.
   explicit ListArena(std::size_t expected = 0) : expected_(expected) {}
 
-  /// Room for `capacity` rays.
+  /// A list with room for `capacity` rays.
   [[nodiscard]] RayList take(std::size_t capacity, bool segments);
 
-  /// Room for as many rays as there are.
+  /// Lists with room for as many rays as `lists` has.
   [[nodiscard]] RayLists take_like(const RayLists& lists, bool segments) {
     return {take(lists[0].size, segments), take(lists[1].size, segments), take(lists[2].size, segments)};
   }
@@ -67,7 +67,7 @@ class ListArena {
   };
   [[nodiscard]] Mark mark() const { return {chunk_, used_}; }
 
-  /// Gives back what was taken since the mark.
+  /// Frees all lists taken since the mark.
   void release(const Mark& mark) {
     chunk_ = mark.chunk;
     used_ = mark.used;
@@ -88,7 +88,7 @@ class ListArena {
   double bytes_ = 0;  ///< of all chunks
 };
 
-/// Gives back at the end of a scope what was taken in it.
+/// At the end of a scope, frees the lists taken in it.
 class ArenaScope {
  public:
   explicit ArenaScope(ListArena& arena) : arena_(arena), mark_(arena.mark()) {}

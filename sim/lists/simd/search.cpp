@@ -16,13 +16,13 @@ namespace {
 
 using Workers = tbb::enumerable_thread_specific<Worker>;
 
-/// Makes tasks of the children while there is much to do.
+/// Processes the children as tasks if there is enough work.
 void divide(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Workers& workers) {
   if (node.leaf || size(lists) * node.count < least_work) {
     search_below(block, node, lists, workers.local());
     return;
   }
-  // Isolated, so that a thread that waits takes no task that would heap its lists upon those in use.
+  // Isolated: a waiting thread must not start an unrelated task, whose lists would be put on top of those in use.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(node.first, node.first + node.count, [&](std::uint32_t child) {
       Worker& worker = workers.local();

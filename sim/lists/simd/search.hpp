@@ -4,67 +4,68 @@
 #include "disc_tree.hpp"
 #include "ray_list.hpp"
 
-/// Rays streamed, block by block, down a tree of boxes: all hits, by float kernels whose every doubtful decision is
-/// made again in double.
+/// Streams rays, block by block, down a tree of boxes. Finds all hits with float kernels; every uncertain decision is
+/// repeated in double.
 namespace detp::sim::stream {
 
-/// Whether floats can serve: rays start within 6·10⁸ radii of S₀. (Beyond, the slack is so large that nothing is
-/// culled.)
+/// Whether floats are precise enough: rays must start within 6·10⁸ radii of S₀. (Beyond that, the slack is so large
+/// that nothing is culled.)
 [[nodiscard]] bool can_search(const Problem& problem);
 
-/// What the memory of a search depends on.
+/// The numbers on which the memory of a search depends.
 struct SearchSize {
   std::size_t discs = 0;
-  std::size_t rays = 0;   ///< that it is given at once
+  std::size_t rays = 0;   ///< in one call
   int threads = 1;        ///< 0: all cores
-  bool segments = false;  ///< one of the rays ends
-  bool sums = true;  ///< powers are summed, where rays differ in power, or pairs, fronts or shared totals are wanted
+  bool segments = false;  ///< at least one ray is a segment
+  /// powers are summed, because rays differ in power, or pairs, fronts or shared totals are requested
+  bool sums = true;
   bool own_totals = true;  ///< it fills in the outcome's hits and irradiance
 };
 
 [[nodiscard]] SearchSize size_of(const Problem& problem, const RunOptions& options);
 
-/// What the memory of a tree of boxes depends on: as of DiscTree.
+/// The numbers on which the memory of a box tree depends, as in DiscTree.
 struct TreeSize {
   double binary_nodes = 0;
   double nodes = 0;
   ListRoom lists = {};
 };
 
-/// That expected of so many discs: leaves are half full, and their parents halve the cells that they are in. Where
-/// discs crowd into a few cells there may be more nodes; make_disc_tree checks again while it writes them.
+/// The expected tree for `discs` discs: leaves are half full, and their parents halve the cells that they are in. If
+/// discs are concentrated in a few cells there may be more nodes; make_disc_tree checks again while it writes them.
 [[nodiscard]] TreeSize expected_tree(std::size_t discs, const BoxTreeParameters& parameters);
 
-/// Predicted bytes of a search at its peak, beside rays, discs, pairs and the copy kept for a stopped run (which are
-/// checked when they are taken): sorted discs and their tree, lists of rays, sums, outcome.
+/// Predicted peak bytes of a search, in addition to rays, discs, pairs and the copy kept for a stopped run (which are
+/// checked when they are allocated): sorted discs and their tree, lists of rays, sums, outcome.
 ///
-/// All of it follows from the sizes of arrays, but for the lists of rays inside the outermost: how many rays they hold
-/// is random. That part is what lines need, isotropic and uniform through S₀. Others that crowd into one place need
-/// more: a thread checks again before its lists grow. Pages not touched, and what the heap keeps of arrays given back,
-/// are left out. The searches throw std::length_error, naming the bytes, where it would not fit the memory.
+/// All of it follows from the sizes of arrays, except for the lists of rays inside the outermost, whose number of rays
+/// is random. The prediction for these is for isotropic lines, uniform through S₀. Rays that are concentrated in one
+/// place need more: a thread checks again before its lists grow. Untouched pages, and memory that the heap keeps of
+/// freed arrays, are not included. The searches throw std::length_error, naming the bytes, if the memory does not
+/// suffice.
 [[nodiscard]] double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree);
 
-/// The same of search_all.
+/// Predicted peak bytes of brute force (prepare_all), in addition to rays, discs and pairs.
 [[nodiscard]] double all_bytes(const SearchSize& size);
 
-/// The same of search_walk, sorting before it included.
+/// Predicted peak bytes of search_walk, in addition to rays, discs and pairs, and including sorting before it.
 [[nodiscard]] double walk_bytes(const SearchSize& size, const ListRoom& lists);
 
-/// Floats of one thread's lists inside one another, touched or not.
+/// Floats in the nested lists of one thread, touched or not.
 [[nodiscard]] std::size_t list_floats(const SearchSize& size, const ListRoom& lists);
 
-/// What is searched: the rays of a problem, by the discs in an order, or a tree of them.
+/// The input of a search: a problem's rays, and its discs in an order or in a tree.
 struct Searched {
   const Problem& problem;
   const Frame& frame;
   const DiscTree& tree;
 };
 
-/// The index of brute force: tests every ray against every disc. (Of rays that pass S₀ that takes no test; they count
-/// as tested.)
+/// The index of brute force: tests every ray against every disc. (Rays that miss S₀ need no test, but count as tested.)
 [[nodiscard]] std::unique_ptr<Index> prepare_all(const Problem& problem, const RunOptions& options);
 
-/// Finds the hits of all rays, whose lists are culled down a tree of boxes. Same bytes for any number of threads.
+/// Finds the hits of all rays, by culling lists down a tree of boxes. Same bytes for any number of threads.
 void search_boxes(const Searched& searched, int fan_out, const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim::stream

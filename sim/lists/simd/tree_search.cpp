@@ -25,10 +25,10 @@ HWY_INLINE void cull(const BlockSearch& block, const TreeNode& node, const RayLi
   if (block.vectors) worker.vectors.cull += vectors_of(around);
 }
 
-/// Tests a leaf's discs, few enough at a time for the check between.
+/// Tests a leaf's discs, in portions that are small enough for the check in between.
 template <bool segments, bool counting_only>
 void visit_leaf(const BlockSearch& block, TreeNode leaf, const RayLists& lists, Worker& worker) {
-  if (size(lists) == 0) return;  // the root may be a leaf, and no ray near
+  if (size(lists) == 0) return;  // the root may be a leaf, with no ray near
   const auto at_once =
       static_cast<std::uint32_t>(std::max<std::size_t>(1, StopCheck::most_work * tests_a_unit / size(lists)));
   for (std::uint32_t left = leaf.count; left > 0; left -= leaf.count, leaf.first += leaf.count) {

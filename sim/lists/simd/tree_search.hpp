@@ -2,18 +2,18 @@
 
 #include "block_search.hpp"
 
-/// Lists of rays, culled down a tree of boxes to its leaves' discs: compiled for each instruction set.
+/// Culls lists of rays down a tree of boxes to its leaves' discs; compiled for each instruction set.
 namespace detp::sim::stream {
 
-/// Lists those rays that may meet the node's box. `inside` must have room for all of `around`.
+/// Lists the rays that may meet the node's box. `inside` must have room for all of `around`.
 void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
                Worker& worker);
 
-/// Searches all that is below a node, whose lists these are. If a stop was requested, it ends early, and the discs not
-/// searched are in worker.skipped.
+/// Searches everything below a node; `lists` are the node's lists. If a stop was requested, it ends early and adds the
+/// discs that were not searched to worker.skipped.
 void search_below(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker);
 
-/// The instruction set that the kernels use here: "AVX3", …
+/// The instruction set that the kernels use on this machine: "AVX3", …
 [[nodiscard]] const char* instruction_set();
 
 }  // namespace detp::sim::stream

@@ -48,7 +48,7 @@ class ClassWalk {
     worker_.skipped.push_back({place, static_cast<std::uint32_t>(block_.tree.order.size()) - place});
   }
 
-  /// Lists further in were made of this one, and go with it.
+  /// The lists further in were made from this one, and are freed with it.
   void build(std::size_t level, bool first) {
     if (first && level < built_) worker_.lists.release(marks_[level]);
     built_ = level + 1;

@@ -5,12 +5,12 @@
 
 namespace detp::sim::stream {
 
-/// The float version of search_along (technique/walk_search.hpp): finds the hits of all rays with lists that follow the
-/// discs in that order. Same bytes for any number of threads.
+/// The float version of search_along (lists/plain/walk_search.hpp): finds the hits of all rays, with lists that follow
+/// the discs in that order. Same bytes for any number of threads.
 ///
-/// Each class of rays is a walk of its own, block after block: as many threads as classes are of use. Counts are those
-/// of one walk over all rays, but for rays that pass a sphere by less than the margin, and segments that end before
-/// they reach one (kernels-inl.hpp). `room` is what their lists are expected to take.
+/// Each class of rays is a separate walk, block after block, so at most as many threads as classes are used. Counts are
+/// those of one walk over all rays, except for rays that pass a sphere by less than the margin, and segments that end
+/// before they reach a sphere (kernels-inl.hpp). `room` is the expected size of their lists.
 void search_walk(const Searched& searched, const MakeWalk& make_walk, const ListRoom& room, const RunOptions& options,
                  Outcome& outcome);
 
