@@ -240,7 +240,7 @@ double single_rebuilds(double dimension, double samples, const Ball& ball) {
 void require_rebuild_law(SampleOrder order) {
   if (order == SampleOrder::hilbert)
     throw std::invalid_argument(
-        "the closed forms know rebuilds along the Lebesgue curve or of samples in no order, not along the Hilbert "
+        "the closed forms predict rebuilds along the Morton (lebesgue) curve or without sorting, not along the Hilbert "
         "curve; use order lebesgue or none");
 }
 

@@ -15,8 +15,9 @@ void check_options(const RunOptions& options, const Problem& problem) {
     throw std::invalid_argument("a problem needs discs and a slack > 0; make it by make_problem");
   require_count("number of threads", options.threads, 0, most_threads);
   if (options.totals != nullptr && !options.totals->empty() && options.totals->size() != problem.discs.size())
-    throw std::invalid_argument(fmt::format("totals of {} discs cannot go on with {}; give those of the same discs",
-                                            options.totals->size(), problem.discs.size()));
+    throw std::invalid_argument(
+        fmt::format("totals of {} discs cannot be continued with {} discs; they must be of the same discs",
+                    options.totals->size(), problem.discs.size()));
 }
 
 Outcome nothing_found(const Problem& problem, const RunOptions& options) {

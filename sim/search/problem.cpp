@@ -19,7 +19,7 @@ constexpr const char* checking = "checking rays and discs";
 void require_number(const char* what, std::size_t count) {
   if (count == 0) throw std::invalid_argument(fmt::format("there must be at least one {}", what));
   if (count >= UINT32_MAX)
-    throw std::length_error(fmt::format("{} {}s are too many; the most is 4294967294", count, what));
+    throw std::length_error(fmt::format("{} {}s are too many; the maximum is 4294967294", count, what));
 }
 
 struct Radii {
@@ -137,8 +137,8 @@ void set_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uin
   const double farthest = take_rays(taken, rays, threads, first, {});
   if (farthest > problem.farthest)
     throw std::invalid_argument(
-        fmt::format("a ray starts {} from the centre of the discs, but none was to start farther away than {}",
-                    farthest, problem.farthest));
+        fmt::format("a ray starts {} from the centre of the discs, but the problem was made for at most {}", farthest,
+                    problem.farthest));
   problem = std::move(taken);
 }
 

@@ -62,11 +62,11 @@ class Stream {
 
  private:
   void require_few_enough() const {
-    if (run_.totals != nullptr) throw std::invalid_argument("a stream keeps totals of its own; give it none");
+    if (run_.totals != nullptr) throw std::invalid_argument("a stream has its own totals; options must have none");
     if (source_.size() == 0) throw std::invalid_argument("there must be at least one ray");
     if (run_.pairs && source_.size() >= UINT32_MAX)
       throw std::length_error(
-          fmt::format("{} rays are too many for pairs; the most is {}", source_.size(), UINT32_MAX - 1));
+          fmt::format("{} rays are too many for pairs; the maximum is {}", source_.size(), UINT32_MAX - 1));
   }
 
   /// Predicts the bytes in addition to those of each block's search. Throws before allocation if they do not fit.

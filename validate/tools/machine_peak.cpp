@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "detp/validate/tools/machine_peak.cpp"
 #include <hwy/foreach_target.h>
-//
+// highway.h must come after foreach_target.h.
 #include <hwy/aligned_allocator.h>
 #include <hwy/highway.h>
 

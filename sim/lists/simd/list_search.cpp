@@ -3,7 +3,7 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "detp/sim/lists/simd/list_search.cpp"
 #include <hwy/foreach_target.h>
-//
+// highway.h must come after foreach_target.h.
 #include <hwy/highway.h>
 
 #include "kernels-inl.hpp"
