@@ -46,7 +46,7 @@ int startable_threads(int threads) {
 
 int thread_count(int asked) { return asked > 0 ? asked : oneapi::tbb::info::default_concurrency(); }
 
-void on_threads(int threads, const std::function<void()>& work) {
+void on_threads(int threads, FunctionRef<void()> work) {
   using oneapi::tbb::global_control;
   const int started = startable_threads(threads);
   const auto wanted = static_cast<std::size_t>(started);

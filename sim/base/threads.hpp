@@ -1,6 +1,6 @@
 #pragma once
 
-#include <functional>
+#include "function_ref.hpp"
 
 namespace detp::sim {
 
@@ -16,6 +16,6 @@ inline constexpr int most_threads = 4096;
 
 /// Calls `work`, whose oneTBB algorithms then run on `threads` threads, including this one. They run on fewer if the
 /// program has limited oneTBB to fewer, or if no more can be started.
-void on_threads(int threads, const std::function<void()>& work);
+void on_threads(int threads, FunctionRef<void()> work);
 
 }  // namespace detp::sim

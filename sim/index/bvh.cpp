@@ -138,7 +138,7 @@ class BvhSearch final : public RaySearch, private DiscTest {
   BvhSearch(const Bvh& bvh, const Problem& problem, const std::stop_token& stop)
       : bvh_(bvh), problem_(problem), check_(stop, "searching") {}
 
-  void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
+  void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
     Query query{.context = {}, .discs = this};
     rtcInitIntersectContext(&query.context);
     hits_ = &hits;
@@ -168,7 +168,7 @@ class BvhSearch final : public RaySearch, private DiscTest {
   StopCheck check_;
   Tally<counting> tally_;
   std::uint32_t ray_ = 0;
-  std::vector<Pair>* hits_ = nullptr;
+  FoundPairs* hits_ = nullptr;
   std::exception_ptr failure_;
 };
 
@@ -208,7 +208,8 @@ class BvhIndex final : public Index {
   template <bool counting>
   void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
     search_rays(
-        problem, options, [&] { return std::make_unique<BvhSearch<counting>>(bvh_, problem, options.stop); }, outcome);
+        problem, options,
+        [&] { return make_in<RaySearch, BvhSearch<counting>>(*options.memory, bvh_, problem, options.stop); }, outcome);
   }
 
   Stopwatch watch_;

@@ -21,10 +21,13 @@ namespace detp::sim {
 template <bool counting, bool mailboxing, class Cells>
 class IndexedSearch final : public RaySearch {
  public:
-  IndexedSearch(const Cells& index, const Problem& problem, const std::stop_token& stop)
-      : index_(index), problem_(problem), check_(stop, "searching"), last_ray_(problem.discs.size(), 0) {}
+  IndexedSearch(const Cells& index, const Problem& problem, const RunOptions& options)
+      : index_(index),
+        problem_(problem),
+        check_(options.stop, "searching"),
+        last_ray_(problem.discs.size(), 0, options.memory) {}
 
-  void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
+  void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
     hits_ = &hits;
     for (std::uint32_t ray = first; ray < last; ++ray) index_.trace(problem_.rays[ray], ray, *this);
   }
@@ -61,8 +64,8 @@ class IndexedSearch final : public RaySearch {
   const Problem& problem_;
   StopCheck check_;
   Tally<counting> tally_;
-  std::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray known to hit it or not; 0: none yet
-  std::vector<Pair>* hits_ = nullptr;
+  std::pmr::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray known to hit it or not; 0: none yet
+  FoundPairs* hits_ = nullptr;
 };
 
 /// An index of cells over discs, and its search. The constructor of `Cells` receives the problem and the further
@@ -103,7 +106,10 @@ class TracedIndex final : public Index {
   void trace_all(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
     search_rays(
         problem, options,
-        [&] { return std::make_unique<IndexedSearch<counting, mailboxing, Cells>>(cells_, problem, options.stop); },
+        [&] {
+          return make_in<RaySearch, IndexedSearch<counting, mailboxing, Cells>>(*options.memory, cells_, problem,
+                                                                                options);
+        },
         outcome);
   }
 

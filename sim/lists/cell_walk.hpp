@@ -21,6 +21,14 @@ class CellWalk : public ListWalk {
   /// For levels 0 … depth.
   CellWalk(std::span<const Disc> discs, int depth);
 
+  /// A copy in that memory.
+  CellWalk(const CellWalk& other, std::pmr::memory_resource& memory)
+      : box_(other.box_),
+        side_(other.side_),
+        code_(other.code_),
+        entered_(other.entered_),
+        spheres_(other.spheres_, &memory) {}
+
   /// Goes to the next disc's cells. The first level, 1 or more, at which they are not those of the disc before; depth +
   /// 1 where all are.
   int enter(const Disc& disc) override;
@@ -35,7 +43,7 @@ class CellWalk : public ListWalk {
   double side_ = 0;
   std::uint64_t code_ = 0;
   bool entered_ = false;
-  std::vector<Sphere> spheres_;
+  std::pmr::vector<Sphere> spheres_;
 };
 
 }  // namespace detp::sim

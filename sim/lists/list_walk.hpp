@@ -1,8 +1,9 @@
 #pragma once
 
 #include <functional>
-#include <memory>
+#include <memory_resource>
 
+#include "detp/sim/base/scratch.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 
 namespace detp::sim {
@@ -28,7 +29,7 @@ class ListWalk {
   [[nodiscard]] virtual const Sphere& sphere(int level) const = 0;
 };
 
-/// Makes a walk that has not yet met a disc.
-using MakeWalk = std::function<std::unique_ptr<ListWalk>()>;
+/// Makes a walk that has not yet met a disc, in that memory.
+using MakeWalk = std::function<OwnedIn<ListWalk>(std::pmr::memory_resource&)>;
 
 }  // namespace detp::sim

@@ -23,6 +23,10 @@ class SphereWalk : public ListWalk {
   /// Omits spheres smaller than the smallest disc, which would never be built.
   SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, Serving serving);
 
+  /// A copy in that memory.
+  SphereWalk(const SphereWalk& other, std::pmr::memory_resource& memory)
+      : serving_(other.serving_), spheres_(other.spheres_, &memory), built_(other.built_) {}
+
   /// How many spheres those are. At most about 10⁹·ln(r₀/r) where Q = 1 - 1e-9: their memory is worth a check first.
   [[nodiscard]] static double levels(const Problem& problem, const SphereCacheParameters& parameters);
 
@@ -35,7 +39,7 @@ class SphereWalk : public ListWalk {
   [[nodiscard]] int serving(const Disc& disc) const;
 
   Serving serving_;
-  std::vector<Sphere> spheres_;
+  std::pmr::vector<Sphere> spheres_;
   int built_ = 1;  ///< S₀ … S_built-1 are where they were last built
 };
 

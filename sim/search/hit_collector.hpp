@@ -34,9 +34,9 @@ class Tally {
 /// techniques add powers in the same order, and irradiance is the same to the last bit.
 class HitCollector {
  public:
-  /// Borrows the problem, and the options' totals if there are any.
-  HitCollector(const Problem& problem, const RunOptions& options)
-      : problem_(problem), keep_pairs_(options.pairs), stop_(options.stop), shared_(options.totals) {
+  /// Borrows all three, and the options' totals if there are any. Pairs are kept in the outcome.
+  HitCollector(const Problem& problem, const RunOptions& options, Outcome& outcome)
+      : problem_(problem), options_(options), outcome_(outcome), own_(options.memory) {
     if (totals().empty()) totals().resize(problem.discs.size());
   }
 
@@ -48,55 +48,54 @@ class HitCollector {
     ++sums.hits;
     sums.power[dominant_axis(kept.direction)] += kept.power;
     ++kept_;
-    if (keep_pairs_) add_pair(pairs_, {ray, disc});
+    if (options_.pairs) add_pair(outcome_.pairs, {ray, disc});
   }
 
   [[nodiscard]] std::uint64_t kept() const { return kept_; }
 
   /// Moves what was found into the outcome: powers become irradiance, unless the totals are another's. `rays` of the
   /// problem's first rays have been searched, fewer than all where the search was stopped.
-  void give(std::uint64_t rays, Outcome& outcome) && {
-    outcome.progress = {rays, problem_.rays.size()};
-    outcome.stopped = rays < problem_.rays.size() || !sort_pairs(pairs_, stop_);
-    outcome.bytes += grown_bytes(pairs_.size(), sizeof(Pair));
-    if (!outcome.stopped) outcome.pairs = std::move(pairs_);
-    outcome.total_hits = kept_;
-    outcome.counts.hits = kept_;
-    if (outcome.batches.count == 0 && rays > 0) outcome.batches.add(rays, kept_);
-    if (shared_ == nullptr) finish(own_, problem_.discs, outcome);
+  void give(std::uint64_t rays) {
+    outcome_.progress = {rays, problem_.rays.size()};
+    outcome_.stopped = rays < problem_.rays.size() || !sort_pairs(outcome_.pairs, options_.stop);
+    outcome_.bytes += grown_bytes(outcome_.pairs.size(), sizeof(Pair));
+    if (outcome_.stopped) outcome_.pairs.clear();
+    outcome_.total_hits = kept_;
+    outcome_.counts.hits = kept_;
+    if (outcome_.batches.count == 0 && rays > 0) outcome_.batches.add(rays, kept_);
+    if (options_.totals == nullptr) finish(own_, problem_.discs, outcome_);
   }
 
   /// For a search that processes one disc after another. Must be called before give_discs.
   void take_discs() {
-    if (shared_ != nullptr) before_ = *shared_;
+    if (options_.totals != nullptr) before_.emplace(*options_.totals, options_.memory);
   }
 
   /// The same of a search that was stopped when all rays had been tested against these discs. Totals of another's are
   /// as they were before: they could not be told to lack some discs.
-  void give_discs(std::span<const std::uint32_t> done, Outcome& outcome) && {
-    outcome.stopped = true;
-    if (shared_ != nullptr) {
-      *shared_ = std::move(*before_);
-      outcome.progress = {0, problem_.rays.size()};
+  void give_discs(std::span<const std::uint32_t> done) {
+    outcome_.stopped = true;
+    outcome_.pairs.clear();
+    if (options_.totals != nullptr) {
+      *options_.totals = *before_;
+      outcome_.progress = {0, problem_.rays.size()};
       return;
     }
-    finish(own_, problem_.discs, outcome);
-    outcome.done_discs.assign(problem_.discs.size(), false);
-    for (const std::uint32_t disc : done) outcome.done_discs[disc] = true;
-    keep_done_discs(outcome);
+    finish(own_, problem_.discs, outcome_);
+    outcome_.done_discs.assign(problem_.discs.size(), false);
+    for (const std::uint32_t disc : done) outcome_.done_discs[disc] = true;
+    keep_done_discs(outcome_);
   }
 
  private:
-  [[nodiscard]] Totals& totals() { return shared_ == nullptr ? own_ : *shared_; }
+  [[nodiscard]] Totals& totals() { return options_.totals == nullptr ? own_ : *options_.totals; }
 
   const Problem& problem_;
-  bool keep_pairs_;
-  std::stop_token stop_;
-  Totals* shared_;
+  const RunOptions& options_;
+  Outcome& outcome_;
   std::optional<Totals> before_;  ///< the shared totals at first
   Totals own_;
   std::uint64_t kept_ = 0;
-  std::vector<Pair> pairs_;
 };
 
 }  // namespace detp::sim

@@ -7,6 +7,7 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "power_squares.hpp"
 
 namespace detp::sim {
 
@@ -14,11 +15,28 @@ void check_options(const RunOptions& options, const Problem& problem) {
   if (problem.discs.empty() || !(problem.slack > 0 && problem.slack < unbounded))
     throw std::invalid_argument("a problem needs discs and a slack > 0; make it by make_problem");
   require_count("number of threads", options.threads, 0, most_threads);
+  if (options.standard_error && options.totals != nullptr)
+    throw std::invalid_argument("a standard error is not known of some of the rays; ask for it without totals");
   if (options.totals != nullptr && !options.totals->empty() && options.totals->size() != problem.discs.size())
     throw std::invalid_argument(
         fmt::format("totals of {} discs cannot be continued with {} discs; they must be of the same discs",
                     options.totals->size(), problem.discs.size()));
 }
+
+namespace {
+
+void search_with_error(const Index& index, const Problem& problem, RunOptions options, Outcome& outcome) {
+  PowerSquares squares;
+  const bool pairs = options.pairs;
+  options.pairs = squares.needs_pairs(problem, {}) || pairs;
+  index.search(problem, options, outcome);
+  if (outcome.stopped) return;
+  squares.add(problem, outcome.pairs);
+  squares.finish(problem.discs, problem.rays.size(), outcome);
+  if (!pairs) outcome.pairs.clear();
+}
+
+}  // namespace
 
 Outcome nothing_found(const Problem& problem, const RunOptions& options) {
   Outcome outcome;
@@ -29,19 +47,25 @@ Outcome nothing_found(const Problem& problem, const RunOptions& options) {
 }
 
 Outcome search(const Index& index, const Problem& problem, const RunOptions& options) {
-  check_options(options, problem);
   Outcome outcome;
+  search(index, problem, options, outcome);
+  return outcome;
+}
+
+void search(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome) {
+  check_options(options, problem);
+  clear(outcome);
   Stopwatch watch;
   try {
     StopCheck(options.stop, "beginning").now();
-    index.search(problem, options, outcome);
+    options.standard_error ? search_with_error(index, problem, options, outcome)
+                           : index.search(problem, options, outcome);
   } catch (const Stopped&) {  // before the search
     const double bytes = outcome.bytes;
     outcome = nothing_found(problem, options);
     outcome.bytes = bytes;
   }
   outcome.seconds.search = watch.lap() - outcome.seconds.build;
-  return outcome;
 }
 
 }  // namespace detp::sim

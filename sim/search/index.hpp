@@ -42,4 +42,7 @@ void check_options(const RunOptions& options, const Problem& problem);
 /// options out of range. If a search is stopped before it found anything, the outcome has no hits.
 [[nodiscard]] Outcome search(const Index& index, const Problem& problem, const RunOptions& options);
 
+/// The same, into an outcome whose arrays are used again.
+void search(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome);
+
 }  // namespace detp::sim

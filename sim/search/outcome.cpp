@@ -1,6 +1,22 @@
 #include "outcome.hpp"
 
+#include <utility>
+
 namespace detp::sim {
+
+void clear(Outcome& outcome) {
+  Outcome empty;
+  const auto keep = [&](auto Outcome::*array) {
+    (outcome.*array).clear();
+    empty.*array = std::move(outcome.*array);
+  };
+  keep(&Outcome::hits);
+  keep(&Outcome::irradiance);
+  keep(&Outcome::standard_error);
+  keep(&Outcome::spheres);
+  keep(&Outcome::pairs);
+  outcome = std::move(empty);
+}
 
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome) {
   outcome.hits.resize(discs.size());

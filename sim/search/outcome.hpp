@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <memory_resource>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -20,6 +21,9 @@ struct Pair {
   auto operator<=>(const Pair&) const = default;
 };
 
+/// Pairs that a search has found so far.
+using FoundPairs = std::pmr::vector<Pair>;
+
 /// Where the time went, in seconds.
 struct Phases {
   double order = 0;   ///< sorting the samples
@@ -29,8 +33,9 @@ struct Phases {
 };
 
 struct RunOptions {
-  bool count = true;   ///< fill in Outcome::counts; a timing run turns it off and pays nothing for it
-  bool pairs = false;  ///< fill in Outcome::pairs
+  bool count = true;            ///< fill in Outcome::counts; a timing run turns it off and pays nothing for it
+  bool pairs = false;           ///< fill in Outcome::pairs
+  bool standard_error = false;  ///< fill in Outcome::standard_error
   Engine engine = Engine::simd;
   std::stop_token stop = {};  ///< checked in every phase, after at most StopCheck::most_work units of work
   /// 0: all cores; at most 4096. Results and counts do not depend on it. Techniques that trace rays one by one use all
@@ -39,6 +44,8 @@ struct RunOptions {
   /// Sums of earlier rays. The run adds to them, and leaves hits and irradiance to `finish`. If empty, the run creates
   /// them. So running blocks of rays one after another gives, bit for bit, the result of one run over all of them.
   Totals* totals = nullptr;
+  /// Where a search takes its arrays from, except what it returns. A Scratch keeps them for the next search.
+  std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
 };
 
 /// SIMD vectors that the simd engine processed, full or not. They depend on the instruction set.
@@ -66,6 +73,8 @@ struct Outcome {
   /// Power of the rays that cross the disc, divided by π d²: ((x + y) + z) / π d². Each of x, y, z is the sum, in ray
   /// order, over the rays with that dominant_axis. All exact techniques give the same bits.
   std::vector<double> irradiance;
+  /// Of the irradiance, for independent rays (PowerSquares::finish); empty unless asked for, and of a stopped run.
+  std::vector<double> standard_error;
   std::uint64_t total_hits = 0;
   Counts<std::uint64_t> counts;       ///< all zero unless requested (`hits` always holds total_hits)
   Vectors vectors;                    ///< of the simd engine
@@ -83,6 +92,9 @@ struct Outcome {
   std::vector<bool> done_discs;  ///< empty unless the progress is in discs
   HitBatches batches;            ///< hits of the finished rays, batch by batch; empty if the progress is in discs
 };
+
+/// Empties an outcome, and keeps the memory of its arrays.
+void clear(Outcome& outcome);
 
 /// Fills in the outcome's hits and irradiance from totals, one for each disc.
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);

@@ -18,14 +18,14 @@ constexpr std::size_t chunks_a_thread = 4;
 struct Chunk {
   std::uint32_t first = 0;
   std::uint32_t last = 0;
-  std::vector<Pair>* hits = nullptr;
+  FoundPairs* hits = nullptr;
 };
 
 /// Cuts the rays into chunks. Chunks in flight use the buffers for their hits in turn.
 class Chunks {
  public:
-  Chunks(std::size_t rays, std::size_t under_way, const std::stop_token& stop)
-      : rays_(rays), buffers_(under_way), stop_(stop) {}
+  Chunks(std::size_t rays, std::size_t under_way, const RunOptions& options)
+      : rays_(rays), buffers_(under_way, options.memory), stop_(options.stop) {}
 
   /// False after the last chunk, or after a stop request.
   bool next(Chunk& chunk) {
@@ -41,7 +41,7 @@ class Chunks {
  private:
   std::size_t rays_;
   std::size_t begun_ = 0;
-  std::vector<std::vector<Pair>> buffers_;
+  std::pmr::vector<FoundPairs> buffers_;
   const std::stop_token& stop_;
 };
 
@@ -62,8 +62,8 @@ class Sum {
   HitBatches batches_;
 };
 
-Counts<std::uint64_t> search_alone(Chunks& chunks, const MakeRaySearch& make, Sum& sum) {
-  const std::unique_ptr<RaySearch> search = make();
+Counts<std::uint64_t> search_alone(Chunks& chunks, MakeRaySearch make, Sum& sum) {
+  const OwnedIn<RaySearch> search = make();
   try {
     for (Chunk chunk; chunks.next(chunk);) {
       search->search(chunk.first, chunk.last, *chunk.hits);
@@ -75,9 +75,9 @@ Counts<std::uint64_t> search_alone(Chunks& chunks, const MakeRaySearch& make, Su
 }
 
 /// A chunk leaves the pipeline after all before it, so that its buffer is free when its turn comes again.
-Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, const MakeRaySearch& make, Sum& total) {
+Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, MakeRaySearch make, Sum& total) {
   using namespace oneapi::tbb;
-  enumerable_thread_specific<std::unique_ptr<RaySearch>> searches(make);
+  enumerable_thread_specific<OwnedIn<RaySearch>> searches([&] { return make(); });
   const auto cut = make_filter<void, Chunk>(filter_mode::serial_in_order, [&](flow_control& flow) {
     Chunk chunk;
     if (!chunks.next(chunk)) flow.stop();
@@ -94,24 +94,24 @@ Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, con
   } catch (const Stopped&) {  // unfinished chunks are left out
   }
   Counts<std::uint64_t> counts;
-  for (const std::unique_ptr<RaySearch>& one : searches) counts += one->counts();
+  for (const OwnedIn<RaySearch>& one : searches) counts += one->counts();
   return counts;
 }
 
 }  // namespace
 
-void search_rays(const Problem& problem, const RunOptions& options, const MakeRaySearch& make, Outcome& outcome) {
+void search_rays(const Problem& problem, const RunOptions& options, MakeRaySearch make, Outcome& outcome) {
   const int threads = thread_count(options.threads);
   const std::size_t under_way = threads == 1 ? 1 : chunks_a_thread * static_cast<std::size_t>(threads);
-  HitCollector collector(problem, options);
-  Chunks chunks(problem.rays.size(), under_way, options.stop);
+  HitCollector collector(problem, options, outcome);
+  Chunks chunks(problem.rays.size(), under_way, options);
   Sum sum(collector);
   if (threads == 1)
     outcome.counts = search_alone(chunks, make, sum);
   else
     on_threads(threads, [&] { outcome.counts = search_together(chunks, under_way, make, sum); });
   outcome.batches = sum.batches();
-  std::move(collector).give(outcome.batches.rays, outcome);
+  collector.give(outcome.batches.rays);
 }
 
 }  // namespace detp::sim

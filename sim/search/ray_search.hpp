@@ -1,9 +1,7 @@
 #pragma once
 
-#include <functional>
-#include <memory>
-#include <vector>
-
+#include "detp/sim/base/function_ref.hpp"
+#include "detp/sim/base/scratch.hpp"
 #include "outcome.hpp"
 #include "problem.hpp"
 
@@ -16,12 +14,13 @@ class RaySearch {
   virtual ~RaySearch() = default;
 
   /// Appends the hits of rays first … last - 1; those of any one disc in the order of the rays. May throw Stopped.
-  virtual void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) = 0;
+  virtual void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) = 0;
 
   [[nodiscard]] virtual Counts<std::uint64_t> counts() const = 0;
 };
 
-using MakeRaySearch = std::function<std::unique_ptr<RaySearch>()>;
+/// Makes the search of one thread, in memory of RunOptions::memory.
+using MakeRaySearch = FunctionRef<OwnedIn<RaySearch>()>;
 
 /// Searches all rays of the problem and fills in the outcome. Checks for a stop request between chunks of rays; a
 /// stopped run keeps the hits of all chunks before the first that was not finished.
@@ -32,6 +31,6 @@ using MakeRaySearch = std::function<std::unique_ptr<RaySearch>()>;
 ///
 /// Only one thread adds at a time. That takes 2 ns a hit among 10⁴ discs and 16 among 10⁶ (hits at random), where a
 /// grid over 10⁵ discs takes 3 µs to find one: it would take hundreds of threads to wait for it.
-void search_rays(const Problem& problem, const RunOptions& options, const MakeRaySearch& make, Outcome& outcome);
+void search_rays(const Problem& problem, const RunOptions& options, MakeRaySearch make, Outcome& outcome);
 
 }  // namespace detp::sim

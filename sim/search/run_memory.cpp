@@ -22,6 +22,7 @@ double given_bytes(const Problem& problem) {
 bool fits_memory(double bytes, const Problem& problem) { return given_bytes(problem) + bytes <= memory_budget(); }
 
 void require_memory_for(std::string_view what, double bytes, const Problem& problem) {
+  if (fits_memory(bytes, problem)) return;
   require_memory(fmt::format("{} rays, {} discs, and {}", problem.rays.size(), problem.discs.size(), what),
                  given_bytes(problem) + bytes);
 }

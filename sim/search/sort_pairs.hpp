@@ -10,7 +10,8 @@
 namespace detp::sim {
 
 /// Appends a pair. Throws std::length_error before the array grows beyond the memory.
-inline void add_pair(std::vector<Pair>& pairs, const Pair& pair) {
+template <class Pairs>
+void add_pair(Pairs& pairs, const Pair& pair) {
   if (pairs.size() == pairs.capacity()) require_memory("the pairs", grown_bytes(pairs.size() + 1, sizeof(Pair)));
   pairs.push_back(pair);
 }

@@ -72,16 +72,6 @@ void refuse_unsound(const Disc& disc, std::uint64_t number) {
         fmt::format("{}radius must be from 1e-100 to 1e100, or its square overflows (got {})", who, disc.radius));
 }
 
-Ray normalised(Ray ray) {
-  if (!surely_unit(ray.direction)) ray.direction = unit_or_zero(ray.direction);
-  return ray;
-}
-
-Disc normalised(Disc disc) {
-  if (!surely_unit(disc.normal)) disc.normal = unit_or_zero(disc.normal);
-  return disc;
-}
-
 /// What a look at some rays shows.
 struct Glance {
   double farthest2 = 0;  ///< squared distance of the farthest origin
@@ -137,6 +127,16 @@ std::shared_ptr<const std::vector<Ray>> normalised_if_needed(std::span<const Ray
 }
 
 }  // namespace
+
+Ray normalised(Ray ray) {
+  if (!surely_unit(ray.direction)) ray.direction = unit_or_zero(ray.direction);
+  return ray;
+}
+
+Disc normalised(Disc disc) {
+  if (!surely_unit(disc.normal)) disc.normal = unit_or_zero(disc.normal);
+  return disc;
+}
 
 void require_sound(std::span<const Disc> discs, StopCheck& check) {
   for_each_checked(0, discs.size(), check, [&](std::size_t i) {

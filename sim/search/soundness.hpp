@@ -14,6 +14,10 @@ namespace detp::sim {
 /// Lower bound on disc radii, so that squares do not underflow.
 inline constexpr double least_radius = 1e-100;
 
+/// With a direction or normal of length 1: as it is if that is so to 1e-12, or if it is 0.
+[[nodiscard]] Ray normalised(Ray ray);
+[[nodiscard]] Disc normalised(Disc disc);
+
 /// Throws std::invalid_argument, with the disc's number, for a number that is not finite, a coordinate or radius beyond
 /// 1e100, a radius below 1e-100, and a normal of length 0. Normals may have any other length.
 void require_sound(std::span<const Disc> discs, StopCheck& check);

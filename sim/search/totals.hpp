@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <glm/vec3.hpp>
+#include <memory_resource>
 #include <numbers>
 #include <vector>
 
@@ -17,7 +18,7 @@ struct DiscTotals {
 };
 
 /// One for each disc, in their order. (32 bytes together: a hit touches one line of the cache.)
-using Totals = std::vector<DiscTotals>;
+using Totals = std::pmr::vector<DiscTotals>;
 
 /// Power divided by the disc's area.
 [[nodiscard]] inline double irradiance(const DiscTotals& totals, const Disc& disc) {

@@ -39,22 +39,26 @@ void cull(const RayList& around, const Box& box, RayList& inside, StopCheck& che
 template <bool counting>
 class PlainSearch {
  public:
-  PlainSearch(const stream::Searched& searched, const RunOptions& options)
-      : searched_(searched), check_(options.stop, "searching"), collector_(searched.problem, options) {}
+  PlainSearch(const stream::Searched& searched, const RunOptions& options, Outcome& outcome)
+      : searched_(searched),
+        check_(options.stop, "searching"),
+        outcome_(outcome),
+        collector_(searched.problem, options, outcome),
+        lists_(options.memory) {}
 
-  void run(Outcome& outcome) && {
+  void run() {
     const std::vector<std::uint32_t>& order = searched_.tree.order;
     collector_.take_discs();
     try {
-      visit(searched_.tree.nodes.front(), 0, list_of(searched_.problem.rays));
+      visit(searched_.tree.nodes.front(), 0, list_of(searched_.problem.rays, lists_.get_allocator().resource()));
       done_ = order.size();
     } catch (const Stopped&) {  // the unfinished disc or node is left out
     }
-    outcome.counts = tally_.counts();
+    outcome_.counts = tally_.counts();
     if (done_ < order.size())
-      std::move(collector_).give_discs(std::span(order).first(done_), outcome);
+      collector_.give_discs(std::span(order).first(done_));
     else
-      std::move(collector_).give(searched_.problem.rays.size(), outcome);
+      collector_.give(searched_.problem.rays.size());
   }
 
  private:
@@ -92,10 +96,11 @@ class PlainSearch {
 
   const stream::Searched& searched_;
   StopCheck check_;
+  Outcome& outcome_;
   HitCollector collector_;
   Tally<counting> tally_;
-  std::deque<RayList> lists_;  ///< one for each level: children are visited one after another
-  std::size_t done_ = 0;       ///< the discs before it in the order
+  std::pmr::deque<RayList> lists_;  ///< one for each level: children are visited one after another
+  std::size_t done_ = 0;            ///< the discs before it in the order
 };
 
 /// Lists of rays are culled down a tree of boxes to its leaves' discs.
@@ -120,8 +125,8 @@ class BoxTreeIndex final : public Index {
     const double tree = sizeof(stream::FloatDisc) * static_cast<double>(tree_.discs.size()) +
                         sizeof(TreeNode) * static_cast<double>(tree_.nodes.size());
     need_memory(what, tree + listing_bytes(problem, options, tree_.lists.all), problem, outcome);
-    options.count ? PlainSearch<true>(searched, options).run(outcome)
-                  : PlainSearch<false>(searched, options).run(outcome);
+    options.count ? PlainSearch<true>(searched, options, outcome).run()
+                  : PlainSearch<false>(searched, options, outcome).run();
   }
 
  private:

@@ -15,7 +15,7 @@ class BruteForceSearch final : public RaySearch {
   BruteForceSearch(const Problem& problem, const std::stop_token& stop)
       : problem_(problem), check_(stop, "searching") {}
 
-  void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
+  void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
     for (std::uint32_t d = 0; d < problem_.discs.size(); ++d) {
       const Disc disc = problem_.discs[d];
       for (std::uint32_t r = first; r < last; ++r)
@@ -36,7 +36,8 @@ class BruteForceSearch final : public RaySearch {
 template <bool counting>
 void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome) {
   search_rays(
-      problem, options, [&] { return std::make_unique<BruteForceSearch<counting>>(problem, options.stop); }, outcome);
+      problem, options,
+      [&] { return make_in<RaySearch, BruteForceSearch<counting>>(*options.memory, problem, options.stop); }, outcome);
 }
 
 /// Tests every disc against every ray, in double. Builds nothing.

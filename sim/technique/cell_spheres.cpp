@@ -10,11 +10,13 @@ std::unique_ptr<Index> prepare_cell_spheres(const Problem& problem, const Parame
                                             const RunOptions& options) {
   const auto& own = std::get<CellSpheresParameters>(parameters);
   const CellWalk walk(problem.discs, own.depth);
-  return prepare_walk(problem,
-                      {.make_walk = [walk] { return std::make_unique<CellWalk>(walk); },
-                       .lists = lists_of(problem, own),
-                       .what = "lists of rays inside one another"},
-                      options);
+  return prepare_walk(
+      problem,
+      {.make_walk =
+           [walk](std::pmr::memory_resource& memory) { return make_in<ListWalk, CellWalk>(memory, walk, memory); },
+       .lists = lists_of(problem, own),
+       .what = "lists of rays inside one another"},
+      options);
 }
 
 }  // namespace detp::sim

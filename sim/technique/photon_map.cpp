@@ -194,6 +194,9 @@ class PhotonMapIndex final : public Index {
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     if (options.totals != nullptr)
       throw std::invalid_argument("photon-map needs all rays at once: the nearest of each block are not those of all");
+    if (options.standard_error)
+      throw std::invalid_argument(
+          "photon-map has no standard error: its photons are not independent samples of a disc");
     need_memory("the photon map", map_bytes(problem), problem, outcome);
     Stopwatch watch;
     const PhotonMap map(problem, nearest_, options.stop);

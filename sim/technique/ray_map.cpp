@@ -13,12 +13,15 @@
 namespace detp::sim {
 namespace {
 
+/// Numbers of rays.
+using Rays = std::pmr::vector<std::uint32_t>;
+
 /// A cell with the rays that cross it, or two halves.
 struct Cell {
   Box box;
-  std::vector<std::uint32_t> rays;  ///< empty once it is split
-  std::uint32_t first = 0;          ///< the lower half, followed by the upper one; 0: not split
-  bool final = false;               ///< splitting it does not separate its rays
+  Rays rays;                ///< empty once it is split
+  std::uint32_t first = 0;  ///< the lower half, followed by the upper one; 0: not split
+  bool final = false;       ///< splitting it does not separate its rays
 
   [[nodiscard]] bool is_split() const { return first != 0; }
 };
@@ -32,17 +35,21 @@ template <bool counting>
 class RayMap {
  public:
   RayMap(const Problem& problem, const RunOptions& options, int leaf)
-      : problem_(problem), leaf_(static_cast<std::size_t>(leaf)), check_(options.stop, "searching") {
+      : problem_(problem),
+        leaf_(static_cast<std::size_t>(leaf)),
+        check_(options.stop, "searching"),
+        cells_(options.memory),
+        tested_for_(problem.rays.size(), 0, options.memory),
+        found_(options.memory) {
     narrowest_ = 8 * problem.slack;  // to which halves are grown
     for (const Disc& disc : problem.discs) narrowest_ = std::max(narrowest_, 2 * disc.radius);
-    std::vector<std::uint32_t> all(problem.rays.size());
+    Rays all(problem.rays.size(), options.memory);
     std::iota(all.begin(), all.end(), 0U);
     cells_.push_back({index_box(problem), std::move(all)});
-    tested_for_.assign(problem.rays.size(), 0);
   }
 
   /// The rays that hit the disc, in rising order of their numbers.
-  const std::vector<std::uint32_t>& find(std::uint32_t disc) {
+  const Rays& find(std::uint32_t disc) {
     found_.clear();
     look_into(0, disc, bounds(problem_.discs[disc], 2 * problem_.slack));
     std::sort(found_.begin(), found_.end());
@@ -72,7 +79,7 @@ class RayMap {
 
   /// One half of a box, grown by the slack, so that rays near the middle plane are in both halves.
   [[nodiscard]] Cell half_of(const Cell& cell, int axis, bool upper) {
-    Cell half{cell.box, {}};
+    Cell half{cell.box, Rays(cell.rays.get_allocator())};
     (upper ? half.box.low : half.box.high)[axis] = cell.box.centre()[axis];
     const Box grown{half.box.low - problem_.slack, half.box.high + problem_.slack};
     for_each_checked(std::span(cell.rays), check_, [&](std::uint32_t ray) {
@@ -95,7 +102,7 @@ class RayMap {
     if (cells_[number].final) return;
     listed_ += lower.rays.size() + upper.rays.size();
     listed_ -= std::min(listed_, cells_[number].rays.size());
-    cells_[number].rays = {};
+    Rays(cells_.get_allocator()).swap(cells_[number].rays);
     cells_[number].first = static_cast<std::uint32_t>(cells_.size());
     cells_.push_back(std::move(lower));
     cells_.push_back(std::move(upper));
@@ -106,7 +113,7 @@ class RayMap {
   }
 
   /// A ray that is in several cells of the disc is tested once.
-  void test(const std::vector<std::uint32_t>& rays, std::uint32_t disc) {
+  void test(const Rays& rays, std::uint32_t disc) {
     tally_.add(&Counts<std::uint64_t>::visits);
     for_each_checked(std::span(rays), check_, [&](std::uint32_t ray) {
       if (tested_for_[ray] == disc + 1) return;
@@ -121,10 +128,10 @@ class RayMap {
   StopCheck check_;
   Tally<counting> tally_;
   double narrowest_ = 0;  ///< no cell shorter than this is split
-  std::vector<Cell> cells_;
-  std::size_t listed_ = 0;                 ///< rays in the cells not split, except the root
-  std::vector<std::uint32_t> tested_for_;  ///< for each ray: 1 + the last disc it was tested against; 0: none yet
-  std::vector<std::uint32_t> found_;
+  std::pmr::vector<Cell> cells_;
+  std::size_t listed_ = 0;  ///< rays in the cells not split, except the root
+  Rays tested_for_;         ///< for each ray: 1 + the last disc it was tested against; 0: none yet
+  Rays found_;
 };
 
 /// Each disc looks up the rays that cross it. Builds nothing before the rays are known. On one thread.
@@ -142,7 +149,7 @@ class RayMapIndex final : public Index {
   template <bool counting>
   void look_up(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
     RayMap<counting> map(problem, options, leaf_);
-    HitCollector collector(problem, options);
+    HitCollector collector(problem, options, outcome);
     collector.take_discs();
     std::uint32_t done = 0;
     try {
@@ -151,10 +158,10 @@ class RayMapIndex final : public Index {
     } catch (const Stopped&) {  // the unfinished disc is left out
     }
     outcome.counts = map.counts();
-    if (done == problem.discs.size()) return std::move(collector).give(problem.rays.size(), outcome);
+    if (done == problem.discs.size()) return collector.give(problem.rays.size());
     std::vector<std::uint32_t> first(done);
     std::iota(first.begin(), first.end(), 0U);
-    std::move(collector).give_discs(first, outcome);
+    collector.give_discs(first);
   }
 
   int leaf_;

@@ -10,7 +10,8 @@ namespace {
 WalkedSpheres spheres_of(const Problem& problem, const SphereCacheParameters& parameters, SphereWalk::Serving serving) {
   const SphereWalk walk(problem, parameters, serving);
   return {.order = parameters.order,
-          .make_walk = [walk] { return std::make_unique<SphereWalk>(walk); },
+          .make_walk =
+              [walk](std::pmr::memory_resource& memory) { return make_in<ListWalk, SphereWalk>(memory, walk, memory); },
           .lists = lists_of(problem, parameters),
           .what = fmt::format("{} spheres and their lists of rays", SphereWalk::levels(problem, parameters))};
 }

@@ -15,27 +15,28 @@ template <bool counting>
 class Search {
  public:
   Search(const Problem& problem, const SphereTreeParameters& parameters, const SphereTree& tree,
-         const std::vector<std::uint32_t>& order, const RunOptions& options)
+         const std::vector<std::uint32_t>& order, const RunOptions& options, Outcome& outcome)
       : problem_(problem),
         parameters_(parameters),
         tree_(tree),
         order_(order),
         check_(options.stop, "searching"),
-        collector_(problem, options),
-        lists_(tree.levels.size()) {}
+        outcome_(outcome),
+        collector_(problem, options, outcome),
+        lists_(tree.levels.size(), options.memory) {}
 
-  void run(Outcome& outcome) && {
+  void run() {
     collector_.take_discs();
     try {
-      visit(tree_.levels.size() - 1, 0, list_of(problem_.rays));
+      visit(tree_.levels.size() - 1, 0, list_of(problem_.rays, lists_.get_allocator().resource()));
       place_ = order_.size();
     } catch (const Stopped&) {  // the unfinished disc or node is left out
     }
-    outcome.counts = tally_.counts();
+    outcome_.counts = tally_.counts();
     if (place_ < order_.size())
-      std::move(collector_).give_discs(std::span(order_).first(place_), outcome);
+      collector_.give_discs(std::span(order_).first(place_));
     else
-      std::move(collector_).give(problem_.rays.size(), outcome);
+      collector_.give(problem_.rays.size());
   }
 
  private:
@@ -80,10 +81,11 @@ class Search {
   const SphereTree& tree_;
   const std::vector<std::uint32_t>& order_;
   StopCheck check_;
+  Outcome& outcome_;
   HitCollector collector_;
   Tally<counting> tally_;
-  std::vector<RayList> lists_;  ///< one a level: children are visited one after another
-  std::size_t place_ = 0;       ///< the discs before it in the order are done
+  std::pmr::vector<RayList> lists_;  ///< one a level: children are visited one after another
+  std::size_t place_ = 0;            ///< the discs before it in the order are done
 };
 
 /// Culls the list of rays down the tree, depth first, and tests it against the leaves' discs. Has one list for each
@@ -103,8 +105,8 @@ class SphereTreeIndex final : public Index {
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     need_memory("a tree of spheres and lists of rays", searching_bytes(problem, options, tree_), problem, outcome);
-    options.count ? Search<true>(problem, parameters_, tree_, order_, options).run(outcome)
-                  : Search<false>(problem, parameters_, tree_, order_, options).run(outcome);
+    options.count ? Search<true>(problem, parameters_, tree_, order_, options, outcome).run()
+                  : Search<false>(problem, parameters_, tree_, order_, options, outcome).run();
   }
 
  private:

@@ -7,10 +7,12 @@
 #include <stdexcept>
 
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/scratch.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/index.hpp"
+#include "detp/sim/search/power_squares.hpp"
 #include "registry.hpp"
 
 namespace detp::sim {
@@ -41,6 +43,8 @@ class Stream {
     totals_.resize(discs.size());
     block_.resize(streamed_.block);
     run_.totals = &totals_;
+    run_.memory = &scratch_;
+    run_.standard_error = false;  // of a block
   }
 
   Streamed go() && {
@@ -57,6 +61,7 @@ class Stream {
     }
     if (outcome.stopped) outcome.pairs.clear();
     finish(totals_, problem_.discs, outcome);
+    if (options_.run.standard_error && !outcome.stopped) squares_.finish(problem_.discs, source_.size(), outcome);
     return std::move(streamed_);
   }
 
@@ -86,15 +91,19 @@ class Stream {
     streamed_.read_seconds += watch.lap();
     set_rays(problem_, rays, options_.run.threads, first);
     streamed_.check_seconds += watch.lap();
-    Outcome part = sim::search(*index_, problem_, run_);
-    const std::size_t pairs = streamed_.outcome.pairs.size() + part.pairs.size();
-    const double bytes = own_bytes_ + part.bytes + grown_bytes(pairs, sizeof(Pair));
+    if (options_.run.standard_error) run_.pairs = squares_.needs_pairs(problem_, totals_) || options_.run.pairs;
+    scratch_.begin();
+    sim::search(*index_, problem_, run_, part_);
+    if (options_.run.standard_error) squares_.add(problem_, part_.pairs);
+    if (!options_.run.pairs) part_.pairs.clear();
+    const std::size_t pairs = streamed_.outcome.pairs.size() + part_.pairs.size();
+    const double bytes = own_bytes_ + part_.bytes + grown_bytes(pairs, sizeof(Pair));
     if (pairs > 0) require_memory("the pairs", bytes);
     streamed_.bytes = std::max(streamed_.bytes, bytes);
-    add(std::move(part), static_cast<std::uint32_t>(first), count);
+    add(part_, static_cast<std::uint32_t>(first), count);
   }
 
-  void add(Outcome part, std::uint32_t first, std::size_t rays) {
+  void add(const Outcome& part, std::uint32_t first, std::size_t rays) {
     Outcome& sum = streamed_.outcome;
     sum.counts += part.counts;
     sum.vectors += part.vectors;
@@ -125,7 +134,10 @@ class Stream {
   Problem problem_;
   std::unique_ptr<Index> index_;
   Totals totals_;
+  PowerSquares squares_;
   std::vector<Ray> block_;
+  Scratch scratch_;
+  Outcome part_;  ///< of one block
   double own_bytes_ = 0;
   Streamed streamed_;
 };

@@ -26,7 +26,7 @@ class PlainWalk final : public Index {
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     need_memory(spheres_.what, walk_bytes(problem, options, spheres_.lists, true), problem, outcome);
-    search_along(*spheres_.make_walk(), problem, order_, options, outcome);
+    search_along(*spheres_.make_walk(*options.memory), problem, order_, options, outcome);
   }
 
  private:

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory_resource>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -20,11 +21,11 @@ struct ListedRay {
 };
 
 /// In rising order of their numbers.
-using RayList = std::vector<ListedRay>;
+using RayList = std::pmr::vector<ListedRay>;
 
 /// All rays of a problem.
-[[nodiscard]] inline RayList list_of(std::span<const Ray> rays) {
-  RayList list;
+[[nodiscard]] inline RayList list_of(std::span<const Ray> rays, std::pmr::memory_resource* memory) {
+  RayList list(memory);
   list.reserve(rays.size());
   for (std::uint32_t i = 0; i < rays.size(); ++i) list.push_back({rays[i], i});
   return list;

@@ -8,7 +8,7 @@
 namespace detp::sim {
 
 /// Adds up the spheres' counts.
-inline void add_spheres(const std::vector<SphereCounts>& spheres, Counts<std::uint64_t>& counts) {
+inline void add_spheres(std::span<const SphereCounts> spheres, Counts<std::uint64_t>& counts) {
   for (const SphereCounts& sphere : spheres) {
     counts.cull_tests += sphere.tests;
     counts.listed += sphere.listed;
@@ -21,12 +21,13 @@ inline void add_spheres(const std::vector<SphereCounts>& spheres, Counts<std::ui
 template <bool counting>
 void search_along_counting(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,
                            const RunOptions& options, Outcome& outcome) {
-  HitCollector collector(problem, options);
+  HitCollector collector(problem, options, outcome);
   Tally<counting> tally;
   StopCheck check(options.stop, "searching");
-  std::vector<RayList> lists(static_cast<std::size_t>(walk.deepest()) + 1);
-  std::vector<SphereCounts> events(lists.size() - 1);
-  lists[0] = list_of(problem.rays);
+  std::pmr::vector<RayList> lists(static_cast<std::size_t>(walk.deepest()) + 1, options.memory);
+  std::vector<SphereCounts>& events = outcome.spheres;
+  if constexpr (counting) events.assign(lists.size() - 1, {});
+  lists[0] = list_of(problem.rays, options.memory);
   collector.take_discs();
   std::size_t done = 0;
   const auto take = [&](std::uint32_t d) {
@@ -52,12 +53,11 @@ void search_along_counting(ListWalk& walk, const Problem& problem, std::span<con
   outcome.counts = tally.counts();
   if constexpr (counting) {
     add_spheres(events, outcome.counts);
-    outcome.spheres = std::move(events);
   }
   if (done < order.size())
-    std::move(collector).give_discs(order.first(done), outcome);
+    collector.give_discs(order.first(done));
   else
-    std::move(collector).give(problem.rays.size(), outcome);
+    collector.give(problem.rays.size());
 }
 
 inline void search_along(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,

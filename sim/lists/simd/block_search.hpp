@@ -39,15 +39,17 @@ inline constexpr std::size_t tests_a_unit = 16;
 /// The data of one thread.
 struct Worker {
   /// Lists are expected to take so many floats.
-  explicit Worker(std::stop_token stop = {}, std::size_t floats = 0)
-      : lists(floats), check(std::move(stop), "searching") {}
+  explicit Worker(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::stop_token stop = {},
+                  std::size_t floats = 0)
+      : lists(memory, floats), pairs(memory), check(std::move(stop), "searching"), skipped(memory) {}
 
   ListArena lists;
-  std::vector<Pair> pairs;
+  FoundPairs pairs;
   Counts<std::uint64_t> counts;
   Vectors vectors;
   StopCheck check;
-  std::vector<DiscRun> skipped;  ///< discs not, or not wholly, searched in the last block, because of a stop request
+  std::pmr::vector<DiscRun>
+      skipped;  ///< discs not, or not wholly, searched in the last block, because of a stop request
 };
 
 }  // namespace detp::sim::stream

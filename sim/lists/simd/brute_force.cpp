@@ -51,9 +51,9 @@ class FloatBruteForce final : public Index {
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     need_memory(what, all_bytes(size_of(problem, options)), problem, outcome);
     on_threads(thread_count(options.threads), [&] {
-      tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(options.stop); });
+      tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(options.memory, options.stop); });
       Gathering gathering(problem, discs_, options, outcome);
-      for_each_block(problem, frame_, options.stop, [&](const Block& rays) {
+      for_each_block(problem, frame_, options, [&](const Block& rays) {
         test_block(gathering.begin(frame_, rays.first(), rays.traits()), rays, workers);
         gathering.end(rays, workers);
       });

@@ -15,7 +15,7 @@ namespace {
 /// Sums of n equal powers, added one by one to 0, for n = 0, 1, 2, …
 class RepeatedSums {
  public:
-  explicit RepeatedSums(double power) : power_(power) {}
+  RepeatedSums(double power, std::pmr::memory_resource* memory) : power_(power), sums_({0.0}, memory) {}
 
   /// The result of adding `count` more powers to `sum`, one by one.
   [[nodiscard]] double add(double sum, std::uint32_t count) {
@@ -31,18 +31,24 @@ class RepeatedSums {
   }
 
   double power_;
-  std::vector<double> sums_{0};
+  std::pmr::vector<double> sums_;
 };
 
 template <class Element>
-double bytes_of(const std::vector<Element>& array) {
+double bytes_of(const std::pmr::vector<Element>& array) {
   return static_cast<double>(array.size()) * sizeof(Element);
 }
 
 }  // namespace
 
 Gathering::Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome)
-    : problem_(problem), tree_(tree), options_(options), outcome_(outcome), hits_(tree.discs.size()) {
+    : problem_(problem),
+      tree_(tree),
+      options_(options),
+      outcome_(outcome),
+      totals_(options.memory),
+      hits_(tree.discs.size(), options.memory),
+      kept_(options.memory) {
   if (options.totals != nullptr) need_totals();
 }
 
@@ -73,7 +79,7 @@ BlockSearch Gathering::begin(const Frame& frame, std::size_t first_ray, const Ra
 void Gathering::add_up() {
   need_totals();
   std::optional<RepeatedSums> sums;
-  if (counted_power_) sums.emplace(*counted_power_);
+  if (counted_power_) sums.emplace(*counted_power_, options_.memory);
   for (std::size_t place = 0; place < totals_.size(); ++place)
     for (int k = 0; k < classes; ++k) {
       const std::uint32_t count = std::exchange(hits_[place][static_cast<std::size_t>(k)], 0);
@@ -169,7 +175,7 @@ void Gathering::give_counted() const {
 /// of their hits.
 std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last) const {
   constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
-  RepeatedSums sums(*counted_power_);
+  RepeatedSums sums(*counted_power_, options_.memory);
   std::uint64_t found = 0;
   for (std::size_t place = first; place < last; ++place) {
     if (place + ahead < hits_.size()) {

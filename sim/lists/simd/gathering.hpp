@@ -40,7 +40,7 @@ class Gathering {
   /// Fills in the outcome: hits, irradiance, pairs, and the workers' counts.
   template <class Workers>
   void give(Workers& workers) {
-    std::vector<DiscRun> skipped;
+    std::pmr::vector<DiscRun> skipped(options_.memory);
     for (Worker& worker : workers) {
       skipped.insert(skipped.end(), worker.skipped.begin(), worker.skipped.end());
       outcome_.counts += worker.counts;
@@ -53,10 +53,11 @@ class Gathering {
  private:
   /// A copy of the results after the first `rays` rays.
   struct Found {
+    explicit Found(std::pmr::memory_resource* memory) : totals(memory), counts(memory) {}
     std::size_t rays = 0;
     std::uint64_t hits = 0;
-    Totals totals = {};
-    std::vector<ClassCounts> counts = {};
+    Totals totals;
+    std::pmr::vector<ClassCounts> counts;
     std::optional<double> counted_power = {};
     std::uint64_t in_totals = 0;
   };
@@ -75,7 +76,7 @@ class Gathering {
     outcome_.pairs.reserve(count);
     for (Worker& worker : workers) {
       outcome_.pairs.insert(outcome_.pairs.end(), worker.pairs.begin(), worker.pairs.end());
-      worker.pairs = {};
+      FoundPairs(options_.memory).swap(worker.pairs);
     }
   }
 
@@ -98,7 +99,7 @@ class Gathering {
   const RunOptions& options_;
   Outcome& outcome_;
   Totals totals_;                        ///< empty as long as hits have only been counted
-  std::vector<ClassCounts> hits_;        ///< not yet in the totals
+  std::pmr::vector<ClassCounts> hits_;   ///< not yet in the totals
   std::optional<double> counted_power_;  ///< what each of those carries; nothing if their powers are in the totals
   std::uint64_t found_ = 0;              ///< hits in the totals, not including those of earlier runs
   std::size_t rays_ = 0;                 ///< number of first rays that have been searched for all discs

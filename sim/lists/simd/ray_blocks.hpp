@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "detp/sim/search/outcome.hpp"
 #include "load_rays.hpp"
 
 /// Reads the rays block by block.
@@ -12,6 +13,8 @@ namespace detp::sim::stream {
 /// A block of rays, loaded.
 class Block {
  public:
+  explicit Block(std::pmr::memory_resource* memory) : arena_(memory) {}
+
   /// Loads up to `size` rays, the first of them that one; nothing if there is none.
   void load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size);
 
@@ -29,15 +32,15 @@ class Block {
   std::size_t capacity_ = 0;  ///< of its lists; not reduced for a smaller block, so that no other pages are touched
 };
 
-/// Calls search(block) for one block after another, until all have been or the stop is asked for. The next one is
+/// Calls search(block) for one block after another, until all have been or a stop is requested. The next one is
 /// loaded meanwhile, if there is a thread for it.
 template <class Search>
-void for_each_block(const Problem& problem, const Frame& frame, const std::stop_token& stop, const Search& search) {
+void for_each_block(const Problem& problem, const Frame& frame, const RunOptions& options, const Search& search) {
   const std::size_t size = rays_in_block(problem.discs.size());
-  Block now;
-  Block next;
+  Block now(options.memory);
+  Block next(options.memory);
   now.load(problem, frame, 0, size);
-  while (now.first() < problem.rays.size() && !stop.stop_requested()) {
+  while (now.first() < problem.rays.size() && !options.stop.stop_requested()) {
     tbb::parallel_invoke([&] { next.load(problem, frame, now.first() + size, size); }, [&] { search(now); });
     std::swap(now, next);
   }

@@ -39,12 +39,11 @@ float* ListArena::take_floats(std::size_t count) {
     const std::size_t size = std::max({count, least << std::min<std::size_t>(chunk_, 10), chunk_ == 0 ? expected_ : 0});
     bytes_ += static_cast<double>(size) * sizeof(float);
     require_memory("a thread's lists of rays", bytes_);
-    Chunk chunk{std::unique_ptr<std::byte[]>(new std::byte[(size + line) * sizeof(float)]), nullptr, size};
-    const auto address = reinterpret_cast<std::uintptr_t>(chunk.bytes.get());
-    chunk.start = reinterpret_cast<float*>(chunk.bytes.get() + (64 - address % 64) % 64);
-    chunks_.push_back(std::move(chunk));
+    std::pmr::memory_resource* const memory = chunks_.get_allocator().resource();
+    void* const start = memory->allocate(size * sizeof(float), alignment);
+    chunks_.push_back({{static_cast<float*>(start), Return{memory, size}}, size});
   }
-  float* const taken = chunks_[chunk_].start + used_;
+  float* const taken = chunks_[chunk_].start.get() + used_;
   used_ += count;
   return taken;
 }

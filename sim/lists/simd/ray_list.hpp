@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <memory_resource>
 #include <vector>
 
 #include "frame.hpp"
@@ -51,7 +52,8 @@ using RayLists = std::array<RayList, classes>;
 class ListArena {
  public:
   /// Lists that take so many floats altogether will lie in one chunk.
-  explicit ListArena(std::size_t expected = 0) : expected_(expected) {}
+  explicit ListArena(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::size_t expected = 0)
+      : expected_(expected), chunks_(memory) {}
 
   /// A list with room for `capacity` rays.
   [[nodiscard]] RayList take(std::size_t capacity, bool segments);
@@ -76,13 +78,20 @@ class ListArena {
  private:
   float* take_floats(std::size_t count);
 
+  /// Returns floats to the memory that they come from.
+  struct Return {
+    std::pmr::memory_resource* memory;
+    std::size_t count;
+    void operator()(float* start) const { memory->deallocate(start, count * sizeof(float), alignment); }
+  };
+  static constexpr std::size_t alignment = 64;  ///< bytes in a cache line
+
   struct Chunk {
-    std::unique_ptr<std::byte[]> bytes;
-    float* start;  ///< aligned to a cache line
+    std::unique_ptr<float, Return> start;
     std::size_t size;
   };
   std::size_t expected_;
-  std::vector<Chunk> chunks_;
+  std::pmr::vector<Chunk> chunks_;
   std::size_t chunk_ = 0;
   std::size_t used_ = 0;
   double bytes_ = 0;  ///< of all chunks

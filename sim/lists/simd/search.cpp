@@ -49,9 +49,9 @@ void search_boxes(const Searched& searched, int fan_out, const RunOptions& optio
   const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
   need_memory("the tree of boxes and its lists of rays", boxes_bytes(size, fan_out, made), problem, outcome);
   on_threads(thread_count(options.threads), [&] {
-    Workers workers([&] { return Worker(options.stop, list_floats(size, tree.lists)); });
+    Workers workers([&] { return Worker(options.memory, options.stop, list_floats(size, tree.lists)); });
     Gathering gathering(problem, tree, options, outcome);
-    for_each_block(problem, frame, options.stop, [&](const Block& block) {
+    for_each_block(problem, frame, options, [&](const Block& block) {
       divide(gathering.begin(frame, block.first(), block.traits()), tree.nodes.front(), block.lists(), workers);
       gathering.end(block, workers);
     });

@@ -17,8 +17,14 @@ namespace {
 class ClassWalk {
  public:
   ClassWalk(const BlockSearch& block, int k, const RayList& rays, ListWalk& walk, Worker& worker,
-            std::vector<SphereCounts>& events)
-      : block_(block), k_(k), walk_(walk), worker_(worker), events_(events) {
+            std::pmr::vector<SphereCounts>& events)
+      : block_(block),
+        k_(k),
+        walk_(walk),
+        worker_(worker),
+        events_(events),
+        lists_(events.get_allocator()),
+        marks_(events.get_allocator()) {
     const auto levels = static_cast<std::size_t>(walk.deepest()) + 1;
     lists_.resize(levels);
     marks_.resize(levels);
@@ -69,13 +75,13 @@ class ClassWalk {
   int k_;
   ListWalk& walk_;
   Worker& worker_;
-  std::vector<SphereCounts>& events_;
-  std::vector<RayList> lists_;
-  std::vector<ListArena::Mark> marks_;  ///< where the arena stood before each list was made
+  std::pmr::vector<SphereCounts>& events_;
+  std::pmr::vector<RayList> lists_;
+  std::pmr::vector<ListArena::Mark> marks_;  ///< where the arena stood before each list was made
   std::size_t built_ = 1;
 };
 
-void add(const std::vector<SphereCounts>& events, std::vector<SphereCounts>& sum) {
+void add(std::span<const SphereCounts> events, std::vector<SphereCounts>& sum) {
   sum.resize(events.size());
   for (std::size_t i = 0; i < events.size(); ++i) {
     sum[i].rebuilds += events[i].rebuilds;
@@ -92,15 +98,17 @@ void search_walk(const Searched& searched, const MakeWalk& make_walk, const List
   const Frame& frame = searched.frame;
   const DiscTree& discs = searched.tree;
   const std::size_t floats = list_floats(size_of(problem, options), room);
-  std::array workers{Worker(options.stop, floats), Worker(options.stop, floats), Worker(options.stop, floats)};
-  std::array<std::vector<SphereCounts>, classes> events;
+  const auto worker = [&] { return Worker(options.memory, options.stop, floats); };
+  std::array workers{worker(), worker(), worker()};
+  using Events = std::pmr::vector<SphereCounts>;
+  std::array events{Events(options.memory), Events(options.memory), Events(options.memory)};
   on_threads(thread_count(options.threads), [&] {
     Gathering gathering(problem, discs, options, outcome);
-    for_each_block(problem, frame, options.stop, [&](const Block& rays) {
+    for_each_block(problem, frame, options, [&](const Block& rays) {
       const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());
       tbb::parallel_for(0, classes, [&](int k) {
         const auto i = static_cast<std::size_t>(k);
-        const std::unique_ptr<ListWalk> walk = make_walk();
+        const OwnedIn<ListWalk> walk = make_walk(*options.memory);
         ClassWalk(block, k, rays.lists()[i], *walk, workers[i], events[i]).run();
       });
       gathering.end(rays, workers);
@@ -108,7 +116,7 @@ void search_walk(const Searched& searched, const MakeWalk& make_walk, const List
     gathering.give(workers);
   });
   if (!options.count) return;
-  for (const std::vector<SphereCounts>& of_class : events) add(of_class, outcome.spheres);
+  for (const Events& of_class : events) add(of_class, outcome.spheres);
 }
 
 }  // namespace detp::sim::stream

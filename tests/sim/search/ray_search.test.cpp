@@ -42,7 +42,7 @@ class AllHit final : public RaySearch {
  public:
   explicit AllHit(std::function<void()> event) : event_(std::move(event)) {}
 
-  void search(std::uint32_t first, std::uint32_t last, std::vector<Pair>& hits) override {
+  void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
     for (std::uint32_t ray = first; ray < last; ++ray) {
       if (ray == 1000) event_();
       hits.push_back({ray, 0});
@@ -95,7 +95,8 @@ TEST_SUITE("known answer") {
       Totals totals;
       Outcome outcome;
       search_rays(
-          problem, {.threads = threads, .totals = &totals}, [] { return std::make_unique<AllHit>([] {}); }, outcome);
+          problem, {.threads = threads, .totals = &totals},
+          [] { return make_in<RaySearch, AllHit>(*std::pmr::new_delete_resource(), [] {}); }, outcome);
       CHECK(outcome.total_hits == rays().size());
       CHECK(totals[0].hits == rays().size());
       CHECK(totals[0].power == power);
@@ -110,7 +111,8 @@ TEST_SUITE("known answer") {
       Outcome outcome;
       search_rays(
           problem, {.pairs = true, .stop = source.get_token(), .threads = threads},
-          [&] { return std::make_unique<AllHit>([&] { source.request_stop(); }); }, outcome);
+          [&] { return make_in<RaySearch, AllHit>(*std::pmr::new_delete_resource(), [&] { source.request_stop(); }); },
+          outcome);
       CHECK(outcome.stopped);
       CHECK(outcome.total_hits > 1000);
       CHECK(outcome.total_hits < 2000);
@@ -127,7 +129,11 @@ TEST_SUITE("known answer") {
       const auto search = [&] {
         search_rays(
             problem, {.threads = threads},
-            [] { return std::make_unique<AllHit>([] { throw std::length_error("too large"); }); }, outcome);
+            [] {
+              return make_in<RaySearch, AllHit>(*std::pmr::new_delete_resource(),
+                                                [] { throw std::length_error("too large"); });
+            },
+            outcome);
       };
       CHECK_THROWS_WITH_AS(search(), "too large", std::length_error);
     }

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstring>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "detp/sim/geometry/geometry.hpp"
+
+/// Rays and discs as they lie in a caller's arrays: floats or doubles, any distance apart.
+namespace detp::sim {
+
+/// Numbers of a caller's array, borrowed; `components` of them belong together.
+template <int components>
+class ArrayView {
+ public:
+  /// `stride` bytes from one to the next.
+  ArrayView(const float* first, std::size_t stride = components * sizeof(float))
+      : first_(reinterpret_cast<const std::byte*>(first)), stride_(stride), floats_(true) {}
+  ArrayView(const double* first, std::size_t stride = components * sizeof(double))
+      : first_(reinterpret_cast<const std::byte*>(first)), stride_(stride) {}
+
+  /// Number k of element i.
+  [[nodiscard]] double at(std::size_t i, int k) const {
+    const std::byte* const place = first_ + i * stride_;
+    return floats_ ? value<float>(place, k) : value<double>(place, k);
+  }
+
+ private:
+  template <class T>
+  [[nodiscard]] static double value(const std::byte* place, int k) {
+    T value;  // copied, for the caller's structs may be packed
+    std::memcpy(&value, place + static_cast<std::size_t>(k) * sizeof(T), sizeof(T));
+    return static_cast<double>(value);
+  }
+
+  const std::byte* first_;
+  std::size_t stride_;
+  bool floats_ = false;
+};
+
+/// Three numbers each: a point or a direction.
+using VectorsView = ArrayView<3>;
+
+/// A number each, or the same for all.
+class NumbersView : public ArrayView<1> {
+ public:
+  using ArrayView::ArrayView;
+  NumbersView(double of_all) : ArrayView(static_cast<const double*>(nullptr)), of_all_(of_all), same_(true) {}
+
+  [[nodiscard]] double operator[](std::size_t i) const { return same_ ? of_all_ : at(i, 0); }
+
+ private:
+  double of_all_ = 0;
+  bool same_ = false;
+};
+
+/// Rays: see Ray for the meaning of each field. Directions may have any length but 0.
+struct RaysView {
+  std::size_t count = 0;
+  VectorsView origins;
+  VectorsView directions;
+  NumbersView lengths = unbounded;
+  NumbersView powers = 1.0;
+};
+
+/// Discs: see Disc. Normals may have any length but 0.
+struct DiscsView {
+  std::size_t count = 0;
+  VectorsView centres;
+  VectorsView normals;
+  NumbersView radii;
+};
+
+/// Copies the rays, with directions of length 1 as far as they are neither 0 nor no numbers.
+void read_rays(const RaysView& view, std::vector<Ray>& rays);
+
+/// The same of discs and their normals.
+[[nodiscard]] std::vector<Disc> read_discs(const DiscsView& view);
+
+}  // namespace detp::sim

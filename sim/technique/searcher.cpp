@@ -1,0 +1,45 @@
+#include "searcher.hpp"
+
+#include "registry.hpp"
+
+namespace detp::sim {
+namespace {
+
+Problem problem_of(std::span<const Disc> discs, std::optional<double> farthest, bool front_facing,
+                   const std::stop_token& stop) {
+  constexpr double radii = 1000;
+  if (!farthest) farthest = radii * enclosing_sphere(discs, stop).radius;
+  return make_problem_without_rays(discs, *farthest, front_facing, stop);
+}
+
+}  // namespace
+
+Searcher::Searcher(std::span<const Disc> discs, const Candidate& candidate, std::optional<double> farthest,
+                   bool front_facing, const RunOptions& options)
+    : problem_(problem_of(discs, farthest, front_facing, options.stop)) {
+  check_options(options, problem_);
+  index_ = prepare(problem_, candidate, options);
+}
+
+Searcher::Searcher(const DiscsView& discs, const Candidate& candidate, std::optional<double> farthest,
+                   bool front_facing, const RunOptions& options)
+    : own_discs_(read_discs(discs)), problem_(problem_of(own_discs_, farthest, front_facing, options.stop)) {
+  check_options(options, problem_);
+  index_ = prepare(problem_, candidate, options);
+}
+
+const Outcome& Searcher::search(std::span<const Ray> rays, SearchScratch& scratch, RunOptions options) const {
+  Problem problem = problem_;
+  set_rays(problem, rays, options.threads);
+  scratch.memory.begin();
+  options.memory = &scratch.memory;
+  detp::sim::search(*index_, problem, options, scratch.outcome);
+  return scratch.outcome;
+}
+
+const Outcome& Searcher::search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options) const {
+  read_rays(rays, scratch.rays);
+  return search(scratch.rays, scratch, options);
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,210 @@
+#include "detp/sim/technique/searcher.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdlib>
+#include <new>
+#include <stdexcept>
+#include <thread>
+
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "support/exact_candidates.hpp"
+#include "support/sanitized.hpp"
+
+using namespace detp;
+using namespace detp::sim;
+
+namespace {
+
+std::atomic<std::uint64_t> allocations = 0;  // by operator new, in the whole process
+
+}  // namespace
+
+#ifndef DETP_SANITIZED
+namespace {
+
+void* counted(std::size_t bytes, std::size_t alignment) {
+  ++allocations;
+  void* const block = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+  if (block == nullptr) throw std::bad_alloc();
+  return block;
+}
+
+}  // namespace
+
+void* operator new(std::size_t bytes) { return counted(bytes > 0 ? bytes : 1, alignof(std::max_align_t)); }
+void* operator new(std::size_t bytes, std::align_val_t alignment) {
+  return counted(bytes, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+#endif
+
+namespace {
+
+const std::vector<Disc>& discs() {
+  static const std::vector<Disc> all = uniform_discs(Body::cube, 2, 700, 0.2, 3);
+  return all;
+}
+
+/// Lines and segments of different powers.
+std::vector<Ray> rays_of(std::uint64_t seed, std::size_t count) {
+  std::vector<Ray> rays = LineField(enclosing_sphere(discs()), seed).lines(0, count);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto random = uniform4(seed, Stream::tests, i);
+    rays[i].power = random[0];
+    if (i % 3 == 0) rays[i].length = 0.1 + 2 * random[1];
+  }
+  return rays;
+}
+
+/// The exact variants, and the walk as it was published.
+std::vector<Candidate> candidates() {
+  std::vector<Candidate> all = support::exact_candidates();
+  all.push_back({Technique::sphere_cache_published, SphereCacheParameters{0.6, 4}});
+  return all;
+}
+
+bool same(const Outcome& a, const Outcome& b) {
+  return a.hits == b.hits && a.irradiance == b.irradiance && a.total_hits == b.total_hits;
+}
+
+}  // namespace
+
+TEST_SUITE("searcher") {
+  TEST_CASE("Searched again and again with one scratch, every technique and engine finds what a run finds") {
+    for (const Engine engine : {Engine::simd, Engine::plain})
+      for (const Candidate& candidate : candidates()) {
+        CAPTURE(describe(candidate));
+        const Searcher searcher(discs(), candidate, 10.0, false, {.engine = engine});
+        SearchScratch scratch;
+        for (const std::size_t count : {300UL, 40UL, 1UL, 300UL}) {
+          const std::vector<Ray> rays = rays_of(count, count);
+          const Outcome expected = run(make_problem(rays, discs()), candidate, {.engine = engine});
+          const Outcome& found = searcher.search(rays, scratch, {.engine = engine});
+          CHECK(same(found, expected));
+          CHECK(found.spheres.size() == expected.spheres.size());
+        }
+      }
+  }
+
+#ifndef DETP_SANITIZED
+  TEST_CASE("A search repeated at the same size on one thread takes nothing from the heap") {
+    const std::vector<Ray> rays = rays_of(5, 400);
+    for (const Engine engine : {Engine::simd, Engine::plain})
+      for (const bool count : {false, true})
+        for (const Candidate& candidate : candidates()) {
+          CAPTURE(describe(candidate));
+          const RunOptions options{.count = count, .engine = engine};
+          const Searcher searcher(discs(), candidate, 10.0, false, options);
+          SearchScratch scratch;
+          for (int i = 0; i < 2; ++i) (void)searcher.search(rays, scratch, options);
+          const std::uint64_t before = allocations;
+          (void)searcher.search(rays, scratch, options);
+          CHECK(allocations == before);
+          (void)run(make_problem(rays, discs()), candidate, options);
+          CHECK(allocations > before);  // the counter works
+        }
+  }
+
+  TEST_CASE("Views of floats are searched without a heap too") {
+    std::vector<std::array<float, 8>> packed;
+    for (const Ray& ray : rays_of(6, 200)) {
+      const glm::vec3 o(ray.origin);
+      const glm::vec3 d(ray.direction);
+      packed.push_back({o.x, o.y, o.z, 0, d.x, d.y, d.z, static_cast<float>(ray.length)});
+    }
+    const Searcher searcher(discs(), {Technique::box_tree, BoxTreeParameters{}});
+    SearchScratch scratch;
+    const RaysView view{packed.size(), {packed[0].data(), 32}, {&packed[0][4], 32}, {&packed[0][7], 32}};
+    for (int i = 0; i < 2; ++i) (void)searcher.search(view, scratch);
+    const std::uint64_t before = allocations;
+    (void)searcher.search(view, scratch);
+    CHECK(allocations == before);
+  }
+#endif
+
+  TEST_CASE("Rays and discs in floats or doubles, in one array or several, give the hits of the same numbers") {
+    std::vector<Ray> rays = rays_of(9, 250);
+    std::vector<Disc> some(discs().begin(), discs().begin() + 200);
+    const auto in_floats = [](glm::dvec3& v) { v = glm::dvec3(glm::vec3(v)); };
+    std::vector<float> origins;
+    std::vector<float> directions;
+    std::vector<double> centres;
+    std::vector<std::array<float, 4>> normals_and_radii;
+    for (Ray& ray : rays) {
+      in_floats(ray.origin);
+      in_floats(ray.direction);  // no longer unit: the searcher and make_problem must normalise alike
+      ray.length = unbounded;
+      ray.power = 2;
+      for (int k = 0; k < 3; ++k) origins.push_back(static_cast<float>(ray.origin[k]));
+      for (int k = 0; k < 3; ++k) directions.push_back(static_cast<float>(ray.direction[k]));
+    }
+    for (Disc& disc : some) {
+      in_floats(disc.normal);
+      disc.radius = static_cast<double>(static_cast<float>(disc.radius));
+      for (int k = 0; k < 3; ++k) centres.push_back(disc.centre[k]);
+      const glm::vec3 n(disc.normal);
+      normals_and_radii.push_back({n.x, n.y, n.z, static_cast<float>(disc.radius)});
+    }
+    const Candidate candidate{Technique::octree, OctreeParameters{3}};
+    const Outcome expected = run(make_problem(rays, some), candidate);
+    CHECK(expected.total_hits > 0);
+    const Searcher searcher(
+        DiscsView{some.size(), centres.data(), {normals_and_radii[0].data(), 16}, {&normals_and_radii[0][3], 16}},
+        candidate);
+    SearchScratch scratch;
+    CHECK(same(searcher.search(RaysView{rays.size(), origins.data(), directions.data(), unbounded, 2.0}, scratch),
+               expected));
+    CHECK(same(searcher.search(rays, scratch), expected));
+  }
+
+  TEST_CASE("Many threads search one searcher at once, each with a scratch of its own") {
+    for (const Candidate& candidate : candidates()) {
+      CAPTURE(describe(candidate));
+      const Searcher searcher(discs(), candidate, 10.0);
+      std::array<std::uint64_t, 4> wrong{};
+      std::vector<std::thread> threads;
+      for (std::size_t t = 0; t < wrong.size(); ++t)
+        threads.emplace_back([&, t] {
+          SearchScratch scratch;
+          for (std::uint64_t i = 0; i < 3; ++i) {
+            const std::vector<Ray> rays = rays_of(10 * t + i + 1, 100 + 10 * t);
+            const Outcome expected = run(make_problem(rays, discs()), candidate);
+            wrong[t] += same(searcher.search(rays, scratch), expected) ? 0 : 1;
+          }
+        });
+      for (std::thread& thread : threads) thread.join();
+      CHECK(wrong == std::array<std::uint64_t, 4>{});
+    }
+  }
+
+  TEST_CASE("What cannot be searched is refused, and the searcher goes on") {
+    const Searcher searcher(discs(), {Technique::box_tree, BoxTreeParameters{}}, 10.0);
+    SearchScratch scratch;
+    std::vector<Ray> rays = rays_of(1, 5);
+    CHECK_THROWS_WITH_AS((void)searcher.search(std::span<const Ray>(), scratch), "there must be at least one ray",
+                         std::invalid_argument);
+    rays[3].direction = {0, 0, 0};
+    CHECK_THROWS_WITH_AS((void)searcher.search(rays, scratch), "ray 3: direction must be non-zero (got 0 0 0)",
+                         std::invalid_argument);
+    rays[3] = {{0, 0, 11}, {0, 0, 1}};
+    CHECK_THROWS_WITH_AS((void)searcher.search(rays, scratch), doctest::Contains("none was to start farther"),
+                         std::invalid_argument);
+    const std::array<float, 3> nan{NAN, 0, 0};
+    CHECK_THROWS_WITH_AS((void)searcher.search(RaysView{1, nan.data(), nan.data()}, scratch),
+                         doctest::Contains("ray 0: origin must be finite"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(Searcher({}, {Technique::box_tree, BoxTreeParameters{}}), "there must be at least one disc",
+                         std::invalid_argument);
+    CHECK_THROWS_AS(Searcher(discs(), {Technique::box_tree, GridParameters{}}), std::invalid_argument);
+    CHECK(searcher.search(rays_of(1, 5), scratch).progress.done == 5);
+  }
+}
