@@ -1,14 +1,32 @@
-# Installs the build tree beside itself, then configures, builds and runs the consumer against what was installed.
-# Called with -D BUILD=<build tree> -D SOURCE=<consumer's folder> -D GENERATOR=<generator>.
+# Installs the build tree, then builds and runs against what was installed: a renderer's loop by find_package and by
+# pkg-config, and a program that needs the formulas alone, without the packages that the other parts need.
+# Called with -D BUILD=<build tree> -D SOURCE=<consumer's folder> -D GENERATOR=<generator> -D COMPILER=<C++ compiler>.
 set(prefix ${BUILD}/consumer/prefix)
 file(REMOVE_RECURSE ${BUILD}/consumer)
-foreach(step "${CMAKE_COMMAND};--install;${BUILD};--prefix;${prefix}"
-             "${CMAKE_COMMAND};-S;${SOURCE};-B;${BUILD}/consumer/build;-G;${GENERATOR};-D;CMAKE_PREFIX_PATH=${prefix};-D;CMAKE_BUILD_TYPE=Release"
-             "${CMAKE_COMMAND};--build;${BUILD}/consumer/build"
-             "${BUILD}/consumer/build/consumer")
-  execute_process(COMMAND ${step} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE failed OUTPUT_VARIABLE output ERROR_VARIABLE output)
   if(failed)
-    message(FATAL_ERROR "${step}\n${output}")
+    message(FATAL_ERROR "${ARGN}\n${output}")
   endif()
+  message("${output}")
+endfunction()
+
+run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${prefix})
+foreach(formulas_only OFF ON)
+  set(tree ${BUILD}/consumer/formulas-only-${formulas_only})
+  run(${CMAKE_COMMAND} -S ${SOURCE} -B ${tree} -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${prefix} -D CMAKE_BUILD_TYPE=Release
+      -D CMAKE_CXX_COMPILER=${COMPILER} -D FORMULAS_ONLY=${formulas_only} -D DETP_HEADERS=${prefix}/include)
+  run(${CMAKE_COMMAND} --build ${tree})
+  run(${tree}/consumer)
 endforeach()
-message("${output}")
+
+find_program(PKG_CONFIG pkg-config REQUIRED)
+file(GLOB_RECURSE packages ${prefix}/detp.pc)
+get_filename_component(folder ${packages} DIRECTORY)
+set(ENV{PKG_CONFIG_PATH} ${folder})
+execute_process(COMMAND ${PKG_CONFIG} --cflags --libs detp OUTPUT_VARIABLE flags COMMAND_ERROR_IS_FATAL ANY
+                OUTPUT_STRIP_TRAILING_WHITESPACE)
+separate_arguments(flags UNIX_COMMAND "${flags}")
+run(${COMPILER} -std=c++20 ${SOURCE}/renderer_loop.cpp -o ${BUILD}/consumer/by-pkg-config ${flags})
+run(${BUILD}/consumer/by-pkg-config)

@@ -100,15 +100,15 @@ class JobMaker {
   void from_scene_and_files() {
     if (request_.scene) open_scene();
     if (request_.disc_file) {
-      if (request_.samples) throw std::invalid_argument("--samples is for scenes; a disc file is taken whole");
+      if (request_.samples) throw std::invalid_argument("the number of samples is for scenes; a disc file is taken whole");
       std::optional<double> radius;
       if (request_.disc_radius && !request_.disc_radius->relative) radius = request_.disc_radius->value;
       if (request_.disc_radius && request_.disc_radius->relative)
-        throw std::invalid_argument("with --discs the disc radius must be a length, not a percentage");
+        throw std::invalid_argument("with a disc file the disc radius must be a length, not a percentage");
       job_.discs = sim::read_discs(*request_.disc_file, radius, stop_);
       job_.name = request_.scene ? job_.name : *request_.disc_file;
     }
-    if (job_.discs.empty()) throw std::invalid_argument("rays alone answer nothing: name a scene or --discs FILE");
+    if (job_.discs.empty()) throw std::invalid_argument("rays alone answer nothing: name a scene or a disc file");
   }
 
   void open_scene() {
@@ -128,7 +128,7 @@ class JobMaker {
 
   void make_rays() {
     if (request_.ray_file) {
-      if (request_.rays) throw std::invalid_argument("--rays is for fields of rays; a ray file is taken whole");
+      if (request_.rays) throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
       job_.rays = sim::read_rays(*request_.ray_file, stop_);
       job_.field = sim::Field::photons;
       return;
@@ -158,7 +158,7 @@ class JobMaker {
   }
 
   const sim::Scene& scene_for_photons() const {
-    if (!scene_) throw std::invalid_argument("photon paths take a scene; name one, or use --field isotropic");
+    if (!scene_) throw std::invalid_argument("photon paths need a scene; name one, or choose the isotropic field");
     return *scene_;
   }
 
@@ -225,10 +225,10 @@ Length parse_length(std::string_view text) {
 }
 
 Workload workload_of_numbers(const JobRequest& request) {
-  if (!request.samples) throw std::invalid_argument("without a scene, the number of samples is needed: --samples N");
-  if (!request.disc_radius) throw std::invalid_argument("without a scene, the disc radius is needed: --disc-radius d");
+  if (!request.samples) throw std::invalid_argument("without a scene, the number of samples is needed");
+  if (!request.disc_radius) throw std::invalid_argument("without a scene, the disc radius is needed");
   if (!request.sphere_radius && !request.scene_side)
-    throw std::invalid_argument("without a scene, its size is needed: --sphere-radius r0 or --scene-side s");
+    throw std::invalid_argument("without a scene, its size is needed: the radius of S0 or the side of the scene");
   if (request.sphere_radius) require_positive("sphere radius", *request.sphere_radius);
   if (request.scene_side) require_positive("scene side", *request.scene_side);
   double d = request.disc_radius->value;

@@ -47,12 +47,12 @@ void Checkpoint::read(std::stop_token stop) {
   try {
     const Json json = Json::parse(sim::read_file(path_.string(), most_bytes, std::move(stop)));
     if (json.at("schema").at("name") != schema || json.at("schema").at("version") != 1)
-      throw sim::FileError(path_.string(), "is not a checkpoint of this version; use a file written by --checkpoint");
+      throw sim::FileError(path_.string(), "is not a checkpoint of this version of detp");
     if (json.at("seed") != seed_)
       throw sim::FileError(path_.string(),
                            fmt::format("was made with seed {}, not {}", json.at("seed").get<std::uint64_t>(), seed_));
     if (json.at("fingerprint") != fingerprint_)
-      throw sim::FileError(path_.string(), "was made with other formulas or workloads; start again without --resume");
+      throw sim::FileError(path_.string(), "was made with other formulas or workloads; start again without it");
     for (const auto& [name, rows] : json.at("points").items())
       for (const Json& row : rows) points_[name].push_back(deviation_of(row));
   } catch (const nlohmann::json::exception& error) {

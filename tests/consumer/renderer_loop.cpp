@@ -1,0 +1,38 @@
+// A renderer's loop: photon segments, frame after frame, become the irradiance at fixed samples.
+#include <cstdio>
+#include <cstdlib>
+#include <detp/detp.hpp>
+
+struct Sample {  // as a renderer keeps them: floats, among other things
+  float position[3], normal[3];
+  int material;
+};
+struct Segment {
+  float origin[3], direction[3], length, power;
+};
+
+int main() {
+  const auto random = [] { return static_cast<float>(std::rand()) / static_cast<float>(RAND_MAX); };
+  std::vector<Sample> floor(10'000);
+  for (Sample& sample : floor) sample = {{random(), random(), 0}, {0, 0, 1}, 7};
+  const detp::sim::DiscsView discs{floor.size(), {floor[0].position, sizeof(Sample)}, {floor[0].normal, sizeof(Sample)}, 0.02};
+
+  std::vector<Segment> photons(20'000);  // from a square lamp one unit above the floor
+  const detp::sim::RaysView rays{photons.size(), {photons[0].origin, sizeof(Segment)}, {photons[0].direction, sizeof(Segment)},
+                                 {&photons[0].length, sizeof(Segment)}, {&photons[0].power, sizeof(Segment)}};
+  const auto trace_photons = [&] {
+    for (Segment& s : photons) s = {{random(), random(), 1}, {random() - 0.5F, random() - 0.5F, -1}, 9, 1.0F / 20'000};
+  };
+
+  trace_photons();
+  const detp::Candidate best = detp::validate::choose(rays, discs);  // of all techniques, by their cost models
+  const detp::sim::Searcher searcher(discs, best);                   // the index over the samples, built once
+  detp::sim::SearchScratch scratch;
+  for (int frame = 0; frame < 3; ++frame) {
+    trace_photons();
+    const detp::sim::Outcome& found = searcher.search(rays, scratch, {.count = false, .standard_error = true});
+    std::printf("%s: %llu hits; irradiance of sample 0: %.3f +- %.3f\n", detp::describe(best).c_str(),
+                static_cast<unsigned long long>(found.total_hits), found.irradiance[0], found.standard_error[0]);
+    if (found.total_hits == 0) return 1;
+  }
+}
