@@ -100,7 +100,8 @@ class JobMaker {
   void from_scene_and_files() {
     if (request_.scene) open_scene();
     if (request_.disc_file) {
-      if (request_.samples) throw std::invalid_argument("the number of samples is for scenes; a disc file is taken whole");
+      if (request_.samples)
+        throw std::invalid_argument("the number of samples is for scenes; a disc file is taken whole");
       std::optional<double> radius;
       if (request_.disc_radius && !request_.disc_radius->relative) radius = request_.disc_radius->value;
       if (request_.disc_radius && request_.disc_radius->relative)
@@ -128,7 +129,8 @@ class JobMaker {
 
   void make_rays() {
     if (request_.ray_file) {
-      if (request_.rays) throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
+      if (request_.rays)
+        throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
       job_.rays = sim::read_rays(*request_.ray_file, stop_);
       job_.field = sim::Field::photons;
       return;

@@ -51,6 +51,20 @@ std::string spaced(double count) {
 
 }  // namespace
 
+namespace {
+
+/// The library does not know options: here the message names the one that is missing.
+void require_numbers(const validate::JobRequest& request) {
+  const auto need = [](bool given, std::string_view what, std::string_view option) {
+    if (!given) throw std::invalid_argument(fmt::format("without a scene, {} is needed: {}", what, option));
+  };
+  need(request.samples.has_value(), "the number of samples", "--samples N");
+  need(request.disc_radius.has_value(), "the disc radius", "--disc-radius d");
+  need(request.sphere_radius || request.scene_side, "its size", "--sphere-radius r0 or --scene-side s");
+}
+
+}  // namespace
+
 std::string_view name(sim::Field field) { return field == sim::Field::isotropic ? "isotropic" : "photons"; }
 
 void WorkloadOptions::add_to(CLI::App& command, Values values) {
@@ -85,6 +99,7 @@ validate::JobRequest WorkloadOptions::request(const CommonOptions& common) const
   if (!request.numbers_alone() && (request.sphere_radius || request.scene_side))
     throw std::invalid_argument(
         "--sphere-radius and --scene-side describe a workload in numbers; a scene has its own size");
+  if (request.numbers_alone()) require_numbers(request);
   return request;
 }
 
