@@ -226,11 +226,11 @@ void sweep(const ValidateOptions& options, const CommonOptions& common, const st
 }
 
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
-  check_effort(options, options.workload.request(common));
+  check_effort(options, options.workload.request(common, false));
   check_files(options, common, stop);
   const ProgressLine progress(common);
   Result result;
-  const validate::Experiment experiment = make_experiment(options.workload.request(common), common, stop, result);
+  const validate::Experiment experiment = make_experiment(options.workload.request(common, false), common, stop, result);
   sim::Progress done;
   const auto findings = validate::all_findings(
       experiment, [&](std::string_view next, double share) { progress.show(next, share); }, &done);

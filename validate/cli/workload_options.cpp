@@ -93,13 +93,13 @@ void WorkloadOptions::add_to(CLI::App& command, Values values) {
   command.add_flag("--front-facing", request_.front_facing, "count only rays that arrive at a disc's front");
 }
 
-validate::JobRequest WorkloadOptions::request(const CommonOptions& common) const {
+validate::JobRequest WorkloadOptions::request(const CommonOptions& common, bool complete) const {
   validate::JobRequest request = request_;
   request.seed = common.seed;
   if (!request.numbers_alone() && (request.sphere_radius || request.scene_side))
     throw std::invalid_argument(
         "--sphere-radius and --scene-side describe a workload in numbers; a scene has its own size");
-  if (request.numbers_alone()) require_numbers(request);
+  if (complete && request.numbers_alone()) require_numbers(request);
   return request;
 }
 

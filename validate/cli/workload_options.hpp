@@ -22,8 +22,9 @@ class WorkloadOptions {
 
   ValueLists lists;  ///< of the options that may have many values
 
-  /// What the chosen row asks for. Throws std::invalid_argument for options that do not go together.
-  [[nodiscard]] validate::JobRequest request(const CommonOptions& common) const;
+  /// What the chosen row asks for. Throws std::invalid_argument for options that do not go together and, unless the
+  /// command completes it by defaults of its own, for numbers that lack one.
+  [[nodiscard]] validate::JobRequest request(const CommonOptions& common, bool complete = true) const;
 
  private:
   validate::JobRequest request_;
