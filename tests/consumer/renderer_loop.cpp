@@ -3,9 +3,8 @@
 #include <cstdlib>
 #include <detp/detp.hpp>
 
-struct Sample {  // as a renderer keeps them: floats, among other things
+struct Sample {  // as a renderer keeps them
   float position[3], normal[3];
-  int material;
 };
 struct Segment {
   float origin[3], direction[3], length, power;
@@ -15,11 +14,14 @@ int main() {
   const auto random = [] { return static_cast<float>(std::rand()) / static_cast<float>(RAND_MAX); };
   std::vector<Sample> floor(10'000);
   for (Sample& sample : floor) sample = {{random(), random(), 0}, {0, 0, 1}, 7};
-  const detp::sim::DiscsView discs{floor.size(), {floor[0].position, sizeof(Sample)}, {floor[0].normal, sizeof(Sample)}, 0.02};
-
+  const detp::sim::DiscsView discs{
+      floor.size(), {floor[0].position, sizeof(Sample)}, {floor[0].normal, sizeof(Sample)}, 0.02};
   std::vector<Segment> photons(20'000);  // from a square lamp one unit above the floor
-  const detp::sim::RaysView rays{photons.size(), {photons[0].origin, sizeof(Segment)}, {photons[0].direction, sizeof(Segment)},
-                                 {&photons[0].length, sizeof(Segment)}, {&photons[0].power, sizeof(Segment)}};
+  const detp::sim::RaysView rays{photons.size(),
+                                 {photons[0].origin, sizeof(Segment)},
+                                 {photons[0].direction, sizeof(Segment)},
+                                 {&photons[0].length, sizeof(Segment)},
+                                 {&photons[0].power, sizeof(Segment)}};
   const auto trace_photons = [&] {
     for (Segment& s : photons) s = {{random(), random(), 1}, {random() - 0.5F, random() - 0.5F, -1}, 9, 1.0F / 20'000};
   };

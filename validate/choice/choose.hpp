@@ -1,8 +1,8 @@
 #pragma once
 
 #include "detp/sim/search/views.hpp"
-#include "detp/validate/choice/measure.hpp"
-#include "detp/validate/choice/unit_costs.hpp"
+#include "measure.hpp"
+#include "unit_costs.hpp"
 
 namespace detp::validate {
 
