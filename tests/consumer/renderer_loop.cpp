@@ -13,7 +13,7 @@ struct Segment {
 int main() {
   const auto random = [] { return static_cast<float>(std::rand()) / static_cast<float>(RAND_MAX); };
   std::vector<Sample> floor(10'000);
-  for (Sample& sample : floor) sample = {{random(), random(), 0}, {0, 0, 1}, 7};
+  for (Sample& sample : floor) sample = {{random(), random(), 0}, {0, 0, 1}};
   const detp::sim::DiscsView discs{
       floor.size(), {floor[0].position, sizeof(Sample)}, {floor[0].normal, sizeof(Sample)}, 0.02};
   std::vector<Segment> photons(20'000);  // from a square lamp one unit above the floor

@@ -187,7 +187,7 @@ TEST_SUITE("bad input") {
          resumed("{}", "is not a checkpoint"),
          resumed(std::string(5000, '['), "is not a checkpoint"),
          resumed(R"({"schema":{"name":"detp.sweep-checkpoint","version":1},"seed":7})", "was made with seed 7"),
-         resumed(R"({"schema":{"name":"detp.sweep-checkpoint","version":9}})", "no checkpoint of this version"),
+         resumed(R"({"schema":{"name":"detp.sweep-checkpoint","version":9}})", "not a checkpoint of this version"),
          {"validate --effort thorough --checkpoint " + folder.path("missing/c"), "cannot be written"},
          {"validate --effort thorough --resume --checkpoint " + folder.path(""), "Is a directory"}});
   }
