@@ -24,6 +24,7 @@ struct RunOptions {
   CandidateOptions candidate;
   int repeat = 0;
   std::optional<std::string> per_disc;
+  bool standard_error = false;
   std::optional<std::string> pairs;
 };
 
@@ -56,10 +57,12 @@ void write_pairs(const std::string& path, const std::vector<sim::Pair>& pairs, c
 void write_per_disc(const std::string& path, const sim::Outcome& outcome, const std::stop_token& stop) {
   sim::WritingCheck check(path, outcome.hits.size(), "discs", stop);
   sim::OutputFile file(path);
-  file.write("disc,hits,irradiance\n");
+  const bool errors = !outcome.standard_error.empty();
+  file.write(errors ? "disc,hits,irradiance,standard_error\n" : "disc,hits,irradiance\n");
   for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc) {
     check.next();
-    file.write(fmt::format("{},{},{}\n", disc, outcome.hits[disc], outcome.irradiance[disc]));
+    const std::string error = errors ? fmt::format(",{}", outcome.standard_error[disc]) : "";
+    file.write(fmt::format("{},{},{}{}\n", disc, outcome.hits[disc], outcome.irradiance[disc], error));
   }
   file.commit();
 }
@@ -68,6 +71,8 @@ void write_per_disc(const std::string& path, const sim::Outcome& outcome, const 
 void check_files(const RunOptions& options, const CommonOptions& common, std::size_t rows) {
   if (rows > 1 && (options.per_disc || options.pairs))
     throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
+  if (options.standard_error && !options.per_disc)
+    throw std::invalid_argument("--standard-error is a column of --per-disc FILE; give that too");
   check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
 }
 
@@ -109,8 +114,9 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Com
                    .random_rays = !options.workload.request(common).ray_file};
   const Engine engine = options.candidate.engine;
   sim::RunOptions run{.pairs = options.pairs.has_value(), .engine = engine, .stop = stop, .threads = common.threads};
+  run.standard_error = options.standard_error;
   answer.run = run_job(job, answer.candidate, run, progress);
-  run.count = run.pairs = false;
+  run.count = run.pairs = run.standard_error = false;
   answer.timing =
       time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run, progress);
   return answer;
@@ -166,6 +172,8 @@ Command run_command(CLI::App& program) {
   options->candidate.add_to(*app, Values::many, SphereStop::best);
   add_number(*app, "--repeat", options->repeat, "time that many further runs, which do not count; the median is shown");
   app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");
+  app->add_flag("--standard-error", options->standard_error,
+                "add the standard error of each irradiance to --per-disc, for independent rays");
   app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_run(*options, common, stop);

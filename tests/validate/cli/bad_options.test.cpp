@@ -191,6 +191,7 @@ TEST_SUITE("bad input") {
                    {numbers + "--form published,wrong", "published,corrected"},
                    {"model --samples 10 --scene-side 1 --disc-radius 1%:4:1%", "start:end:step"},
                    {"choose --samples 10 --disc-radius 0.1 --scene-side 1 --rays 1e3,1e4", "--rays"},
+                   {uniform + "--standard-error", "--per-disc"},
                    {uniform + "--technique grid --cells 4,8 --per-disc x.csv", "--per-disc"}});
   }
 

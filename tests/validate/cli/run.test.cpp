@@ -91,6 +91,29 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE("--standard-error adds a column, and changes no other") {
+    const ScratchFolder folder;
+    const auto written = [&](const std::string& more) {
+      const std::string path = folder.path("discs.csv");
+      CHECK(detp("run @uniform --samples 40 --rays 3000 --disc-radius 5% --per-disc " + path + more).code == 0);
+      return sim::support::content_of(path);
+    };
+    std::string with = written(" --standard-error");
+    CHECK(with.starts_with("disc,hits,irradiance,standard_error\n"));
+    std::string without;
+    for (const std::string& row : rows_of(with)) {
+      const std::size_t last = row.rfind(',');
+      const std::size_t hits_at = row.find(',') + 1;
+      const double hits = std::stod(row.substr(hits_at));
+      const double irradiance = std::stod(row.substr(row.find(',', hits_at) + 1));
+      // All lines carry the same power.
+      const double expected = irradiance * std::sqrt((1 - hits / 3000) / hits * 3000 / 2999);
+      if (hits > 0) CHECK(std::stod(row.substr(last + 1)) == doctest::Approx(expected));
+      without += row.substr(0, last) + "\n";
+    }
+    CHECK("disc,hits,irradiance\n" + without == written(""));
+  }
+
   TEST_CASE("own discs and rays: every technique writes the bytes that brute force writes") {
     const OwnData data;
     const Written both = check_all_agree(data.csv);
