@@ -131,11 +131,11 @@ TEST_SUITE("bad input") {
     const Tables tables;
     const std::string rays = tables.folder.file("rays.csv", ray_header + "0,0,0,0,0,1,1,1\n");
     const Arguments run{"run", "--discs", tables.discs};
-    check_refused({{run + words("--samples 4"), "--samples"},
+    check_refused({{run + words("--samples 4"), "number of samples"},
                    {run + words("--disc-radius 4%"), "percentage"},
                    {run + words("--field photons"), "scene"},
-                   {run + Arguments{"--rays", "5", "--ray-file", rays}, "--rays"},
-                   {Arguments{"run", "--ray-file", rays}, "--discs"},
+                   {run + Arguments{"--rays", "5", "--ray-file", rays}, "number of rays"},
+                   {Arguments{"run", "--ray-file", rays}, "disc file"},
                    {words("validate --front-facing"), "--front-facing"},
                    {words("validate --field photons"), "--field photons"}});
   }

@@ -129,7 +129,7 @@ TEST_SUITE("checkpoint") {
     CHECK(content_of(folder.path("sweep.json")) == content);
     for (const std::string bad : {"", "{", "[]", "{\"schema\":{\"name\":\"x\",\"version\":1}}", "null"}) {
       folder.file("sweep.json", bad);
-      CHECK(file_error_of([&] { (void)run_sweep(points, options); }).find("no checkpoint") != std::string::npos);
+      CHECK(file_error_of([&] { (void)run_sweep(points, options); }).find("not a checkpoint") != std::string::npos);
       CHECK(content_of(folder.path("sweep.json")) == bad);
     }
   }
