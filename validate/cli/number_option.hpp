@@ -14,7 +14,7 @@ namespace detp::cli {
 /// Throws std::invalid_argument, naming the option, unless the text is a decimal number in the range of doubles.
 [[nodiscard]] double parse_number(std::string_view option, std::string_view text);
 
-/// The same for a whole number from least to most: "1000" or "1e3".
+/// Reads a whole number from least to most: "1000" or "1e3". Throws as parse_number does.
 [[nodiscard]] std::int64_t parse_whole(std::string_view option, std::string_view text,
                                        std::int64_t least = std::numeric_limits<std::int64_t>::min(),
                                        std::int64_t most = std::numeric_limits<std::int64_t>::max());
