@@ -64,7 +64,7 @@ class IndexedSearch final : public RaySearch {
   const Problem& problem_;
   StopCheck check_;
   Tally<counting> tally_;
-  std::pmr::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray known to hit it or not; 0: none yet
+  std::pmr::vector<std::uint32_t> last_ray_;  ///< for each disc: 1 + the last ray that was decided for it; 0: none yet
   FoundPairs* hits_ = nullptr;
 };
 

@@ -29,8 +29,8 @@ class CellWalk : public ListWalk {
         entered_(other.entered_),
         spheres_(other.spheres_, &memory) {}
 
-  /// Goes to the next disc's cells. The first level, 1 or more, at which they are not those of the disc before; depth +
-  /// 1 where all are.
+  /// Advances to the cells of the next disc. Returns the first level, at least 1, at which they differ from those of
+  /// the disc before; depth + 1 if all are equal.
   int enter(const Disc& disc) override;
   [[nodiscard]] int innermost() const override { return deepest(); }
   [[nodiscard]] int deepest() const override { return static_cast<int>(spheres_.size()) - 1; }

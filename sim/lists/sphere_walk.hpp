@@ -27,7 +27,7 @@ class SphereWalk : public ListWalk {
   SphereWalk(const SphereWalk& other, std::pmr::memory_resource& memory)
       : serving_(other.serving_), spheres_(other.spheres_, &memory), built_(other.built_) {}
 
-  /// How many spheres those are. At most about 10⁹·ln(r₀/r) where Q = 1 - 1e-9: their memory is worth a check first.
+  /// The number of these spheres. For Q = 1 - 1e-9 it can reach about 10⁹·ln(r₀/r), so check their memory first.
   [[nodiscard]] static double levels(const Problem& problem, const SphereCacheParameters& parameters);
 
   int enter(const Disc& disc) override;

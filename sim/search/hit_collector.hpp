@@ -53,8 +53,8 @@ class HitCollector {
 
   [[nodiscard]] std::uint64_t kept() const { return kept_; }
 
-  /// Moves what was found into the outcome: powers become irradiance, unless the totals are another's. `rays` of the
-  /// problem's first rays have been searched, fewer than all where the search was stopped.
+  /// Moves the results into the outcome. Powers become irradiance, unless the totals are the caller's. `rays` is the
+  /// number of first rays that have been searched; it is less than all if the search was stopped.
   void give(std::uint64_t rays) {
     outcome_.progress = {rays, problem_.rays.size()};
     outcome_.stopped = rays < problem_.rays.size() || !sort_pairs(outcome_.pairs, options_.stop);
@@ -71,8 +71,8 @@ class HitCollector {
     if (options_.totals != nullptr) before_.emplace(*options_.totals, options_.memory);
   }
 
-  /// The same of a search that was stopped when all rays had been tested against these discs. Totals of another's are
-  /// as they were before: they could not be told to lack some discs.
+  /// Moves the results of a stopped search into the outcome, when all rays had been tested against the discs in `done`.
+  /// The caller's totals are restored, because they cannot show that some discs are missing.
   void give_discs(std::span<const std::uint32_t> done) {
     outcome_.stopped = true;
     outcome_.pairs.clear();
@@ -93,7 +93,7 @@ class HitCollector {
   const Problem& problem_;
   const RunOptions& options_;
   Outcome& outcome_;
-  std::optional<Totals> before_;  ///< the shared totals at first
+  std::optional<Totals> before_;  ///< the initial value of the shared totals
   Totals own_;
   std::uint64_t kept_ = 0;
 };

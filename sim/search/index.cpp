@@ -60,7 +60,7 @@ void search(const Index& index, const Problem& problem, const RunOptions& option
     StopCheck(options.stop, "beginning").now();
     options.standard_error ? search_with_error(index, problem, options, outcome)
                            : index.search(problem, options, outcome);
-  } catch (const Stopped&) {  // before the search
+  } catch (const Stopped&) {  // stopped before the search
     const double bytes = outcome.bytes;
     outcome = nothing_found(problem, options);
     outcome.bytes = bytes;

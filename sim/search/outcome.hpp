@@ -24,7 +24,7 @@ struct Pair {
 /// Pairs that a search has found so far.
 using FoundPairs = std::pmr::vector<Pair>;
 
-/// Where the time went, in seconds.
+/// The time of each phase in seconds.
 struct Phases {
   double order = 0;   ///< sorting the samples
   double build = 0;   ///< building an index
@@ -33,7 +33,7 @@ struct Phases {
 };
 
 struct RunOptions {
-  bool count = true;            ///< fill in Outcome::counts; a timing run turns it off and pays nothing for it
+  bool count = true;            ///< fill in Outcome::counts; turned off for timing, so that counting costs nothing
   bool pairs = false;           ///< fill in Outcome::pairs
   bool standard_error = false;  ///< fill in Outcome::standard_error
   Engine engine = Engine::simd;
@@ -96,7 +96,7 @@ struct Outcome {
 /// Empties an outcome, and keeps the memory of its arrays.
 void clear(Outcome& outcome);
 
-/// Fills in the outcome's hits and irradiance from totals, one for each disc.
+/// Fills in the outcome's hits and irradiance from the totals, one for each disc.
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
 
 /// For a stopped outcome with marked done_discs: removes the hits of all other discs, and sets progress and total.

@@ -74,7 +74,7 @@ Counts<std::uint64_t> search_alone(Chunks& chunks, MakeRaySearch make, Sum& sum)
   return search->counts();
 }
 
-/// A chunk leaves the pipeline after all before it, so that its buffer is free when its turn comes again.
+/// A chunk leaves the pipeline after all earlier ones, so its buffer is free when its turn comes again.
 Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, MakeRaySearch make, Sum& total) {
   using namespace oneapi::tbb;
   enumerable_thread_specific<OwnedIn<RaySearch>> searches([&] { return make(); });

@@ -13,7 +13,7 @@ class RaySearch {
  public:
   virtual ~RaySearch() = default;
 
-  /// Appends the hits of rays first … last - 1; those of any one disc in the order of the rays. May throw Stopped.
+  /// Appends the hits of rays first … last - 1; those of any one disc in ray order. May throw Stopped.
   virtual void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) = 0;
 
   [[nodiscard]] virtual Counts<std::uint64_t> counts() const = 0;
@@ -22,15 +22,15 @@ class RaySearch {
 /// Makes the search of one thread, in memory of RunOptions::memory.
 using MakeRaySearch = FunctionRef<OwnedIn<RaySearch>()>;
 
-/// Searches all rays of the problem and fills in the outcome. Checks for a stop request between chunks of rays; a
-/// stopped run keeps the hits of all chunks before the first that was not finished.
+/// Searches all rays of the problem and fills in the outcome. Checks for a stop request between chunks of rays. A
+/// stopped run keeps the hits of all chunks before the first unfinished one.
 ///
-/// Chunks of 64 rays are searched by options.threads threads at once, each with a search of its own. Their hits are
-/// added to the totals chunk after chunk, while later ones are searched, so that powers are summed in the rays' order
-/// whatever the threads do. No more than four chunks a thread are under way: in memory are the hits of so many.
+/// options.threads threads search chunks of 64 rays in parallel, each with its own search object. Meanwhile the hits of
+/// finished chunks are added to the totals, chunk by chunk, so powers are always summed in ray order. At most four
+/// chunks per thread are in flight, which limits the hits in memory.
 ///
-/// Only one thread adds at a time. That takes 2 ns a hit among 10⁴ discs and 16 among 10⁶ (hits at random), where a
-/// grid over 10⁵ discs takes 3 µs to find one: it would take hundreds of threads to wait for it.
+/// Only one thread adds up at a time. That takes 2 ns a hit for 10⁴ discs and 16 ns for 10⁶ (hits at random), while a
+/// grid over 10⁵ discs takes 3 µs to find a hit: only with hundreds of threads would they have to wait.
 void search_rays(const Problem& problem, const RunOptions& options, MakeRaySearch make, Outcome& outcome);
 
 }  // namespace detp::sim

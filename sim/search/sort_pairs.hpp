@@ -9,7 +9,7 @@
 
 namespace detp::sim {
 
-/// Appends a pair. Throws std::length_error before the array grows beyond the memory.
+/// Appends a pair. Throws std::length_error before the array would exceed the memory budget.
 template <class Pairs>
 void add_pair(Pairs& pairs, const Pair& pair) {
   if (pairs.size() == pairs.capacity()) require_memory("the pairs", grown_bytes(pairs.size() + 1, sizeof(Pair)));

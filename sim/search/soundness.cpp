@@ -72,7 +72,7 @@ void refuse_unsound(const Disc& disc, std::uint64_t number) {
         fmt::format("{}radius must be from 1e-100 to 1e100, or its square overflows (got {})", who, disc.radius));
 }
 
-/// What a look at some rays shows.
+/// Properties of some rays, found by the fast tests.
 struct Glance {
   double farthest2 = 0;  ///< squared distance of the farthest origin
   double least_power = unbounded;

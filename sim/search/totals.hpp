@@ -17,7 +17,7 @@ struct DiscTotals {
   glm::dvec3 power{0.0};  ///< by the rays' dominant_axis: three sums, each in ray order
 };
 
-/// One for each disc, in their order. (32 bytes together: a hit touches one line of the cache.)
+/// One for each disc, in their order. (32 bytes each, so a hit touches one cache line.)
 using Totals = std::pmr::vector<DiscTotals>;
 
 /// Power divided by the disc's area.

@@ -99,8 +99,8 @@ class PlainSearch {
   Outcome& outcome_;
   HitCollector collector_;
   Tally<counting> tally_;
-  std::pmr::deque<RayList> lists_;  ///< one for each level: children are visited one after another
-  std::size_t done_ = 0;            ///< the discs before it in the order
+  std::pmr::deque<RayList> lists_;  ///< one for each level, because children are visited one after another
+  std::size_t done_ = 0;            ///< number of discs before the current one in the order
 };
 
 /// Lists of rays are culled down a tree of boxes to its leaves' discs.

@@ -19,8 +19,8 @@ using Rays = std::pmr::vector<std::uint32_t>;
 /// A cell with the rays that cross it, or two halves.
 struct Cell {
   Box box;
-  Rays rays;                ///< empty once it is split
-  std::uint32_t first = 0;  ///< the lower half, followed by the upper one; 0: not split
+  Rays rays;                ///< empty once the cell is split
+  std::uint32_t first = 0;  ///< number of the lower half, which the upper half follows; 0: not split
   bool final = false;       ///< splitting it does not separate its rays
 
   [[nodiscard]] bool is_split() const { return first != 0; }
@@ -41,7 +41,7 @@ class RayMap {
         cells_(options.memory),
         tested_for_(problem.rays.size(), 0, options.memory),
         found_(options.memory) {
-    narrowest_ = 8 * problem.slack;  // to which halves are grown
+    narrowest_ = 8 * problem.slack;  // includes the growth of both halves
     for (const Disc& disc : problem.discs) narrowest_ = std::max(narrowest_, 2 * disc.radius);
     Rays all(problem.rays.size(), options.memory);
     std::iota(all.begin(), all.end(), 0U);
@@ -112,7 +112,7 @@ class RayMap {
                        problem_);
   }
 
-  /// A ray that is in several cells of the disc is tested once.
+  /// A ray in several cells of the disc is tested once.
   void test(const Rays& rays, std::uint32_t disc) {
     tally_.add(&Counts<std::uint64_t>::visits);
     for_each_checked(std::span(rays), check_, [&](std::uint32_t ray) {
@@ -127,10 +127,10 @@ class RayMap {
   std::size_t leaf_;
   StopCheck check_;
   Tally<counting> tally_;
-  double narrowest_ = 0;  ///< no cell shorter than this is split
+  double narrowest_ = 0;  ///< shorter cells are not split
   std::pmr::vector<Cell> cells_;
-  std::size_t listed_ = 0;  ///< rays in the cells not split, except the root
-  Rays tested_for_;         ///< for each ray: 1 + the last disc it was tested against; 0: none yet
+  std::size_t listed_ = 0;  ///< rays in cells that are not split, except the root
+  Rays tested_for_;         ///< for each ray: 1 + the last disc against which it was tested; 0: none yet
   Rays found_;
 };
 

@@ -84,8 +84,8 @@ class Search {
   Outcome& outcome_;
   HitCollector collector_;
   Tally<counting> tally_;
-  std::pmr::vector<RayList> lists_;  ///< one a level: children are visited one after another
-  std::size_t place_ = 0;            ///< the discs before it in the order are done
+  std::pmr::vector<RayList> lists_;  ///< one for each level, because children are visited one after another
+  std::size_t place_ = 0;            ///< the discs before this place in the order are done
 };
 
 /// Culls the list of rays down the tree, depth first, and tests it against the leaves' discs. Has one list for each

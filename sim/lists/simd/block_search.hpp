@@ -38,7 +38,7 @@ inline constexpr std::size_t tests_a_unit = 16;
 
 /// The data of one thread.
 struct Worker {
-  /// Lists are expected to take so many floats.
+  /// `floats` is the expected total size of its lists.
   explicit Worker(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::stop_token stop = {},
                   std::size_t floats = 0)
       : lists(memory, floats), pairs(memory), check(std::move(stop), "searching"), skipped(memory) {}
@@ -49,7 +49,7 @@ struct Worker {
   Vectors vectors;
   StopCheck check;
   std::pmr::vector<DiscRun>
-      skipped;  ///< discs not, or not wholly, searched in the last block, because of a stop request
+      skipped;  ///< discs that were not completely searched in the last block, because of a stop request
 };
 
 }  // namespace detp::sim::stream

@@ -174,7 +174,7 @@ void Gathering::give_counted() const {
 /// Computes hits and irradiance of the discs at places first … last - 1, if hits were only counted. Returns the number
 /// of their hits.
 std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last) const {
-  constexpr std::size_t ahead = 32;  // discs that memory is asked for before they are needed
+  constexpr std::size_t ahead = 32;  // number of discs to prefetch
   RepeatedSums sums(*counted_power_, options_.memory);
   std::uint64_t found = 0;
   for (std::size_t place = first; place < last; ++place) {

@@ -98,9 +98,9 @@ class Gathering {
   const DiscTree& tree_;
   const RunOptions& options_;
   Outcome& outcome_;
-  Totals totals_;                        ///< empty as long as hits have only been counted
+  Totals totals_;                        ///< empty while hits have only been counted
   std::pmr::vector<ClassCounts> hits_;   ///< not yet in the totals
-  std::optional<double> counted_power_;  ///< what each of those carries; nothing if their powers are in the totals
+  std::optional<double> counted_power_;  ///< the power of each of those; nullopt if their powers are in the totals
   std::uint64_t found_ = 0;              ///< hits in the totals, not including those of earlier runs
   std::size_t rays_ = 0;                 ///< number of first rays that have been searched for all discs
   bool partial_ = false;                 ///< some discs have been searched for more rays

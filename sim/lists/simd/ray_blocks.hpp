@@ -15,7 +15,7 @@ class Block {
  public:
   explicit Block(std::pmr::memory_resource* memory) : arena_(memory) {}
 
-  /// Loads up to `size` rays, the first of them that one; nothing if there is none.
+  /// Loads up to `size` rays from number `first` on; nothing if there is none.
   void load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size);
 
   [[nodiscard]] std::size_t first() const { return first_; }

@@ -51,7 +51,7 @@ using RayLists = std::array<RayList, classes>;
 /// before it would exceed the memory budget.
 class ListArena {
  public:
-  /// Lists that take so many floats altogether will lie in one chunk.
+  /// `expected` is the total number of floats of its lists; they will be in one chunk.
   explicit ListArena(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::size_t expected = 0)
       : expected_(expected), chunks_(memory) {}
 

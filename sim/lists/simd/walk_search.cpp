@@ -77,7 +77,7 @@ class ClassWalk {
   Worker& worker_;
   std::pmr::vector<SphereCounts>& events_;
   std::pmr::vector<RayList> lists_;
-  std::pmr::vector<ListArena::Mark> marks_;  ///< where the arena stood before each list was made
+  std::pmr::vector<ListArena::Mark> marks_;  ///< the arena's position before each list was made
   std::size_t built_ = 1;
 };
 
