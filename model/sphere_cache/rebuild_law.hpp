@@ -32,10 +32,8 @@
 ///   where  s_i            rebuilds of S_i alone
 ///          m_{i-1}/s_i    rebuilds of the sphere around it relative to these, the crowding
 ///          w              share of its own rebuilds that remain at samples at which the outer sphere stays. If S_i
-///                         moved in
-///                         equal steps independent of S_{i-1}, b would be about ½. Both follow the same curve, so b
-///                         depends
-///                         on the ratio of the balls, on their phase and on λ
+///                        moved in equal steps independent of S_{i-1}, b would be about ½. Both follow the same
+///                        curve, so b depends on the ratio of the balls, on their phase and on λ
 ///
 /// With ever more spheres (ratio → 1) the distance between samples matters: a ball that is only slightly smaller than
 /// the one around it is rebuilt alone only if a sample falls between both. So w is proportional to the logarithm of the
