@@ -27,8 +27,7 @@
 ///   where  ρ   radius of the sphere around the samples themselves, length; <ρ> is its mean, of the same form
 ///          a   side of the cube that has the samples' volume (D = 3), or that has their area on its faces (D = 2)
 ///          R   factor for spheres around runs of c samples alone. On surfaces it grows with ln N without limit: the
-///              curve
-///              has 4^j jumps of size 2^{-j} a, and those of each size add as much to the sum of all ρ² as any other
+///              curve has 4^j jumps of size 2^{-j} a, and those of each size add the same to the sum of all ρ²
 ///          K   how much larger spheres around nested spheres are, l levels above the leaves: for f = 8 from 1.04 to
 ///              1.43, for f = 2 from 1.08 to 2.26, largest near the root
 ///
