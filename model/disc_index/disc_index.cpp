@@ -9,7 +9,7 @@
 namespace detp::model {
 namespace {
 
-Counts<double> leaf_counts(const Workload& workload, const Cells& cells, const IndexVariant& variant) {
+Counts<double> leaf_counts(const Valid<Workload>& workload, const Cells& cells, const IndexVariant& variant) {
   const double references = workload.samples * cells.overlapped;
   const double once = workload.samples * cells.meeting;
   return {.disc_tests = workload.rays * (variant.mailboxing ? once : cells.crossing * references),
@@ -18,7 +18,7 @@ Counts<double> leaf_counts(const Workload& workload, const Cells& cells, const I
 }
 
 /// Grid cells that a ray steps through: the cells' parts inside the discs' box, by their mean surface and volume.
-double steps_of_ray(const Workload& workload, const Cells& cells) {
+double steps_of_ray(const Valid<Workload>& workload, const Cells& cells) {
   std::array<double, 3> length = workload.box;
   for (double& side : length) side += 2 * std::min(workload.disc_radius, 1e99);  // so that the volume does not overflow
   double faces = 0;
@@ -30,9 +30,8 @@ double steps_of_ray(const Workload& workload, const Cells& cells) {
 
 }  // namespace
 
-std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, const OctreeParameters& deepest,
+std::vector<Counts<double>> octree_counts_by_depth(const Valid<Workload>& workload, const OctreeParameters& deepest,
                                                    const IndexVariant& variant) {
-  check(workload);
   require_count("depth", deepest.depth, 0, 300);
   if (deepest.traversal == Traversal::neighbour_links)
     throw std::invalid_argument("an octree with neighbour links has no closed form; the other traversals have");
@@ -60,13 +59,13 @@ std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload, con
   return by_depth;
 }
 
-Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters,
+Counts<double> octree_counts(const Valid<Workload>& workload, const OctreeParameters& parameters,
                              const IndexVariant& variant) {
   return octree_counts_by_depth(workload, parameters, variant).back();
 }
 
-Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters, const IndexVariant& variant) {
-  check(workload);
+Counts<double> grid_counts(const Valid<Workload>& workload, const GridParameters& parameters,
+                           const IndexVariant& variant) {
   require_count("cells a side", parameters.cells, 1, 1e9);
   const Cells cells = index_cells(workload, parameters.cells, variant.insertion);
   Counts<double> counts = leaf_counts(workload, cells, variant);

@@ -39,12 +39,12 @@ namespace detp::model {
 ///            mailboxes 2.1 %; of 1000 samples up to 14 % off, where lines make but some hundred tests.
 /// Throws     std::invalid_argument for a workload or depth out of range, and for neighbour links: how many inner nodes
 ///            a ray goes through from a link down to a leaf has no closed form here.
-[[nodiscard]] std::vector<Counts<double>> octree_counts_by_depth(const Workload& workload,
+[[nodiscard]] std::vector<Counts<double>> octree_counts_by_depth(const Valid<Workload>& workload,
                                                                  const OctreeParameters& deepest,
                                                                  const IndexVariant& variant = {});
 
 /// Expected counts of such an octree of one depth.
-[[nodiscard]] Counts<double> octree_counts(const Workload& workload, const OctreeParameters& parameters,
+[[nodiscard]] Counts<double> octree_counts(const Valid<Workload>& workload, const OctreeParameters& parameters,
                                            const IndexVariant& variant = {});
 
 /// Expected counts of a uniform grid. Rays step through empty cells too.
@@ -54,7 +54,7 @@ namespace detp::model {
 ///   where  m_i   cells along axis i;   L_i   side of the samples' box grown by d on both sides, where rays are clipped
 ///
 /// Accuracy   as for the octree; steps within 1.2 %.
-[[nodiscard]] Counts<double> grid_counts(const Workload& workload, const GridParameters& parameters,
+[[nodiscard]] Counts<double> grid_counts(const Valid<Workload>& workload, const GridParameters& parameters,
                                          const IndexVariant& variant = {});
 
 }  // namespace detp::model

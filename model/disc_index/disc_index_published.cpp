@@ -12,9 +12,8 @@ constexpr int deepest = 2096;
 void check_depth(int depth) { require_count("depth", depth, 0, deepest); }
 
 /// u n_R n_P/4^k in long double: u may be large where 4^{-k} is small.
-long double time(const Workload& workload, int depth, double disc_test) {
+long double time(const Valid<Workload>& workload, int depth, double disc_test) {
   require_non_negative("time of a ray-disc test", disc_test);
-  check(workload);
   check_depth(depth);
   return disc_test * std::ldexp(static_cast<long double>(workload.rays) * workload.samples, -2 * depth);
 }
@@ -46,11 +45,11 @@ double tests_per_line(double samples, int depth) {
   return std::ldexp(samples, -2 * depth);
 }
 
-double octree_time(const Workload& workload, int depth, double disc_test) {
+double octree_time(const Valid<Workload>& workload, int depth, double disc_test) {
   return saturated(depth * time(workload, depth, disc_test));
 }
 
-double balanced_octree_time(const Workload& workload, int depth, double disc_test) {
+double balanced_octree_time(const Valid<Workload>& workload, int depth, double disc_test) {
   return saturated(time(workload, depth, disc_test));
 }
 

@@ -20,12 +20,12 @@ double lines_through(const Axes& n, Insertion insertion) {
 
 double corners_in(const Axes& n) { return n[0].three * n[1].one * n[2].one; }
 
-IndexAxis axis_of(const Workload& workload, const Cells& cells, std::size_t axis) {
+IndexAxis axis_of(const Valid<Workload>& workload, const Cells& cells, std::size_t axis) {
   return {cells.along[axis], cells.side, workload.box[axis], workload.disc_radius};
 }
 
 /// Share of the samples on the two faces across each axis: by area.
-std::array<double, 3> face_shares(const Workload& workload) {
+std::array<double, 3> face_shares(const Valid<Workload>& workload) {
   const auto& box = workload.box;
   std::array<double, 3> areas{box[1] * box[2], box[2] * box[0], box[0] * box[1]};
   const double all = areas[0] + areas[1] + areas[2];
@@ -34,12 +34,12 @@ std::array<double, 3> face_shares(const Workload& workload) {
 }
 
 /// Whether the samples lie on the faces of their box, as far as is known; 0 … 1.
-double on_faces(const Workload& workload) {
+double on_faces(const Valid<Workload>& workload) {
   return workload.sample_extent == 0 ? 1 - std::clamp(workload.dimension - 2, 0.0, 1.0) : 0;
 }
 
 /// E and S, means over where the samples are.
-void put_overlapped(Cells& cells, const Workload& workload) {
+void put_overlapped(Cells& cells, const Valid<Workload>& workload) {
   const double x = workload.disc_radius / cells.side;
   const auto one = [&](std::size_t axis, Centres centres) {
     return crossings(axis_of(workload, cells, axis), centres, cells.insertion);
@@ -79,7 +79,7 @@ double overlap_chance(const std::array<const Slabs*, 3>& slabs, std::size_t fixe
 /// The probability that a disc overlaps a cell, averaged over the places of the samples.
 class OverlapChance {
  public:
-  OverlapChance(const Workload& workload, Insertion insertion)
+  OverlapChance(const Valid<Workload>& workload, Insertion insertion)
       : faces_(on_faces(workload)), shares_(face_shares(workload)), two_(uniform_crossings(1, insertion).two) {}
 
   [[nodiscard]] double operator()(const std::array<const Slabs*, 3>& slabs) const {
@@ -98,8 +98,7 @@ class OverlapChance {
 
 }  // namespace
 
-Cells index_cells(const Workload& workload, double parts, Insertion insertion) {
-  check(workload);
+Cells index_cells(const Valid<Workload>& workload, double parts, Insertion insertion) {
   require_positive("cells along the longest side", parts);
   const double d = std::min(workload.disc_radius, 1e99);  // larger than all cells, but its volume does not overflow
   Cells cells{.side = (scene_side(workload) + 2 * d) / parts, .insertion = insertion};
@@ -113,8 +112,7 @@ Cells index_cells(const Workload& workload, double parts, Insertion insertion) {
   return cells;
 }
 
-double occupied_cells(const Workload& workload, const Cells& cells) {
-  check(workload);
+double occupied_cells(const Valid<Workload>& workload, const Cells& cells) {
   require_positive("cell side", cells.side);
   if (workload.dimension < 3 && workload.sample_extent > 0) {
     const double on_surface =

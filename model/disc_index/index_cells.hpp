@@ -38,7 +38,7 @@ struct Cells {
 ///            cases): E within 2.2 % (median 0.3 %), by bounding box 2.9 % (0.3 %); the noise of 1000 samples is 2 %.
 ///            With d up to side/4, E within 2.1 % (n_P 1e4, 1e5); with larger discs, which no index is for, up to 6 %
 ///            too small, and disc tests with mailboxes up to 13 % too many.
-[[nodiscard]] Cells index_cells(const Workload& workload, double parts, Insertion insertion = Insertion::exact);
+[[nodiscard]] Cells index_cells(const Valid<Workload>& workload, double parts, Insertion insertion = Insertion::exact);
 
 /// Cells that hold at least one disc:
 ///
@@ -51,6 +51,6 @@ struct Cells {
 ///
 /// Samples on surfaces with an extent A of their own: the cells that a random surface crosses, R = min(C, 1.5 A/a²), as
 /// likely each, R (1 - exp(-n_P E/R)); C are all cells. No more than a guess.
-[[nodiscard]] double occupied_cells(const Workload& workload, const Cells& cells);
+[[nodiscard]] double occupied_cells(const Valid<Workload>& workload, const Cells& cells);
 
 }  // namespace detp::model

@@ -15,7 +15,7 @@ void check_layout(const IndexLayout& layout) {
 
 }  // namespace
 
-double octree_bytes(const Workload& workload, const OctreeParameters& parameters, const IndexVariant& variant,
+double octree_bytes(const Valid<Workload>& workload, const OctreeParameters& parameters, const IndexVariant& variant,
                     const IndexLayout& layout) {
   check_layout(layout);
   require_count("depth", parameters.depth, 0, 300);
@@ -28,7 +28,7 @@ double octree_bytes(const Workload& workload, const OctreeParameters& parameters
   return layout.node * nodes + layout.reference * workload.samples * cells.overlapped;
 }
 
-double grid_bytes(const Workload& workload, const GridParameters& parameters, const IndexVariant& variant,
+double grid_bytes(const Valid<Workload>& workload, const GridParameters& parameters, const IndexVariant& variant,
                   const IndexLayout& layout) {
   check_layout(layout);
   require_count("cells a side", parameters.cells, 1, 1e9);

@@ -23,12 +23,12 @@ struct IndexLayout {
 /// Neighbour links are not in it.
 ///
 /// While it is built it takes up to twice that, and the lists of the nodes that are being split.
-[[nodiscard]] double octree_bytes(const Workload& workload, const OctreeParameters& parameters,
+[[nodiscard]] double octree_bytes(const Valid<Workload>& workload, const OctreeParameters& parameters,
                                   const IndexVariant& variant = {}, const IndexLayout& layout = {});
 
 /// Expected bytes of a grid: cell (C + 1) + reference n_P E, C its cells. While it is built, 16 n_P E more.
 /// Accuracy   within 2 % of the bytes taken (median 0.1 %).
-[[nodiscard]] double grid_bytes(const Workload& workload, const GridParameters& parameters,
+[[nodiscard]] double grid_bytes(const Valid<Workload>& workload, const GridParameters& parameters,
                                 const IndexVariant& variant = {}, const IndexLayout& layout = {});
 
 }  // namespace detp::model

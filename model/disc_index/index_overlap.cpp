@@ -7,9 +7,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "detp/model/vocabulary/checks.hpp"
-#include "detp/model/vocabulary/saturated.hpp"
-
 namespace detp::model {
 namespace {
 
@@ -169,16 +166,6 @@ class Collector {
 };
 
 }  // namespace
-
-double overlapped_cells(double x) {
-  require_non_negative("disc radius over cell side", x);
-  return saturated(1 + 1.5L * pi * x * (1 + static_cast<long double>(x)));
-}
-
-double boxed_cells(double x) {
-  require_non_negative("disc radius over cell side", x);
-  return 1 + x * (1.5 * pi + x * (12 * mean_reach_product_2 + 8 * mean_reach_product_3 * x));
-}
 
 Crossings& Crossings::operator+=(const Crossings& other) {
   one += other.one;

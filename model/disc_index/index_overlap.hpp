@@ -16,25 +16,6 @@ inline constexpr double mean_reach_product_2 = 0.5932132264;
 /// Mean product of the reaches along all three axes, divided by d³.
 inline constexpr double mean_reach_product_3 = 0.4218115748;
 
-/// Cells that a uniformly placed disc overlaps, in endless cubic cells:
-///
-///     E = 1 + (3π/2) x + (3π/2) x²
-///
-/// Source     our derivation: a plane of the grid that crosses the disc adds a cell, and so does a line of the grid
-///            (where two planes meet) that pierces it. Planes of one axis: 2 E[h]/a = (π/2) x. Lines along one axis:
-///            the disc seen from there has the area π d² E|n| = (π/2) d².
-/// Accuracy   discs placed at random, x = 1/4 … 2: within 0.1 %.
-/// Throws     std::invalid_argument unless x >= 0 and finite.
-[[nodiscard]] double overlapped_cells(double x);
-
-/// Cells that the axis-aligned bounding box of such a disc overlaps:
-///
-///     E = 1 + (3π/2) x + 12 · 0.5932 x² + 8 · 0.4218 x³
-///
-/// Source     our derivation: E ∏ (1 + 2h_i/a), the box's place along each axis being uniform.
-/// Throws     std::invalid_argument unless x >= 0 and finite.
-[[nodiscard]] double boxed_cells(double x);
-
 /// One axis of an index: cells from 0 in steps of a, and discs whose centres lie from d to d + room. The last cell may
 /// extend beyond 2d + room; no disc does.
 struct IndexAxis {

@@ -20,7 +20,7 @@ using box_tree::Sums;
 /// Σ P over bodies, each of the mean size.
 class Crossing {
  public:
-  Crossing(const Workload& workload, double side)
+  Crossing(const Valid<Workload>& workload, double side)
       : of_surface_(crossing_probability(workload, 0, std::min(largest, unit * side * side)) / unit),
         of_volume_(crossing_probability(workload, std::min(largest, unit * side * side * side), 0) / unit) {}
 
@@ -167,12 +167,12 @@ class Widening {
 };
 
 /// Probability that any ray crosses what each ray crosses with that one.
-double crossed_at_all(const Workload& workload, double share) {
+double crossed_at_all(const Valid<Workload>& workload, double share) {
   return share < 1 ? -std::expm1(workload.rays * std::log1p(-share)) : 1;
 }
 
 /// What `samples` in a cube of that side, or on its faces, meet.
-Met met_in(int dimension, const Workload& workload, double samples, double side, int fan_out, int leaf) {
+Met met_in(int dimension, const Valid<Workload>& workload, double samples, double side, int fan_out, int leaf) {
   constexpr double far = 1e60;  // beyond all that makes a difference
   const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
   const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf);
@@ -196,9 +196,7 @@ Met met_in(int dimension, const Workload& workload, double samples, double side,
 
 }  // namespace
 
-Counts<double> box_tree_counts(const Workload& workload, const BoxTreeParameters& parameters) {
-  check(workload);
-  check(Candidate{Technique::box_tree, parameters});
+Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxTreeParameters>& parameters) {
   const double rays = workload.rays;
   const double samples = workload.samples;
   Counts<double> counts{

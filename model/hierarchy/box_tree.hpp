@@ -58,6 +58,7 @@ inline constexpr int box_tree_largest_leaf = 256;
 /// Limits     n_P <= leaf: one leaf, every ray tested with every disc.
 /// Costs      10 … 90 µs for D = 3, 30 … 190 µs for D = 2, the more the smaller the leaf; 4 ms once for a table.
 /// Throws     std::invalid_argument for a workload or parameters out of range.
-[[nodiscard]] Counts<double> box_tree_counts(const Workload& workload, const BoxTreeParameters& parameters);
+[[nodiscard]] Counts<double> box_tree_counts(const Valid<Workload>& workload,
+                                             const Valid<BoxTreeParameters>& parameters);
 
 }  // namespace detp::model

@@ -44,11 +44,11 @@ double sum_over_cells(const std::array<Side, 3>& along, double samples, const Sh
   return sum;
 }
 
-bool fills_cube(const Workload& workload) {
+bool fills_cube(const Valid<Workload>& workload) {
   return workload.dimension == 3 && workload.box[0] == workload.box[1] && workload.box[1] == workload.box[2];
 }
 
-double occupied_in_box(const Workload& workload, double cell) {
+double occupied_in_box(const Valid<Workload>& workload, double cell) {
   std::array<Side, 3> along;
   std::array<double, 3> faces{};  // share of the box's faces that lie across each axis
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -70,7 +70,7 @@ double occupied_in_box(const Workload& workload, double cell) {
          std::pow(sum_over_cells(along, n, on_faces), 1 - weight);
 }
 
-double occupied_in_extent(const Workload& workload, double cell, int level) {
+double occupied_in_extent(const Valid<Workload>& workload, double cell, int level) {
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
   const double reached = std::pow(1.5, 3 - dimension) * sample_extent(workload) / std::pow(cell, dimension);
   const double cells = std::clamp(reached, 1.0, std::ldexp(1.0, 3 * level));
@@ -79,8 +79,7 @@ double occupied_in_extent(const Workload& workload, double cell, int level) {
 
 }  // namespace
 
-double cell_sphere_radius(const Workload& workload, int level) {
-  check(workload);
+double cell_sphere_radius(const Valid<Workload>& workload, int level) {
   require_level(level);
   return enclosing_radius(std::ldexp(scene_side(workload), -level), workload.disc_radius);
 }
@@ -91,8 +90,7 @@ double occupied_cell_spheres(double samples, int level) {
   return std::ldexp(occupied(std::ldexp(1.0, -3 * level), samples), 3 * level);
 }
 
-double occupied_cell_spheres(const Workload& workload, int level) {
-  check(workload);
+double occupied_cell_spheres(const Valid<Workload>& workload, int level) {
   require_level(level);
   if (level == 0) return 1;
   if (workload.sample_extent == 0 && fills_cube(workload)) return occupied_cell_spheres(workload.samples, level);
@@ -100,15 +98,13 @@ double occupied_cell_spheres(const Workload& workload, int level) {
   return workload.sample_extent > 0 ? occupied_in_extent(workload, cell, level) : occupied_in_box(workload, cell);
 }
 
-double rays_in_cell_sphere(const Workload& workload, int level) {
+double rays_in_cell_sphere(const Valid<Workload>& workload, int level) {
   using std::numbers::pi;
   const double r = std::min(cell_sphere_radius(workload, level), 1e99);  // so that the volume does not overflow
   return workload.rays * crossing_probability(workload, 4 * pi / 3 * r * r * r, 4 * pi * r * r);
 }
 
-Counts<double> cell_sphere_counts(const Workload& workload, const CellSpheresParameters& parameters) {
-  check(workload);
-  check(Candidate{Technique::cell_spheres, parameters});
+Counts<double> cell_sphere_counts(const Valid<Workload>& workload, const Valid<CellSpheresParameters>& parameters) {
   Counts<double> counts{.visits = workload.samples, .sorted = workload.samples, .hits = expected_hits(workload)};
   double around = workload.rays;
   for (int level = 1; level <= parameters.depth; ++level) {

@@ -21,7 +21,7 @@
 namespace detp::model {
 
 /// r_i = s/2^i √3/2 + d.
-[[nodiscard]] double cell_sphere_radius(const Workload& workload, int level);
+[[nodiscard]] double cell_sphere_radius(const Valid<Workload>& workload, int level);
 
 /// Expected non-empty cells at a level, samples uniform in the cube: 8^i (1 - (1 - 8^{-i})^{n_P}).
 ///
@@ -45,10 +45,10 @@ namespace detp::model {
 /// Source     our derivation.
 /// Accuracy   1e-14 in a cube and on its faces; with an extent of their own: an estimate.
 /// Throws     std::invalid_argument unless 0 <= level <= 300.
-[[nodiscard]] double occupied_cell_spheres(const Workload& workload, int level);
+[[nodiscard]] double occupied_cell_spheres(const Valid<Workload>& workload, int level);
 
 /// n_i: n_R times crossing_probability of S_i, n_R (r_i/r₀)² for lines.
-[[nodiscard]] double rays_in_cell_sphere(const Workload& workload, int level);
+[[nodiscard]] double rays_in_cell_sphere(const Valid<Workload>& workload, int level);
 
 /// Expected counts with spheres at the levels 1 … depth of the cube, rays of the workload: each sphere is built once,
 /// from its parent's list, and each disc is tested against the innermost.
@@ -56,6 +56,7 @@ namespace detp::model {
 ///     T_R = t Σ_{i=1..k} m_i n_{i-1},  n_0 = n_R      T_I = u n_P n_k
 ///
 /// Source     our derivation.   Valid  samples uniform in the cube or on its faces, S₀ around it, lines: exact.
-[[nodiscard]] Counts<double> cell_sphere_counts(const Workload& workload, const CellSpheresParameters& parameters);
+[[nodiscard]] Counts<double> cell_sphere_counts(const Valid<Workload>& workload,
+                                                const Valid<CellSpheresParameters>& parameters);
 
 }  // namespace detp::model

@@ -74,7 +74,8 @@ double nested_growth(std::size_t dimension, Term term, double fan_out, double le
 }
 
 /// <ρ>² or <ρ²>.
-double radius(const Workload& workload, const SphereTreeParameters& parameters, Term term, double run, double level) {
+double radius(const Valid<Workload>& workload, const SphereTreeParameters& parameters, Term term, double run,
+              double level) {
   const double runs = workload.samples / run;
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
   const auto of_dimension = [&](std::size_t d) {
@@ -90,7 +91,7 @@ double radius(const Workload& workload, const SphereTreeParameters& parameters, 
 }
 
 /// P(node) of a sphere of radius r around a run.
-double crossed(const Workload& workload, double run, double r) {
+double crossed(const Valid<Workload>& workload, double run, double r) {
   using std::numbers::pi;
   if (workload.path_length > 0) {
     const double bounded = std::min(r, 1e99);  // so that the volume does not overflow
@@ -106,7 +107,7 @@ double crossed(const Workload& workload, double run, double r) {
   return std::min(1.0, ratio * ratio * both_hit_share(workload.sphere_radius, r, offset));
 }
 
-TreeLevel level_of(const Workload& workload, const SphereTreeParameters& parameters, double run, double level) {
+TreeLevel level_of(const Valid<Workload>& workload, const SphereTreeParameters& parameters, double run, double level) {
   const double d = workload.disc_radius;
   const double square = radius(workload, parameters, mean_square, run, level);
   // Near the root all spheres are about equal. Rounding in the tables must not make their mean larger than the root of
@@ -116,16 +117,14 @@ TreeLevel level_of(const Workload& workload, const SphereTreeParameters& paramet
   const double r = std::max(d, static_cast<double>(std::sqrt(moment)));
   return {.nodes = std::ceil(workload.samples / run),
           .samples = run,
-          .mean_radius = mean + d,
           .rms_radius = r,
           .rays = workload.rays * crossed(workload, run, r)};
 }
 
 }  // namespace
 
-std::vector<TreeLevel> sphere_tree_levels(const Workload& workload, const SphereTreeParameters& parameters) {
-  check(workload);
-  check(Candidate{Technique::sphere_tree, parameters});
+std::vector<TreeLevel> sphere_tree_levels(const Valid<Workload>& workload,
+                                          const Valid<SphereTreeParameters>& parameters) {
   std::vector<TreeLevel> levels;
   double run = std::min<double>(parameters.leaf, workload.samples);
   // A sphere around a single sample has no extent. So with leaves of one sample the nesting of spheres starts above the
@@ -140,7 +139,7 @@ std::vector<TreeLevel> sphere_tree_levels(const Workload& workload, const Sphere
   return levels;
 }
 
-Counts<double> sphere_tree_counts(const Workload& workload, const SphereTreeParameters& parameters) {
+Counts<double> sphere_tree_counts(const Valid<Workload>& workload, const Valid<SphereTreeParameters>& parameters) {
   Counts<double> counts{.sorted = workload.samples, .hits = expected_hits(workload)};
   double around = workload.rays;
   for (const TreeLevel& level : sphere_tree_levels(workload, parameters)) {

@@ -40,11 +40,10 @@ namespace detp::model {
 
 /// Expected values of one level of the tree.
 struct TreeLevel {
-  double nodes = 1;        ///< N, exact: those of the last run, cut short, too
-  double samples = 1;      ///< c, in each node but the last
-  double mean_radius = 0;  ///< <ρ> + d
-  double rms_radius = 0;   ///< √<(ρ + d)²>
-  double rays = 0;         ///< mean length of a node's list
+  double nodes = 1;       ///< N, exact: those of the last run, cut short, too
+  double samples = 1;     ///< c, in each node but the last
+  double rms_radius = 0;  ///< √<(ρ + d)²>
+  double rays = 0;        ///< mean length of a node's list
 };
 
 /// The levels from the root down to the leaves.
@@ -52,8 +51,8 @@ struct TreeLevel {
 /// Valid      samples uniform over a volume or surfaces that fill their box; 1 <= n_P <= 1e18.
 /// Errors     std::invalid_argument for a workload or parameters out of range.
 /// Accuracy   see sphere_tree_counts.
-[[nodiscard]] std::vector<TreeLevel> sphere_tree_levels(const Workload& workload,
-                                                        const SphereTreeParameters& parameters);
+[[nodiscard]] std::vector<TreeLevel> sphere_tree_levels(const Valid<Workload>& workload,
+                                                        const Valid<SphereTreeParameters>& parameters);
 
 /// Expected counts of the sphere tree.
 ///
@@ -63,6 +62,7 @@ struct TreeLevel {
 ///            95th percentile and 13 % at worst; disc tests by 0.8 %, 4.3 % and 9.2 % (leaves of 2 samples, whose few
 ///            largest spheres chance makes); at the built-in unit costs, time by 0.8 %, 2.5 % and 3.9 %. With 1000 or
 ///            3000 samples too (1470 trees), time by 1.2 %, 4.9 % and 8.6 %.
-[[nodiscard]] Counts<double> sphere_tree_counts(const Workload& workload, const SphereTreeParameters& parameters);
+[[nodiscard]] Counts<double> sphere_tree_counts(const Valid<Workload>& workload,
+                                                const Valid<SphereTreeParameters>& parameters);
 
 }  // namespace detp::model

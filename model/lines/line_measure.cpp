@@ -21,7 +21,7 @@ void require_inside(std::string_view what, double size, double outer) {
 }
 
 /// In long double, for d² may lie below the doubles, and V + ℓF above them.
-long double crossing(const Workload& workload, long double volume, long double area) {
+long double crossing(const Valid<Workload>& workload, long double volume, long double area) {
   const long double r0 = workload.sphere_radius;
   if (workload.path_length <= 0) return std::min(1.0L, area / (4 * exact_pi * r0 * r0));
   long double space = 1;
@@ -93,15 +93,13 @@ double disc_hit_probability(DiscRadius disc, SphereRadius outer) {
   return ratio * ratio / 2;
 }
 
-double crossing_probability(const Workload& workload, double volume, double area) {
-  check(workload);
+double crossing_probability(const Valid<Workload>& workload, double volume, double area) {
   require_non_negative("volume of the body", volume);
   require_non_negative("surface area of the body", area);
   return static_cast<double>(crossing(workload, volume, area));
 }
 
-double expected_hits(const Workload& workload) {
-  check(workload);
+double expected_hits(const Valid<Workload>& workload) {
   const long double d = workload.disc_radius;
   const long double faces = workload.front_facing ? 1 : 2;
   return saturated(workload.rays * (workload.samples * crossing(workload, 0, faces * exact_pi * d * d)));

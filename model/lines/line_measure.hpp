@@ -54,7 +54,7 @@ namespace detp::model {
 /// Valid      segments: origins uniform in the box, isotropic directions. Real paths start and end on surfaces: expect
 ///            tens of percent.
 /// Accuracy   1.1e-16: in long double, for d² or V_box may lie below the doubles where P does not.
-[[nodiscard]] double crossing_probability(const Workload& workload, double volume, double area);
+[[nodiscard]] double crossing_probability(const Valid<Workload>& workload, double volume, double area);
 
 /// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².
 ///
@@ -64,7 +64,7 @@ namespace detp::model {
 ///
 /// Valid      fronts: isotropic directions; photons mostly arrive on the side of the light.
 /// Accuracy   1.1e-16.
-[[nodiscard]] double expected_hits(const Workload& workload);
+[[nodiscard]] double expected_hits(const Valid<Workload>& workload);
 
 /// Share of the lines through sphere B that also cross sphere A, which need not contain B.
 ///

@@ -31,7 +31,7 @@ struct Jet {
 /// T over x = ln Q on one part: `spheres` is k; the outer `sparse` spheres are rebuilt fewer than n_P times.
 class ConvexPart {
  public:
-  ConvexPart(const Workload& workload, const UnitCosts& costs, std::int64_t spheres, std::int64_t sparse)
+  ConvexPart(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, std::int64_t spheres, std::int64_t sparse)
       : samples_(workload.samples),
         test_(costs.cull_test * workload.rays),
         disc_(costs.disc_test * workload.rays * workload.samples),
@@ -71,7 +71,7 @@ class ConvexPart {
 /// Keeps the smallest T found, and a lower bound for all parts that were skipped.
 class Search {
  public:
-  Search(const Workload& workload, const UnitCosts& costs) : workload_(workload), costs_(costs) {}
+  Search(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) : workload_(workload), costs_(costs) {}
 
   void piece(std::int64_t spheres, double low, double high) {
     double left = std::log(low);
@@ -127,15 +127,15 @@ class Search {
     if (best_.spheres == 0 || time < best_.time) best_ = {ratio, spheres, time, 0};
   }
 
-  const Workload& workload_;
-  const UnitCosts& costs_;
+  const Valid<Workload>& workload_;
+  const Valid<UnitCosts>& costs_;
   BestRatio best_;
   double bound_ = 0;
 };
 
 }  // namespace
 
-BestRatio best_ratio(const Workload& workload, const UnitCosts& costs, std::int64_t most_spheres) {
+BestRatio best_ratio(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, std::int64_t most_spheres) {
   const StepPieces pieces(workload);
   require_count("largest number of spheres", static_cast<double>(most_spheres), 1, 1e18);
   Search search(workload, costs);
@@ -147,9 +147,7 @@ BestRatio best_ratio(const Workload& workload, const UnitCosts& costs, std::int6
   return search.finish();
 }
 
-std::int64_t best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio) {
-  check(workload);
-  check(costs);
+std::int64_t best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio) {
   const std::int64_t last = sphere_count(Form::published, ratio, {workload.disc_radius}, {workload.sphere_radius});
   const double q = ratio.value;
   const double share = costs.disc_test / costs.cull_test * (1 - q) * (1 + q);  // u (1 - Q²)/t

@@ -27,7 +27,8 @@ struct BestRatio {
 /// Accuracy   lower_bound is within 1e-9 of time (relative). Cost: tens of microseconds; grows with most_spheres².
 /// Limits     if no interval is in the range (d very close to r₀), spheres = 0.
 /// Throws     std::invalid_argument for a workload out of range or d >= r₀: there is no sphere then.
-[[nodiscard]] BestRatio best_ratio(const Workload& workload, const UnitCosts& costs, std::int64_t most_spheres = 40);
+[[nodiscard]] BestRatio best_ratio(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                   std::int64_t most_spheres = 40);
 
 /// The number of spheres k at which the published T is smallest for a given Q, from 1 to the paper's own
 /// k = ⌈log_Q(d/r₀)⌉; 0 if the latter is 0.
@@ -36,6 +37,6 @@ struct BestRatio {
 /// not. So k is the last sphere that pays off. Source: our derivation from eqs (8, 12, 17).
 ///
 /// Throws     as sphere_count does, and std::invalid_argument for a workload or costs out of range.
-[[nodiscard]] std::int64_t best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio);
+[[nodiscard]] std::int64_t best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio);
 
 }  // namespace detp::model::published

@@ -17,9 +17,7 @@ namespace {
 /// T of the sphere cache at one Q for all numbers of spheres, in one pass from the outside in.
 class Times {
  public:
-  Times(const Workload& workload, const UnitCosts& costs) : workload_(workload), costs_(costs) {
-    check(workload);
-    check(costs);
+  Times(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) : workload_(workload), costs_(costs) {
     const double blocks = blocks_of(workload.rays, workload.samples);
     costs_.cull *= blocks;
     costs_.visit *= blocks;
@@ -73,7 +71,7 @@ class Times {
     });
   }
 
-  const Workload& workload_;
+  const Valid<Workload>& workload_;
   UnitCosts costs_;  ///< lists are made, and discs visited, for each block of rays
   mutable std::int64_t looked_at_ = 0;
 };
@@ -219,19 +217,20 @@ class Search {
 };
 
 /// The largest k with r_k >= d, at most `most`; Q off the steps, or just above one.
-std::int64_t last_stop(const Workload& workload, double ratio, std::int64_t most) {
+std::int64_t last_stop(const Valid<Workload>& workload, double ratio, std::int64_t most) {
   const double exact = std::log(workload.disc_radius / workload.sphere_radius) / std::log(ratio);
   return static_cast<std::int64_t>(std::min(static_cast<double>(most), std::floor(exact * (1 + 1e-12))));
 }
 
 /// Whether the sphere S₁ of this ratio holds a disc.
-bool holds_a_disc(const Workload& workload, double ratio) {
+bool holds_a_disc(const Valid<Workload>& workload, double ratio) {
   return workload.disc_radius < ratio * workload.sphere_radius;
 }
 
 }  // namespace
 
-BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs, std::int64_t most_spheres) {
+BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                              std::int64_t most_spheres) {
   require_count("largest number of spheres", static_cast<double>(most_spheres), 1, 9e18);
   const Times times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
@@ -244,7 +243,7 @@ BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs, 
   return best.spheres > 0 ? best : times.without_spheres();
 }
 
-BestRatio good_ratio_and_stop(const Workload& workload, const UnitCosts& costs) {
+BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) {
   const Times times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   BestRatio best;
@@ -256,14 +255,14 @@ BestRatio good_ratio_and_stop(const Workload& workload, const UnitCosts& costs) 
   return best;
 }
 
-BestRatio best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio) {
+BestRatio best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio) {
   constexpr std::int64_t most = 4096;
   const Times times(workload, costs);
   const std::int64_t last = sphere_count(Form::corrected, ratio, {workload.disc_radius}, {workload.sphere_radius});
   return last == 0 ? times.without_spheres() : times.best_stop(ratio.value, std::min(last, most), HUGE_VAL);
 }
 
-BestRatio best_ratio_for(const Workload& workload, const UnitCosts& costs, std::int64_t spheres) {
+BestRatio best_ratio_for(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, std::int64_t spheres) {
   require_count("number of spheres", static_cast<double>(spheres), 0, 9e18);
   const Times times(workload, costs);
   if (spheres == 0 || !holds_a_disc(workload, 1)) return times.without_spheres();

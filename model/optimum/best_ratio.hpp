@@ -32,7 +32,7 @@ inline constexpr std::int64_t most_looked_at = 16'000;
 ///            random workloads: n_R, n_P 10² … 10⁸, d/r₀ 10⁻⁴ … 0.1, D 2 … 3, copies 0 … 2 t, rebuilds 0 … 50 t). One
 ///            ratio alone, optimal_ratio's, is 16 % above in the median, 95 % at worst.
 /// Cost       about 30 µs, 4 µs a ratio.   Throws  as best_ratio_and_stop.
-[[nodiscard]] BestRatio good_ratio_and_stop(const Workload& workload, const UnitCosts& costs);
+[[nodiscard]] BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs);
 
 /// Minimises T jointly over 0.02 <= Q <= 0.98 and k = 1 … most_spheres with r_k >= d.
 ///
@@ -41,14 +41,15 @@ inline constexpr std::int64_t most_looked_at = 16'000;
 ///            largest slope of T is estimated from experiments.
 /// Cost       4000 spheres in the mean, at 0.4 … 0.8 µs each; with most_spheres <= 40 at most most_looked_at.
 /// Throws     std::invalid_argument for a workload or costs out of range.
-[[nodiscard]] BestRatio best_ratio_and_stop(const Workload& workload, const UnitCosts& costs,
+[[nodiscard]] BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                             std::int64_t most_spheres = 40);
 
 /// The fastest stop k for a given Q, at least 1 (where a sphere holds a disc) and at most 4096.
-[[nodiscard]] BestRatio best_stop(const Workload& workload, const UnitCosts& costs, RadiusRatio ratio);
+[[nodiscard]] BestRatio best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio);
 
 /// The fastest Q for a given k, 0 … 9e18. Where no Q of the range has r_k >= d, the largest one.
-[[nodiscard]] BestRatio best_ratio_for(const Workload& workload, const UnitCosts& costs, std::int64_t spheres);
+[[nodiscard]] BestRatio best_ratio_for(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                       std::int64_t spheres);
 
 /// The middle of the paper's recommendation, 0.6 to 0.7.
 inline constexpr double published_ratio = 0.65;

@@ -2,23 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <array>
 #include <stdexcept>
 
 namespace detp::model {
 namespace {
 
-/// The paper's techniques, and those made of the same parts.
-bool is_known(Technique technique) {
-  constexpr std::array unknown{Technique::bsp, Technique::bvh, Technique::photon_map};
-  return std::find(unknown.begin(), unknown.end(), technique) == unknown.end();
-}
-
 constexpr Growth proportional{.power = 1, .logarithms = 0};
 constexpr double third = 1.0 / 3;
 
 bool is_tree_of_cells(Technique technique) { return technique == Technique::octree || technique == Technique::grid; }
+
+/// The paper's techniques, and those made of the same parts.
+bool is_known(Technique technique) { return is_tree_of_cells(technique) || !record_of(technique).ray_by_ray; }
 
 /// Published, the discs shrinking.
 Growth published_growth(const GrowthCase& asked) {
@@ -44,7 +39,5 @@ Growth growth(const GrowthCase& asked) {
   const bool published = asked.form == Form::published || asked.technique == Technique::sphere_cache_published;
   return published ? published_growth(asked) : corrected_growth(asked);
 }
-
-Growth depth_growth(DiscRule disc) { return {.power = 0, .logarithms = disc == DiscRule::fixed ? 0 : 1}; }
 
 }  // namespace detp::model

@@ -1,6 +1,5 @@
 #pragma once
 
-#include "detp/model/vocabulary/form.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 
 /// Orders of growth: how the time of a technique at its best parameters grows with the number of samples,
@@ -50,17 +49,12 @@ struct GrowthCase {
 ///            n_P (published m_i = Q^{-3i} counts volumes). A grid steps through its empty cells: a^{-1} steps and n_P
 ///            a² tests for cells of side a >= d are least at a ∝ n_P^{-1/3}.
 /// Conditions isotropic unbounded lines; samples even over their volume or surface; r₀ fixed; for the logarithm Q (or
-///            the tree's fan-out) fixed. With d fixed the power is reached where n_P d^D is far above 1.
+///            the tree's fan-out) fixed: k, the number of spheres, or the depth of the tree then grows as log n_P
+///            (eq 18 and section 4.2). k → ln(r₀/d)/(1 - Q) as Q → 1: a simple pole. (The paper: "exponentially".)
+///            With d fixed the power is reached where n_P d^D is far above 1.
 /// Fitted     tests/model/growth: the best T of each over four decades of n_P from 10⁸, D = 2 and 3 (spheres also 2.5):
 ///            p to 0.012, published to 0.001. Spheres around cells and trees of spheres follow the derivation alone.
 /// Throws     std::invalid_argument unless 2 <= D <= 3, and for a technique without a closed form.
 [[nodiscard]] Growth growth(const GrowthCase& asked);
-
-/// How k, the number of spheres, or the depth of a tree grows: log n_P where the discs shrink (eq 18 and section 4.2),
-/// not at all where they stay.
-[[nodiscard]] Growth depth_growth(DiscRule disc);
-
-/// k → ln(r₀/d) (1 - Q)^{-1} as Q → 1: a pole of this order. (The paper: "exponentially".)
-inline constexpr int sphere_count_pole = 1;
 
 }  // namespace detp::model

@@ -27,15 +27,13 @@ bool gives_all_numbers(const Wish& wish, Technique technique) {
 
 }  // namespace
 
-Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCosts& costs) {
-  check(costs);
+Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<UnitCosts>& costs) {
   const Counts<double> counts = predict(workload, candidate);
   return {candidate, counts, price(counts, costs, candidate.technique), extrapolations(workload, candidate)};
 }
 
-std::optional<Candidate> complete(Technique technique, const Wish& wish, const Workload& workload,
-                                  const UnitCosts& costs, const SearchLimits& limits) {
-  check(workload);
+std::optional<Candidate> complete(Technique technique, const Wish& wish, const Valid<Workload>& workload,
+                                  const Valid<UnitCosts>& costs, const SearchLimits& limits) {
   Candidate candidate = with(technique, wish);
   if (model_of(technique).best == nullptr || gives_all_numbers(wish, technique)) return candidate;
   const auto best = model_of(technique).best(workload, costs, wish, limits);
@@ -45,10 +43,8 @@ std::optional<Candidate> complete(Technique technique, const Wish& wish, const W
   return candidate;
 }
 
-std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
+std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                               const SearchLimits& limits) {
-  check(workload);
-  check(costs);
   if (!has_closed_form(technique)) return std::nullopt;
   const auto candidate = complete(technique, {}, workload, costs, limits);
   if (!candidate) return std::nullopt;
@@ -57,7 +53,7 @@ std::optional<Ranked> best_of(Technique technique, const Workload& workload, con
   return assess(workload, *candidate, costs);
 }
 
-std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
+std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const SearchLimits& limits) {
   std::vector<Ranked> ranking;
   for (const Technique technique : all_techniques) {
     if (!ranking.empty() && limits.stop.stop_requested()) break;

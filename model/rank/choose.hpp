@@ -23,21 +23,22 @@ struct Ranked {
 /// The sphere caches by best_ratio_and_stop; cell spheres and the octree over their depths; the sphere tree over
 /// fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by box_tree_rule; the grid by best_grid_cells.
 /// Throws std::invalid_argument for a workload out of range.
-[[nodiscard]] std::vector<Ranked> rank(const Workload& workload, const UnitCosts& costs,
+[[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                        const SearchLimits& limits = {});
 
 /// One technique with its best parameters; nothing where it has none within the limits (spheres as large as S₀, more
 /// references than allowed) or no closed form.
-[[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Workload& workload, const UnitCosts& costs,
-                                            const SearchLimits& limits = {});
+[[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload,
+                                            const Valid<UnitCosts>& costs, const SearchLimits& limits = {});
 
 /// One technique with the parameters that are given; the others are the best, as far as a closed form knows them, or
 /// else the defaults. Nothing where there are none within the limits. Throws std::invalid_argument for a workload or
 /// parameter out of range, and for parameters of another technique.
-[[nodiscard]] std::optional<Candidate> complete(Technique technique, const Wish& wish, const Workload& workload,
-                                                const UnitCosts& costs, const SearchLimits& limits = {});
+[[nodiscard]] std::optional<Candidate> complete(Technique technique, const Wish& wish, const Valid<Workload>& workload,
+                                                const Valid<UnitCosts>& costs, const SearchLimits& limits = {});
 
 /// One candidate as `rank` would show it.
-[[nodiscard]] Ranked assess(const Workload& workload, const Candidate& candidate, const UnitCosts& costs);
+[[nodiscard]] Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate,
+                            const Valid<UnitCosts>& costs);
 
 }  // namespace detp::model

@@ -19,7 +19,7 @@ constexpr double about_equal = 0.1;
 bool differ(double a, double b) { return std::abs(a - b) > about_equal * b; }
 
 /// What was counted for no technique.
-void uncounted_scene(const Workload& workload, Reasons& reasons) {
+void uncounted_scene(const Valid<Workload>& workload, Reasons& reasons) {
   const double side = scene_side(workload);
   if (workload.path_length > 0) reasons.add("rays that end: only lines were counted");
   constexpr double exactly = 0.05;  // the accuracy of a measured dimension
@@ -39,7 +39,7 @@ void uncounted_scene(const Workload& workload, Reasons& reasons) {
     reasons.add(fmt::format("r0 {:.4g}, not {:.4g} around the cube of the samples", workload.sphere_radius, around));
 }
 
-void range_of_samples(const Workload& workload, Reasons& reasons) {
+void range_of_samples(const Valid<Workload>& workload, Reasons& reasons) {
   reasons.range("samples", workload.samples, 1e3, 1e7);
   reasons.range("d over r0", workload.disc_radius / workload.sphere_radius, 1e-4, 0.2);
 }
@@ -52,7 +52,7 @@ void Reasons::range(std::string_view what, double value, double least, double mo
   if (value > most * (1 + rounding)) add(fmt::format("{} {:.4g} above {:.4g}", what, value, most));
 }
 
-void uncounted_cache(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+void uncounted_cache(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons) {
   const auto& cache = std::get<SphereCacheParameters>(parameters);
   if (cache.spheres == 0) return;  // brute force
   uncounted_scene(workload, reasons);
@@ -66,13 +66,13 @@ void uncounted_cache(const Workload& workload, const Parameters& parameters, Rea
   if (cache.order == SampleOrder::none) reasons.add("samples in no order: only sorted ones were counted");
 }
 
-void uncounted_cells(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+void uncounted_cells(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons) {
   uncounted_scene(workload, reasons);
   range_of_samples(workload, reasons);
   reasons.range("depth", std::get<CellSpheresParameters>(parameters).depth, 1, 6);
 }
 
-void uncounted_sphere_tree(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+void uncounted_sphere_tree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons) {
   const auto& tree = std::get<SphereTreeParameters>(parameters);
   uncounted_scene(workload, reasons);
   range_of_samples(workload, reasons);
@@ -80,7 +80,7 @@ void uncounted_sphere_tree(const Workload& workload, const Parameters& parameter
   reasons.range("leaf", tree.leaf, 4, 16);
 }
 
-void uncounted_box_tree(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+void uncounted_box_tree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons) {
   const auto& tree = std::get<BoxTreeParameters>(parameters);
   uncounted_scene(workload, reasons);
   reasons.range("samples", workload.samples, 0x1p10, 0x1p20);
@@ -90,21 +90,19 @@ void uncounted_box_tree(const Workload& workload, const Parameters& parameters, 
   reasons.range("leaf", tree.leaf, 1, 256);
 }
 
-void uncounted_octree(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+void uncounted_octree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons) {
   uncounted_scene(workload, reasons);
   range_of_samples(workload, reasons);
   reasons.range("depth", std::get<OctreeParameters>(parameters).depth, 1, 7);
 }
 
-void uncounted_grid(const Workload& workload, const Parameters& parameters, Reasons& reasons) {
+void uncounted_grid(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons) {
   uncounted_scene(workload, reasons);
   range_of_samples(workload, reasons);
   reasons.range("cells a side", std::get<GridParameters>(parameters).cells, 2, 128);
 }
 
-std::vector<std::string> extrapolations(const Workload& workload, const Candidate& candidate) {
-  check(workload);
-  check(candidate);
+std::vector<std::string> extrapolations(const Valid<Workload>& workload, const Valid<Candidate>& candidate) {
   Reasons reasons;
   if (const auto uncounted = model_of(candidate.technique).uncounted)
     uncounted(workload, candidate.parameters, reasons);

@@ -36,17 +36,18 @@ class Reasons {
 };
 
 /// The reasons of one technique; for the registry.
-void uncounted_cache(const Workload& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_cells(const Workload& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_sphere_tree(const Workload& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_box_tree(const Workload& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_octree(const Workload& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_grid(const Workload& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_cache(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_cells(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_sphere_tree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_box_tree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_octree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
+void uncounted_grid(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
 
 /// The reasons why the counts that `predict` returns for the candidate are extrapolated: a short text for each input
 /// that is outside, such as "d over r0 1e-05 below 0.0001". Empty if they are not extrapolated.
 ///
 /// Throws std::invalid_argument for a workload or parameters out of range.
-[[nodiscard]] std::vector<std::string> extrapolations(const Workload& workload, const Candidate& candidate);
+[[nodiscard]] std::vector<std::string> extrapolations(const Valid<Workload>& workload,
+                                                      const Valid<Candidate>& candidate);
 
 }  // namespace detp::model

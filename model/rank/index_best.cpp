@@ -14,7 +14,8 @@ constexpr int most_tried = 64;  // largest number of cell counts tried in that r
 
 }  // namespace
 
-std::optional<int> best_octree_depth(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
+std::optional<int> best_octree_depth(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                     const SearchLimits& limits) {
   Fastest<int> fastest(costs, Technique::octree, limits);
   int depth = 0;
   for (const Counts<double>& counts : octree_counts_by_depth(workload, {limits.most_depth}))
@@ -22,7 +23,8 @@ std::optional<int> best_octree_depth(const Workload& workload, const UnitCosts& 
   return fastest.best();
 }
 
-std::optional<int> best_grid_cells(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits) {
+std::optional<int> best_grid_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                   const SearchLimits& limits) {
   Fastest<int> fastest(costs, Technique::grid, limits);
   const auto fits = [&](int cells) {
     return cells <= 1 << 16 && index_cells(workload, cells).count() <= limits.most_cells &&

@@ -9,7 +9,7 @@
 namespace detp::model {
 
 /// Depth of the fastest octree, searched top-down: all depths tried, each level predicted once.
-[[nodiscard]] std::optional<int> best_octree_depth(const Workload& workload, const UnitCosts& costs,
+[[nodiscard]] std::optional<int> best_octree_depth(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                                    const SearchLimits& limits = {});
 
 /// Cells along the longest side of the fastest grid, from 1 to 65 536.
@@ -20,7 +20,7 @@ namespace detp::model {
 /// until it takes three times the least, then up to 64 numbers within a factor of 1.4 of the best, then its neighbours.
 /// Accuracy   of 1200 cubes and boxes, some a thousandth as high as long: the least time that any of seven searches
 ///            found on 95 %, 7.7 % more at worst; never more than in steps of 10 %.
-[[nodiscard]] std::optional<int> best_grid_cells(const Workload& workload, const UnitCosts& costs,
+[[nodiscard]] std::optional<int> best_grid_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                                  const SearchLimits& limits = {});
 
 }  // namespace detp::model

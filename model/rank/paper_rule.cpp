@@ -9,8 +9,7 @@
 
 namespace detp::model {
 
-Candidate paper_rule(const Workload& workload, const ProcessorCache& cache) {
-  check(workload);
+Candidate paper_rule(const Valid<Workload>& workload, const ProcessorCache& cache) {
   require_positive("size of the processor's cache", cache.bytes);
   require_positive("bytes of a ray", cache.bytes_per_ray);
   const DiscRadius d{workload.disc_radius};

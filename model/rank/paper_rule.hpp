@@ -19,6 +19,6 @@ struct ProcessorCache {
 ///
 /// Source     sections 5 and 3; the paper took the limits of X from measurements of one scene in 2006.
 /// Throws     std::invalid_argument for a workload out of range.
-[[nodiscard]] Candidate paper_rule(const Workload& workload, const ProcessorCache& cache = {});
+[[nodiscard]] Candidate paper_rule(const Valid<Workload>& workload, const ProcessorCache& cache = {});
 
 }  // namespace detp::model

@@ -13,14 +13,15 @@ namespace detp::model {
 namespace {
 
 /// Lists made and discs visited in blocks of rays, the last one smaller.
-void count_by_blocks(Workload workload, const Candidate& candidate, Counts<double>& counts) {
+void count_by_blocks(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Counts<double>& counts) {
   constexpr double many = 1e9;  // as far as the number of samples matters to rays_in_block
   const auto block = static_cast<double>(rays_in_block(static_cast<std::size_t>(std::min(workload.samples, many))));
   const double whole = std::floor(workload.rays / block);
   const double rest = workload.rays - whole * block;
   const auto predict_block = [&](double rays) {
-    workload.rays = rays;
-    return model_of(candidate.technique).predict(workload, candidate.parameters);
+    Workload fewer = workload;
+    fewer.rays = rays;
+    return model_of(candidate.technique).predict(Valid<Workload>(workload, fewer), candidate);
   };
   if (whole < 1) return;
   const Counts<double> full = predict_block(block);
@@ -34,13 +35,11 @@ void count_by_blocks(Workload workload, const Candidate& candidate, Counts<doubl
 
 }  // namespace
 
-Counts<double> predict(const Workload& workload, const Candidate& candidate, Engine engine) {
-  check(workload);
-  check(candidate);
+Counts<double> predict(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
   if (!has_closed_form(candidate.technique))
     throw std::invalid_argument(
         fmt::format("there is no closed form of {}; it can only be run", name(candidate.technique)));
-  Counts<double> counts = model_of(candidate.technique).predict(workload, candidate.parameters);
+  Counts<double> counts = model_of(candidate.technique).predict(workload, candidate);
   if (engine == Engine::simd && record_of(candidate.technique).simd) count_by_blocks(workload, candidate, counts);
   return counts;
 }

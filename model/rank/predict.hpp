@@ -12,7 +12,7 @@ namespace detp::model {
 ///
 /// Throws std::invalid_argument for a workload or parameters out of range, and for candidates without a closed form:
 /// bsp, bvh and photon-map, octrees with neighbour links, sphere caches along the Hilbert curve.
-[[nodiscard]] Counts<double> predict(const Workload& workload, const Candidate& candidate,
+[[nodiscard]] Counts<double> predict(const Valid<Workload>& workload, const Valid<Candidate>& candidate,
                                      Engine engine = Engine::simd);
 
 }  // namespace detp::model

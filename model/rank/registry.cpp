@@ -20,34 +20,31 @@
 namespace detp::model {
 namespace {
 
-template <class P>
-using CountsOf = Counts<double> (*)(const Workload&, const P&);
-
-/// A formula of one technique's parameters, for parameters of any.
-template <class P, CountsOf<P> counts>
-Counts<double> predicted(const Workload& workload, const Parameters& parameters) {
-  return counts(workload, std::get<P>(parameters));
+/// A formula of one technique's parameters, for candidates of any.
+template <class P, auto counts>
+Counts<double> predicted(const Valid<Workload>& workload, const Valid<Candidate>& candidate) {
+  return counts(workload, Valid<P>(candidate, std::get<P>(candidate.parameters)));
 }
 
 /// Plain density estimation on the tangent plane: each disc against each ray.
-Counts<double> brute_force(const Workload& workload, const BruteForceParameters&) {
+Counts<double> brute_force(const Valid<Workload>& workload, const BruteForceParameters&) {
   return {.visits = workload.samples, .disc_tests = workload.rays * workload.samples, .hits = expected_hits(workload)};
 }
 
-Counts<double> published_cache(const Workload& workload, const SphereCacheParameters& parameters) {
+Counts<double> published_cache(const Valid<Workload>& workload, const SphereCacheParameters& parameters) {
   require_rebuild_law(parameters.order);
   return published::counts(workload, {parameters.ratio}, parameters.spheres);
 }
 
-Counts<double> octree(const Workload& workload, const OctreeParameters& parameters) {
+Counts<double> octree(const Valid<Workload>& workload, const OctreeParameters& parameters) {
   return octree_counts(workload, parameters);
 }
 
-Counts<double> grid(const Workload& workload, const GridParameters& parameters) {
+Counts<double> grid(const Valid<Workload>& workload, const GridParameters& parameters) {
   return grid_counts(workload, parameters);
 }
 
-std::optional<Parameters> best_cache(const Workload& workload, const UnitCosts& costs, const Wish& wish,
+std::optional<Parameters> best_cache(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const Wish& wish,
                                      const SearchLimits&) {
   const auto ratio = wish.value<double>("ratio");
   const auto spheres = wish.value<std::int64_t>("spheres");
@@ -59,7 +56,7 @@ std::optional<Parameters> best_cache(const Workload& workload, const UnitCosts& 
   return SphereCacheParameters{ratio.value_or(best.ratio), spheres.value_or(best.spheres)};
 }
 
-std::optional<Parameters> best_cells(const Workload& workload, const UnitCosts& costs, const Wish&,
+std::optional<Parameters> best_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const Wish&,
                                      const SearchLimits& limits) {
   Fastest<CellSpheresParameters> fastest(costs, Technique::cell_spheres, limits);
   for (int depth = 0; depth <= std::min(limits.most_depth, 16) && !limits.stop.stop_requested(); ++depth)
@@ -67,8 +64,8 @@ std::optional<Parameters> best_cells(const Workload& workload, const UnitCosts& 
   return fastest.best();
 }
 
-std::optional<Parameters> best_sphere_tree(const Workload& workload, const UnitCosts& costs, const Wish& wish,
-                                           const SearchLimits& limits) {
+std::optional<Parameters> best_sphere_tree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                           const Wish& wish, const SearchLimits& limits) {
   constexpr std::array<std::int64_t, 7> fan_outs{2, 3, 4, 6, 8, 12, 16};
   constexpr std::array<std::int64_t, 14> leaves{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 1024};
   const auto only = [&](std::string_view name, std::span<const std::int64_t> all) {
@@ -84,7 +81,7 @@ std::optional<Parameters> best_sphere_tree(const Workload& workload, const UnitC
   return fastest.best();
 }
 
-std::optional<Parameters> best_box_tree(const Workload& workload, const UnitCosts&, const Wish& wish,
+std::optional<Parameters> best_box_tree(const Valid<Workload>& workload, const Valid<UnitCosts>&, const Wish& wish,
                                         const SearchLimits&) {
   BoxTreeParameters tree = box_tree_rule(workload);
   if (const auto fan_out = wish.value<std::int64_t>("fan-out")) tree.fan_out = static_cast<int>(*fan_out);
@@ -93,13 +90,13 @@ std::optional<Parameters> best_box_tree(const Workload& workload, const UnitCost
 }
 
 /// The depth that is best top-down serves for all traversals.
-std::optional<Parameters> best_octree(const Workload& workload, const UnitCosts& costs, const Wish&,
+std::optional<Parameters> best_octree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const Wish&,
                                       const SearchLimits& limits) {
   const auto depth = best_octree_depth(workload, costs, limits);
   return depth ? std::optional<Parameters>(OctreeParameters{*depth}) : std::nullopt;
 }
 
-std::optional<Parameters> best_grid(const Workload& workload, const UnitCosts& costs, const Wish&,
+std::optional<Parameters> best_grid(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const Wish&,
                                     const SearchLimits& limits) {
   const auto cells = best_grid_cells(workload, costs, limits);
   return cells ? std::optional<Parameters>(GridParameters{*cells}) : std::nullopt;

@@ -38,14 +38,15 @@ struct TechniqueModel {
   Technique technique;
 
   /// Expected counts. Null where there is no closed form.
-  Counts<double> (*predict)(const Workload&, const Parameters&) = nullptr;
+  Counts<double> (*predict)(const Valid<Workload>&, const Valid<Candidate>&) = nullptr;
 
   /// The fastest parameters among those with what is given; nothing where none fits the limits. Not called where all
   /// numbers are given.
-  std::optional<Parameters> (*best)(const Workload&, const UnitCosts&, const Wish&, const SearchLimits&) = nullptr;
+  std::optional<Parameters> (*best)(const Valid<Workload>&, const Valid<UnitCosts>&, const Wish&,
+                                    const SearchLimits&) = nullptr;
 
   /// Adds reasons why the prediction is outside the range in which it was compared with counts.
-  void (*uncounted)(const Workload&, const Parameters&, Reasons&) = nullptr;
+  void (*uncounted)(const Valid<Workload>&, const Parameters&, Reasons&) = nullptr;
 };
 
 [[nodiscard]] const TechniqueModel& model_of(Technique technique);

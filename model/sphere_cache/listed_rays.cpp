@@ -125,15 +125,14 @@ class OffsetShares {
 
 }  // namespace
 
-double rays_through(const Workload& workload, double radius) {
+double rays_through(const Valid<Workload>& workload, double radius) {
   using std::numbers::pi;
   require_non_negative("sphere radius", radius);
   return workload.rays *
          crossing_probability(workload, 4 * pi / 3 * radius * radius * radius, 4 * pi * radius * radius);
 }
 
-double listed_share(const Workload& workload, double radius, double octaves) {
-  check(workload);
+double listed_share(const Valid<Workload>& workload, double radius, double octaves) {
   require_non_negative("sphere radius", radius);
   require_non_negative("octaves between the spheres", octaves);
   if (radius <= workload.disc_radius * (1 + 1e-15)) return 1;

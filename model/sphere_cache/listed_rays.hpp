@@ -16,7 +16,7 @@ namespace detp::model {
 ///     n_i = n_R r²/r₀²   of lines;   n_R (V + ℓF/4)/V_box   of segments of mean length ℓ, V and F those of the sphere
 ///
 /// Exact where the sphere lies in S₀ and the rays are uniform; where it pokes out, g_i tells.
-[[nodiscard]] double rays_through(const Workload& workload, double radius);
+[[nodiscard]] double rays_through(const Valid<Workload>& workload, double radius);
 
 /// g_i along the Morton curve: share of the rays through S_i that cross all spheres around it, mean over its builds.
 ///
@@ -36,7 +36,7 @@ namespace detp::model {
 ///            the spheres in their places at their builds.
 /// Valid      isotropic lines; samples uniform in a cube or on its faces. Accuracy: see `sphere_cache_counts`.
 /// Throws     std::invalid_argument for a number out of range.
-[[nodiscard]] double listed_share(const Workload& workload, double radius, double octaves);
+[[nodiscard]] double listed_share(const Valid<Workload>& workload, double radius, double octaves);
 
 /// A sphere around S_i.
 struct Enclosing {

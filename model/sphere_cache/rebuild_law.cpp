@@ -118,7 +118,7 @@ double cube_distance_cdf(double t) {
 }
 
 /// Share of the samples within ρ of a random one.
-double share_within(const Workload& workload, double radius) {
+double share_within(const Valid<Workload>& workload, double radius) {
   const double in_cube = cube_distance_cdf(radius / scene_side(workload));
   const double on_surface = 1 - std::exp(-std::numbers::pi * radius * radius / sample_extent(workload));
   const double weight = weight_of_volume(workload.dimension);
@@ -209,18 +209,10 @@ double own_share(int dimension, const Ball& ball, double octaves, double crowdin
 
 }  // namespace
 
-Ball ball_of(const Workload& workload, double radius) {
-  check(workload);
+Ball ball_of(const Valid<Workload>& workload, double radius) {
   require_positive("radius of the ball", radius);
   const double lambda = workload.samples * std::pow(radius, workload.dimension) / sample_extent(workload);
   return {std::min(lambda, 1e300), std::log2(scene_side(workload)) - std::log2(radius)};
-}
-
-double single_rebuild_share(double dimension, double lambda, double phase) {
-  require_non_negative("samples per ball", lambda);
-  require_share("phase", phase);
-  require_dimension(dimension);
-  return std::exp(between_dimensions(dimension, [&](int d) { return log_share(d, log_of(lambda), phase); }));
 }
 
 double single_rebuilds(double dimension, double samples, const Ball& ball) {
@@ -244,12 +236,11 @@ void require_rebuild_law(SampleOrder order) {
         "curve; use order lebesgue or none");
 }
 
-double single_rebuilds(const Workload& workload, double radius, SampleOrder order) {
+double single_rebuilds(const Valid<Workload>& workload, double radius, SampleOrder order) {
   require_rebuild_law(order);
   require_finite("radius of the ball", radius);
   if (order == SampleOrder::lebesgue && radius > 0)
     return single_rebuilds(workload.dimension, workload.samples, ball_of(workload, radius));
-  check(workload);
   return radius > 0 ? std::max(1.0, workload.samples * (1 - share_within(workload, radius))) : workload.samples;
 }
 

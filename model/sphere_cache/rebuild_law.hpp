@@ -50,16 +50,13 @@ struct Ball {
 };
 
 /// The ball of radius ρ > 0 among the workload's samples. Throws std::invalid_argument for numbers out of range.
-[[nodiscard]] Ball ball_of(const Workload& workload, double radius);
+[[nodiscard]] Ball ball_of(const Valid<Workload>& workload, double radius);
 
-/// m/n of one small ball alone, in (0, 1].
+/// s_i along the curve: rebuilds of one ball alone among so many samples, from 1 to all.
 ///
 /// Source     our tabulation.  Accuracy  of the table 1 % (the nearer to a jump in φ, the less: up to 5 %); between
 ///            D = 2 and 3 the geometric interpolation is a guess.
-/// Throws     std::invalid_argument unless λ >= 0, 0 <= φ <= 1 and 1 <= D <= 3.
-[[nodiscard]] double single_rebuild_share(double dimension, double lambda, double phase);
-
-/// s_i along the curve: rebuilds of one ball alone among so many samples, from 1 to all.
+/// Throws     std::invalid_argument unless λ >= 0, n > 0, h is finite and 1 <= D <= 3.
 [[nodiscard]] double single_rebuilds(double dimension, double samples, const Ball& ball);
 
 /// Throws std::invalid_argument for the Hilbert order: the law is tabulated along the Morton curve, and there is no
@@ -67,7 +64,7 @@ struct Ball {
 void require_rebuild_law(SampleOrder order);
 
 /// The same for the workload's samples in order or in none. ρ <= 0: each sample. Throws as require_rebuild_law does.
-[[nodiscard]] double single_rebuilds(const Workload& workload, double radius, SampleOrder order);
+[[nodiscard]] double single_rebuilds(const Valid<Workload>& workload, double radius, SampleOrder order);
 
 /// w: share of a ball's own rebuilds that remain inside another.
 ///

@@ -15,7 +15,7 @@ namespace detp::model {
 /// Source     our derivation; on the faces exact for a cube, all three pairs of faces counting alike.  Between D = 2
 ///            and 3 the two are mixed.
 /// Throws     nothing: the workload is to be checked before.
-[[nodiscard]] inline double mean_square_distance(const Workload& workload) {
+[[nodiscard]] inline double mean_square_distance(const Valid<Workload>& workload) {
   double squares = 0;
   for (const double side : workload.box) squares += side * side;
   const double volume = std::clamp(workload.dimension - 2, 0.0, 1.0);

@@ -19,10 +19,8 @@ constexpr std::int64_t most_groups = 4096;  // number of groups of equal ratio
 /// Walks through the spheres from the outside in.
 class Walk {
  public:
-  Walk(const Workload& workload, const SphereCacheParameters& parameters)
+  Walk(const Valid<Workload>& workload, const Valid<SphereCacheParameters>& parameters)
       : workload_(workload), parameters_(parameters) {
-    check(workload);
-    check(Candidate{Technique::sphere_cache, parameters});
     require_rebuild_law(parameters.order);
     log_ratio_ = std::log(parameters.ratio);
     current_ = {
@@ -97,7 +95,7 @@ class Walk {
     return unsorted_listed_share(current_.radius, current_.rebuilds, around_);
   }
 
-  const Workload& workload_;
+  const Valid<Workload>& workload_;
   SphereCacheParameters parameters_;
   double log_ratio_ = 0;
   SphereLevel current_;
@@ -116,7 +114,7 @@ double sum_of_terms(double a, double b, double terms, double log_ratio) {
 }
 
 /// Of the k spheres, those with r_i >= d; of a few, all: they need no groups.
-std::int64_t spheres_that_hold(const Workload& workload, const SphereCacheParameters& parameters) {
+std::int64_t spheres_that_hold(const Valid<Workload>& workload, const SphereCacheParameters& parameters) {
   if (parameters.spheres <= most_groups) return parameters.spheres;
   if (workload.disc_radius >= workload.sphere_radius) return 0;
   return std::min(parameters.spheres,
@@ -125,7 +123,7 @@ std::int64_t spheres_that_hold(const Workload& workload, const SphereCacheParame
 
 }  // namespace
 
-std::vector<SphereLevel> sphere_levels(const Workload& workload, const SphereCacheParameters& parameters,
+std::vector<SphereLevel> sphere_levels(const Valid<Workload>& workload, const Valid<SphereCacheParameters>& parameters,
                                        std::int64_t most) {
   Walk walk(workload, parameters);
   std::vector<SphereLevel> levels;
@@ -133,14 +131,14 @@ std::vector<SphereLevel> sphere_levels(const Workload& workload, const SphereCac
   return levels;
 }
 
-void for_each_level(const Workload& workload, const SphereCacheParameters& parameters,
+void for_each_level(const Valid<Workload>& workload, const Valid<SphereCacheParameters>& parameters,
                     const std::function<bool(const SphereLevel&)>& visit) {
   Walk walk(workload, parameters);
   for (std::int64_t i = 1; i <= parameters.spheres; ++i)
     if (!visit(walk.to(i, 1))) return;
 }
 
-Counts<double> sphere_cache_counts(const Workload& workload, const SphereCacheParameters& parameters) {
+Counts<double> sphere_cache_counts(const Valid<Workload>& workload, const Valid<SphereCacheParameters>& parameters) {
   Walk walk(workload, parameters);
   Counts<double> counts{.visits = workload.samples,
                         .sorted = parameters.order == SampleOrder::none ? 0 : workload.samples,

@@ -39,11 +39,11 @@ struct SphereLevel {
 
 /// The first `most` of the k spheres. Throws std::invalid_argument for numbers out of range, and for the
 /// Hilbert order (require_rebuild_law).
-[[nodiscard]] std::vector<SphereLevel> sphere_levels(const Workload& workload, const SphereCacheParameters& parameters,
-                                                     std::int64_t most);
+[[nodiscard]] std::vector<SphereLevel> sphere_levels(const Valid<Workload>& workload,
+                                                     const Valid<SphereCacheParameters>& parameters, std::int64_t most);
 
 /// Calls visit with S_1 … S_k from the outside in, until it returns false.
-void for_each_level(const Workload& workload, const SphereCacheParameters& parameters,
+void for_each_level(const Valid<Workload>& workload, const Valid<SphereCacheParameters>& parameters,
                     const std::function<bool(const SphereLevel&)>& visit);
 
 /// Expected counts, in bounded time for any k (0: each disc is tested with all rays): beyond 4096 spheres they are
@@ -60,6 +60,7 @@ void for_each_level(const Workload& workload, const SphereCacheParameters& param
 ///              T_R   0.7, 1.7, 2.6 % (D = 2) and 0.4, 1.3, 2.3 % (D = 3)
 ///            T_I, stopped at r_k = 0.3 or 0.1 r₀ (32 workloads): within 5.4 %, mostly 2 %, the worst for surfaces and
 ///            one sphere. Groups against the sum over all, k 4097 … 10⁶, n_P 10³ … 10⁹, d/r₀ 10⁻⁶ … 0.5: 0.2 %.
-[[nodiscard]] Counts<double> sphere_cache_counts(const Workload& workload, const SphereCacheParameters& parameters);
+[[nodiscard]] Counts<double> sphere_cache_counts(const Valid<Workload>& workload,
+                                                 const Valid<SphereCacheParameters>& parameters);
 
 }  // namespace detp::model

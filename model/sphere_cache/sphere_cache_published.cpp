@@ -49,9 +49,8 @@ double rebuild_cost(double rays, RadiusRatio ratio, std::int64_t i, double spher
   return saturated(sphere_test * (rays * power(ratio, 2.0L * (i - 1))));
 }
 
-double rebuild_time(const Workload& workload, RadiusRatio ratio, std::int64_t k, double sphere_test) {
+double rebuild_time(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k, double sphere_test) {
   require_non_negative("time of a ray-sphere test", sphere_test);
-  check(workload);
   check_arguments(ratio, k);
   const long double log_q = std::log(static_cast<long double>(ratio.value));
   const long double sparse = sparse_spheres(workload.samples, ratio, k);
@@ -61,24 +60,21 @@ double rebuild_time(const Workload& workload, RadiusRatio ratio, std::int64_t k,
   return saturated(sphere_test * (workload.rays * (before + after)));
 }
 
-double rebuild_time_few_samples(const Workload& workload, RadiusRatio ratio, double sphere_test) {
+double rebuild_time_few_samples(const Valid<Workload>& workload, RadiusRatio ratio, double sphere_test) {
   require_non_negative("time of a ray-sphere test", sphere_test);
-  check(workload);
   require_ratio("radius ratio Q", ratio.value);
   const long double q = ratio.value;
   const long double root_less_1 = std::expm1(std::log(static_cast<long double>(workload.samples)) / 3);
   return saturated(sphere_test * (workload.rays * root_less_1) / (q * q * (1 - q)));
 }
 
-double intersect_time(const Workload& workload, RadiusRatio ratio, std::int64_t k, double disc_test) {
+double intersect_time(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k, double disc_test) {
   require_non_negative("time of a ray-disc test", disc_test);
-  check(workload);
   check_arguments(ratio, k);
   return saturated(disc_test * (workload.rays * power(ratio, 2.0L * k)) * workload.samples);
 }
 
-Counts<double> counts(const Workload& workload, RadiusRatio ratio, std::int64_t k) {
-  check(workload);
+Counts<double> counts(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k) {
   check_arguments(ratio, k);
   const long double log_q = std::log(static_cast<long double>(ratio.value));
   const long double sparse = sparse_spheres(workload.samples, ratio, k);
@@ -91,9 +87,8 @@ Counts<double> counts(const Workload& workload, RadiusRatio ratio, std::int64_t 
           .hits = expected_hits(workload)};
 }
 
-double unsorted_time(const Workload& workload, double disc_test) {
+double unsorted_time(const Valid<Workload>& workload, double disc_test) {
   require_non_negative("time of a ray-disc test", disc_test);
-  check(workload);
   return saturated(static_cast<long double>(disc_test) * workload.rays * workload.samples);
 }
 

@@ -38,18 +38,20 @@ namespace detp::model::published {
 [[nodiscard]] double rebuild_cost(double rays, RadiusRatio ratio, std::int64_t i, double sphere_test);
 
 /// T_R = Σ_{i=1..k} min(n_P, m_i) t_i (eq 12), as two geometric sums: before and after Q^{-3i} reaches n_P.
-[[nodiscard]] double rebuild_time(const Workload& workload, RadiusRatio ratio, std::int64_t k, double sphere_test);
+[[nodiscard]] double rebuild_time(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k,
+                                  double sphere_test);
 
 /// T_R = t n_R (n_P^{1/3} - 1) / (Q²(1 - Q)) for few samples at a distance of about d (eq 19).
-[[nodiscard]] double rebuild_time_few_samples(const Workload& workload, RadiusRatio ratio, double sphere_test);
+[[nodiscard]] double rebuild_time_few_samples(const Valid<Workload>& workload, RadiusRatio ratio, double sphere_test);
 
 /// T_I = u n_k n_P: every disc against the rays of the innermost sphere (eq 8).
-[[nodiscard]] double intersect_time(const Workload& workload, RadiusRatio ratio, std::int64_t k, double disc_test);
+[[nodiscard]] double intersect_time(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k,
+                                    double disc_test);
 
 /// Expected counts behind T_R and T_I: Σ min(n_P, m_i) rebuilds, their sphere tests, and the disc tests.
-[[nodiscard]] Counts<double> counts(const Workload& workload, RadiusRatio ratio, std::int64_t k);
+[[nodiscard]] Counts<double> counts(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k);
 
 /// The same cache without sorting, which the paper says gains nothing over testing every disc: u n_R n_P (section 4).
-[[nodiscard]] double unsorted_time(const Workload& workload, double disc_test);
+[[nodiscard]] double unsorted_time(const Valid<Workload>& workload, double disc_test);
 
 }  // namespace detp::model::published

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 
-#include "detp/model/vocabulary/form.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 
 /// The number of nested spheres of the cache: k.

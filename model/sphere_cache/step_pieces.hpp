@@ -18,8 +18,7 @@ inline constexpr double most_ratio = 0.98;
 class StepPieces {
  public:
   /// Throws std::invalid_argument for a workload out of range or d >= r₀: then there is no sphere.
-  explicit StepPieces(const Workload& workload) {
-    check(workload);
+  explicit StepPieces(const Valid<Workload>& workload) {
     if (workload.disc_radius >= workload.sphere_radius)
       throw std::invalid_argument("the disc radius must be smaller than the sphere radius, or no sphere pays");
     log_radii_ = std::log(static_cast<long double>(workload.disc_radius) / workload.sphere_radius);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <concepts>
 #include <optional>
 #include <span>
 #include <string>
@@ -33,15 +34,15 @@ namespace records {
 
 template <auto member>
 [[nodiscard]] constexpr Parameter number(std::string_view name, std::string_view what, double least, double most,
-                                         ParameterValue small, std::string_view help) {
+                                         ParameterValue small, std::string_view help, double step = 1.4) {
   using Access = ParameterAccess<Parameters, member>;
-  return {name, name, what, help, least, most, small, {}, Access::get, Access::set};
+  return {name, name, what, help, least, most, small, {}, step, Access::get, Access::set};
 }
 
 template <auto member, Choice E>
 [[nodiscard]] constexpr Parameter choice(std::string_view name, E small, std::string_view help) {
   using Access = ParameterAccess<Parameters, member>;
-  return {name, name, name, help, 0, 0, detp::name(small), choice_names<E>, Access::get, Access::set};
+  return {name, name, name, help, 0, 0, detp::name(small), choice_names<E>, 0, Access::get, Access::set};
 }
 
 [[nodiscard]] constexpr Parameter shown_as(std::string_view symbol, Parameter parameter) {
@@ -54,41 +55,41 @@ inline constexpr double most_parts = 1048576;
 
 inline constexpr std::array sphere_cache{
     shown_as("Q", number<&SphereCacheParameters::ratio>("ratio", "radius ratio Q", 0, 1, 0.65,
-                                                        "radius of a sphere over that of the next larger one")),
+                                                        "radius of a sphere over that of the next larger one", 1.15)),
     shown_as("k", number<&SphereCacheParameters::spheres>("spheres", "number of spheres", 0, 9e18, int64_t{8},
-                                                          "k, the innermost sphere")),
+                                                          "k, the innermost sphere", 0)),
     choice<&SphereCacheParameters::order>("order", SampleOrder::lebesgue, "order in which samples are visited")};
 
 inline constexpr std::array cell_spheres{
-    number<&CellSpheresParameters::depth>("depth", "depth", 0, 16, int64_t{3}, "levels of cells with spheres")};
+    number<&CellSpheresParameters::depth>("depth", "depth", 0, 16, int64_t{3}, "levels of cells with spheres", 0)};
 
 inline constexpr std::array sphere_tree{
-    number<&SphereTreeParameters::fan_out>("fan-out", "fan-out", 2, most_parts, int64_t{4}, "children of a node"),
+    number<&SphereTreeParameters::fan_out>("fan-out", "fan-out", 2, most_parts, int64_t{4}, "children of a node", 2),
     number<&SphereTreeParameters::leaf>("leaf", "number of samples in a leaf", 1, most_parts, int64_t{2},
-                                        "samples in a leaf")};
+                                        "samples in a leaf", 4)};
 
 inline constexpr std::array box_tree{
-    number<&BoxTreeParameters::fan_out>("fan-out", "fan-out", 2, most_parts, int64_t{2}, "most children of a node"),
+    number<&BoxTreeParameters::fan_out>("fan-out", "fan-out", 2, most_parts, int64_t{2}, "most children of a node", 2),
     number<&BoxTreeParameters::leaf>("leaf", "number of samples in a leaf", 1, most_parts, int64_t{1},
-                                     "most samples in a leaf")};
+                                     "most samples in a leaf", 4)};
 
 inline constexpr std::array octree{
-    number<&OctreeParameters::depth>("depth", "depth", 0, 20, int64_t{3}, "levels of an octree"),
+    number<&OctreeParameters::depth>("depth", "depth", 0, 20, int64_t{3}, "levels of an octree", 0),
     choice<&OctreeParameters::traversal>("traversal", Traversal::top_down, "how rays go through an octree")};
 
 inline constexpr std::array grid{number<&GridParameters::cells>("cells", "number of cells a side", 1, most_parts,
                                                                 int64_t{7}, "cells along the longest side")};
 
 inline constexpr std::array bsp{
-    number<&BspParameters::depth>("depth", "depth", 0, 64, int64_t{12}, "most levels of a BSP tree"),
+    number<&BspParameters::depth>("depth", "depth", 0, 64, int64_t{12}, "most levels of a BSP tree", 0),
     number<&BspParameters::leaf>("leaf", "number of discs in a leaf", 1, most_parts, int64_t{1},
-                                 "discs in a leaf that is split no further")};
+                                 "discs in a leaf that is split no further", 4)};
 
 inline constexpr std::array bvh{
     choice<&BvhParameters::quality>("quality", BuildQuality::low, "how carefully a BVH is built")};
 
 inline constexpr std::array ray_map{number<&RayMapParameters::leaf>(
-    "leaf", "number of rays in a leaf", 1, most_parts, int64_t{2}, "rays in a cell that is split no further")};
+    "leaf", "number of rays in a leaf", 1, most_parts, int64_t{2}, "rays in a cell that is split no further", 4)};
 
 inline constexpr std::array photon_map{number<&PhotonMapParameters::nearest>(
     "nearest", "number of nearest photons", 3, 1e9, int64_t{3}, "photons that are looked for")};
@@ -169,6 +170,14 @@ void set_parameter(Candidate& candidate, std::string_view name, const ParameterV
 
 /// Throws std::invalid_argument if a parameter is out of range or does not belong to the technique.
 void check(const Candidate& candidate);
+
+/// Throws std::invalid_argument where a parameter of a technique is out of its range.
+template <class Own>
+requires std::constructible_from<Parameters, Own>
+void check(const Own& parameters) {
+  for (const TechniqueRecord& record : technique_records)
+    if (std::holds_alternative<Own>(record.defaults)) return check(Candidate{record.technique, parameters});
+}
 
 /// The technique with small parameters, and with each parameter at its least value and at each of its choices: those
 /// that tests run on few samples.

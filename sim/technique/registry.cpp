@@ -30,8 +30,7 @@ constexpr std::array<TechniqueSearch, all_techniques.size()> registry{{
 
 const TechniqueSearch& search_of(Technique technique) { return registry[static_cast<std::size_t>(technique)]; }
 
-std::unique_ptr<Index> prepare(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
-  check(candidate);
+std::unique_ptr<Index> prepare(const Problem& problem, const Valid<Candidate>& candidate, const RunOptions& options) {
   return search_of(candidate.technique).prepare(problem, candidate.parameters, options);
 }
 

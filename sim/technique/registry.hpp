@@ -16,7 +16,7 @@ struct TechniqueSearch {
 
 /// Builds the index of a candidate over a problem's discs, for rays that start no farther away than those of the
 /// problem (which may have none yet). Throws as run does; Stopped if a stop was requested.
-[[nodiscard]] std::unique_ptr<Index> prepare(const Problem& problem, const Candidate& candidate,
+[[nodiscard]] std::unique_ptr<Index> prepare(const Problem& problem, const Valid<Candidate>& candidate,
                                              const RunOptions& options);
 
 }  // namespace detp::sim

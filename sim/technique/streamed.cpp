@@ -20,9 +20,9 @@ namespace {
 
 class Stream {
  public:
-  Stream(std::span<const Disc> discs, const RaySource& source, const Candidate& candidate, const StreamOptions& options)
+  Stream(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
+         const StreamOptions& options)
       : source_(source), candidate_(candidate), options_(options), run_(options.run) {
-    check(candidate);
     require_few_enough();
     Stopwatch watch;
     problem_ = make_problem_without_rays(discs, source.farthest_from(enclosing_sphere(discs, run_.stop).centre),
@@ -128,7 +128,7 @@ class Stream {
   }
 
   const RaySource& source_;
-  const Candidate& candidate_;
+  const Valid<Candidate>& candidate_;
   const StreamOptions& options_;
   RunOptions run_;
   Problem problem_;
@@ -150,7 +150,7 @@ std::size_t default_block(std::size_t discs) {
   return std::bit_ceil(std::clamp(discs, least, most));
 }
 
-Streamed run_streamed(std::span<const Disc> discs, const RaySource& source, const Candidate& candidate,
+Streamed run_streamed(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                       const StreamOptions& options) {
   return Stream(discs, source, candidate, options).go();
 }

@@ -36,7 +36,7 @@ struct Streamed {
 /// make_problem and run do (but there may be more than 2³² rays, unless pairs are asked for), and std::length_error,
 /// naming the bytes, before it would take more than the memory budget. Pairs (8 bytes each)
 /// are checked as they grow.
-[[nodiscard]] Streamed run_streamed(std::span<const Disc> discs, const RaySource& source, const Candidate& candidate,
-                                    const StreamOptions& options = {});
+[[nodiscard]] Streamed run_streamed(std::span<const Disc> discs, const RaySource& source,
+                                    const Valid<Candidate>& candidate, const StreamOptions& options = {});
 
 }  // namespace detp::sim

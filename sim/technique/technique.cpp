@@ -9,8 +9,7 @@
 
 namespace detp::sim {
 
-Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions& options) {
-  check(candidate);
+Outcome run(const Problem& problem, const Valid<Candidate>& candidate, const RunOptions& options) {
   check_options(options, problem);
   Stopwatch watch;
   std::unique_ptr<Index> index;

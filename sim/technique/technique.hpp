@@ -9,6 +9,6 @@ namespace detp::sim {
 /// Runs one technique: prepares its index, and searches it once. Throws std::invalid_argument for a problem that
 /// make_problem did not make, parameters out of range or not the technique's, a number of threads out of range or
 /// totals of other discs, and std::length_error, naming the bytes, where an index would not fit the memory.
-[[nodiscard]] Outcome run(const Problem& problem, const Candidate& candidate, const RunOptions& options = {});
+[[nodiscard]] Outcome run(const Problem& problem, const Valid<Candidate>& candidate, const RunOptions& options = {});
 
 }  // namespace detp::sim

@@ -7,14 +7,13 @@
 namespace detp::validate {
 namespace {
 
-/// A step up and a step down from a value: one level of depth, one sphere, or a factor for other numbers.
+/// A step down and a step up from a value.
 std::vector<ParameterValue> steps_from(const Parameter& parameter, const ParameterValue& value) {
-  if (const auto* ratio = std::get_if<double>(&value)) return {0.85 * *ratio, 1.15 * *ratio};
+  if (const auto* ratio = std::get_if<double>(&value)) return {(2 - parameter.step) * *ratio, parameter.step * *ratio};
   const auto number = std::get<std::int64_t>(value);
-  if (parameter.name == "depth" || parameter.name == "spheres") return {number - 1, number + 1};
-  const double factor = parameter.name == "leaf" ? 4 : parameter.name == "fan-out" ? 2 : 1.4;
-  return {static_cast<std::int64_t>(std::llround(static_cast<double>(number) / factor)),
-          static_cast<std::int64_t>(std::llround(static_cast<double>(number) * factor))};
+  if (parameter.step == 0) return {number - 1, number + 1};
+  return {static_cast<std::int64_t>(std::llround(static_cast<double>(number) / parameter.step)),
+          static_cast<std::int64_t>(std::llround(static_cast<double>(number) * parameter.step))};
 }
 
 /// Adds the candidate with another value, if that is in its range.

@@ -122,7 +122,7 @@ std::vector<Finding> candidate_findings(const Experiment& experiment, const mode
                         .quantity = fmt::format("{} of {}, as choose predicts them", with_dashes(term), candidate),
                         .technique = std::string(technique),
                         .parameters = parameters,
-                        .predictions = {{model::Form::corrected, "the closed form that choose prices", predicted}},
+                        .predictions = {{Form::corrected, "the closed form that choose prices", predicted}},
                         .observed = found,
                         .batches = adds_up_over_rays(term) ? std::max(2, static_cast<int>(counted->batches.size())) : 0,
                         .tolerance = tolerance,

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "detp/model/vocabulary/form.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 #include "detp/validate/statistics/statistics.hpp"
@@ -16,7 +15,7 @@ namespace detp::validate {
 
 /// A formula's value.
 struct Prediction {
-  model::Form form;
+  Form form;
   std::string source;  ///< equation of the paper, or "our derivation"
   double value = 0;
 };
@@ -41,7 +40,7 @@ struct Claim {
   std::string quantity;
   std::string technique;   ///< as in the finding
   std::string parameters;  ///< as in the finding
-  model::Form form;
+  Form form;
   std::string source;
   double predicted = 0;
   Estimate observed = {};

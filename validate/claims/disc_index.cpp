@@ -21,8 +21,6 @@
 namespace detp::validate {
 namespace {
 
-using model::Form;
-
 constexpr double tolerance = 0.02;
 
 /// The counts of one batch of lines.

@@ -18,8 +18,6 @@
 namespace detp::validate {
 namespace {
 
-using model::Form;
-
 constexpr int positions = 8;  ///< number of random places of each kind of sphere or disc
 constexpr double tolerance = 0.015;
 constexpr double sphere_radius = 0.4;

@@ -20,8 +20,6 @@
 namespace detp::validate {
 namespace {
 
-using model::Form;
-
 constexpr std::array ratios{0.3, 0.5, 0.65, 0.8};
 constexpr std::string_view over_ratios = "geometric mean over Q = 0.3, 0.5, 0.65, 0.8";
 constexpr double tolerance = 0.025;

@@ -15,8 +15,6 @@
 namespace detp::validate {
 namespace {
 
-using model::Form;
-
 constexpr double tolerance = 0.025;
 
 /// The claims about one technique.

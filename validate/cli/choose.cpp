@@ -103,18 +103,19 @@ std::string describe_numbers(const Workload& workload) {
 }
 
 Result run_choose(const ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
-  const bool structural = options.rigor == "structural";
-  if (!structural && options.rigor != "estimate")
+  const auto rigor = choice_named<Rigor>(options.rigor);
+  if (!rigor)
     throw std::invalid_argument(
         fmt::format("rigor '{}' is not offered by this version; 'estimate' and 'structural' are, with --analyze to "
                     "run the candidates",
                     options.rigor));
+  const bool structural = rigor == Rigor::structural;
   const UnitCosts costs = parse_unit_costs(options.costs, validate::built_in_unit_costs());
   validate::JobRequest request = options.workload.request(common);
   request.workload_only = !options.analyze;
   Result result;
   ChooseAnswer answer;
-  answer.rigor = options.rigor;
+  answer.rigor = *rigor;
   if (request.numbers_alone() && !options.analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
     result.stopped = decide(answer, costs, stop);
@@ -128,7 +129,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     answer.workload = job.workload;
     result.stopped = decide(answer, costs, stop);
     if (structural && !result.stopped) result.stopped = decide_structurally(answer, job, costs, stop);
-    if (structural && result.stopped) answer.rigor = "estimate";
+    if (structural && result.stopped) answer.rigor = Rigor::estimate;
     if (options.analyze && !result.stopped) {
       answer.analysis = validate::analyse(
           job.problem(), answer.ranking,

@@ -95,7 +95,7 @@ Json to_json(const ChooseAnswer& answer) {
               {"parameters", to_json(answer.paper.candidate)},
               {"predicted_seconds", answer.paper.time.total()}}},
             {"effects", effects_json(answer.workload)},
-            {"rigor", answer.rigor},
+            {"rigor", name(answer.rigor)},
             {"unit_costs", !answer.costs_given ? "built-in; not calibrated on this machine" : "given"},
             {"choosing_seconds", answer.choosing_seconds},
             {"warnings", answer.warnings}};
@@ -164,9 +164,9 @@ std::string to_text(const ChooseAnswer& answer) {
   text += fmt::format("paper     its rule takes {} {}: predicted {:.3g} s\n", name(answer.paper.candidate.technique),
                       describe(answer.paper.candidate), answer.paper.time.total());
   text += fmt::format(
-      "rigor     {}: {}, in {:.2g} ms; unit costs {}\n", answer.rigor,
-      answer.rigor == "structural" ? "parameters by closed forms, counts by the structures built with them"
-                                   : "closed forms",
+      "rigor     {}: {}, in {:.2g} ms; unit costs {}\n", name(answer.rigor),
+      answer.rigor == Rigor::structural ? "parameters by closed forms, counts by the structures built with them"
+                                        : "closed forms",
       1e3 * answer.choosing_seconds, !answer.costs_given ? "built in, not calibrated on this machine" : "as given");
   return text;
 }

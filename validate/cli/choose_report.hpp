@@ -17,7 +17,7 @@ struct ChooseAnswer {
   std::vector<model::Ranked> ranking;
   model::Ranked paper;  ///< the paper's rule of thumb
   std::optional<validate::Analysis> analysis;
-  std::string rigor = "estimate";
+  Rigor rigor = Rigor::estimate;
   UnitCosts costs;
   bool costs_given = false;  ///< true: from the user; false: the built-in unit costs
   double choosing_seconds = 0;

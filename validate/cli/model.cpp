@@ -9,14 +9,12 @@
 #include "detp/model/rank/extrapolation.hpp"
 #include "detp/model/rank/registry.hpp"
 #include "extrapolated.hpp"
-#include "model_answer.hpp"
+#include "model_outlook.hpp"
 #include "unit_cost_option.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
 namespace {
-
-using model::Form;
 
 struct ModelOptions {
   WorkloadOptions workload;
@@ -24,6 +22,7 @@ struct ModelOptions {
   std::string form = "corrected";
   std::string costs;
   std::optional<std::int64_t> levels;
+  OutlookOptions outlook;
 };
 
 using Answer = ModelAnswer(const ModelQuestion& question);
@@ -89,7 +88,7 @@ const Columns& times() {
 }
 
 const Columns& per_line() {
-  static const Columns columns{"cells_per_line", "discs_per_cell", "tests_per_line", "cells_per_disc"};
+  static const Columns columns{"cells_per_line", "discs_per_cell", "tests_per_line", "cells_per_disc", "index_bytes"};
   return columns;
 }
 
@@ -108,7 +107,7 @@ Columns unit_cost_columns() {
 
 Columns columns() {
   return workload_columns() + candidate_columns() + Columns{"form", "k", "k_max", "k_best", "extrapolated"} + times() +
-         per_line() + count_columns() + unit_cost_columns() + of_one_sphere();
+         per_line() + outlook_columns() + count_columns() + unit_cost_columns() + of_one_sphere();
 }
 
 /// A row for each sphere in the list, or one row if there is none. Values common to all are in each row.
@@ -155,14 +154,18 @@ AnswerRow answer_row(const ModelOptions& options, const Measured& measured, cons
                      std::int64_t levels) {
   const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
   (void)options.candidate.wish(technique);  // refuses foreign parameters
-  const Form form = options.form == "published" ? Form::published : Form::corrected;
+  const Form form = choice_named<Form>(options.form).value();
   AnswerRow row{measured.inputs, {{"technique", name(technique)}}, {}};
   row.inputs["form"] = options.form;
   row.inputs["engine"] = name(options.candidate.engine);
   row.inputs["unit_costs"] = to_json(costs);
   row.inputs["levels"] = levels;
-  ModelAnswer found = answer({measured.workload, technique, form, costs, levels, options.candidate});
+  if (options.outlook.curvature) row.inputs["curvature"] = *options.outlook.curvature;
+  if (options.outlook.target_error) row.inputs["target_error"] = *options.outlook.target_error;
+  const ModelQuestion question{measured.workload, technique, form, costs, levels, options.candidate};
+  ModelAnswer found = answer(question);
   row.answer.update(found.json);
+  row.answer.update(outlook(question, found.parameters, options.outlook));
   row.answer.update(extrapolated_json(model::extrapolations(measured.workload, {technique, found.parameters})));
   require_finite_time(row.answer);
   row.cells = cells_of(row.inputs, {technique, found.parameters}, row.answer);
@@ -192,6 +195,8 @@ Command model_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("model", "The closed forms for one technique");
   app->footer(
       "Numbers may be lists and ranges, as 1%,2%,4% and 0.3:0.9:0.05: every combination makes a row.\n"
+      "growth_power p and growth_logarithms q: with discs as large as samples are apart, the time of the best "
+      "parameters grows as n_R n_P^p (log n_P)^q.\n"
       "Example: detp model --rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2 --ratio 0.65");
   const auto options = std::make_shared<ModelOptions>();
   options->workload.add_to(*app, Values::many);
@@ -200,6 +205,7 @@ Command model_command(CLI::App& program) {
                                     "published or corrected");
   app->add_option("--costs", options->costs, unit_cost_help() + "\ndefault: t, u, w, v, n 1, so that times are counts");
   add_number(*app, "--levels", options->levels, "how many spheres to list; default: 64, of several rows none");
+  options->outlook.add_to(*app);
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_model(*options, common, stop);
           }};

@@ -11,7 +11,7 @@ namespace detp::cli {
 struct ModelQuestion {
   Workload workload;
   Technique technique;
-  model::Form form;
+  Form form;
   UnitCosts costs;
   std::int64_t levels;
   const CandidateOptions& options;

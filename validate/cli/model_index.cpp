@@ -6,12 +6,11 @@
 
 #include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/disc_index/disc_index_published.hpp"
+#include "detp/model/disc_index/index_memory.hpp"
 #include "model_answer.hpp"
 
 namespace detp::cli {
 namespace {
-
-using model::Form;
 
 Json published_octree(const ModelQuestion& question, int depth) {
   const Workload& w = question.workload;
@@ -24,7 +23,7 @@ Json published_octree(const ModelQuestion& question, int depth) {
 }
 
 /// Per line that hits the index's box.
-Json corrected_index(const ModelQuestion& question, double parts, const Counts<double>& counts) {
+Json corrected_index(const ModelQuestion& question, double parts, const Counts<double>& counts, double bytes) {
   const model::Cells cells = model::index_cells(question.workload, parts);
   const double references = question.workload.samples * cells.overlapped;
   double area = 0;
@@ -35,6 +34,7 @@ Json corrected_index(const ModelQuestion& question, double parts, const Counts<d
           {"discs_per_cell", references / cells.count()},
           {"tests_per_line", references * share},
           {"cells_per_disc", cells.overlapped},
+          {"index_bytes", bytes},
           {"build_time", time.build},
           {"traverse_time", time.traverse},
           {"intersect_time", time.intersect},
@@ -54,7 +54,8 @@ ModelAnswer octree_answer(const ModelQuestion& question) {
   const Counts<double> counts = model::octree_counts(question.workload, parameters);
   Json json{{"parameters", to_json(candidate)}, {"form", name(question.form)}, {"depth", depth}};
   json.update(question.form == Form::published ? published_octree(question, depth)
-                                               : corrected_index(question, std::ldexp(1.0, depth), counts));
+                                               : corrected_index(question, std::ldexp(1.0, depth), counts,
+                                                                 model::octree_bytes(question.workload, parameters)));
   return {parameters, std::move(json)};
 }
 
@@ -73,7 +74,7 @@ ModelAnswer grid_answer(const ModelQuestion& question) {
   const auto parameters = std::get<GridParameters>(candidate.parameters);
   const Counts<double> counts = model::grid_counts(question.workload, parameters);
   Json json{{"parameters", to_json(candidate)}, {"form", name(question.form)}};
-  json.update(corrected_index(question, parameters.cells, counts));
+  json.update(corrected_index(question, parameters.cells, counts, model::grid_bytes(question.workload, parameters)));
   return {parameters, std::move(json)};
 }
 

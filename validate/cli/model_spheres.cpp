@@ -17,8 +17,6 @@
 namespace detp::cli {
 namespace {
 
-using model::Form;
-
 SampleOrder order_of(const ModelQuestion& question) {
   const auto given = question.options.given<std::string_view>("order");
   return given ? *choice_named<SampleOrder>(*given) : SampleOrder::lebesgue;

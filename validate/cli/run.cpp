@@ -39,7 +39,7 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
   if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
   if (auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
       cache != nullptr && options.stop == SphereStop::max)
-    cache->spheres = sphere_stops(workload, costs, model::Form::corrected, {cache->ratio}).max;
+    cache->spheres = sphere_stops(workload, costs, Form::corrected, {cache->ratio}).max;
   return *candidate;
 }
 

@@ -45,7 +45,7 @@ std::optional<Counts<double>> prediction(const Workload& workload, const Candida
 void add_stops(const Workload& workload, const Candidate& candidate, Json& json) {
   const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters);
   if (cache == nullptr) return;
-  const auto form = candidate.technique == Technique::sphere_cache ? model::Form::corrected : model::Form::published;
+  const auto form = candidate.technique == Technique::sphere_cache ? Form::corrected : Form::published;
   const SphereStops stops = sphere_stops(workload, validate::built_in_unit_costs(), form, {cache->ratio});
   json["k"] = cache->spheres;
   json["k_max"] = stops.max;

@@ -6,11 +6,11 @@
 
 namespace detp::cli {
 
-SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, model::Form form, RadiusRatio ratio) {
+SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form form, RadiusRatio ratio) {
   const std::int64_t max = model::sphere_count(form, ratio, {workload.disc_radius}, {workload.sphere_radius});
   if (max == 0) return {};
-  return {max, form == model::Form::published ? model::published::best_stop(workload, costs, ratio)
-                                              : model::best_stop(workload, costs, ratio).spheres};
+  return {max, form == Form::published ? model::published::best_stop(workload, costs, ratio)
+                                       : model::best_stop(workload, costs, ratio).spheres};
 }
 
 }  // namespace detp::cli

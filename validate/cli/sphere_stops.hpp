@@ -1,6 +1,5 @@
 #pragma once
 
-#include "detp/model/vocabulary/form.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 
 namespace detp::cli {
@@ -12,7 +11,6 @@ struct SphereStops {
 };
 
 /// Throws as model::sphere_count and model::best_stop do.
-[[nodiscard]] SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, model::Form form,
-                                       RadiusRatio ratio);
+[[nodiscard]] SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form form, RadiusRatio ratio);
 
 }  // namespace detp::cli

@@ -19,7 +19,7 @@ std::string where(const Deviation& row) {
 Json to_json(const DeviationSummary& summary) {
   Json json{{"technique", summary.technique},
             {"quantity", summary.quantity},
-            {"tier", summary.tier},
+            {"tier", name(summary.form)},
             {"compared", summary.compared},
             {"too_noisy", summary.noisy},
             {"median", summary.median},
@@ -47,7 +47,7 @@ std::string to_text(const std::vector<DeviationSummary>& summaries) {
     if (summary.compared > 0)
       text +=
           fmt::format("{:<24} {:<13} {:<10} {:>8} {:>6.2f}% {:>6.1f}% {:>7.1f}% {:>6g}% {:>6}  {}\n", summary.technique,
-                      summary.quantity, summary.tier, summary.compared, 100 * summary.median, 100 * summary.p95,
+                      summary.quantity, name(summary.form), summary.compared, 100 * summary.median, 100 * summary.p95,
                       100 * summary.worst, 100 * summary.goal.worst, summary.beyond, where(summary.worst_at));
   return text;
 }
@@ -58,9 +58,9 @@ Json cells_of(const Deviation& row) {
              {"field", name(sim::Field::isotropic)},
              {"samples", whole(row.samples)},
              {"dimension", row.dimension},
-             {"id", fmt::format("sweep-{}.{}", row.technique, row.tier)},
+             {"id", fmt::format("sweep-{}.{}", row.technique, name(row.form))},
              {"quantity", row.quantity},
-             {"form", row.tier},
+             {"form", name(row.form)},
              {"predicted", row.predicted},
              {"observed", row.observed.mean},
              {"standard_error", row.observed.standard_error},

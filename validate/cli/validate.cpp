@@ -146,12 +146,12 @@ std::string range_of_controls(const std::vector<Claim>& claims) {
 }
 
 std::string summary(const std::vector<Claim>& claims) {
-  const auto count = [&](model::Form form, Verdict verdict) {
+  const auto count = [&](Form form, Verdict verdict) {
     return std::count_if(claims.begin(), claims.end(),
                          [&](const Claim& claim) { return claim.form == form && claim.verdict == verdict; });
   };
   std::string text = "\n";
-  for (const auto form : {model::Form::corrected, model::Form::published})
+  for (const auto form : {Form::corrected, Form::published})
     text += fmt::format("{}: {} agree, {} refuted, {} undecided\n", name(form), count(form, Verdict::agrees),
                         count(form, Verdict::refuted), count(form, Verdict::undecided));
   const auto controls = std::count_if(claims.begin(), claims.end(),
@@ -181,7 +181,7 @@ Table table_of(const std::vector<Claim>& claims, const Json& inputs) {
 
 ExitCode code_of(const std::vector<Claim>& claims) {
   const bool refuted = std::any_of(claims.begin(), claims.end(), [](const Claim& claim) {
-    return claim.form == model::Form::corrected && claim.verdict == Verdict::refuted;
+    return claim.form == Form::corrected && claim.verdict == Verdict::refuted;
   });
   return refuted ? ExitCode::refuted : ExitCode::done;
 }

@@ -38,19 +38,19 @@ Counts<double> structural_brute_force(const sim::Problem& problem, double rays, 
   return {.visits = discs * blocks_of(rays, static_cast<double>(problem.discs.size())), .disc_tests = rays * discs};
 }
 
-Counts<double> structural_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
+Counts<double> structural_counts(const sim::Problem& problem, double rays, const Valid<Candidate>& candidate,
                                  const std::stop_token& stop, bool front_facing) {
   require_count("number of rays", rays, 1, 1e18);
-  check(candidate);
-  const StructuralTier& tier = structural_tier(candidate.technique);
-  if (tier.counts == nullptr)
-    throw std::invalid_argument(fmt::format("{} has no structural tier: {}", name(candidate.technique), tier.why_none));
-  Counts<double> counts = tier.counts(problem, rays, candidate.parameters, stop);
+  const StructuralModel& model = structural_model(candidate.technique);
+  if (model.counts == nullptr)
+    throw std::invalid_argument(
+        fmt::format("{} has no structural counts: {}", name(candidate.technique), model.why_none));
+  Counts<double> counts = model.counts(problem, rays, candidate.parameters, stop);
   counts.hits = (front_facing ? 0.5 : 1) * expected_hits(problem, rays);
   return counts;
 }
 
-Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Candidate& candidate,
+Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Valid<Candidate>& candidate,
                                  const std::stop_token& stop, bool front_facing) {
   return structural_counts(RaylessProblem(discs).get(), rays, candidate, stop, front_facing);
 }

@@ -9,7 +9,7 @@
 
 namespace detp::validate {
 
-/// The structural tier: every count of a candidate, expected from the discs themselves, without rays.
+/// Structural rigor: every count of a candidate, expected from the discs themselves, without rays.
 ///
 ///     octree, grid, bsp    builds the index and sums its nodes' surface areas (structural_index.hpp)
 ///     sphere cache         walks along the sorted samples (structural_walk.hpp)
@@ -33,11 +33,12 @@ namespace detp::validate {
 ///            sphere-cache-published, whose walk loses rays, for a sphere cache in another order, for bvh and
 ///            photon-map, and for an octree that is not searched top-down or front to back.
 [[nodiscard]] Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays,
-                                               const Candidate& candidate, const std::stop_token& stop = {},
+                                               const Valid<Candidate>& candidate, const std::stop_token& stop = {},
                                                bool front_facing = false);
 
 /// Structural counts for the discs of a problem; its rays do not matter.
-[[nodiscard]] Counts<double> structural_counts(const sim::Problem& problem, double rays, const Candidate& candidate,
-                                               const std::stop_token& stop = {}, bool front_facing = false);
+[[nodiscard]] Counts<double> structural_counts(const sim::Problem& problem, double rays,
+                                               const Valid<Candidate>& candidate, const std::stop_token& stop = {},
+                                               bool front_facing = false);
 
 }  // namespace detp::validate

@@ -140,8 +140,8 @@ Counts<double> structural_octree(const sim::Problem& problem, double rays, const
                                  const std::stop_token& stop) {
   const auto& own = std::get<OctreeParameters>(parameters);
   if (own.traversal != Traversal::top_down && own.traversal != Traversal::front_to_back)
-    throw std::invalid_argument(fmt::format(
-        "the structural tier knows an octree top-down or front-to-back only (got {})", name(own.traversal)));
+    throw std::invalid_argument(
+        fmt::format("structural counts know an octree top-down or front-to-back only (got {})", name(own.traversal)));
   return index_counts(problem, rays, &Counts<double>::nodes, stop,
                       [&](const auto& visit) { return inspect_octree(problem, own, {}, visit, stop); });
 }

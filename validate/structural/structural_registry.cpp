@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::string_view only_run = "it can only be run";
 
-constexpr std::array<StructuralTier, all_techniques.size()> registry{{
+constexpr std::array<StructuralModel, all_techniques.size()> registry{{
     {Technique::brute_force, structural_brute_force},
     {Technique::sphere_cache, structural_sphere_cache},
     {Technique::sphere_cache_published, nullptr, "its walk loses rays"},
@@ -29,6 +29,6 @@ constexpr std::array<StructuralTier, all_techniques.size()> registry{{
 
 }  // namespace
 
-const StructuralTier& structural_tier(Technique technique) { return registry[static_cast<std::size_t>(technique)]; }
+const StructuralModel& structural_model(Technique technique) { return registry[static_cast<std::size_t>(technique)]; }
 
 }  // namespace detp::validate

@@ -15,12 +15,12 @@ namespace detp::validate {
 using StructuralCounts = Counts<double>(const sim::Problem& problem, double rays, const Parameters& parameters,
                                         const std::stop_token& stop);
 
-struct StructuralTier {
+struct StructuralModel {
   Technique technique;
   StructuralCounts* counts = nullptr;
   std::string_view why_none = {};  ///< reason, if there are no counts
 };
 
-[[nodiscard]] const StructuralTier& structural_tier(Technique technique);
+[[nodiscard]] const StructuralModel& structural_model(Technique technique);
 
 }  // namespace detp::validate

@@ -122,7 +122,7 @@ Counts<double> structural_sphere_cache(const sim::Problem& problem, double rays,
   const auto& own = std::get<SphereCacheParameters>(parameters);
   if (own.order != SampleOrder::lebesgue)
     throw std::invalid_argument(
-        fmt::format("the sphere cache has a structural tier along the Morton (lebesgue) curve only (got order {})",
+        fmt::format("the sphere cache has structural counts along the Morton (lebesgue) curve only (got order {})",
                     name(own.order)));
   const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, own, stop);
   const auto discs = static_cast<double>(problem.discs.size());

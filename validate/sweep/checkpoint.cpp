@@ -19,7 +19,7 @@ constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a whole sweep takes
 
 Json to_json(const Deviation& row) {
   return Json::array({row.dimension, row.samples, row.disc_share, row.technique, row.parameters, row.quantity,
-                      row.sphere, row.tier, row.predicted, row.observed.mean, row.observed.standard_error});
+                      row.sphere, name(row.form), row.predicted, row.observed.mean, row.observed.standard_error});
 }
 
 Deviation deviation_of(const Json& json) {
@@ -30,7 +30,7 @@ Deviation deviation_of(const Json& json) {
                 .parameters = json.at(4),
                 .quantity = json.at(5),
                 .sphere = json.at(6),
-                .tier = json.at(7),
+                .form = json.at(7) == name(Form::published) ? Form::published : Form::corrected,
                 .predicted = json.at(8),
                 .observed = {.mean = json.at(9), .standard_error = json.at(10)}};
   return row;

@@ -8,7 +8,7 @@ namespace {
 
 bool same_quantity(const DeviationSummary& summary, const Deviation& deviation) {
   return summary.technique == deviation.technique && summary.quantity == deviation.quantity &&
-         summary.tier == deviation.tier;
+         summary.form == deviation.form;
 }
 
 void fill(DeviationSummary& summary, std::span<const Deviation> deviations) {
@@ -49,7 +49,7 @@ std::vector<DeviationSummary> summarise(std::span<const Deviation> deviations) {
     if (known != summaries.end()) continue;
     summaries.push_back({.technique = deviation.technique,
                          .quantity = deviation.quantity,
-                         .tier = deviation.tier,
+                         .form = deviation.form,
                          .goal = goal_of(deviation),
                          .worst_at = {}});
     fill(summaries.back(), deviations);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "detp/model/vocabulary/form.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 /// Deviations of the formulas from counts, over a sweep of workloads.
@@ -19,7 +20,7 @@ struct Deviation {
   std::string parameters;   ///< "Q 0.65, k 9"
   std::string quantity;     ///< a term of Counts for the whole run, or "m_i" or "L_i" of one sphere
   std::int64_t sphere = 0;  ///< i; 0 for the whole run
-  std::string tier;         ///< "published" or "corrected"
+  Form form = Form::corrected;
   double predicted = 0;
   Estimate observed;  ///< mean over sets of samples, with its standard error
 
@@ -38,7 +39,7 @@ struct Goal {
 struct DeviationSummary {
   std::string technique;
   std::string quantity;
-  std::string tier;
+  Form form = Form::corrected;
   Goal goal;
   std::size_t compared = 0;  ///< comparisons with a small enough standard error
   std::size_t noisy = 0;     ///< comparisons left out, because their standard error exceeds a quarter of the goal

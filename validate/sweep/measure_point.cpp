@@ -42,12 +42,11 @@ class Rows {
     row_.parameters = describe(candidate);
   }
 
-  void add(std::string_view quantity, std::int64_t sphere, std::string_view tier, double predicted,
-           const Estimate& observed) {
+  void add(std::string_view quantity, std::int64_t sphere, Form form, double predicted, const Estimate& observed) {
     if (!(observed.mean > 0)) return;
     row_.quantity = quantity;
     row_.sphere = sphere;
-    row_.tier = tier;
+    row_.form = form;
     row_.predicted = predicted;
     row_.observed = observed;
     rows_.push_back(row_);
@@ -81,13 +80,13 @@ bool depends_on_lines(std::string_view term) {
 }
 
 /// Adds a row for each count of the whole run.
-void compare_counts(Rows& rows, std::string_view tier, const Counts<double>& predicted,
+void compare_counts(Rows& rows, Form form, const Counts<double>& predicted,
                     const std::vector<Counts<double>>& counted) {
   for_each_term(predicted, [&](std::string_view term, double value) {
     if (value == 0 || term == "sorted") return;
     Estimate observed = batch_means(column(counted, term));
     if (depends_on_lines(term)) observed = allow_for_few(observed, observed.mean * static_cast<double>(counted.size()));
-    rows.add(term, 0, tier, value, observed);
+    rows.add(term, 0, form, value, observed);
   });
 }
 
@@ -95,7 +94,7 @@ void compare_counts(Rows& rows, std::string_view tier, const Counts<double>& pre
 std::optional<Counts<double>> published_counts(const Workload& workload, const Candidate& candidate) {
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters)) {
     const std::int64_t k =
-        model::sphere_count(model::Form::published, {cache->ratio}, {workload.disc_radius}, {workload.sphere_radius});
+        model::sphere_count(Form::published, {cache->ratio}, {workload.disc_radius}, {workload.sphere_radius});
     return model::published::counts(workload, {cache->ratio}, k);
   }
   if (const auto* octree = std::get_if<OctreeParameters>(&candidate.parameters)) {
@@ -124,11 +123,11 @@ void compare_spheres(Rows& rows, const Workload& workload, const SphereCachePara
     const Estimate m = batch_means(rebuilds);
     if (m.mean < least_rebuilds) continue;
     const std::int64_t index = levels[i].i;
-    rows.add("m_i", index, "corrected", levels[i].rebuilds, m);
-    rows.add("m_i", index, "published",
+    rows.add("m_i", index, Form::corrected, levels[i].rebuilds, m);
+    rows.add("m_i", index, Form::published,
              std::min(workload.samples, model::published::rebuilds({parameters.ratio}, index)), m);
     const double events = std::accumulate(listed.begin(), listed.end(), 0.0);
-    rows.add("L_i", index, "corrected", levels[i].listed, allow_for_few(batch_ratio(listed, rebuilds), events));
+    rows.add("L_i", index, Form::corrected, levels[i].listed, allow_for_few(batch_ratio(listed, rebuilds), events));
   }
 }
 
@@ -136,8 +135,8 @@ std::vector<Deviation> compare(const SweepPoint& point, const Workload& workload
                                const Observed& observed) {
   Rows rows(point, candidate);
   if (const auto published = published_counts(workload, candidate))
-    compare_counts(rows, "published", *published, observed.counts);
-  compare_counts(rows, "corrected", model::predict(workload, candidate, Engine::plain), observed.counts);
+    compare_counts(rows, Form::published, *published, observed.counts);
+  compare_counts(rows, Form::corrected, model::predict(workload, candidate, Engine::plain), observed.counts);
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters))
     compare_spheres(rows, workload, *cache, observed);
   return std::move(rows).give();

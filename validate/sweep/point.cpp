@@ -36,7 +36,7 @@ std::vector<Candidate> caches(const SweepPoint& point) {
   const Workload workload = point.workload();
   for (const double ratio : ratios) {
     const std::int64_t k =
-        model::sphere_count(model::Form::corrected, {ratio}, {workload.disc_radius}, {workload.sphere_radius});
+        model::sphere_count(Form::corrected, {ratio}, {workload.disc_radius}, {workload.sphere_radius});
     candidates.push_back({Technique::sphere_cache, SphereCacheParameters{ratio, std::max<std::int64_t>(k, 1)}});
   }
   return candidates;

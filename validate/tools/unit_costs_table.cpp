@@ -28,10 +28,10 @@ std::vector<Candidate> candidates(double radius, double outer, double pairs) {
   std::vector<Candidate> list;
   if (pairs < 2e8) list.push_back({Technique::brute_force, BruteForceParameters{}});
   for (const double ratio : {0.4, 0.65, 0.8})
-    list.push_back({Technique::sphere_cache,
-                    SphereCacheParameters{
-                        ratio, std::max<std::int64_t>(
-                                   1, model::sphere_count(model::Form::corrected, {ratio}, {radius}, {outer}) - 1)}});
+    list.push_back(
+        {Technique::sphere_cache,
+         SphereCacheParameters{
+             ratio, std::max<std::int64_t>(1, model::sphere_count(Form::corrected, {ratio}, {radius}, {outer}) - 1)}});
   for (const int depth : {4, 5}) list.push_back({Technique::cell_spheres, CellSpheresParameters{depth}});
   list.push_back({Technique::box_tree, BoxTreeParameters{4, 16}});
   for (const int depth : {4, 5, 6, 7}) list.push_back({Technique::octree, OctreeParameters{depth}});

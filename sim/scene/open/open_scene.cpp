@@ -94,15 +94,6 @@ Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
 
 }  // namespace
 
-const std::vector<std::string>& built_in_scenes() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const BuiltIn& scene : built_ins()) all.push_back(scene.name);
-    return all;
-  }();
-  return names;
-}
-
 Scene open_scene(const SceneRequest& request, const std::stop_token& stop) {
   if (request.samples == std::size_t{0}) throw std::invalid_argument("a scene needs at least 1 sample (got 0)");
   return request.name.starts_with('@') ? built_in_scene(request, stop) : mesh_scene(request, stop);

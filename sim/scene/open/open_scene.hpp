@@ -15,9 +15,6 @@ struct SceneRequest {
   std::uint64_t seed = 1;
 };
 
-/// The names of the built-in scenes, with '@'.
-[[nodiscard]] const std::vector<std::string>& built_in_scenes();
-
 /// Opens a built-in scene or a mesh file.
 ///
 /// If `samples` is less than the number of vertices, keeps a random subset of them in vertex order. If it is greater,

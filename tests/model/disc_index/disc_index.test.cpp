@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "detp/model/lines/line_measure.hpp"
+#include "support/endless_cells.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
 
@@ -26,17 +27,6 @@ Workload in_box(std::array<double, 3> box, double disc = 0.5) {
 }
 
 }  // namespace
-
-TEST_SUITE("reference value") {
-  TEST_CASE("cells that a disc overlaps, by the formula") {
-    CHECK(overlapped_cells(0) == 1);
-    CHECK(std::abs(overlapped_cells(0.25) - 2.473) < 5e-4);
-    CHECK(std::abs(overlapped_cells(0.5) - 4.534) < 5e-4);
-    CHECK(std::abs(overlapped_cells(1) - 10.425) < 5e-4);
-    CHECK(std::abs(overlapped_cells(2) - 29.27) < 5e-3);
-    CHECK(overlapped_cells(1e6) == Approx(1.5 * pi * 1e12).epsilon(2e-6));
-  }
-}
 
 TEST_SUITE("known answer") {
   TEST_CASE("in a flat box a disc overlaps at least one cell and at most all cells") {
@@ -153,9 +143,9 @@ TEST_SUITE("identity") {
 
   TEST_CASE("many small cells are overlapped like endless ones") {
     const Cells cells = index_cells(in_cube, 1024);
-    CHECK(cells.overlapped == Approx(overlapped_cells(0.01 / cells.side)).epsilon(0.02));
+    CHECK(cells.overlapped == Approx(support::overlapped_cells(0.01 / cells.side)).epsilon(0.02));
     CHECK(index_cells(cube_workload(1, 1, 1e-5, 2), 4096).overlapped ==
-          Approx(overlapped_cells(1e-5 * 4096 / 2.00002)).epsilon(1e-3));
+          Approx(support::overlapped_cells(1e-5 * 4096 / 2.00002)).epsilon(1e-3));
   }
 
   TEST_CASE("occupied cells: at most all cells, at most the references, and all of them for many samples") {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "detp/model/disc_index/disc_index.hpp"
+#include "support/endless_cells.hpp"
 #include "support/not_a_length.hpp"
 
 using namespace detp;
@@ -40,7 +41,7 @@ TEST_SUITE("limit") {
 
   TEST_CASE("with small cells every tested disc is hit with mailboxes, two in nine without") {
     CHECK(in_endless_cells(1e5, Insertion::exact) == Approx(2 * pi * 1e10).epsilon(1e-4));
-    CHECK(6 * overlapped_cells(1e5) / in_endless_cells(1e5, Insertion::exact) == Approx(4.5).epsilon(1e-4));
+    CHECK(6 * support::overlapped_cells(1e5) / in_endless_cells(1e5, Insertion::exact) == Approx(4.5).epsilon(1e-4));
     CHECK(hits_per_test(30, false) == Approx(2.0 / 9).epsilon(0.04));
     CHECK(hits_per_test(30, true) > 0.85);
     CHECK(hits_per_test(30, true) < 1);
@@ -51,7 +52,7 @@ TEST_SUITE("identity") {
   TEST_CASE("each hit takes at least one test of the disc, and at most one for each cell") {
     for (double x = 1e-3; x < 100; x *= 1.3)
       for (const auto insertion : {Insertion::exact, Insertion::bounding_box}) {
-        const double cells = insertion == Insertion::exact ? overlapped_cells(x) : boxed_cells(x);
+        const double cells = insertion == Insertion::exact ? support::overlapped_cells(x) : support::boxed_cells(x);
         CAPTURE(x);
         CHECK(in_endless_cells(x, insertion) >= 2 * pi * x * x);
         CHECK(in_endless_cells(x, insertion) >= 6);

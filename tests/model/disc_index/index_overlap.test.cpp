@@ -5,14 +5,10 @@
 #include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
 #include <numbers>
-#include <stdexcept>
-
-#include "support/not_a_length.hpp"
 
 using namespace detp;
 using namespace detp::model;
 using doctest::Approx;
-using doctest::Contains;
 using std::numbers::pi;
 
 namespace {
@@ -49,19 +45,6 @@ TEST_SUITE("reference value") {
   TEST_CASE("mean products of the reaches of an isotropic disc") {
     CHECK(mean_reach_product_2 == Approx(mean_reach_product(2)).epsilon(1e-9));
     CHECK(mean_reach_product_3 == Approx(mean_reach_product(3)).epsilon(1e-9));
-  }
-
-  TEST_CASE("cells that a disc overlaps agree with counts of discs placed at random") {
-    CHECK(overlapped_cells(0.25) == Approx(2.474).epsilon(1e-3));
-    CHECK(overlapped_cells(0.5) == Approx(4.533).epsilon(1e-3));
-    CHECK(overlapped_cells(1) == Approx(10.424).epsilon(1e-3));
-    CHECK(overlapped_cells(2) == Approx(29.28).epsilon(1e-3));
-  }
-
-  TEST_CASE("cells that its bounding box overlaps, by the formula") {
-    CHECK(boxed_cells(0) == 1);
-    CHECK(boxed_cells(1) == Approx(1 + 4.71239 + 12 * 0.5933 + 8 * 0.4219).epsilon(1e-3));
-    CHECK(boxed_cells(1e3) == Approx(3.3745e9).epsilon(1e-2));
   }
 }
 
@@ -118,14 +101,5 @@ TEST_SUITE("identity") {
           CHECK(sum_of_slabs(slab_runs(axis, Insertion::exact), centres) ==
                 Approx(1 + crossings(axis, centres, Insertion::exact).one).epsilon(1e-9));
       }
-  }
-}
-
-TEST_SUITE("bad input") {
-  TEST_CASE("numbers out of range are refused by name") {
-    for (const double bad : support::not_a_size) {
-      CHECK_THROWS_WITH_AS((void)overlapped_cells(bad), Contains("disc radius over cell side"), std::invalid_argument);
-      CHECK_THROWS_WITH_AS((void)boxed_cells(bad), Contains("disc radius over cell side"), std::invalid_argument);
-    }
   }
 }

@@ -26,8 +26,8 @@ void see_count(const Case& c, Ledger& ledger) {
   const auto [q, d, r0] = c;
   const auto inputs = [&] { return fmt::format("Q {:a}, d {:a}, r0 {:a}", c.ratio, c.disc, c.outer); };
   try {
-    const std::int64_t corrected = sphere_count(model::Form::corrected, {q}, {d}, {r0});
-    const std::int64_t published = sphere_count(model::Form::published, {q}, {d}, {r0});
+    const std::int64_t corrected = sphere_count(Form::corrected, {q}, {d}, {r0});
+    const std::int64_t published = sphere_count(Form::published, {q}, {d}, {r0});
     const Exact radius = r0 * power(q, corrected);
     const bool right = d < r0 ? radius >= d && radius * q < d : corrected == 0;
     ledger.see_whole("k, corrected", corrected, right, inputs);

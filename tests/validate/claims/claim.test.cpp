@@ -12,7 +12,7 @@ namespace {
 Finding finding(double predicted, Estimate observed, double tolerance, int batches) {
   return {.id = "tests",
           .quantity = "tests",
-          .predictions = {{model::Form::corrected, "none", predicted}},
+          .predictions = {{Form::corrected, "none", predicted}},
           .observed = observed,
           .batches = batches,
           .tolerance = tolerance};

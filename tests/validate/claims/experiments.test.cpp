@@ -56,7 +56,7 @@ TEST_SUITE("statistical") {
       CAPTURE(claim.relative_difference);
       ids.insert(claim.id);
       CAPTURE(claim.control_offset);
-      if (claim.form == model::Form::corrected) CHECK(claim.verdict == Verdict::agrees);
+      if (claim.form == Form::corrected) CHECK(claim.verdict == Verdict::agrees);
       CHECK(claim.control_verdict == Verdict::refuted);
     }
     for (const char* wrong : {"sphere-count", "rebuilds", "rebuild-time", "intersect-time", "octree-tests-per-line"})

@@ -28,7 +28,7 @@ void check_ranked(const Json& json) {
 }  // namespace
 
 TEST_SUITE("end to end") {
-  TEST_CASE("the structural tier ranks by counts on the built structures, for isotropic lines only") {
+  TEST_CASE("structural rigor ranks by counts on the built structures, for isotropic lines only") {
     const std::string uniform = "choose @uniform --samples 2000 --rays 20000 --disc-radius 2% --format json";
     const Json estimate = detp(uniform).json();
     const Finished finished = detp(uniform + " --rigor structural --analyze");

@@ -72,7 +72,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("numbers out of range, and techniques without a structural tier, are refused") {
+  TEST_CASE("numbers out of range, and techniques without structural counts, are refused") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 10, 0.05, 3);
     const Candidate brute = candidates().front();
     CHECK_THROWS_AS((void)structural_counts(std::span<const sim::Disc>{}, 10, brute), std::invalid_argument);

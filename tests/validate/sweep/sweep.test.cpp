@@ -24,11 +24,11 @@ std::vector<double> numbers(const SweepResult& result) {
   return all;
 }
 
-Deviation row(double predicted, double error = 0, const std::string& tier = "corrected") {
+Deviation row(double predicted, double error = 0, Form form = Form::corrected) {
   Deviation made;
   made.technique = "sphere-cache";
   made.quantity = "m_i";
-  made.tier = tier;
+  made.form = form;
   made.predicted = predicted;
   made.observed = {100, error};
   return made;
@@ -44,7 +44,7 @@ TEST_SUITE("known answer") {
     const auto summaries = summarise(rows);
     REQUIRE(summaries.size() == 2);
     const DeviationSummary& corrected = summaries[0];
-    CHECK(corrected.tier == "corrected");
+    CHECK(corrected.form == Form::corrected);
     CHECK(corrected.compared == 6);
     CHECK(corrected.noisy == 1);
     CHECK(corrected.beyond == 1);  // 15 %; 11 ± 0.4 % and 12 ± 1 % are within three standard errors of 10 %
@@ -78,16 +78,16 @@ TEST_SUITE("sweep") {
     const SweepResult result = run_sweep(small_points());
     CHECK(result.points == 2);
     CHECK(result.measured == 2);
-    const auto has = [&](std::string_view technique, std::string_view quantity, std::string_view tier) {
+    const auto has = [&](std::string_view technique, std::string_view quantity, Form form) {
       return std::any_of(result.deviations.begin(), result.deviations.end(), [&](const Deviation& one) {
-        return one.technique == technique && one.quantity == quantity && one.tier == tier && one.predicted > 0 &&
+        return one.technique == technique && one.quantity == quantity && one.form == form && one.predicted > 0 &&
                one.observed.mean > 0;
       });
     };
-    for (const std::string tier : {"published", "corrected"}) {
-      CHECK(has("sphere-cache", "m_i", tier));
-      CHECK(has("sphere-cache", "cull_tests", tier));
-      CHECK(has("octree", "disc_tests", tier));
+    for (const Form form : {Form::published, Form::corrected}) {
+      CHECK(has("sphere-cache", "m_i", form));
+      CHECK(has("sphere-cache", "cull_tests", form));
+      CHECK(has("octree", "disc_tests", form));
     }
     CHECK(has("sphere-cache", "L_i", "corrected"));
     CHECK(has("grid", "steps", "corrected"));

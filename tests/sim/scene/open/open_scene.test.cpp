@@ -33,8 +33,7 @@ bool in_order_among(const std::vector<Sample>& some, const std::vector<Sample>& 
 
 TEST_SUITE("known answer") {
   TEST_CASE("every built-in scene opens, with samples in its box, and a light where its rays are photons") {
-    REQUIRE(built_in_scenes().size() == 5);
-    for (const std::string& name : built_in_scenes()) {
+    for (const std::string name : {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});
       CHECK(scene.name == name);
