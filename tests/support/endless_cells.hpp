@@ -6,7 +6,7 @@
 
 /// Cells that a uniformly placed isotropic disc overlaps in endless cubic cells, x = d/a: what many small cells of an
 /// index come to.
-namespace support {
+namespace detp::support {
 
 /// 1 + (3π/2) x + (3π/2) x². A plane of the grid that crosses the disc adds a cell, and so does a line of the grid that
 /// pierces it. Planes of one axis: 2 E[h]/a = (π/2) x. Lines along one axis: the disc seen from there has the area
@@ -15,8 +15,8 @@ inline double overlapped_cells(double x) { return 1 + 1.5 * std::numbers::pi * x
 
 /// Those that its bounding box overlaps: E ∏ (1 + 2h_i/a), the box's place along each axis being uniform.
 inline double boxed_cells(double x) {
-  using namespace detp::model;
+  using namespace model;
   return 1 + x * (1.5 * std::numbers::pi + x * (12 * mean_reach_product_2 + 8 * mean_reach_product_3 * x));
 }
 
-}  // namespace support
+}  // namespace detp::support

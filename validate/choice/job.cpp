@@ -173,20 +173,19 @@ class JobMaker {
 
   /// Measures the workload; that of a stream on its first block.
   Workload measure_rays_and_discs() {
-    if (!job_.stream) {
-      const sim::Problem problem = job_.problem(1, stop_);
-      job_.warnings = outlier_warnings(problem, stop_);
-      Workload workload = measure(problem, surface_, stop_);
-      if (request_.workload_only && !request_.ray_file)
-        workload.rays = std::max(workload.rays, request_.rays.value_or(default_rays));
-      return workload;
+    std::vector<sim::Ray> block;
+    if (job_.stream) {
+      block.resize(sim::default_block(job_.discs.size()));
+      job_.stream->read(0, block, stop_);
     }
-    std::vector<sim::Ray> block(sim::default_block(job_.discs.size()));
-    job_.stream->read(0, block, stop_);
-    const sim::Problem problem = sim::make_problem(block, job_.discs, job_.front_facing, 1, stop_);
+    const sim::Problem problem =
+        sim::make_problem(job_.stream ? block : job_.rays, job_.discs, job_.front_facing, 1, stop_);
     job_.warnings = outlier_warnings(problem, stop_);
     Workload workload = measure(problem, surface_, stop_);
-    workload.rays = static_cast<double>(job_.stream->size());
+    if (job_.stream)
+      workload.rays = static_cast<double>(job_.stream->size());
+    else if (request_.workload_only && !request_.ray_file)
+      workload.rays = std::max(workload.rays, request_.rays.value_or(default_rays));
     return workload;
   }
 

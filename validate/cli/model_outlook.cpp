@@ -33,9 +33,11 @@ void add_curved_field(const Workload& w, const OutlookOptions& options, Json& js
   const double area = std::numbers::pi * w.disc_radius * w.disc_radius;
   const double density = model::expected_hits(w) / w.samples / w.rays / area;
   const model::SmoothDensity field{density, *options.curvature * density};
-  const auto relative = [&](const model::DensityError& error) { return std::sqrt(error.mean_square()) / density; };
+  const auto relative = [&](const model::DensityError& error) {
+    return saturated(std::sqrt(static_cast<long double>(error.mean_square())) / density);
+  };
   const model::DensityError disc = model::density_error(field, w.rays, w.disc_radius);
-  json["density_bias"] = disc.bias / density;
+  json["density_bias"] = saturated(static_cast<long double>(disc.bias) / density);
   json["density_error"] = relative(disc);
   if (w.rays >= 3) {
     const double nearest = model::best_nearest_photons(field, w.rays);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "model_answer.hpp"
+#include "table.hpp"
 
 /// What follows from the closed forms beside counts and times: how the time grows with more samples, and how accurate
 /// the estimates are.

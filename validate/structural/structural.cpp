@@ -9,20 +9,6 @@
 namespace detp::validate {
 namespace {
 
-/// The discs as a problem. It has one ray, which is only there to set the slack for rays that start in S₀.
-class RaylessProblem {
- public:
-  explicit RaylessProblem(std::span<const sim::Disc> discs)
-      : ray_{.origin = discs.empty() ? glm::dvec3{0} : discs[0].centre},
-        problem_(sim::make_problem({&ray_, 1}, discs)) {}
-
-  [[nodiscard]] const sim::Problem& get() const { return problem_; }
-
- private:
-  sim::Ray ray_;
-  sim::Problem problem_;
-};
-
 double expected_hits(const sim::Problem& problem, double rays) {
   const double outer = problem.enclosing.radius;
   double hits = 0;
@@ -35,7 +21,7 @@ double expected_hits(const sim::Problem& problem, double rays) {
 Counts<double> structural_brute_force(const sim::Problem& problem, double rays, const Parameters&,
                                       const std::stop_token&) {
   const auto discs = static_cast<double>(problem.discs.size());
-  return {.visits = discs * blocks_of(rays, static_cast<double>(problem.discs.size())), .disc_tests = rays * discs};
+  return {.visits = discs * blocks_of(rays, discs), .disc_tests = rays * discs};
 }
 
 Counts<double> structural_counts(const sim::Problem& problem, double rays, const Valid<Candidate>& candidate,
@@ -52,7 +38,10 @@ Counts<double> structural_counts(const sim::Problem& problem, double rays, const
 
 Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Valid<Candidate>& candidate,
                                  const std::stop_token& stop, bool front_facing) {
-  return structural_counts(RaylessProblem(discs).get(), rays, candidate, stop, front_facing);
+  const sim::Sphere enclosing = sim::enclosing_sphere(discs, stop);
+  const double farthest = glm::distance(discs[0].centre, enclosing.centre);  // sets the slack for rays that start in S₀
+  return structural_counts(sim::make_problem_without_rays(discs, farthest, false, stop), rays, candidate, stop,
+                           front_facing);
 }
 
 }  // namespace detp::validate

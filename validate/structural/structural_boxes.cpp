@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "detp/sim/base/stop_check.hpp"
+#include "structural_registry.hpp"
 
 namespace detp::validate {
 namespace {
@@ -84,13 +85,15 @@ double BoxCrossing::operator()(const TreeNode& box) const {
   return std::min(1.0, share * share_through(outer_, centre, half, lines));
 }
 
-BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const BoxTreeParameters& parameters,
-                              const std::stop_token& stop) {
+Counts<double> structural_box_tree(const sim::Problem& problem, double rays, const Parameters& parameters,
+                                   const std::stop_token& stop) {
   const sim::stream::Frame frame(problem);
-  const sim::stream::DiscTree tree = sim::stream::make_disc_tree(problem, frame, parameters, {.stop = stop});
+  const sim::stream::DiscTree tree =
+      sim::stream::make_disc_tree(problem, frame, std::get<BoxTreeParameters>(parameters), {.stop = stop});
   const BoxCrossing crossing(problem.enclosing.radius * frame.scale, frame.margin);
-  const double blocks = blocks_of(rays, static_cast<double>(problem.discs.size()));
-  BoxTreeCounts counts;
+  const auto discs = static_cast<double>(problem.discs.size());
+  const double blocks = blocks_of(rays, discs);
+  Counts<double> counts{.references = discs, .placements = discs, .sorted = discs};
   sim::StopCheck check(stop, "counting boxes");
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const TreeNode& node = tree.nodes[i];
@@ -100,14 +103,11 @@ BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays, const Bo
     const auto count = static_cast<double>(node.count);
     // A node's children are tested, and a leaf's discs visited, if the node's list holds at least one ray of the block.
     const double none = listed < 1 ? std::exp(rays / blocks * std::log1p(-listed)) : 0;
-    if (node.leaf) {
-      counts.discs += listed * count;
-      counts.visits += blocks * count * (1 - none);
-      continue;
-    }
-    counts.tests += listed * count;
-    counts.culls += blocks * count * (1 - none);
+    (node.leaf ? counts.disc_tests : counts.cull_tests) += listed * count;
+    (node.leaf ? counts.visits : counts.culls) += blocks * count * (1 - none);
   }
+  for (const auto per_ray : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests})
+    counts.*per_ray *= rays;
   return counts;
 }
 

@@ -45,18 +45,4 @@ class BoxCrossing {
   double margin_;
 };
 
-/// Sums over the nodes of a box tree except the root, whose list holds every ray.
-struct BoxTreeCounts {
-  double tests = 0;   ///< tests against boxes, per ray: Σ P(parent)
-  double listed = 0;  ///< rays listed, per ray: Σ P(node)
-  double discs = 0;   ///< tests against discs, per ray: Σ_leaves P(leaf) discs(leaf)
-  double culls = 0;   ///< nodes that are tested for at least one ray, summed over the blocks (rays_in_block)
-  double visits = 0;  ///< discs that are tested with at least one ray, summed over the blocks
-};
-
-/// Expected counts of `rays` isotropic lines in the box tree over the discs. The boxes are nested, so their lists are
-/// too.
-[[nodiscard]] BoxTreeCounts box_tree_counts(const sim::Problem& problem, double rays,
-                                            const BoxTreeParameters& parameters, const std::stop_token& stop = {});
-
 }  // namespace detp::validate

@@ -8,7 +8,6 @@
 #include "detp/sim/lists/cell_walk.hpp"
 #include "detp/sim/lists/plain/ray_list.hpp"
 #include "detp/sim/lists/sphere_nodes.hpp"
-#include "structural_boxes.hpp"
 #include "structural_registry.hpp"
 
 /// Expected counts of hierarchies of spheres and of boxes, computed from the hierarchy without rays.
@@ -116,20 +115,6 @@ Counts<double> sphere_tree(const sim::Problem& problem, double rays, const Spher
   return counts;
 }
 
-/// Counts per ray, except for the lists made, which are those of all rays.
-Counts<double> box_tree(const sim::Problem& problem, double rays, const BoxTreeParameters& parameters,
-                        const std::stop_token& stop) {
-  const BoxTreeCounts counts = box_tree_counts(problem, rays, parameters, stop);
-  const auto discs = static_cast<double>(problem.discs.size());
-  return {.cull_tests = counts.tests,
-          .culls = counts.culls,
-          .listed = counts.listed,
-          .visits = counts.visits,
-          .disc_tests = counts.discs,
-          .references = discs,
-          .placements = discs};
-}
-
 Counts<double> of_rays(Counts<double> per_ray, const sim::Problem& problem, double rays) {
   per_ray.cull_tests *= rays;
   per_ray.listed *= rays;
@@ -153,11 +138,6 @@ Counts<double> structural_cell_spheres(const sim::Problem& problem, double rays,
 Counts<double> structural_sphere_tree(const sim::Problem& problem, double rays, const Parameters& parameters,
                                       const std::stop_token& stop) {
   return of_rays(sphere_tree(problem, rays, std::get<SphereTreeParameters>(parameters), stop), problem, rays);
-}
-
-Counts<double> structural_box_tree(const sim::Problem& problem, double rays, const Parameters& parameters,
-                                   const std::stop_token& stop) {
-  return of_rays(box_tree(problem, rays, std::get<BoxTreeParameters>(parameters), stop), problem, rays);
 }
 
 }  // namespace detp::validate

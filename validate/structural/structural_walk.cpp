@@ -126,10 +126,11 @@ Counts<double> structural_sphere_cache(const sim::Problem& problem, double rays,
                     name(own.order)));
   const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, own, stop);
   const auto discs = static_cast<double>(problem.discs.size());
-  Counts<double> counts{
-      .cull_tests = rays * walk.cull_tests, .visits = discs, .disc_tests = rays * walk.disc_tests, .sorted = discs};
-  const double blocks = blocks_of(rays, static_cast<double>(problem.discs.size()));
-  counts.visits *= blocks;
+  const double blocks = blocks_of(rays, discs);
+  Counts<double> counts{.cull_tests = rays * walk.cull_tests,
+                        .visits = discs * blocks,
+                        .disc_tests = rays * walk.disc_tests,
+                        .sorted = discs};
   for (const ExpectedSphere& sphere : walk.spheres) {
     counts.culls += blocks * sphere.rebuilds;
     counts.listed += rays * sphere.listed;

@@ -108,7 +108,7 @@ TEST_SUITE("reference value") {
 TEST_SUITE("known answer") {
   TEST_CASE("if intersecting takes all the time, k spheres as small as the interval allows are best") {
     const Workload w = cube_workload(1e6, 1e6, 0.05, 2);
-    const published::BestRatio best = published::best_ratio(w, {.cull_test = 1e-9, .disc_test = 1});
+    const published::BestRatio best = published::best_ratio(w, UnitCosts{.cull_test = 1e-9, .disc_test = 1});
     CHECK(published::intersect_time(w, {best.ratio}, best.spheres, 1) == Approx(best.time).epsilon(1e-3));
   }
 
@@ -116,7 +116,7 @@ TEST_SUITE("known answer") {
     for (const double disc : {0x1p-2, 0x1p-4, 0x1p-6, 0x1p-10})
       for (const double disc_test : {1e-3, 1.0, 1e3}) {
         const Workload w{.rays = 1e6, .samples = 1e3, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
-        const published::BestRatio best = published::best_ratio(w, {.disc_test = disc_test});
+        const published::BestRatio best = published::best_ratio(w, UnitCosts{.disc_test = disc_test});
         CHECK(best.spheres == count(w, best.ratio));
       }
   }

@@ -165,8 +165,8 @@ TEST_SUITE("identity") {
       CHECK(scaled.spheres == best.spheres);
       CHECK(scaled.time == Approx(best.time).epsilon(1e-9));
     }
-    const BestRatio slow =
-        best_ratio_and_stop(typical, {.cull_test = 3e6, .disc_test = 5e6, .step = 0, .node = 0, .listed = 2e6});
+    const BestRatio slow = best_ratio_and_stop(
+        typical, UnitCosts{.cull_test = 3e6, .disc_test = 5e6, .step = 0, .node = 0, .listed = 2e6});
     CHECK(slow.spheres == best.spheres);
     CHECK(slow.time == Approx(1e6 * best.time).epsilon(1e-9));
   }

@@ -86,19 +86,20 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("known answer") {
   TEST_CASE("expensive discs need small cells, expensive steps large ones, and one ray none") {
-    CHECK(best_octree_depth(in_cube, {.index_test = 1, .node = 1e-9}) > best_octree_depth(in_cube, {.index_test = 1}));
-    CHECK(best_octree_depth(in_cube, {.index_test = 1e-9, .node = 1}) == 0);
-    CHECK(best_grid_cells(in_cube, {.index_test = 1e-9, .step = 1}) == 1);
+    CHECK(best_octree_depth(in_cube, UnitCosts{.index_test = 1, .node = 1e-9}) >
+          best_octree_depth(in_cube, UnitCosts{.index_test = 1}));
+    CHECK(best_octree_depth(in_cube, UnitCosts{.index_test = 1e-9, .node = 1}) == 0);
+    CHECK(best_grid_cells(in_cube, UnitCosts{.index_test = 1e-9, .step = 1}) == 1);
     Workload one = in_cube;
     one.rays = 1;
-    CHECK(best_octree_depth(one, {.placement = 100}) == 0);
-    CHECK(best_grid_cells(one, {.placement = 100}) == 1);
+    CHECK(best_octree_depth(one, UnitCosts{.placement = 100}) == 0);
+    CHECK(best_grid_cells(one, UnitCosts{.placement = 100}) == 1);
   }
 
   TEST_CASE("with tiny discs and no other limit, u n_P/m² + v m is smallest at m = (2 u n_P/v)^(1/3)") {
     const Workload w = cube_workload(1e6, 4e6, 1e-9, 2);
     CHECK(best_grid_cells(w, {}) == 200);
-    CHECK(best_grid_cells(w, {.index_test = 8}) == 400);
+    CHECK(best_grid_cells(w, UnitCosts{.index_test = 8}) == 400);
   }
 }
 

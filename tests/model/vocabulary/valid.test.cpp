@@ -62,14 +62,14 @@ void count(const Call& call) {
 
 struct Even {
   int half = 1;
-  int value = 2;
+  int twice = 2;
 };
 
 void check(const Even& even) {
-  if (2 * even.half != even.value) throw std::invalid_argument("not even");
+  if (2 * even.half != even.twice) throw std::invalid_argument("not even");
 }
 
-int value_of(Valid<Even>& even) { return even.value; }
+int value_of(Valid<Even>& even) { return even.twice; }
 
 TEST_SUITE("valid") {
   TEST_CASE("a plain value, or its members, become a valid one where their check passes, and throw where it does not") {
@@ -82,7 +82,7 @@ TEST_SUITE("valid") {
 
   TEST_CASE("a valid value cannot be changed") {
     static_assert(!std::is_assignable_v<Valid<Even>&, Even>);
-    static_assert(!std::is_assignable_v<decltype((std::declval<Valid<Even>&>().value)), int>);
+    static_assert(!std::is_assignable_v<decltype((std::declval<Valid<Even>&>().twice)), int>);
   }
 
   TEST_CASE("rank checks the workload and the costs once each, whatever the number of techniques") {

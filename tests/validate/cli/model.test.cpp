@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detp/model/accuracy/nearest_photons.hpp"
+#include "detp/model/disc_index/index_memory.hpp"
 #include "support/command.hpp"
 
 namespace detp::support {
@@ -201,6 +203,48 @@ TEST_SUITE("known answer") {
       const double hit_box = 6 * 2.02 * 2.02 / (4 * 3.141592653589793 * std::pow(std::sqrt(3.0) + 0.01, 2));
       CHECK(json.at("intersect_time").get<double>() == near(5 * 1000 * hit_box * 16 * overlapped));
     }
+  }
+
+  TEST_CASE("the orders of growth of the best times, and the bytes of an index, are those of the library") {
+    const std::string cube = "model --rays 1000 --samples 4096 --disc-radius 0.01 --scene-side 2 ";
+    const Workload workload = cube_workload(1000, 4096, 0.01, 2);
+    const Json octree = result_of(cube + "--technique octree --depth 4");
+    CHECK(octree.at("growth_power").get<double>() == near(1.0 / 3));
+    CHECK(octree.at("growth_logarithms") == 0);
+    CHECK(octree.at("index_bytes").get<double>() == near(model::octree_bytes(workload, {4})));
+    CHECK(result_of(cube + "--technique octree --form published").at("growth_logarithms") == 1);
+    CHECK(result_of(cube + "--technique grid --cells 16").at("index_bytes").get<double>() ==
+          near(model::grid_bytes(workload, {16})));
+    CHECK(result_of(cube + "--order none").at("growth_power") == 1);
+    CHECK(result_of(cube + "--dimension 2").at("growth_power") == 0);
+    CHECK(result_of(cube + "--dimension 2").at("growth_logarithms") == 1);
+    CHECK_FALSE(result_of(cube + "--dimension 1.5").contains("growth_power"));
+  }
+
+  TEST_CASE("errors of estimates: in a uniform field always, beside a curvature if there is one") {
+    const Json even = result_of(numbers);
+    CHECK(even.at("uniform_field_deviation").get<double>() ==
+          near(model::uniform_field_deviation(rays, {disc}, {outer})));
+    CHECK_FALSE(even.contains("density_error"));
+    CHECK_FALSE(even.contains("rays_for_deviation"));
+    const Json curved = result_of(numbers + "--curvature -12 --target-error 0.05");
+    const double f = 1 / (2 * 3.141592653589793 * outer * outer);  // a line hits a disc with probability d²/(2r₀²)
+    const model::SmoothDensity density{f, -12 * f};
+    CHECK(curved.at("rays_for_deviation").get<double>() == near(model::rays_for_deviation(0.05, {disc}, {outer})));
+    CHECK(curved.at("density_bias").get<double>() == near(-12 * disc * disc / 8));
+    CHECK(curved.at("density_error").get<double>() ==
+          near(std::sqrt(model::density_error(density, rays, disc).mean_square()) / f));
+    CHECK(curved.at("best_density_radius").get<double>() == near(model::best_density_radius(density, rays)));
+    const double nearest = model::best_nearest_photons(density, rays);
+    CHECK(curved.at("best_nearest") == nearest);
+    CHECK(curved.at("nearest_error").get<double>() ==
+          near(std::sqrt(model::nearest_photons_error(density, rays, nearest).mean_square()) / f));
+    CHECK(curved.at("plain_nearest_error").get<double>() > curved.at("nearest_error").get<double>());
+    CHECK(curved.at("photons_for_error").get<double>() == near(model::photons_for_error(density, 0.05)));
+    CHECK(curved.at("photons_for_nearest_error").get<double>() ==
+          near(model::photons_for_nearest_error(density, 0.05)));
+    CHECK_FALSE(result_of(numbers + "--curvature 0").contains("best_density_radius"));
+    check_refused({{numbers + "--target-error 0", "target-error"}, {numbers + "--curvature nan", "--curvature"}});
   }
 
   TEST_CASE("side and sphere radius follow from each other, and a percentage is one of the side") {

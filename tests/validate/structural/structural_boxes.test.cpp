@@ -80,10 +80,9 @@ TEST_SUITE("limit") {
 
   TEST_CASE("the discs of a single leaf are tested with every ray") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 10, 0.05, 3);
-    const sim::Ray ray{};
-    const BoxTreeCounts counts = box_tree_counts(sim::make_problem({&ray, 1}, discs), 100, {4, 16});
-    CHECK(counts.discs == 10);
-    CHECK(counts.tests == 0);
+    const auto counts = structural_counts(discs, 100, {Technique::box_tree, BoxTreeParameters{4, 16}});
+    CHECK(counts.disc_tests == 1000);
+    CHECK(counts.cull_tests == 0);
     CHECK(counts.culls == 0);
   }
 }
