@@ -40,7 +40,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("a summary has the median, the worst and the number beyond the goal; noisy rows are counted apart") {
     std::vector<Deviation> rows{row(101), row(97), row(100), row(115), row(111, 0.4), row(112, 1)};
     rows.push_back(row(300, 5));  // a standard error of 5 % is too large to check 10 %
-    rows.push_back(row(1000, 0, "published"));
+    rows.push_back(row(1000, 0, Form::published));
     const auto summaries = summarise(rows);
     REQUIRE(summaries.size() == 2);
     const DeviationSummary& corrected = summaries[0];
@@ -89,8 +89,8 @@ TEST_SUITE("sweep") {
       CHECK(has("sphere-cache", "cull_tests", form));
       CHECK(has("octree", "disc_tests", form));
     }
-    CHECK(has("sphere-cache", "L_i", "corrected"));
-    CHECK(has("grid", "steps", "corrected"));
+    CHECK(has("sphere-cache", "L_i", Form::corrected));
+    CHECK(has("grid", "steps", Form::corrected));
   }
 }
 
