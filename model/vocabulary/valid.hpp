@@ -9,10 +9,10 @@ namespace detp {
 /// A T for which `check(value)` did not throw. Use it as Valid<T>, which is const, so that it stays as it was checked.
 template <class T>
 struct Checked : T {
-  /// Throws as check(value).
-  Checked(const T& value) : T(value) { check(value); }
+  /// Throws as check does.
+  Checked(const T& plain) : T(plain) { check(plain); }
 
-  /// From the members of an aggregate, as in {Technique::grid, GridParameters{64}}. Throws as check(value).
+  /// From the members of an aggregate, as in {Technique::grid, GridParameters{64}}. Throws as check does.
   template <class... Members>
   requires(!(std::derived_from<std::remove_cvref_t<Members>, T> || ...)) && requires(Members... m) { T{m...}; }
   Checked(const Members&... members) : Checked(T{members...}) {}
