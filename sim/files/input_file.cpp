@@ -10,7 +10,7 @@
 #include <cstring>
 #include <utility>
 
-#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stop_check.hpp"
 #include "file_error.hpp"
 
 namespace detp::sim {
@@ -56,6 +56,7 @@ bool InputFile::read_once() {
     if (count >= 0) {
       end_ += static_cast<std::size_t>(count);
       read_ += static_cast<std::uint64_t>(count);
+      StopCheck().add(static_cast<std::uint64_t>(count) / bytes_a_unit);
       return count > 0;
     }
     if (errno != EINTR && errno != EAGAIN)

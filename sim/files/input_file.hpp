@@ -9,6 +9,9 @@
 
 namespace detp::sim {
 
+/// Bytes of a file whose reading is a unit of work (StopCheck).
+inline constexpr std::uint64_t bytes_a_unit = 8;
+
 /// Reads a file piece by piece; also a pipe or a device. If one delivers nothing, the wait for it ends within 0.1 s of
 /// a stop request.
 class InputFile {

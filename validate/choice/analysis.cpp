@@ -1,11 +1,14 @@
 #include "analysis.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
 #include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/base/in_turns.hpp"
+#include "detp/validate/base/search_work.hpp"
 #include "detp/validate/base/stop_after.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "neighbours.hpp"
@@ -13,7 +16,8 @@
 namespace detp::validate {
 namespace {
 
-constexpr double least_patience = 0.02;  // seconds
+constexpr double least_patience = 0.02;    // seconds
+constexpr std::size_t usually_tried = 16;  // candidates, for the progress: neighbours are found on the way
 
 class Analyser {
  public:
@@ -25,7 +29,7 @@ class Analyser {
     for (const Analysed& one : wanted)
       if (!has(one.candidate)) all_.candidates.push_back(one);
     for (std::size_t i = first; i < all_.candidates.size() && !options_.stop.stop_requested(); ++i) {
-      show(i, 0.5 * static_cast<double>(i) / static_cast<double>(all_.candidates.size()));
+      report(i, expected_counting(i), remaining_after_counting(i));
       count_one(all_.candidates[i]);
     }
   }
@@ -66,14 +70,54 @@ class Analyser {
                        [&](const Analysed& one) { return one.candidate == candidate; });
   }
 
-  void show(std::size_t place, double done) const {
-    if (options_.progress) options_.progress(name(all_.candidates[place].candidate.technique), done);
+  /// Begins a run that is expected to take `seconds`, and what comes after it `remaining`.
+  void report(std::size_t place, double seconds, double remaining) const {
+    if (!options_.progress) return;
+    const Analysed& one = all_.candidates[place];
+    const double done = watch_.seconds();
+    const double whole = done + seconds + remaining;
+    double work = 0;
+    if (one.predicted && one.predicted->time.total() > 0)
+      work = search_work(one.predicted->counts) * std::min(1.0, seconds / (slowness_ * one.predicted->time.total()));
+    options_.progress({std::string(name(one.candidate.technique)), done / whole, (done + seconds) / whole, work,
+                       work > 0 ? 0 : seconds});
+  }
+
+  [[nodiscard]] double patience() const { return std::max(least_patience, options_.patience * fastest_); }
+
+  /// Expected seconds of a run that counts: as it was, or as predicted on a machine as slow as the runs so far have
+  /// shown it to be; given up after the patience for it.
+  [[nodiscard]] double expected_counting(std::size_t place) const {
+    if (place < first_seconds_.size() && std::isfinite(first_seconds_[place])) return first_seconds_[place];
+    const Analysed& one = all_.candidates[place];
+    if (!one.predicted) return std::isfinite(fastest_) ? patience() : 0;
+    return std::min(patience(), slowness_ * one.predicted->time.total());
+  }
+
+  /// Expected seconds of all timed runs of those that are here.
+  [[nodiscard]] double expected_timing() const {
+    double seconds = 0;
+    for (std::size_t i = 0; i < all_.candidates.size(); ++i) {
+      const double once = expected_counting(i);
+      const bool ends = i < first_seconds_.size() ? std::isfinite(first_seconds_[i]) : once < patience();
+      if (ends) seconds += once * (once > options_.far_behind * fastest_ ? 1 : options_.repeats);
+    }
+    return seconds;
+  }
+
+  /// Expected seconds of the other runs that count, and of all timed runs.
+  [[nodiscard]] double remaining_after_counting(std::size_t place) const {
+    double seconds = expected_timing();
+    for (std::size_t i = place + 1; i < all_.candidates.size(); ++i) seconds += expected_counting(i);
+    const std::size_t later = all_.candidates.size() < usually_tried ? usually_tried - all_.candidates.size() : 0;
+    const double neighbour = std::isfinite(fastest_) ? 1.5 * fastest_ : expected_counting(0);
+    return seconds + static_cast<double>(later) * neighbour * (1 + options_.repeats);
   }
 
   void count_one(Analysed& one) {
     first_seconds_.push_back(std::numeric_limits<double>::infinity());
     const bool choice = all_.tried == 0;
-    const double patience = std::max(least_patience, options_.patience * fastest_);
+    const double patience = this->patience();
     const sim::Outcome outcome = choice ? run(one, true, options_.stop) : run_for(one, patience);
     if (options_.stop.stop_requested() || !one.refused.empty()) return;
     ++all_.tried;
@@ -84,6 +128,8 @@ class Analyser {
     one.counted = outcome.counts;
     first_seconds_.back() = outcome.seconds.total();
     fastest_ = std::min(fastest_, outcome.seconds.total());
+    if (choice && one.predicted && one.predicted->time.total() > 0)
+      slowness_ = outcome.seconds.total() / one.predicted->time.total();
   }
 
   sim::Outcome run_for(Analysed& one, double seconds) {
@@ -105,12 +151,14 @@ class Analyser {
 
   void time_all() {
     std::vector<std::vector<double>> seconds(all_.candidates.size());
+    double remaining = expected_timing();
     in_turns(all_.candidates.size(), options_.repeats, [&](std::size_t i, int round) {
       Analysed& one = all_.candidates[i];
       const bool behind = one.counted && first_seconds_[i] > options_.far_behind * fastest_;
       if (!one.counted || (behind && round > 0)) return true;
       if (options_.stop.stop_requested()) return false;
-      show(i, 0.5 + 0.5 * round / options_.repeats);
+      remaining -= first_seconds_[i];
+      report(i, first_seconds_[i], std::max(0.0, remaining));
       const sim::Outcome outcome = run(one, false, options_.stop);
       if (!outcome.stopped) seconds[i].push_back(outcome.seconds.total());
       return true;
@@ -128,6 +176,8 @@ class Analyser {
   Analysis all_;
   std::vector<double> first_seconds_;  ///< of the counting runs; infinite if a run did not finish
   double fastest_ = std::numeric_limits<double>::infinity();
+  double slowness_ = 1;  ///< measured over predicted seconds of the predicted choice
+  sim::Stopwatch watch_;
 };
 
 }  // namespace

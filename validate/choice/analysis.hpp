@@ -4,10 +4,10 @@
 #include <optional>
 #include <stop_token>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "detp/model/rank/choose.hpp"
+#include "detp/sim/base/phase.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 /// Tests a choice: runs, counts and times the candidates.
@@ -42,7 +42,7 @@ struct AnalysisOptions {
   std::stop_token stop = {};
   /// The models' prediction for a candidate that was not ranked; nothing if they have none.
   std::function<std::optional<model::Ranked>(const Candidate&)> predict = {};
-  std::function<void(std::string_view what, double done)> progress = {};
+  sim::ReportPhase progress = {};
 };
 
 /// Runs once, and counts, each ranked candidate, each exact technique that was not ranked, and neighbours of the

@@ -1,0 +1,108 @@
+#include "screen.hpp"
+
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstdlib>
+#include <cstring>
+
+#include "detp/model/vocabulary/quoted.hpp"
+
+namespace detp::cli {
+namespace {
+
+constexpr std::size_t widest_text = 120;
+constexpr std::string_view end_of_style = "\033[0m";
+
+/// By Style.
+constexpr std::array<std::string_view, 6> codes{"", "\033[1m", "\033[32m", "\033[31m", "\033[33m", "\033[2m"};
+
+std::string_view environment(const char* name) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+std::size_t width_of(int stream) {
+  winsize size{};
+  if (isatty(stream) == 1 && ::ioctl(stream, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) return size.ws_col;
+  const std::string_view columns = environment("COLUMNS");
+  std::size_t width = 0;
+  const auto [end, error] = std::from_chars(columns.data(), columns.data() + columns.size(), width);
+  return error == std::errc{} && end == columns.data() + columns.size() ? width : 0;
+}
+
+bool shows_colours(int stream) {
+  return isatty(stream) == 1 && environment("NO_COLOR").empty() && environment("TERM") != "dumb";
+}
+
+/// The code at the beginning of the text; empty if there is none.
+std::string_view code_at(std::string_view text) {
+  if (text.starts_with(end_of_style)) return end_of_style;
+  for (const std::string_view code : codes)
+    if (!code.empty() && text.starts_with(code)) return code;
+  return "";
+}
+
+}  // namespace
+
+std::size_t Screen::text_width() const { return width == 0 ? widest_text : std::min(width, widest_text); }
+
+Screen screen_of(int stream, Colour colour) {
+  return {width_of(stream), colour == Colour::always || (colour == Colour::automatic && shows_colours(stream))};
+}
+
+std::string styled(const Screen& screen, Style style, std::string_view text) {
+  std::string shown(text);
+  if (screen.colour && style != Style::plain)
+    shown = std::string(codes[static_cast<std::size_t>(style)]) + shown + std::string(end_of_style);
+  return shown;
+}
+
+std::string safe_text(std::string_view text, bool colour) {
+  std::string safe;
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find_first_of(colour ? "\n\033" : "\n"), text.size());
+    safe += escaped(text.substr(0, end));
+    text.remove_prefix(end);
+    if (text.empty()) break;
+    const std::string_view kept = text.front() == '\n' ? text.substr(0, 1) : code_at(text);
+    safe += kept.empty() ? escaped(text.substr(0, 1)) : std::string(kept);
+    text.remove_prefix(std::max<std::size_t>(1, kept.size()));
+  }
+  return safe;
+}
+
+std::size_t columns_of(std::string_view text) {
+  std::size_t columns = 0;
+  while (!text.empty()) {
+    const std::size_t code = code_at(text).size();
+    if (code == 0 && (static_cast<unsigned char>(text.front()) & 0xc0U) != 0x80) ++columns;
+    text.remove_prefix(std::max<std::size_t>(1, code));
+  }
+  return columns;
+}
+
+std::string wrapped(std::string_view paragraph, std::size_t width, std::size_t indent) {
+  std::string lines;
+  std::size_t used = 0;
+  while (!paragraph.empty()) {
+    std::size_t end = std::min(paragraph.find_first_not_of(' '), paragraph.size());
+    end = std::min(paragraph.find(' ', end), paragraph.size());
+    const std::string_view word = paragraph.substr(0, end);  // with the spaces before it
+    paragraph.remove_prefix(end);
+    if (used > indent && used + columns_of(word) > width) {
+      const std::size_t first = std::min(word.find_first_not_of(' '), word.size());
+      lines += "\n" + std::string(indent, ' ') + std::string(word.substr(first));
+      used = indent + columns_of(word.substr(first));
+    } else {
+      lines += word;
+      used += columns_of(word);
+    }
+  }
+  return lines + "\n";
+}
+
+}  // namespace detp::cli
