@@ -9,10 +9,10 @@ namespace detp::sim {
 
 /// A part of some work. `from` and `to` are shares of the whole work, 0 to 1, in proportion to predicted time.
 struct Phase {
-  std::string what;  ///< "making rays"
-  double from = 0;   ///< done before this phase
-  double to = 0;     ///< done after it
-  double work = 0;   ///< predicted units of work in between, as StopCheck counts them; 0: not known
+  std::string what;    ///< "making rays"
+  double from = 0;     ///< done before this phase
+  double to = 0;       ///< done after it
+  double work = 0;     ///< predicted units of work in between, as StopCheck counts them; 0: not known
   double seconds = 0;  ///< predicted time in between, where the work is not known; 0: not known either
 };
 

@@ -13,7 +13,7 @@
 /// Checks for a stop request inside a loop, often enough to bound the work between two checks.
 namespace detp::sim {
 
-/// A log of the checks, for tests.
+/// A log of the checks, for tests and displays of progress.
 struct WorkLog {
   std::atomic<std::uint64_t> total = 0;                ///< units of work reported
   std::atomic<std::uint64_t> largest = 0;              ///< largest amount of work between two checks
@@ -28,7 +28,7 @@ struct WorkLog {
   }
 };
 
-/// Where checks are logged; null except in the tests that count work.
+/// Where checks are logged; null except in the tests that count work and where progress is shown.
 inline std::atomic<WorkLog*> work_log = nullptr;
 
 /// Adds up the work that a loop reports, and checks for a stop request whenever `most_work` units have accumulated. A

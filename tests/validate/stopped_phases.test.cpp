@@ -95,8 +95,8 @@ TEST_SUITE("known answer") {
                                .embree_modes = {EmbreeMode{}},
                                .repeats = 1,
                                .stop = source.get_token(),
-                               .progress = [&](std::string_view, double share) {
-                                 if (share > 0.5) source.request_stop();
+                               .progress = [&](const sim::Phase& phase) {
+                                 if (phase.from > 0.7) source.request_stop();
                                }};
     const BenchResult result = run_bench(workloads, options);
     CHECK(result.stopped);

@@ -2,18 +2,26 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
+/// Units of work (sim::StopCheck) that searches report: for a display of progress, which needs them within a fifth.
 namespace detp::validate {
 
-/// Units of work (sim::StopCheck) that a search with these counts reports: for a display of progress, which needs no
-/// better than a tenth.
-///
-/// A float engine over lists of rays reports 16 tests as a unit, and each list and disc that it begins; everything else
-/// reports each test and step.
-[[nodiscard]] inline double search_work(const Counts<double>& counts, Engine engine = Engine::simd) {
+/// Of the tests and steps of a search with these counts. A float engine over lists of rays reports 16 tests as a unit,
+/// everything else each test and step.
+[[nodiscard]] inline double test_work(const Counts<double>& counts, Engine engine = Engine::simd) {
   const bool over_lists = counts.culls > 0 || counts.steps + counts.nodes == 0;
-  const double build = counts.sorted + counts.references + counts.placements;
-  if (engine == Engine::simd && over_lists) return tests(counts) / 16 + counts.culls + counts.visits + build;
-  return tests(counts) + counts.culls + counts.visits + counts.steps + counts.nodes + build;
+  if (engine == Engine::simd && over_lists) return tests(counts) / 16;
+  return tests(counts) + counts.steps + counts.nodes;
+}
+
+/// Of what each search does again, however many rays it has: sorting, building, beginning lists and discs.
+[[nodiscard]] inline double build_work(const Counts<double>& counts) {
+  constexpr double sorting = 9;  // a disc
+  constexpr double placing = 8;  // a disc into a node
+  return counts.culls + counts.visits + sorting * counts.sorted + counts.references + placing * counts.placements;
+}
+
+[[nodiscard]] inline double search_work(const Counts<double>& counts, Engine engine = Engine::simd) {
+  return test_work(counts, engine) + build_work(counts);
 }
 
 }  // namespace detp::validate

@@ -8,6 +8,7 @@
 
 #include "contenders.hpp"
 #include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 
 namespace detp::validate {
 namespace {
@@ -23,6 +24,11 @@ JobRequest request_of(const BenchWorkload& workload, std::uint64_t seed) {
   return request;
 }
 
+/// In proportion to the time that a workload takes, roughly.
+double effort(const BenchWorkload& workload) { return workload.rays + 3e4; }
+
+constexpr double share_of_job = 0.1;  ///< of a workload's time, roughly: making scene and rays
+
 class Benchmark {
  public:
   Benchmark(std::span<const BenchWorkload> workloads, const BenchOptions& options)
@@ -34,9 +40,11 @@ class Benchmark {
   BenchResult go() {
     for (std::size_t i = 0; i < workloads_.size() && !options_.stop.stop_requested(); ++i) {
       if (i == 0 || !same_but_rays(workloads_[i - 1], workloads_[i])) hits_per_ray_ = 0;
-      share_ = static_cast<double>(i) / static_cast<double>(workloads_.size());
+      progress_ = progress_of(i);
+      const std::size_t skipped = result_.skipped.size();
       try {
         if (run(workloads_[i])) ++result_.done;
+        if (result_.skipped.size() == skipped) effort_done_ += effort(workloads_[i]);
       } catch (const sim::Stopped&) {  // stopped while making rays
       }
     }
@@ -45,9 +53,26 @@ class Benchmark {
   }
 
  private:
-  void show(const BenchWorkload& workload, std::string_view what) const {
-    if (options_.progress)
-      options_.progress(fmt::format("{} {:g} rays, {}", workload.scene, workload.rays, what), share_);
+  /// The part of the progress that the workload is. The others are expected to take as long as those done, in
+  /// proportion to their rays; some of the time does not depend on the rays.
+  [[nodiscard]] sim::ReportPhase progress_of(std::size_t place) const {
+    const double done = watch_.seconds();
+    const double speed = effort_done_ > 0 ? done / effort_done_ : 1;
+    double later = 0;
+    for (std::size_t i = place; i < workloads_.size(); ++i) later += speed * effort(workloads_[i]);
+    const double whole = effort_done_ > 0 ? done + later : later;
+    const double before = effort_done_ > 0 ? done : 0;
+    return sim::part_of(options_.progress, before / whole, (before + speed * effort(workloads_[place])) / whole);
+  }
+
+  /// Reports a part of a workload's phases, as "@tree 10000 rays, 2 threads".
+  [[nodiscard]] sim::ReportPhase part(const BenchWorkload& workload, std::string what, double from, double to) const {
+    if (!progress_) return {};
+    return [part = sim::part_of(progress_, from, to),
+            title = fmt::format("{} {:g} rays, {}", workload.scene, workload.rays, what)](sim::Phase phase) {
+      phase.what = fmt::format("{}: {}", title, phase.what);
+      part(phase);
+    };
   }
 
   /// Skips a workload that is expected to have too many hits. The expectation is from a run with fewer rays, or from
@@ -62,8 +87,8 @@ class Benchmark {
   /// False if a stop request ended it.
   bool run(const BenchWorkload& workload) {
     if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return true;
-    show(workload, "making rays");
-    const Job job = make_job(request_of(workload, options_.seed), options_.stop);
+    const Job job =
+        make_job(request_of(workload, options_.seed), options_.stop, part(workload, "making rays", 0, share_of_job));
     const Contenders ours = contenders(job.workload, options_.techniques, options_.hopeless);
     if (ours.candidates.empty()) {
       result_.skipped.push_back({workload, "none of the techniques named fits in memory on it"});
@@ -73,17 +98,23 @@ class Benchmark {
       hits_per_ray_ = ours.hits / workload.rays;
       return true;
     }
-    show(workload, "hits");
+    const auto races = part(workload, "races", share_of_job, 1);
+    if (races) races({"right hits", 0, 0});
     const auto right = right_hits(job, ours.candidates.front(), options_.checkable, options_.stop);
     if (!right) return false;
     const auto sum = std::accumulate(right->hits.begin(), right->hits.end(), std::uint64_t{0});
     hits_per_ray_ = static_cast<double>(sum) / workload.rays;
     std::vector<Competitor> competitors(ours.candidates.begin(), ours.candidates.end());
     competitors.insert(competitors.end(), options_.embree_modes.begin(), options_.embree_modes.end());
+    double before = 0;
     for (const int threads : options_.threads) {
-      show(workload, fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"));
-      const RaceOptions how{
-          .repeats = options_.repeats, .enough = options_.enough, .threads = threads, .stop = options_.stop};
+      const double after = before + 1.0 / static_cast<double>(options_.threads.size());
+      const RaceOptions how{.repeats = options_.repeats,
+                            .enough = options_.enough,
+                            .threads = threads,
+                            .stop = options_.stop,
+                            .progress = sim::part_of(races, before, after)};
+      before = after;
       Race found = race(job, *right, *peers_.at(threads), competitors, how);
       const bool complete = found.complete;
       if (!found.finishes.empty())
@@ -99,7 +130,9 @@ class Benchmark {
   std::map<int, std::unique_ptr<EmbreePeer>> peers_;
   BenchResult result_;
   double hits_per_ray_ = 0;
-  double share_ = 0;
+  sim::Stopwatch watch_;
+  double effort_done_ = 0;     ///< of the workloads that were not skipped
+  sim::ReportPhase progress_;  ///< of the workload
 };
 
 }  // namespace

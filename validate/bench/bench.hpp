@@ -1,12 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <span>
 #include <stop_token>
 #include <string>
-#include <string_view>
 #include <vector>
 
+#include "detp/sim/base/phase.hpp"
 #include "race.hpp"
 #include "workload.hpp"
 
@@ -25,7 +24,7 @@ struct BenchOptions {
   double checkable = 2e7;  ///< largest rays x discs at which brute force decides which hits are right
   std::uint64_t seed = 1;
   std::stop_token stop = {};
-  std::function<void(std::string_view next, double share)> progress = {};
+  sim::ReportPhase progress = {};
 };
 
 /// The race on one workload.

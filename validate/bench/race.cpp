@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/base/in_turns.hpp"
@@ -20,14 +21,13 @@ class Runner {
       : job_(job), right_(right), embree_(embree), options_(options) {}
 
   Race go(const std::vector<Competitor>& competitors) {
-    const sim::Stopwatch watch;
     for (const Competitor& competitor : competitors) race_.finishes.push_back({competitor});
     double ours = 0;
     double peers = 0;
     in_turns(competitors.size(), options_.repeats, [&](std::size_t i, int round) {
       Finish& finish = race_.finishes[i];
       if (round == 0) return run(finish);
-      if (i == 0 && round >= least_rounds && watch.seconds() >= options_.enough) return false;
+      if (i == 0 && round >= least_rounds && watch_.seconds() >= options_.enough) return false;
       if (i == 0 && round == 1) {
         ours = slowest_finalist(true);
         peers = slowest_finalist(false);
@@ -40,8 +40,21 @@ class Runner {
   }
 
  private:
+  /// Reports the next run. One that is not known is expected to take as long as those before it.
+  void report(const Finish& next) {
+    if (!options_.progress) return;
+    constexpr double first_round = 0.8;  // share of the time: then only the fastest go on
+    const bool first = next.seconds.empty();
+    const double step = first ? first_round / static_cast<double>(race_.finishes.size())
+                              : (1 - first_round) / (2.0 * options_.finalists * std::max(1, options_.repeats - 1));
+    const double before = std::exchange(share_, std::min(1.0, share_ + step));
+    options_.progress({technique_of(next.competitor), before, share_, 0,
+                       first ? watch_.seconds() / std::max(1.0, before / step) : next.seconds.front()});
+  }
+
   /// One run. Returns whether it was completed.
-  bool run(Finish& finish) const {
+  bool run(Finish& finish) {
+    report(finish);
     const sim::Stopwatch watch;
     if (const auto* mode = std::get_if<EmbreeMode>(&finish.competitor)) {
       const PeerOutcome outcome = embree_.run(job_.rays, job_.discs, *mode, options_.stop);
@@ -76,6 +89,8 @@ class Runner {
   const RightHits& right_;
   const EmbreePeer& embree_;
   const RaceOptions& options_;
+  sim::Stopwatch watch_;
+  double share_ = 0;  ///< of the time, done after the current run
   Race race_;
 };
 

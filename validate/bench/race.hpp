@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "detp/sim/base/phase.hpp"
 #include "detp/validate/bench/peer/embree_peer.hpp"
 #include "referee.hpp"
 
@@ -41,6 +42,7 @@ struct RaceOptions {
   int finalists = 2;  ///< number of competitors of each side that run after the first round
   int threads = 1;
   std::stop_token stop = {};
+  sim::ReportPhase progress = {};
 };
 
 struct Race {

@@ -19,6 +19,7 @@
 #include "detp/sim/scene/open/open_scene.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/streamed.hpp"
+#include "job_progress.hpp"
 #include "measure.hpp"
 #include "outliers.hpp"
 
@@ -75,14 +76,17 @@ bool on_faces(const Workload& workload) { return workload.dimension < 2.5; }
 
 class JobMaker {
  public:
-  JobMaker(const JobRequest& request, std::stop_token stop) : request_(request), stop_(std::move(stop)) {}
+  JobMaker(const JobRequest& request, std::stop_token stop, const sim::ReportPhase& progress)
+      : request_(request), stop_(std::move(stop)), progress_(progress) {}
 
   Job make() {
     const sim::Stopwatch watch;
+    progress_.read(request_);
     sim::in_memory("reading the scene", [&] { request_.numbers_alone() ? from_numbers() : from_scene_and_files(); });
     job_.front_facing = request_.front_facing;
     sim::in_memory("making rays", [&] { make_rays(); });
     job_.read_seconds = watch.seconds();
+    progress_.measure(job_.rays.size(), job_.discs.size());
     sim::in_memory("measuring rays and discs", [&] { measure_workload(); });
     return std::move(job_);
   }
@@ -129,6 +133,7 @@ class JobMaker {
 
   void make_rays() {
     if (request_.ray_file) {
+      progress_.read_rays(*request_.ray_file, job_.discs.size());
       if (request_.rays)
         throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
       job_.rays = sim::read_rays(*request_.ray_file, stop_);
@@ -139,8 +144,10 @@ class JobMaker {
     require_count("number of rays", rays, 1, 1e18);
     job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
     const auto block = static_cast<double>(sim::default_block(job_.discs.size()));
-    if (request_.stream && rays > block && rays < UINT32_MAX) return make_stream(static_cast<std::uint64_t>(rays));
+    const bool stream = request_.stream && rays > block && rays < UINT32_MAX;
     const double made = request_.workload_only ? std::min(rays, block) : rays;
+    progress_.make_rays(job_.field, made, stream, job_.discs.size());
+    if (stream) return make_stream(static_cast<std::uint64_t>(rays));
     const std::size_t count = count_in_memory("rays", made, sizeof(sim::Ray));
     if (job_.field == sim::Field::isotropic) {
       make_lines(count);
@@ -203,6 +210,7 @@ class JobMaker {
 
   const JobRequest& request_;
   std::stop_token stop_;
+  JobProgress progress_;
   std::optional<sim::Scene> scene_;
   SurfaceFacts surface_;
   Job job_;
@@ -256,6 +264,8 @@ std::string_view name_of_numbers(const Workload& workload) {
   return on_faces(workload) ? "uniform samples on the faces of a cube" : "uniform samples in a cube";
 }
 
-Job make_job(const JobRequest& request, std::stop_token stop) { return JobMaker(request, std::move(stop)).make(); }
+Job make_job(const JobRequest& request, std::stop_token stop, const sim::ReportPhase& progress) {
+  return JobMaker(request, std::move(stop), progress).make();
+}
 
 }  // namespace detp::validate

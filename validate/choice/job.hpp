@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/phase.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -79,6 +80,6 @@ struct Job {
 
 /// Makes and measures what is requested. Throws sim::FileError and std::invalid_argument as its parts do. Throws
 /// sim::Stopped within 0.1 s of a stop request.
-[[nodiscard]] Job make_job(const JobRequest& request, std::stop_token stop = {});
+[[nodiscard]] Job make_job(const JobRequest& request, std::stop_token stop = {}, const sim::ReportPhase& progress = {});
 
 }  // namespace detp::validate

@@ -9,6 +9,7 @@
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/search_work.hpp"
 #include "detp/validate/choice/unit_costs.hpp"
 #include "experiments.hpp"
 
@@ -40,6 +41,11 @@ bool searches_ray_by_ray(Technique technique) {
   return technique == Technique::brute_force || record_of(technique).ray_by_ray;
 }
 
+/// The share of the rays that a candidate is counted on.
+double share_counted(const model::Ranked& ranked) {
+  return searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
+}
+
 struct Batch {
   double rays = 0;
   Counts<double> counts;
@@ -53,9 +59,8 @@ struct Counted {
 
 std::optional<Counted> count(const Experiment& experiment, const model::Ranked& ranked) {
   const ChoiceQuestion& question = *experiment.choice;
-  const double share =
-      searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
-  const auto taken = static_cast<std::size_t>(std::ceil(share * static_cast<double>(question.rays.size())));
+  const auto taken =
+      static_cast<std::size_t>(std::ceil(share_counted(ranked) * static_cast<double>(question.rays.size())));
   // An evenly spaced sample: the last ray of each stride.
   std::vector<sim::Ray> rays;
   for (std::size_t i = 0; i < taken; ++i) rays.push_back(question.rays[(i + 1) * question.rays.size() / taken - 1]);
@@ -142,6 +147,15 @@ std::vector<Finding> choice_findings(const Experiment& experiment) {
     for (Finding& finding : candidate_findings(experiment, ranked)) findings.push_back(std::move(finding));
   }
   return findings;
+}
+
+double choice_work(const Experiment& experiment) {
+  double work = 0;
+  if (!experiment.choice) return work;
+  for (const model::Ranked& ranked : model::rank(experiment.choice->workload, built_in_unit_costs()))
+    work += 2 * share_counted(ranked) * test_work(ranked.counts) +  // in one run, and in runs over parts of the rays
+            (1 + batch_count) * build_work(ranked.counts);
+  return work;
 }
 
 }  // namespace detp::validate

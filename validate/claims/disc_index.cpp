@@ -14,6 +14,7 @@
 #include "detp/sim/index/indexed_search.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/search_work.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "experiments.hpp"
 #include "samples.hpp"
@@ -22,6 +23,7 @@ namespace detp::validate {
 namespace {
 
 constexpr double tolerance = 0.02;
+constexpr std::size_t lines_through_cells = 20'000;  ///< of each batch
 
 /// The counts of one batch of lines.
 struct Batch {
@@ -74,7 +76,7 @@ Estimate ratio(const std::vector<Batch>& batches, double Batch::*above, double B
 /// Two small discs in opposite corners of a cube, so that almost only cells are counted.
 Finding cells_finding(const Experiment& experiment) {
   const sim::Stopwatch clock;
-  const std::size_t lines = lines_a_batch(experiment, 20'000);
+  const std::size_t lines = lines_a_batch(experiment, lines_through_cells);
   const int depth = tested_depth(experiment.workload);
   const std::vector<sim::Disc> corners{{.centre = glm::dvec3{-1}, .radius = 1e-3},
                                        {.centre = glm::dvec3{1}, .radius = 1e-3}};
@@ -176,6 +178,14 @@ std::vector<Finding> disc_index_findings(const Experiment& experiment) {
     findings.push_back(std::move(finding));
   }
   return findings;
+}
+
+double disc_index_work(const Experiment& experiment) {
+  const int depth = tested_depth(experiment.workload);
+  const double cells = model::published::cells_per_line(depth) *
+                       static_cast<double>(lines_a_batch(experiment, lines_through_cells) * batch_count);
+  const Counts<double> counts = model::octree_counts(experiment.workload, {depth});
+  return cells + test_work(counts) + batch_count * build_work(counts);
 }
 
 }  // namespace detp::validate

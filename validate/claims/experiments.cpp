@@ -25,23 +25,32 @@ bool add_findings(Run run, const Experiment& experiment, std::vector<Finding>& f
 
 }  // namespace
 
-std::vector<Finding> all_findings(const Experiment& experiment, const Progress& progress, sim::Progress* done) {
+std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress, sim::Progress* done) {
   struct Step {
-    std::string_view name;
+    const char* name;
     Run run;
-    double share;  ///< approximate share of the whole time
+    double (*work)(const Experiment&);
+    double unit_time;  ///< of a unit of its work, relative to the others': measured
   };
-  constexpr std::array steps{
-      Step{"predictions of the choice", choice_findings, 0},
-      Step{"lines against spheres and discs", line_hit_findings, 0.2}, Step{"sphere cache", sphere_cache_findings, 0.5},
-      Step{"hierarchies of spheres", sphere_hierarchy_findings, 0.1}, Step{"index of discs", disc_index_findings, 0.2}};
+  constexpr std::array steps{Step{"predictions of the choice", choice_findings, choice_work, 3},
+                             Step{"lines against spheres and discs", line_hit_findings, line_hit_work, 1},
+                             Step{"sphere cache", sphere_cache_findings, sphere_cache_work, 1},
+                             Step{"hierarchies of spheres", sphere_hierarchy_findings, sphere_hierarchy_work, 2.2},
+                             Step{"index of discs", disc_index_findings, disc_index_work, 7.5}};
+  std::array<double, steps.size()> work{};
+  double whole = 0;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    work[i] = progress ? steps[i].work(experiment) : 0;
+    whole += work[i] * steps[i].unit_time;
+  }
   std::vector<Finding> findings;
   std::uint64_t experiments = 0;
   double share = 0;
   for (const Step& step : steps) {
-    if (progress) progress(step.name, share);
+    const double before = share;
+    share += whole > 0 ? work[experiments] * step.unit_time / whole : 0;
+    if (progress) progress({step.name, before, share, work[experiments]});
     if (!add_findings(step.run, experiment, findings)) break;
-    share += step.share;
     ++experiments;
   }
   if (done != nullptr) *done = {experiments, steps.size(), "experiments"};

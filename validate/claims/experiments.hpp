@@ -1,10 +1,9 @@
 #pragma once
 
-#include <functional>
-#include <string_view>
 #include <vector>
 
 #include "claim.hpp"
+#include "detp/sim/base/phase.hpp"
 #include "detp/sim/base/progress.hpp"
 
 /// The experiments behind the claims. Each counts by simulation; none uses a formula to count.
@@ -29,12 +28,16 @@ namespace detp::validate {
 /// question's workload; they are counted on the question's rays and discs. Nothing if there is no question.
 [[nodiscard]] std::vector<Finding> choice_findings(const Experiment& experiment);
 
-/// Called before each experiment with its name and the share of the work that is done.
-using Progress = std::function<void(std::string_view next, double done)>;
+/// Predicted work of each experiment, in units of sim::StopCheck, for a display of progress.
+[[nodiscard]] double line_hit_work(const Experiment& experiment);
+[[nodiscard]] double sphere_cache_work(const Experiment& experiment);
+[[nodiscard]] double sphere_hierarchy_work(const Experiment& experiment);
+[[nodiscard]] double disc_index_work(const Experiment& experiment);
+[[nodiscard]] double choice_work(const Experiment& experiment);
 
 /// The findings of all experiments, or of those finished before a stop request. Sets `done`, if not null, to their
 /// number.
-[[nodiscard]] std::vector<Finding> all_findings(const Experiment& experiment, const Progress& progress = {},
+[[nodiscard]] std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress = {},
                                                 sim::Progress* done = nullptr);
 
 }  // namespace detp::validate

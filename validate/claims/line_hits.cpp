@@ -23,6 +23,7 @@ constexpr double tolerance = 0.015;
 constexpr double sphere_radius = 0.4;
 constexpr double disc_radius = 0.3;
 constexpr int most_levels = 3;
+constexpr std::size_t lines_of_each_batch = 100'000;
 
 /// Radius of S_i at the published Q.
 double level_radius(int i) { return std::pow(model::published_ratio, static_cast<double>(i)); }
@@ -139,7 +140,7 @@ Finding rays_finding(const std::vector<Shares>& batches, double all_rays, int i)
 
 std::vector<Finding> line_hit_findings(const Experiment& experiment) {
   const sim::Stopwatch clock;
-  const std::size_t lines = lines_a_batch(experiment, 100'000);
+  const std::size_t lines = lines_a_batch(experiment, lines_of_each_batch);
   const std::vector<Shares> batches = shares_of_batches(experiment, bodies_inside(experiment), lines);
   if (experiment.stop.stop_requested()) return {};
   std::vector<Finding> findings{sphere_finding(batches), disc_finding(batches)};
@@ -151,6 +152,11 @@ std::vector<Finding> line_hit_findings(const Experiment& experiment) {
     finding.seconds = clock.seconds();
   }
   return findings;
+}
+
+double line_hit_work(const Experiment& experiment) {
+  return static_cast<double>(lines_a_batch(experiment, lines_of_each_batch) * batch_count * positions *
+                             (2 + most_levels));
 }
 
 }  // namespace detp::validate

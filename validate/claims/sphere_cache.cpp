@@ -13,6 +13,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/search_work.hpp"
 #include "detp/validate/structural/structural_walk.hpp"
 #include "experiments.hpp"
 #include "samples.hpp"
@@ -199,6 +200,19 @@ std::vector<Finding> sphere_cache_findings(const Experiment& experiment) {
     finding.seconds = clock.seconds();
   }
   return findings;
+}
+
+double sphere_cache_work(const Experiment& experiment) {
+  double work = 0;
+  for (const double ratio : ratios) {
+    const SphereCacheParameters parameters = parameters_for(experiment.workload, ratio);
+    const auto counts = model::predict(experiment.workload, {Technique::sphere_cache, parameters}, Engine::plain);
+    // The structural walk takes 8 lines for a sphere, 64 for the first 500 of each level, and 10 units for a line.
+    const double lines =
+        8 * counts.culls + 56 * std::min(counts.culls, 500.0 * static_cast<double>(parameters.spheres));
+    work += test_work(counts, Engine::plain) + batch_count * (build_work(counts) + 10 * lines);
+  }
+  return work;
 }
 
 }  // namespace detp::validate

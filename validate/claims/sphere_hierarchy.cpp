@@ -8,6 +8,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/search_work.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "experiments.hpp"
 #include "samples.hpp"
@@ -151,6 +152,16 @@ std::vector<Finding> sphere_hierarchy_findings(const Experiment& experiment) {
     }
   }
   return findings;
+}
+
+double sphere_hierarchy_work(const Experiment& experiment) {
+  double work = 0;
+  for (const Subject& subject : {cell_spheres(experiment.workload), sphere_tree()})
+    for (const Candidate& candidate : subject.candidates)
+      // The structures are built and looked at with some 40 units for a disc.
+      work += test_work(model::predict(experiment.workload, candidate, Engine::plain), Engine::plain) +
+              40.0 * batch_count * experiment.workload.samples;
+  return work;
 }
 
 }  // namespace detp::validate

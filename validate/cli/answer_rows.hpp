@@ -21,6 +21,7 @@ struct AnswerRow {
 struct TextColumns {
   Columns inputs;   ///< as columns if rows differ; above the table if all are the same
   Columns answers;  ///< always as columns, if any row has them
+  Screen screen;
 };
 
 /// Number of rows for all combinations of both lists. Throws std::length_error for more than most_rows.

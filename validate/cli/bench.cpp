@@ -6,6 +6,7 @@
 
 #include "bench_report.hpp"
 #include "command.hpp"
+#include "progress_line.hpp"
 #include "value_lists.hpp"
 #include "workload_options.hpp"
 
@@ -83,7 +84,7 @@ validate::BenchOptions options_of(const BenchCommand& command, const CommonOptio
           .most_hits = command.most_hits.value_or(thorough ? 5e6 : 1e6),
           .seed = common.seed,
           .stop = std::move(stop),
-          .progress = [&progress](std::string_view next, double share) { progress.show(next, share); }};
+          .progress = progress.report()};
 }
 
 Json inputs_json(const BenchCommand& command, const validate::BenchSet& set, const validate::BenchOptions& options) {
@@ -109,7 +110,7 @@ Result run_command_bench(const BenchCommand& command, const CommonOptions& commo
   const char* folder = std::getenv("DETP_SCENES");
   const auto effort = command.effort == "thorough" ? validate::BenchEffort::thorough : validate::BenchEffort::quick;
   const validate::BenchSet set = validate::bench_set(effort, axes_of(command), folder != nullptr ? folder : "");
-  Result result = report_bench(validate::run_bench(set.workloads, options), options, set.missing);
+  Result result = report_bench(validate::run_bench(set.workloads, options), options, set.missing, common.screen());
   result.inputs = inputs_json(command, set, options);
   return result;
 }
@@ -122,18 +123,20 @@ Command bench_command(CLI::App& program) {
   app->footer("Example: detp bench @tree --rays 1e4,1e5 --disc-radius 1%,4%");
   const auto command = std::make_shared<BenchCommand>();
   app->add_option("SCENE", command->scene, "a mesh or a built-in scene; default: the effort's set of scenes");
-  app->add_option("--rays", command->rays, "a list or a range, as 1e3,1e5");
+  app->add_option("--rays", command->rays, "a list or a range, as 1e3,1e5; default: the effort's");
   app->add_option("--samples", command->samples, "a list or a range; default: the scene's vertices");
-  app->add_option("--disc-radius", command->disc_radii, "a list of lengths or percentages, as 1%,4%");
+  app->add_option("--disc-radius", command->disc_radii,
+                  "a list of lengths or percentages, as 1%,4%; default: the effort's");
   app->add_option("--field", command->fields, "isotropic, photons or both; default: both, where there is a light")
       ->delimiter(',')
       ->check(CLI::IsMember({"isotropic", "photons"}));
-  app->add_option("--effort", command->effort, "quick (a minute) or thorough (half an hour); meshes from $DETP_SCENES")
+  app->add_option("--effort", command->effort,
+                  "quick (a minute) or thorough (half an hour), with meshes from $DETP_SCENES; default: quick")
       ->check(CLI::IsMember({"quick", "thorough"}));
   app->add_option("--techniques", command->techniques, "a list of ours; default: all exact ones")->delimiter(',');
-  app->add_option("--embree-modes", command->embree_modes, "best (six of them) or all 60")
+  app->add_option("--embree-modes", command->embree_modes, "best (six of them) or all 60; default: best")
       ->check(CLI::IsMember({"best", "all"}));
-  add_number(*app, "--repeat", command->repeat, "rounds, at most; medians are shown");
+  add_number(*app, "--repeat", command->repeat, "rounds, at most; medians are shown; default: 5");
   add_number(*app, "--most-hits", command->most_hits, "skip workloads with more hits; default: 1e6, thorough 5e6");
   return {app, [command](const CommonOptions& common, const std::stop_token& stop) {
             return run_command_bench(*command, common, stop);

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include "detp/model/vocabulary/quoted.hpp"
 #include "table.hpp"
+#include "text_table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -87,54 +89,82 @@ Json summary_json(const BenchResult& bench, const validate::BenchOptions& option
   return json;
 }
 
-std::string side_text(const Finish* finish, std::size_t name_width) {
-  if (finish == nullptr) return fmt::format("{:<{}} {:>9}", "", name_width, "");
+/// A contestant and its seconds.
+std::vector<TextCell> side_cells(const Finish* finish, Style style) {
+  if (finish == nullptr) return {{}, {}};
   std::string name = parameters_of(finish->competitor);
-  if (validate::is_ours(finish->competitor)) name = fmt::format("{} {}", technique_of(finish->competitor), name);
-  return fmt::format("{:<{}} {:>9.3g}", name, name_width, finish->median_seconds());
+  if (validate::is_ours(finish->competitor))
+    name = fmt::format("{}{}{}", technique_of(finish->competitor), name.empty() ? "" : ", ", name);
+  return {{std::move(name), style}, {fmt::format("{:.3g}", finish->median_seconds()), style}};
 }
 
-std::string line_of(const BenchEntry& entry) {
+std::vector<TextCell> row_of(const BenchEntry& entry) {
   const double ratio = entry.ratio();
-  return fmt::format("{:<15} {:<9} {:>5.0e} {:>7.0f} {:>6} {:>3}  {}  {}  {}\n", entry.workload.scene,
-                     name(entry.workload.field), entry.workload.rays, entry.samples, radius_text(entry.workload),
-                     entry.threads, side_text(entry.best(true), 37), side_text(entry.best(false), 33),
-                     ratio > 0 ? fmt::format("{:>6.2f}", ratio) : "stopped");
+  std::vector<TextCell> cells{{escaped(entry.workload.scene)},
+                              {std::string(name(entry.workload.field))},
+                              {fmt::format("{:g}", entry.workload.rays)},
+                              {fmt::format("{:.0f}", entry.samples)},
+                              {radius_text(entry.workload)},
+                              {fmt::format("{}", entry.threads)}};
+  for (const bool ours : {true, false})
+    for (TextCell& cell : side_cells(entry.best(ours), Style::plain)) cells.push_back(std::move(cell));
+  cells.push_back(ratio > 0 ? TextCell{fmt::format("{:.2f}", ratio), ratio >= 1 ? Style::good : Style::bad}
+                            : TextCell{"stopped", Style::doubtful});
+  return cells;
 }
 
-std::string summary_text(const BenchResult& bench, const validate::BenchOptions& options) {
+std::string table_text(const BenchResult& bench, const Screen& screen) {
+  TextTable table({{.head = "scene", .align = Align::left},
+                   {.head = "field", .align = Align::left},
+                   {.head = "rays"},
+                   {.head = "discs", .spare = 1},
+                   {.head = "radius"},
+                   {.head = "threads"},
+                   {.head = "technique", .align = Align::left, .spare = 2, .group = "best of ours"},
+                   {.head = "seconds", .group = "best of ours"},
+                   {.head = "call", .align = Align::left, .spare = 3, .group = "Embree's best"},
+                   {.head = "seconds", .group = "Embree's best"},
+                   {.head = "times"}});
+  for (const BenchEntry& entry : bench.entries) table.add(row_of(entry));
+  return table.text(screen) +
+         legend(screen,
+                "seconds: median of the rounds, from discs and rays in memory to irradiance in memory, building "
+                "included. times: Embree's seconds over ours. radius: of the discs, % of the scene's longest side.");
+}
+
+std::string summary_text(const BenchResult& bench, const validate::BenchOptions& options, const Screen& screen) {
   std::string text;
+  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 4); };
   for (const int threads : options.threads)
     if (const auto summary = validate::against_embree(bench.entries, threads)) {
       const BenchEntry& worst = bench.entries[summary->worst_entry];
-      text +=
-          fmt::format("\n{} thread{}: {} races, Embree takes {:.3g} times as long (geometric mean), at worst {:.3g}\n",
-                      threads, threads == 1 ? "" : "s", summary->races, summary->geometric_mean, summary->worst);
-      text += fmt::format("  worst: {}: {} {:.3g} s, Embree {} {:.3g} s\n", describe(worst.workload),
-                          technique_of(worst.best(true)->competitor), worst.best(true)->median_seconds(),
-                          parameters_of(worst.best(false)->competitor), worst.best(false)->median_seconds());
+      text += "\n";
+      add(fmt::format("{} thread{}: {} races, Embree takes {:.3g} times as long (geometric mean), at worst {:.3g}",
+                      threads, threads == 1 ? "" : "s", summary->races, summary->geometric_mean, summary->worst));
+      add(fmt::format("  worst: {}: {} {:.3g} s, Embree {} {:.3g} s", describe(worst.workload),
+                      technique_of(worst.best(true)->competitor), worst.best(true)->median_seconds(),
+                      parameters_of(worst.best(false)->competitor), worst.best(false)->median_seconds()));
     }
   const validate::WrongHits wrong = validate::embree_wrong_hits(bench.entries);
+  const bool agree = validate::ours_agree(bench.entries);
   text += fmt::format("\nhits: ours {}; Embree, in single precision, is wrong about {} of {}\n",
-                      validate::ours_agree(bench.entries) ? "all agree" : "DO NOT AGREE", wrong.wrong, wrong.hits);
+                      styled(screen, agree ? Style::good : Style::bad, agree ? "all agree" : "DO NOT AGREE"),
+                      wrong.wrong, wrong.hits);
   return text;
 }
 
-std::string left_out_text(const BenchResult& bench, const std::vector<std::string>& missing) {
+std::string left_out_text(const BenchResult& bench, const std::vector<std::string>& missing, const Screen& screen) {
   std::string text;
-  for (const std::string& why : missing) text += fmt::format("left out  {}\n", why);
+  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
+  for (const std::string& why : missing) add(fmt::format("left out  {}", why));
   for (const validate::BenchSkip& skip : bench.skipped)
-    text += fmt::format("skipped   {}: {}\n", describe(skip.workload), skip.why);
+    add(fmt::format("skipped   {}: {}", describe(skip.workload), skip.why));
   return text.empty() ? text : "\n" + text;
 }
 
 std::string to_text(const BenchResult& bench, const validate::BenchOptions& options,
-                    const std::vector<std::string>& missing) {
-  std::string text =
-      fmt::format("{:<15} {:<9} {:>5} {:>7} {:>6} {:>3}  {:<37} {:>9}  {:<33} {:>9}  {:>6}\n", "scene", "field", "rays",
-                  "discs", "radius", "thr", "best of ours", "seconds", "Embree's best", "seconds", "times");
-  for (const BenchEntry& entry : bench.entries) text += line_of(entry);
-  return text + summary_text(bench, options) + left_out_text(bench, missing);
+                    const std::vector<std::string>& missing, const Screen& screen) {
+  return table_text(bench, screen) + summary_text(bench, options, screen) + left_out_text(bench, missing, screen);
 }
 
 /// Marks the best technique of each race: `best` is "ours" or "embree".
@@ -157,7 +187,7 @@ std::string to_csv(const BenchResult& bench) {
 }  // namespace
 
 Result report_bench(const BenchResult& bench, const validate::BenchOptions& options,
-                    const std::vector<std::string>& missing) {
+                    const std::vector<std::string>& missing, const Screen& screen) {
   Result result;
   Json rows = Json::array();
   for (const BenchEntry& entry : bench.entries)
@@ -169,7 +199,7 @@ Result report_bench(const BenchResult& bench, const validate::BenchOptions& opti
                  {"summary", summary_json(bench, options)},
                  {"skipped", std::move(skipped)},
                  {"left_out", missing}};
-  result.text = to_text(bench, options, missing);
+  result.text = to_text(bench, options, missing, screen);
   result.csv = to_csv(bench);
   if (!validate::ours_agree(bench.entries)) result.code = ExitCode::refuted;
   if (bench.stopped) result.stopped = {bench.done, bench.workloads, "workloads"};

@@ -10,6 +10,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/choice/unit_costs.hpp"
 #include "detp/validate/structural/structural.hpp"
+#include "progress_line.hpp"
 #include "unit_cost_option.hpp"
 #include "workload_options.hpp"
 
@@ -71,15 +72,19 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
 /// Ranks again by structural counts. After a stop request the ranking is unchanged, and the result is the number of
 /// candidates that had been counted.
 std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const validate::Job& job, const UnitCosts& costs,
-                                                 const std::stop_token& stop) {
+                                                 const std::stop_token& stop, const sim::ReportPhase& progress) {
   if (job.field != sim::Field::isotropic)
     throw std::invalid_argument(
         "--rigor structural counts isotropic lines; give --field isotropic, or --rigor estimate");
   const sim::Stopwatch watch;
   std::vector<model::Ranked> ranking;
   try {
-    for (const model::Ranked& ranked : answer.ranking)
+    for (const model::Ranked& ranked : answer.ranking) {
+      const double each = 1 / static_cast<double>(answer.ranking.size());
+      const double before = each * static_cast<double>(ranking.size());
+      if (progress) progress({fmt::format("structure of {}", name(ranked.candidate.technique)), before, before + each});
       ranking.push_back(assess_structurally(job, ranked.candidate, costs, stop));
+    }
   } catch (const sim::Stopped&) {
     return sim::Progress{ranking.size(), answer.ranking.size(), "candidates counted by their structures"};
   }
@@ -98,7 +103,7 @@ sim::Progress measured(const validate::Analysis& analysis) {
 }
 
 std::string describe_numbers(const Workload& workload) {
-  return fmt::format("workload  {:.6g} rays, {:.6g} samples, discs of radius {:.4g}, r0 = {:.4g}, D = {:.2f}\n",
+  return fmt::format("workload  {:.6g} rays, {:.6g} samples, discs of radius d = {:.4g}, r0 = {:.4g}, D = {:.2f}\n",
                      workload.rays, workload.samples, workload.disc_radius, workload.sphere_radius, workload.dimension);
 }
 
@@ -123,19 +128,21 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     answer.title = describe_numbers(answer.workload);
   } else {
     const ProgressLine progress(common);
-    progress.show("scene and rays", 0);
-    const validate::Job job = validate::make_job(request, stop);
+    const double share_of_job = options.analyze || structural ? 0.3 : 1;  // before the work is known
+    const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);
     answer.workload = job.workload;
     result.stopped = decide(answer, costs, stop);
-    if (structural && !result.stopped) result.stopped = decide_structurally(answer, job, costs, stop);
+    if (structural && !result.stopped)
+      result.stopped = decide_structurally(answer, job, costs, stop,
+                                           sim::part_of(progress.report(), share_of_job, options.analyze ? 0.6 : 1));
     if (structural && result.stopped) answer.rigor = Rigor::estimate;
     if (options.analyze && !result.stopped) {
       answer.analysis = validate::analyse(
           job.problem(), answer.ranking,
           {.stop = stop,
            .predict = [&](const Candidate& candidate) { return predicted(candidate, job, structural, costs, stop); },
-           .progress = [&](std::string_view step, double done) { progress.show(step, done); }});
+           .progress = sim::part_of(progress.report(), share_of_job, 1)});
       if (answer.analysis->stopped) result.stopped = measured(*answer.analysis);
     }
     result.inputs = to_json(job, request);
@@ -148,7 +155,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   answer.costs = costs;
   answer.costs_given = !options.costs.empty();
   result.json = to_json(answer);
-  result.text = to_text(answer);
+  result.text = to_text(answer, common.screen());
   result.csv = to_csv(answer, result.inputs);
   return result;
 }
@@ -161,7 +168,8 @@ Command choose_command(CLI::App& program) {
   const auto options = std::make_shared<ChooseOptions>();
   options->workload.add_to(*app);
   app->add_option("--costs", options->costs, unit_cost_help() + "\ndefault: built in");
-  app->add_option("--rigor", options->rigor, "estimate: closed forms only; structural: the built structures, no rays");
+  app->add_option("--rigor", options->rigor,
+                  "estimate: closed forms only; structural: the built structures, no rays; default: estimate");
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);

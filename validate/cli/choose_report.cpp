@@ -107,67 +107,109 @@ Json to_json(const ChooseAnswer& answer) {
 
 namespace {
 
-std::string row_text(const ChooseAnswer& answer, const Row& row) {
-  std::string text = fmt::format("{:14} {:26} ", name(row.candidate.technique), describe(row.candidate));
-  text += row.predicted != nullptr
-              ? fmt::format("{:>10.3g} {:>9.3g}{}", tests(row.predicted->counts), row.predicted->time.total(),
-                            row.predicted->extrapolated.empty() ? ' ' : '~')
-              : fmt::format("{:>10} {:>9} ", "-", "-");
-  if (row.run != nullptr) text += measured_columns(*row.run);
-  if (row.run != nullptr && !row.run->seconds) {
-    Json json;
-    add_measured(json, *answer.analysis, *row.run);
-    text += "  (" + json["not_run"].get<std::string>() + ")";
+/// "3.5 times longer, mostly ray-disc tests".
+std::vector<TextCell> comparison_cells(const ChooseAnswer& answer, const Row& row) {
+  const CostBreakdown& time = row.predicted->time;
+  return {{fmt::format("{:.3g}", time.total() / answer.ranking.front().time.total())}, {largest_part(time)}};
+}
+
+std::string verdict(const ChooseAnswer& answer, const Row& row) {
+  if (row.chosen) return "<- choice";
+  if (row.run == nullptr || row.run->seconds) return "";
+  Json json;
+  add_measured(json, *answer.analysis, *row.run);
+  return json["not_run"];
+}
+
+std::string table(const ChooseAnswer& answer, const Screen& screen) {
+  std::vector<TextColumn> columns{{.head = "technique", .align = Align::left},
+                                  {.head = "parameters", .align = Align::left},
+                                  {.head = "tests", .spare = 1, .group = "predicted"},
+                                  {.head = "seconds", .align = Align::left, .group = "predicted"}};
+  if (answer.analysis)
+    for (const TextColumn& column : measured_table_columns()) columns.push_back(column);
+  else
+    columns.insert(columns.end(),
+                   {{.head = "times the first", .spare = 3}, {.head = "mostly", .align = Align::left, .spare = 2}});
+  columns.push_back({.head = "", .align = Align::left});
+  TextTable table(std::move(columns));
+  for (const Row& row : rows_of(answer)) {
+    const Style style = row.chosen ? Style::good : Style::plain;
+    std::vector<TextCell> cells{{std::string(name(row.candidate.technique)), style}, {describe(row.candidate), style}};
+    if (row.predicted != nullptr) {
+      const char* const mark = row.predicted->extrapolated.empty() ? "" : "~";
+      cells.push_back({fmt::format("{:.3g}", tests(row.predicted->counts))});
+      cells.push_back({fmt::format("{:.3g}{}", row.predicted->time.total(), mark)});
+    }
+    cells.resize(4);
+    for (const TextCell& cell : answer.analysis ? measured_cells(*row.run) : comparison_cells(answer, row))
+      cells.push_back(cell);
+    cells.push_back({verdict(answer, row), row.chosen ? Style::good : Style::faint});
+    table.add(std::move(cells));
   }
-  return text + (row.chosen ? "  <- choice\n" : "\n");
+  return "\n" + table.text(screen);
 }
 
-std::string table(const ChooseAnswer& answer) {
-  const bool measured = answer.analysis.has_value();
-  std::string text = fmt::format("\n{:41} {:>20}{}\n", "", "predicted", measured ? measured_head(false) : "");
-  text += fmt::format("{:14} {:26} {:>10} {:>9}{}\n", "technique", "parameters", "tests", "seconds",
-                      measured ? measured_head(true) : "");
-  for (const Row& row : rows_of(answer)) text += row_text(answer, row);
-  return text;
-}
-
-std::string why_marked(const ChooseAnswer& answer) {
+std::string notes(const ChooseAnswer& answer, const Screen& screen) {
   std::vector<std::pair<Technique, std::vector<std::string>>> predictions;
   for (const Row& row : rows_of(answer))
     if (row.predicted != nullptr) predictions.emplace_back(row.candidate.technique, row.predicted->extrapolated);
-  return extrapolated_lines(predictions);
+  std::string text =
+      "tests: of a ray against a sphere, a box or a disc. X: distance between neighbouring samples over d. D: "
+      "dimension "
+      "of the samples, 2 on surfaces, 3 in a volume. Q, k: ratio of the radii of nested spheres, their number. r0: "
+      "radius of the sphere around all discs.";
+  if (answer.analysis)
+    text +=
+        " ±: half the range of the timed runs; none where there was one run. !: predicted seconds off by more than a "
+        "factor of two.";
+  const std::string extrapolated = extrapolated_note(predictions);
+  return (extrapolated.empty() ? "" : wrapped(extrapolated, screen.text_width(), 2)) + legend(screen, text);
 }
 
 std::string margin(const ChooseAnswer& answer) {
   if (answer.ranking.size() < 2) return "no other candidate";
-  return fmt::format("predicted {:.2f}x ahead of {}", answer.ranking[1].time.total() / answer.ranking[0].time.total(),
+  return fmt::format("predicted {:.3g} s, {:.2f} times faster than {}", answer.ranking[0].time.total(),
+                     answer.ranking[1].time.total() / answer.ranking[0].time.total(),
                      name(answer.ranking[1].candidate.technique));
 }
 
-std::string choice_line(const ChooseAnswer& answer) {
-  const Candidate& candidate = answer.ranking[0].candidate;
-  return fmt::format("choice    {} {}: {}\n", name(candidate.technique), describe(candidate), margin(answer));
+std::string title_of(const Candidate& candidate) {
+  const std::string parameters = describe(candidate);
+  return fmt::format("{}{}{}", name(candidate.technique), parameters.empty() ? "" : ", ", parameters);
+}
+
+std::string effects_line(const Workload& workload) {
+  std::string on;
+  std::string off;
+  for (const Json& effect : effects_json(workload)) {
+    std::string& list = effect["on"].get<bool>() ? on : off;
+    list += (list.empty() ? "" : ", ") + effect["name"].get<std::string>();
+  }
+  return fmt::format("effects   on: {}; off: {}", on.empty() ? "none" : on, off.empty() ? "none" : off);
 }
 
 }  // namespace
 
-std::string to_text(const ChooseAnswer& answer) {
-  std::string text = answer.title;
-  std::string on;
-  for (const Json& effect : effects_json(answer.workload))
-    if (effect["on"].get<bool>()) on += (on.empty() ? "" : ", ") + effect["name"].get<std::string>();
-  text += fmt::format("effects   on: {}\n", on.empty() ? "none" : on);
-  text += table(answer) + why_marked(answer);
-  text += "\n";
-  if (!answer.analysis || !answer.analysis->best) text += choice_line(answer);
-  if (answer.analysis) text += measured_lines(answer);
-  text += fmt::format("paper     its rule takes {} {}: predicted {:.3g} s\n", name(answer.paper.candidate.technique),
-                      describe(answer.paper.candidate), answer.paper.time.total());
-  text += fmt::format(
-      "rigor     {}: {}, in {:.2g} ms; unit costs {}\n", name(answer.rigor),
-      answer.rigor == Rigor::structural ? "parameters by closed forms, counts by the structures built with them"
-                                        : "closed forms",
-      1e3 * answer.choosing_seconds, !answer.costs_given ? "built in, not calibrated on this machine" : "as given");
+std::string to_text(const ChooseAnswer& answer, const Screen& screen) {
+  std::string text = wrapped(answer.title, screen.text_width(), 10);
+  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
+  add(effects_line(answer.workload));
+  text += table(answer, screen) + notes(answer, screen) + "\n";
+  const double fastest = answer.ranking.front().time.total();
+  if (!answer.analysis || !answer.analysis->best)
+    text += choice_text(fmt::format("{}: {}", title_of(answer.ranking.front().candidate), margin(answer)), screen);
+  if (answer.analysis) text += measured_lines(answer, screen);
+  add(fmt::format("paper     its rule takes {}: predicted {:.3g} s, {:.3g} times as long as the predicted choice",
+                  title_of(answer.paper.candidate), answer.paper.time.total(), answer.paper.time.total() / fastest));
+  const double share = answer.choosing_seconds / fastest;
+  add(fmt::format("planning  {:.2g} ms ({} the predicted run), rigor {}: {}", 1e3 * answer.choosing_seconds,
+                  share < 1 ? fmt::format("{:.2g} % of", 100 * share) : fmt::format("{:.3g} times", share),
+                  answer.rigor,
+                  answer.rigor == "structural" ? "parameters by closed forms, counts by the structures built with them"
+                                               : "closed forms alone"));
+  add(fmt::format("costs     {}", answer.costs_given ? "of each operation, as given"
+                                                     : "of each operation: built in, not calibrated on this machine"));
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "detp/sim/base/progress.hpp"
+#include "screen.hpp"
 
 /// What the commands share: their options, and the form of their results.
 namespace detp::cli {
@@ -20,12 +21,16 @@ enum class ExitCode { done = 0, refuted = 1, bad_input = 2, stopped = 3, interna
 /// Options of every command.
 struct CommonOptions {
   std::string format = "text";
+  Colour colour = Colour::automatic;
   std::optional<std::string> output;
   bool quiet = false;
   std::uint64_t seed = 1;
   int threads = 0;        ///< 0: all cores
   double time_limit = 0;  ///< seconds; 0: none
   std::optional<std::string> memory_limit;
+
+  /// Where the result is shown.
+  [[nodiscard]] Screen screen() const;
 };
 
 /// A command's result in the three formats. `main` adds the JSON envelope (schema, provenance), and marks the result of
@@ -55,20 +60,5 @@ struct Command {
 
 /// Prints a warning or a notice to stderr, unless quiet.
 void note(const CommonOptions& common, const std::string& message);
-
-/// Shows what is being done on a terminal's last line; nothing elsewhere, or if quiet. Wiped when it goes out of scope.
-class ProgressLine {
- public:
-  explicit ProgressLine(const CommonOptions& common);
-  ~ProgressLine();
-  ProgressLine(const ProgressLine&) = delete;
-  ProgressLine& operator=(const ProgressLine&) = delete;
-
-  /// `done` from 0 to 1.
-  void show(std::string_view what, double done) const;
-
- private:
-  bool visible_;
-};
 
 }  // namespace detp::cli

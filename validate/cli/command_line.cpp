@@ -1,11 +1,16 @@
 #include "command_line.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <charconv>
 #include <limits>
+#include <sstream>
 #include <stdexcept>
+#include <utility>
 
+#include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "number_option.hpp"
@@ -23,13 +28,45 @@ std::uint64_t parse_seed(const std::string& text) {
   return seed;
 }
 
+/// Help whose lines fit the screen.
+class HelpFormatter final : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool positional) const override {
+    const std::size_t column = get_column_width();
+    std::string name = "  " + make_option_name(option, positional) + make_option_opts(option);
+    std::string start;
+    if (name.size() < column)
+      name.resize(column, ' ');
+    else
+      start = std::exchange(name, std::string(column, ' ')) + "\n";
+    std::istringstream paragraphs(make_option_desc(option));
+    std::string lines;
+    for (std::string paragraph; std::getline(paragraphs, paragraph); name = std::string(column, ' '))
+      lines += wrapped(name + paragraph, width_, column);
+    return start + (lines.empty() ? name + "\n" : lines);
+  }
+
+ private:
+  std::size_t width_ = screen_of(STDOUT_FILENO, Colour::never).text_width();
+};
+
 void add_common_options(CLI::App& command, CommonOptions& common) {
-  command.add_option("--format", common.format, "text, json or csv")->check(CLI::IsMember({"text", "json", "csv"}));
-  command.add_option("-o,--output", common.output, "write the result to a file instead of stdout");
+  command.add_option("--format", common.format, "text, json or csv; default: text")
+      ->check(CLI::IsMember({"text", "json", "csv"}));
+  command
+      .add_option_function<std::string>(
+          "--color",
+          [&common](const std::string& when) {
+            common.colour = when == "always" ? Colour::always : when == "never" ? Colour::never : Colour::automatic;
+          },
+          "colours in text: always, never, or auto: on a terminal, unless NO_COLOR is set; default: auto")
+      ->check(CLI::IsMember({"auto", "always", "never"}));
+  command.add_option("-o,--output", common.output, "write the result to a file; default: stdout");
   command.add_flag("--quiet", common.quiet, "no notices, no progress");
   command
       .add_option_function<std::string>(
-          "--seed", [&common](const std::string& text) { common.seed = parse_seed(text); }, "of everything random")
+          "--seed", [&common](const std::string& text) { common.seed = parse_seed(text); },
+          "of everything random; default: 1")
       ->type_name("N");
   command
       .add_option_function<std::string>(
@@ -37,11 +74,14 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
           [&common](const std::string& text) {
             common.threads = static_cast<int>(parse_whole("--threads", text, 0, sim::most_threads));
           },
-          "default: all cores")
+          "at most so many; default: all cores")
       ->type_name("N");
-  command.add_option("--memory-limit", common.memory_limit,
-                     "refuse work that would take more, as 4G; default: half of the memory that detp may have");
-  add_number(command, "--time-limit", common.time_limit, "stop after that many seconds and show what there is");
+  command
+      .add_option("--memory-limit", common.memory_limit,
+                  "refuse work that would take more, as 4G; default: half of the memory that detp may have")
+      ->type_name("SIZE");
+  add_number(command, "--time-limit", common.time_limit,
+             "stop after that many seconds and show what there is; default: no limit");
 }
 
 }  // namespace
@@ -52,18 +92,61 @@ CommandLine::CommandLine()
                 validate_command(program_), scene_command(program_),  bench_command(program_)} {
   program_.set_version_flag("--version", "detp " DETP_VERSION);
   program_.require_subcommand(0, 1);  // with 1 needed, an unknown command would be reported as a missing one
-  for (const Command& command : commands_) add_common_options(*command.app, common_);
+  const auto formatter = std::make_shared<HelpFormatter>();
+  program_.formatter(formatter);
+  program_.footer("detp help COMMAND explains a command and its options.");
+  for (const Command& command : commands_) {
+    add_common_options(*command.app, common_);
+    command.app->formatter(formatter);
+  }
 }
 
 const Command& CommandLine::parse(int argc, char** argv) {
   for (int i = 1; i < argc; ++i)
     if (*argv[i] == '\0')  // the parser would treat an empty value as absent, for instance --rays "$n" if n is not set
       throw std::invalid_argument(fmt::format("argument {} is empty, after {}; give it a value", i, argv[i - 1]));
-  program_.parse(argc, argv);
+  std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+  if (!arguments.empty() && arguments.front() == "help") {
+    arguments.erase(arguments.begin());
+    arguments.resize(std::min<std::size_t>(arguments.size(), 1));
+    arguments.emplace_back("--help");
+  }
+  if (arguments.empty()) throw std::invalid_argument(fmt::format("a command is needed: {}", names()));
+  if (!arguments.front().starts_with('-')) require_command(arguments.front());
+  std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
+  program_.parse(std::move(arguments));
   for (const Command& command : commands_)
     if (command.app->parsed()) return command;
-  throw std::invalid_argument(
-      "a command is needed: model, choose, run, validate, scene or bench (detp --help tells more)");
+  throw std::invalid_argument(fmt::format("a command is needed: {}", names()));
+}
+
+std::string CommandLine::message(const CLI::ParseError& error) const {
+  std::string text = error.what();
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return text;
+  for (const Command& command : commands_)
+    for (const std::string& extra : command.app->remaining()) {
+      if (!command.app->parsed() || !extra.starts_with("--")) continue;
+      std::vector<std::string> names;
+      for (const CLI::Option* option : command.app->get_options()) names.push_back("--" + option->get_single_name());
+      const std::vector<std::string_view> known(names.begin(), names.end());
+      return text + did_you_mean(std::string_view(extra).substr(0, extra.find('=')), known);
+    }
+  return text;
+}
+
+std::string CommandLine::names() const {
+  std::string list;
+  for (const Command& command : commands_)
+    list += (list.empty() ? "" : &command == &commands_.back() ? " or " : ", ") + command.app->get_name();
+  return list + " (detp --help tells more)";
+}
+
+void CommandLine::require_command(const std::string& name) const {
+  std::vector<std::string_view> known;
+  for (const Command& command : commands_) known.emplace_back(command.app->get_name());
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw std::invalid_argument(fmt::format("there is no command {}; there are {}{}", detp::quoted(name),
+                                            fmt::join(known, ", "), did_you_mean(name, known)));
 }
 
 }  // namespace detp::cli

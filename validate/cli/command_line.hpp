@@ -19,10 +19,17 @@ class CommandLine {
 
   [[nodiscard]] const CommonOptions& common() const { return common_; }
 
+  /// The error in words; for an unknown option, with the option that is probably meant.
+  [[nodiscard]] std::string message(const CLI::ParseError& error) const;
+
   /// Prints the help or the version that the error stands for; 0. For other errors, their exit code, which is not 0.
   int exit(const CLI::ParseError& error) const { return program_.exit(error); }
 
  private:
+  [[nodiscard]] std::string names() const;
+  /// Throws std::invalid_argument for what is no command.
+  void require_command(const std::string& name) const;
+
   CLI::App program_;
   CommonOptions common_;
   std::array<Command, 6> commands_;

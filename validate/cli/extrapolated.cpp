@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace detp::cli {
 
@@ -10,21 +11,25 @@ Json extrapolated_json(const std::vector<std::string>& reasons) {
   return {{"extrapolated", !reasons.empty()}, {"extrapolated_because", reasons}};
 }
 
-std::string extrapolated_lines(std::span<const std::pair<Technique, std::vector<std::string>>> predictions) {
-  std::vector<std::pair<std::string, std::string>> techniques_of;  // by reason, as they come
-  for (const auto& [technique, reasons] : predictions)
-    for (const std::string& reason : reasons) {
-      const auto known = std::find_if(techniques_of.begin(), techniques_of.end(),
-                                      [&](const auto& entry) { return entry.first == reason; });
-      if (known == techniques_of.end())
-        techniques_of.emplace_back(reason, name(technique));
-      else if (known->second.find(name(technique)) == std::string::npos)
-        known->second += fmt::format(", {}", name(technique));
+std::string extrapolated_note(std::span<const std::pair<Technique, std::vector<std::string>>> predictions) {
+  std::set<Technique> marked;
+  std::vector<std::pair<std::string, std::set<Technique>>> reasons;  // as they come
+  for (const auto& [technique, why] : predictions)
+    for (const std::string& reason : why) {
+      marked.insert(technique);
+      auto known = std::find_if(reasons.begin(), reasons.end(), [&](const auto& one) { return one.first == reason; });
+      if (known == reasons.end()) known = reasons.insert(known, {reason, {}});
+      known->second.insert(technique);
     }
-  std::string text;
-  for (const auto& [reason, techniques] : techniques_of)
-    text += fmt::format("~ extrapolated: {} ({})\n", reason, techniques);
-  return text;
+  std::string note;
+  for (const auto& [reason, techniques] : reasons) {
+    std::vector<std::string_view> names;
+    if (techniques.size() < marked.size())
+      for (const Technique technique : techniques) names.push_back(name(technique));
+    note += fmt::format("{}{}", note.empty() ? "~ extrapolated: " : "; ", reason);
+    if (!names.empty()) note += fmt::format(" ({})", fmt::join(names, ", "));
+  }
+  return note;
 }
 
 }  // namespace detp::cli

@@ -14,8 +14,9 @@ namespace detp::cli {
 /// The keys "extrapolated", and "extrapolated_because" with the reasons.
 [[nodiscard]] Json extrapolated_json(const std::vector<std::string>& reasons);
 
-/// For text: a line for each reason, with the techniques whose rows are marked with ~ for it. Empty where none is.
-[[nodiscard]] std::string extrapolated_lines(
+/// For text: why predictions are marked with ~. A reason that does not hold for all techniques marked has the names of
+/// those for which it does. Empty where no prediction is extrapolated.
+[[nodiscard]] std::string extrapolated_note(
     std::span<const std::pair<Technique, std::vector<std::string>>> predictions);
 
 }  // namespace detp::cli

@@ -86,14 +86,14 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
                                  [&] { return result_of(command, common, interruption.token()); });
   if (result.code == ExitCode::stopped && !result.stopped) result.stopped.emplace();
   result.json["stopped"] = result.stopped.has_value();
-  if (result.stopped) mark_stopped(result, interruption.seconds_since_request());
+  if (result.stopped) mark_stopped(result, interruption.seconds_since_request(), common.screen());
   if (common.format == "json") {
     const Json json = envelope(command.app->get_name(), common, threads, result);
     require_finite_numbers(json);
     // A file's name may be invalid UTF-8, but JSON must be valid.
     print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", common);
   } else {
-    print(common.format == "csv" ? result.csv : safe_text(result.text), common);
+    print(common.format == "csv" ? result.csv : safe_text(result.text, common.screen().colour), common);
   }
   return static_cast<int>(result.code);
 }
@@ -110,7 +110,7 @@ int guarded_main(int argc, char** argv) {
       return 0;
     }
     return fail(ExitCode::bad_input,
-                with_short_arguments(error.what(), {argv, argv + argc}) + " (detp --help tells more)");
+                with_short_arguments(line.message(error), {argv, argv + argc}) + " (detp --help tells more)");
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 
 std::string title_of(const Candidate& candidate) {
   const std::string parameters = describe(candidate);
-  return fmt::format("{}{}{}", name(candidate.technique), parameters.empty() ? "" : " ", parameters);
+  return fmt::format("{}{}{}", name(candidate.technique), parameters.empty() ? "" : ", ", parameters);
 }
 
 std::string why_not_measured(const validate::Analysis& analysis, const validate::Analysed& run) {
@@ -33,11 +33,13 @@ std::vector<const validate::Analysed*> to_explain(const validate::Analysis& anal
 
 std::string missed_line(const validate::Analysed& run, const UnitCosts& costs) {
   const std::string title = title_of(run.candidate);
-  if (!run.predicted) return fmt::format("missed    {} has no closed form: it was not predicted\n", title);
+  if (!run.predicted) return fmt::format("missed    {} has no closed form: it was not predicted", title);
   if (!run.counted || !run.seconds) return "";
   const auto error = validate::prediction_error(*run.predicted, *run.counted, *run.seconds, costs);
   return fmt::format(
-      "missed    {}: predicted {:.3g} x its time = counts {:.3g} x (worst: {} {:.3g} x) times unit costs {:.3g} x\n",
+      "missed    {}: predicted {:.3g} times its time = counts {:.3g} times (worst: {} {:.3g} times) x unit costs "
+      "{:.3g} "
+      "times",
       title, error.seconds, error.counts, error.worst, error.worst_ratio, error.unit_costs);
 }
 
@@ -61,18 +63,27 @@ Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs) {
           {"worst_count_ratio", known(error.worst_ratio)}};
 }
 
-std::string measured_head(bool second_line) {
-  return second_line ? "      tests  seconds              measured" : "    counted  measured             predicted/";
+std::vector<TextColumn> measured_table_columns() {
+  return {{.head = "tests", .spare = 3, .group = "counted"},
+          {.head = "seconds", .align = Align::left, .group = "measured"},
+          {.head = "tests", .spare = 2, .group = "predicted / measured"},
+          {.head = "seconds", .align = Align::left, .group = "predicted / measured"}};
 }
 
-std::string measured_columns(const validate::Analysed& run) {
-  if (!run.counted) return "";
-  std::string text = fmt::format("  {:>9.3g}", static_cast<double>(tests(*run.counted)));
-  if (!run.seconds) return text;
-  text += fmt::format("  {:>8.3g} ±{:<8.1g}", *run.seconds, run.spread);
-  if (!run.predicted) return text + fmt::format("  {:>6}  ", "-");
+std::vector<TextCell> measured_cells(const validate::Analysed& run) {
+  std::vector<TextCell> cells(4);
+  if (!run.counted) return cells;
+  const auto counted = static_cast<double>(tests(*run.counted));
+  cells[0].text = fmt::format("{:.3g}", counted);
+  if (run.predicted && counted > 0) cells[2].text = fmt::format("{:.2f}", tests(run.predicted->counts) / counted);
+  if (!run.seconds) return cells;
+  cells[1].text = fmt::format("{:.3g}", *run.seconds);
+  if (run.spread > 0) cells[1].text += fmt::format(" ± {:.1g}", run.spread);
+  if (!run.predicted) return cells;
   const double ratio = run.predicted->time.total() / *run.seconds;
-  return text + fmt::format("  {:>6.2f}{}", ratio, ratio > 2 || ratio < 0.5 ? " !" : "  ");
+  const bool far_off = ratio > 2 || ratio < 0.5;
+  cells[3] = {fmt::format("{:.2f}{}", ratio, far_off ? " !" : ""), far_off ? Style::doubtful : Style::plain};
+  return cells;
 }
 
 void add_measured(Json& json, const validate::Analysis& analysis, const validate::Analysed& run) {
@@ -86,25 +97,34 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
   if (run.given_up_after) json["given_up_after_seconds"] = *run.given_up_after;
 }
 
-std::string measured_lines(const ChooseAnswer& answer) {
+std::string measured_lines(const ChooseAnswer& answer, const Screen& screen) {
   const validate::Analysis& analysis = *answer.analysis;
   std::string text;
+  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   if (analysis.best) {
     const validate::Analysed& best = analysis.candidates[*analysis.best];
-    text += fmt::format("choice    {}: measured {:.3g} s, the fastest of {} tried\n", title_of(best.candidate),
-                        *best.seconds, analysis.tried);
+    text += choice_text(fmt::format("{}: measured {:.3g} s, the fastest of {} tried", title_of(best.candidate),
+                                    *best.seconds, analysis.tried),
+                        screen);
     const validate::Analysed& predicted = analysis.candidates.front();
     if (&predicted == &best)
-      text += "predicted the same: no regret\n";
+      add("regret    0 %: it is the predicted choice");
     else if (analysis.regret)
-      text += fmt::format("predicted {}: measured {:.3g} s, {:.1f} % longer (the regret)\n",
-                          title_of(predicted.candidate), *predicted.seconds, 100 * *analysis.regret);
-    for (const validate::Analysed* run : to_explain(analysis)) text += missed_line(*run, answer.costs);
+      add(fmt::format("regret    {:.1f} %: {}, the predicted choice, takes {:.3g} s", 100 * *analysis.regret,
+                      title_of(predicted.candidate), *predicted.seconds));
+    for (const validate::Analysed* run : to_explain(analysis))
+      if (const std::string line = missed_line(*run, answer.costs); !line.empty()) add(line);
   }
   if (analysis.stopped)
-    text += fmt::format("stopped   after {} of {} candidates: what was not tried may be faster\n", analysis.tried,
-                        analysis.candidates.size());
+    add(fmt::format("stopped   after {} of {} candidates: what was not tried may be faster", analysis.tried,
+                    analysis.candidates.size()));
   return text;
+}
+
+std::string choice_text(const std::string& what, const Screen& screen) {
+  std::string lines = wrapped("choice    " + what, screen.text_width(), 10);
+  lines.pop_back();
+  return styled(screen, Style::strong, lines) + "\n";
 }
 
 void add_analysis(Json& json, const ChooseAnswer& answer) {

@@ -1,12 +1,13 @@
 #pragma once
 
 #include "choose_report.hpp"
+#include "text_table.hpp"
 
 namespace detp::cli {
 
 /// The columns that a table of candidates has beside the predictions: counted, measured, predicted over measured.
-[[nodiscard]] std::string measured_head(bool second_line);
-[[nodiscard]] std::string measured_columns(const validate::Analysed& run);
+[[nodiscard]] std::vector<TextColumn> measured_table_columns();
+[[nodiscard]] std::vector<TextCell> measured_cells(const validate::Analysed& run);
 
 /// Appends the results of a candidate's run: `counted`, `measured_seconds`, …, or the reason why it was not measured.
 void add_measured(Json& json, const validate::Analysis& analysis, const validate::Analysed& run);
@@ -15,8 +16,11 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
 /// timed.
 [[nodiscard]] Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs);
 
-/// "choice" and "missed" lines: the measured winner, and what the prediction said instead.
-[[nodiscard]] std::string measured_lines(const ChooseAnswer& answer);
+/// "choice", "regret" and "missed" lines: the measured winner, and what the prediction said instead.
+[[nodiscard]] std::string measured_lines(const ChooseAnswer& answer, const Screen& screen);
+
+/// The "choice" line.
+[[nodiscard]] std::string choice_text(const std::string& what, const Screen& screen);
 
 /// Appends `predicted_choice`, `best_measured`, `tried`, `regret`, `missed` and `stopped`.
 void add_analysis(Json& json, const ChooseAnswer& answer);

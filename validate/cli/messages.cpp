@@ -39,17 +39,6 @@ void prepare_streams() {
     if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }
 
-std::string safe_text(std::string_view text) {
-  std::string safe;
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    safe += escaped(text.substr(0, end));
-    if (end < text.size()) safe += '\n';
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return safe;
-}
-
 void write_result(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) throw_not_written();
 }

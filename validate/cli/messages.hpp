@@ -13,9 +13,6 @@ namespace detp::cli {
 /// prevents that a closed stdin, stdout or stderr becomes the first file that is opened. Must be called first.
 void prepare_streams();
 
-/// The text of a result, which may hold names of files, without control characters except ends of lines.
-[[nodiscard]] std::string safe_text(std::string_view text);
-
 /// Writes to stdout. Throws sim::FileError with the system's reason.
 void write_result(const std::string& text);
 

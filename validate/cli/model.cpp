@@ -182,7 +182,7 @@ Result run_model(ModelOptions& options, const CommonOptions& common, const std::
       [&](const Measured& measured) { return answer_row(options, measured, costs, levels); });
   Result result = result_of(rows, expected, columns(),
                             {workload_columns() + candidate_columns() + Columns{"form"},
-                             Columns{"k", "k_max", "k_best", "extrapolated"} + times() + per_line()});
+                             Columns{"k", "k_max", "k_best", "extrapolated"} + times() + per_line(), common.screen()});
   if (expected == 1)
     result.text =
         scalars(result.json) + why_extrapolated(result.json) + level_table(result.json.value("spheres", Json::array()));
@@ -202,7 +202,7 @@ Command model_command(CLI::App& program) {
   options->workload.add_to(*app, Values::many);
   options->candidate.add_to(*app, Values::many, SphereStop::max);
   options->candidate.lists.add_word(*app, "--form", Values::many, options->form, {"published", "corrected"},
-                                    "published or corrected");
+                                    "published or corrected; default: corrected");
   app->add_option("--costs", options->costs, unit_cost_help() + "\ndefault: t, u, w, v, n 1, so that times are counts");
   add_number(*app, "--levels", options->levels, "how many spheres to list; default: 64, of several rows none");
   options->outlook.add_to(*app);

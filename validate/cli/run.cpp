@@ -11,6 +11,7 @@
 #include "detp/sim/files/writing_check.hpp"
 #include "detp/validate/choice/unit_costs.hpp"
 #include "outputs.hpp"
+#include "progress_line.hpp"
 #include "run_report.hpp"
 #include "sphere_stops.hpp"
 #include "timed_run.hpp"
@@ -107,7 +108,7 @@ bool can_stream(CandidateOptions& options, std::size_t rows) {
 }
 
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CommonOptions& common,
-                  const std::stop_token& stop, const ProgressLine& progress) {
+                  const std::stop_token& stop, const sim::ReportPhase& progress) {
   RunAnswer answer{.candidate = complete(options.candidate, job.workload),
                    .engine = options.candidate.engine,
                    .repeat = options.repeat,
@@ -115,12 +116,48 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Com
   const Engine engine = options.candidate.engine;
   sim::RunOptions run{.pairs = options.pairs.has_value(), .engine = engine, .stop = stop, .threads = common.threads};
   run.standard_error = options.standard_error;
-  answer.run = run_job(job, answer.candidate, run, progress);
+  const double share_of_first = 1.0 / (1 + options.repeat);
+  answer.run = run_job(job, answer.candidate, run, sim::part_of(progress, 0, share_of_first));
   run.count = run.pairs = run.standard_error = false;
-  answer.timing =
-      time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run, progress);
+  answer.timing = time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run,
+                            sim::part_of(progress, share_of_first, 1));
   return answer;
 }
+
+/// Shares of the time that the rows take. A row's time grows with its rays, but not the time for scene and indexes.
+class RowProgress {
+ public:
+  RowProgress(RunOptions& options, const CommonOptions& common) : candidates_(options.candidate.lists.rows()) {
+    ValueLists& problems = options.workload.lists;
+    for (std::size_t i = 0; i < problems.rows(); ++i) {
+      problems.choose_row(i);
+      ends_.push_back((ends_.empty() ? 0 : ends_.back()) + options.workload.request(common).rays.value_or(1e5) + 3e4);
+    }
+  }
+
+  /// The making of the next problem.
+  sim::ReportPhase job(sim::ReportPhase whole) {
+    const double begin = row_ < candidates_ ? 0 : ends_[row_ / candidates_ - 1];
+    const double length = ends_[row_ / candidates_] - begin;
+    after_job_ = begin + length * share_of_job;
+    return sim::part_of(std::move(whole), begin / ends_.back(), after_job_ / ends_.back());
+  }
+
+  /// The next row of the problem.
+  sim::ReportPhase next(sim::ReportPhase whole) {
+    const double each = (ends_[row_ / candidates_] - after_job_) / static_cast<double>(candidates_);
+    const double begin = after_job_ + each * static_cast<double>(row_++ % candidates_);
+    return sim::part_of(std::move(whole), begin / ends_.back(), (begin + each) / ends_.back());
+  }
+
+ private:
+  static constexpr double share_of_job = 0.3;
+
+  std::size_t candidates_;
+  std::vector<double> ends_;  ///< of each problem's time
+  std::size_t row_ = 0;
+  double after_job_ = 0;
+};
 
 Result run_run(RunOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   require_count("--repeat", options.repeat, 0, 10000);
@@ -130,29 +167,29 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   check_files(options, common, expected);
   const bool stream = can_stream(options.candidate, candidates.rows());
   const ProgressLine progress(common);
+  RowProgress rows(options, common);
   Json inputs;
   std::string text;
   std::optional<sim::Progress> stopped;
   const auto prepare = [&] {
-    progress.show("scene and rays", 0);
     validate::JobRequest request = options.workload.request(common);
     request.stream = stream;
-    validate::Job job = validate::make_job(request, stop);
+    validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
     note_all(common, job);
     inputs = to_json(job, request);
     return job;
   };
   const auto answer = [&](const validate::Job& job) {
-    const RunAnswer found = run_one(options, job, common, stop, progress);
+    const RunAnswer found = run_one(options, job, common, stop, rows.next(progress.report()));
     stopped = write_hits(options, found, common, stop);
     inputs["engine"] = name(options.candidate.engine);
     inputs["threads"] = sim::thread_count(common.threads);
     inputs["repeat"] = options.repeat;
-    if (expected == 1) text = to_text(job, found);
+    if (expected == 1) text = to_text(job, found, common.screen());
     return run_row(inputs, job, found);
   };
-  Result result =
-      result_of(answer_all(problems, candidates, stop, prepare, answer), expected, run_columns(), run_text_columns());
+  Result result = result_of(answer_all(problems, candidates, stop, prepare, answer), expected, run_columns(),
+                            run_text_columns(common.screen()));
   if (expected == 1) {
     result.text = text;
     result.stopped = stopped;
@@ -170,7 +207,8 @@ Command run_command(CLI::App& program) {
   const auto options = std::make_shared<RunOptions>();
   options->workload.add_to(*app, Values::many);
   options->candidate.add_to(*app, Values::many, SphereStop::best);
-  add_number(*app, "--repeat", options->repeat, "time that many further runs, which do not count; the median is shown");
+  add_number(*app, "--repeat", options->repeat,
+             "time that many further runs, which do not count; the median is shown; default: 0");
   app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");
   app->add_flag("--standard-error", options->standard_error,
                 "add the standard error of each irradiance to --per-disc, for independent rays");

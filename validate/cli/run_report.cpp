@@ -2,11 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <stdexcept>
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/validate/choice/unit_costs.hpp"
 #include "sphere_stops.hpp"
+#include "text_table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -132,6 +135,55 @@ Json cells_of(const Json& inputs, const Candidate& candidate, const Json& json) 
   return cells;
 }
 
+/// The spread of the timed runs, if there were several.
+std::string repeats_text(const Timing& timing) {
+  if (timing.all.size() < 2) return "";
+  const auto [least, most] = std::minmax_element(timing.all.begin(), timing.all.end());
+  return fmt::format("; median of {} runs, ± {:.1g} (half their range)", timing.all.size(), 0.5 * (*most - *least));
+}
+
+/// What a count counts, for a reader.
+std::string_view meaning(std::string_view term) {
+  static const std::map<std::string_view, std::string_view> meanings{
+      {"cull_tests", "tests of a ray in a list against a sphere or box"},
+      {"culls", "lists made, one for each sphere or box"},
+      {"listed", "rays put into these lists"},
+      {"visits", "discs tested with a list"},
+      {"disc_tests", "tests of a ray against a disc"},
+      {"doubtful", "of these, decided again in double precision"},
+      {"steps", "cells visited by a ray"},
+      {"nodes", "nodes of a tree visited"},
+      {"references", "disc references stored in the index"},
+      {"placements", "discs put into cells or nodes while building"},
+      {"sorted", "discs sorted along a curve"},
+      {"hits", "pairs of a ray and a disc that it hits"}};
+  return meanings.at(term);
+}
+
+/// Every count that is not 0, what the closed form predicts of it, and what it means.
+std::string counts_table(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
+  const auto predicted = prediction(job.workload, answer.candidate, answer.engine);
+  TextTable table({{.head = "count", .align = Align::left},
+                   {.head = "counted"},
+                   {.head = "predicted"},
+                   {.head = "predicted / counted", .spare = 2},
+                   {.head = "meaning", .align = Align::left, .spare = 1}});
+  for (const auto& [term, count] : count_terms<std::uint64_t>) {
+    const auto counted = static_cast<double>(answer.run.outcome.counts.*count);
+    if (counted == 0) continue;
+    double expected = 0;
+    if (predicted && !answer.run.outcome.stopped)
+      for (const auto& [other, value] : count_terms<double>)
+        if (other == term) expected = (*predicted).*value;
+    table.add({{std::string(term)},
+               {fmt::format("{:.0f}", counted)},
+               {expected > 0 ? fmt::format("{:.4g}", expected) : ""},
+               {expected > 0 ? fmt::format("{:.2f}", expected / counted) : ""},
+               {std::string(meaning(term))}});
+  }
+  return table.text(screen);
+}
+
 }  // namespace
 
 AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer) {
@@ -149,30 +201,26 @@ Columns run_columns() {
                  "hits_so_far",       "hits_estimate", "hits_estimate_error"};
 }
 
-TextColumns run_text_columns() {
+TextColumns run_text_columns(const Screen& screen) {
   return {{"scene", "field", "ray_file", "front_facing", "rays", "samples", "disc_radius", "engine", "technique",
            "parameters"},
           {"hits", "cull_tests", "predicted_cull_tests", "disc_tests", "predicted_disc_tests", "seconds",
-           "predicted_seconds"}};
+           "predicted_seconds"},
+          screen};
 }
 
-std::string to_text(const validate::Job& job, const RunAnswer& answer) {
-  const sim::Outcome& outcome = answer.run.outcome;
+std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
   const Timing& timing = answer.timing;
-  std::string text = describe(job);
-  text += fmt::format("technique {} {}\n", name(answer.candidate.technique), describe(answer.candidate));
-  text += fmt::format("hits      {}\n", hits_text(answer));
-  text += fmt::format(
-      "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before\n",
+  std::string text = wrapped(describe(job), screen.text_width(), 10);
+  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
+  const std::string parameters = describe(answer.candidate);
+  add(fmt::format("technique {}{}{}", name(answer.candidate.technique), parameters.empty() ? "" : ", ", parameters));
+  add("hits      " + hits_text(answer));
+  add(fmt::format(
+      "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before{}",
       timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
-      job.read_seconds + answer.run.read_seconds);
-  text += "counts    ";
-  std::string counts;
-  for_each_term(outcome.counts, [&](std::string_view term, std::uint64_t value) {
-    if (value > 0) counts += fmt::format("{}{} {}", counts.empty() ? "" : ", ", term, value);
-  });
-  text += counts + "\n";
-  return text;
+      job.read_seconds + answer.run.read_seconds, repeats_text(timing)));
+  return text + "\n" + counts_table(job, answer, screen);
 }
 
 }  // namespace detp::cli

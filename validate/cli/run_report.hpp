@@ -23,8 +23,8 @@ struct RunAnswer {
 [[nodiscard]] AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer);
 
 [[nodiscard]] Columns run_columns();
-[[nodiscard]] TextColumns run_text_columns();
+[[nodiscard]] TextColumns run_text_columns(const Screen& screen);
 
-[[nodiscard]] std::string to_text(const validate::Job& job, const RunAnswer& answer);
+[[nodiscard]] std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen);
 
 }  // namespace detp::cli

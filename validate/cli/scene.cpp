@@ -10,7 +10,9 @@
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/scene/open/open_scene.hpp"
 #include "outputs.hpp"
+#include "progress_line.hpp"
 #include "table.hpp"
+#include "text_table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -48,17 +50,51 @@ std::string csv_of(const Json& inputs, const Json& json) {
   return table.csv();
 }
 
+/// A row for each effect: the evidence, and when the closed forms take the effect into account.
+std::string effects_table(const Workload& workload, const Screen& screen) {
+  TextTable table({{.head = "effect", .align = Align::left},
+                   {.head = "evidence", .align = Align::left, .spare = 1},
+                   {.head = "value"},
+                   {.head = "on", .align = Align::left}});
+  for (const Json& effect : effects_json(workload)) {
+    const bool on = effect["on"].get<bool>();
+    table.add({{effect["name"].get<std::string>()},
+               {effect["meaning"].get<std::string>()},
+               {fmt::format("{:.2f}", effect["evidence"].get<double>())},
+               {on ? "on" : "off", on ? Style::good : Style::faint}});
+  }
+  return table.text(screen);
+}
+
+std::string to_text(const validate::Job& job, const Screen& screen) {
+  const Workload& w = job.workload;
+  std::string text = wrapped(describe(job), screen.text_width(), 10);
+  text +=
+      fmt::format("box       {:.5g} x {:.5g} x {:.5g}, r0 = {:.5g}\nsamples   {:.4g} apart, dimension D = {:.2f}\n\n",
+                  w.box[0], w.box[1], w.box[2], w.sphere_radius, sample_distance(w), w.dimension);
+  text += effects_table(w, screen);
+  text += legend(screen,
+                 "X: distance between neighbouring samples over the discs' radius d. D: dimension of the samples, 2 on "
+                 "surfaces, 3 in a volume. r0: radius of S0, the sphere around all discs. on: predictions take the "
+                 "effect into account.");
+  return text + fmt::format("\nread or made in {:.3g} s\n", job.read_seconds);
+}
+
 Result run_scene(const SceneOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   check_outputs({{"--output", common.output},
                  {"--write-mesh", options.mesh_file},
                  {"--write-discs", options.disc_file},
                  {"--write-rays", options.ray_file}});
+  const ProgressLine progress(common);
   const validate::JobRequest request = options.workload.request(common);
+  const bool writes = options.disc_file || options.ray_file;
   if (options.mesh_file) write_mesh(*options.mesh_file, request, stop);
-  const validate::Job job = validate::make_job(request, stop);
+  const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, writes ? 0.5 : 1));
   note_all(common, job);
   Result result;
   try {
+    const std::size_t written = (options.disc_file ? job.discs.size() : 0) + (options.ray_file ? job.rays.size() : 0);
+    progress.show({"writing", 0.5, 1, 8 * static_cast<double>(written)});
     if (options.disc_file) sim::write_discs(*options.disc_file, job.discs, stop);
     if (options.ray_file) sim::write_rays(*options.ray_file, job.rays, stop);
   } catch (const sim::Stopped& stopped) {
@@ -83,10 +119,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
                  {"notices", job.notices},
                  {"warnings", job.warnings},
                  {"read_seconds", job.read_seconds}};
-  result.text =
-      describe(job) +
-      fmt::format("box       {:.5g} x {:.5g} x {:.5g}, r0 = {:.5g}\nsamples   {:.4g} apart, dimension {:.2f}\n",
-                  w.box[0], w.box[1], w.box[2], w.sphere_radius, sample_distance(w), w.dimension);
+  result.text = to_text(job, common.screen());
   result.csv = csv_of(result.inputs, result.json);
   return result;
 }

@@ -46,6 +46,25 @@ std::string_view code_at(std::string_view text) {
   return "";
 }
 
+std::string wrapped_paragraph(std::string_view paragraph, std::size_t width, std::size_t indent) {
+  std::string lines;
+  std::size_t used = 0;
+  while (!paragraph.empty()) {
+    const std::size_t start = std::min(paragraph.find_first_not_of(' '), paragraph.size());
+    const std::size_t end = std::min(paragraph.find(' ', start), paragraph.size());
+    const std::string_view word = paragraph.substr(0, end);  // with the spaces before it
+    paragraph.remove_prefix(end);
+    if (used > indent && used + columns_of(word) > width) {
+      lines += "\n" + std::string(indent, ' ') + std::string(word.substr(start));
+      used = indent + columns_of(word.substr(start));
+    } else {
+      lines += word;
+      used += columns_of(word);
+    }
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::size_t Screen::text_width() const { return width == 0 ? widest_text : std::min(width, widest_text); }
@@ -85,24 +104,20 @@ std::size_t columns_of(std::string_view text) {
   return columns;
 }
 
-std::string wrapped(std::string_view paragraph, std::size_t width, std::size_t indent) {
+std::string wrapped(std::string_view text, std::size_t width, std::size_t indent) {
   std::string lines;
-  std::size_t used = 0;
-  while (!paragraph.empty()) {
-    std::size_t end = std::min(paragraph.find_first_not_of(' '), paragraph.size());
-    end = std::min(paragraph.find(' ', end), paragraph.size());
-    const std::string_view word = paragraph.substr(0, end);  // with the spaces before it
-    paragraph.remove_prefix(end);
-    if (used > indent && used + columns_of(word) > width) {
-      const std::size_t first = std::min(word.find_first_not_of(' '), word.size());
-      lines += "\n" + std::string(indent, ' ') + std::string(word.substr(first));
-      used = indent + columns_of(word.substr(first));
-    } else {
-      lines += word;
-      used += columns_of(word);
-    }
-  }
-  return lines + "\n";
+  do {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    lines += wrapped_paragraph(text.substr(0, end), width, indent) + "\n";
+    text.remove_prefix(std::min(end + 1, text.size()));
+  } while (!text.empty());
+  return lines;
+}
+
+std::string legend(const Screen& screen, std::string_view text) {
+  std::string lines = wrapped(text, screen.text_width());
+  lines.pop_back();
+  return styled(screen, Style::faint, lines) + "\n";
 }
 
 }  // namespace detp::cli

@@ -36,7 +36,11 @@ enum class Style { plain, strong, good, bad, doubtful, faint };
 /// Columns that a text takes: its characters in UTF-8, those of colours not counted.
 [[nodiscard]] std::size_t columns_of(std::string_view text);
 
-/// One paragraph in lines of at most `width` columns where words allow it, all but the first indented. Ends with \n.
-[[nodiscard]] std::string wrapped(std::string_view paragraph, std::size_t width, std::size_t indent = 0);
+/// Each line of a text in lines of at most `width` columns where words allow it, all but its first indented. Ends with
+/// \n.
+[[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
+
+/// An explanation under a table: wrapped, and faint.
+[[nodiscard]] std::string legend(const Screen& screen, std::string_view text);
 
 }  // namespace detp::cli

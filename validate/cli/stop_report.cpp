@@ -40,14 +40,15 @@ Result stopped_result(const CLI::App& command, const sim::Stopped& stopped) {
   return result;
 }
 
-void mark_stopped(Result& result, double seconds) {
+void mark_stopped(Result& result, double seconds, const Screen& screen) {
   const sim::Progress& progress = *result.stopped;
   const bool known = progress.of > 0;
   result.code = ExitCode::stopped;
   if (known) result.json["stopped_after"] = {{"done", progress.done}, {"of", progress.of}, {"unit", progress.unit}};
   result.json["stop_seconds"] = seconds;
-  result.text = fmt::format("stopped   {}what follows is partial (stopped within {:.2g} s)\n{}",
-                            known ? after(progress) + ": " : "", seconds, result.text);
+  const std::string line = fmt::format("stopped   {}what follows is partial (stopped within {:.2g} s)",
+                                       known ? after(progress) + ": " : "", seconds);
+  result.text = styled(screen, Style::doubtful, line) + "\n" + result.text;
   result.csv = with_columns(result.csv, "stopped_after,stopped_of,stopped_unit",
                             known ? fmt::format("{},{},{}", progress.done, progress.of, progress.unit) : ",,");
 }

@@ -13,6 +13,6 @@ namespace detp::cli {
 ///
 /// JSON: `stopped_after` {`done`, `of`, `unit`} and `stop_seconds`; text: a first line; CSV: the columns
 /// `stopped_after`, `stopped_of` and `stopped_unit` in every row.
-void mark_stopped(Result& result, double seconds);
+void mark_stopped(Result& result, double seconds, const Screen& screen);
 
 }  // namespace detp::cli

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "text_table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -39,17 +40,35 @@ Json to_json(const DeviationSummary& summary) {
   return json;
 }
 
-std::string to_text(const std::vector<DeviationSummary>& summaries) {
-  std::string text =
-      fmt::format("{:<24} {:<13} {:<10} {:>8} {:>7} {:>7} {:>8} {:>7} {:>6}  {}\n", "technique", "quantity", "tier",
-                  "compared", "median", "p95", "worst", "goal", "beyond", "worst at");
-  for (const DeviationSummary& summary : summaries)
-    if (summary.compared > 0)
-      text +=
-          fmt::format("{:<24} {:<13} {:<10} {:>8} {:>6.2f}% {:>6.1f}% {:>7.1f}% {:>6g}% {:>6}  {}\n", summary.technique,
-                      summary.quantity, name(summary.form), summary.compared, 100 * summary.median, 100 * summary.p95,
-                      100 * summary.worst, 100 * summary.goal.worst, summary.beyond, where(summary.worst_at));
-  return text;
+std::string to_text(const std::vector<DeviationSummary>& summaries, const Screen& screen) {
+  TextTable table({{.head = "technique", .align = Align::left},
+                   {.head = "quantity", .align = Align::left},
+                   {.head = "tier", .align = Align::left},
+                   {.head = "compared", .spare = 2},
+                   {.head = "median"},
+                   {.head = "p95", .spare = 1},
+                   {.head = "worst"},
+                   {.head = "goal"},
+                   {.head = "beyond"},
+                   {.head = "worst at", .align = Align::left, .spare = 3}});
+  for (const DeviationSummary& summary : summaries) {
+    if (summary.compared == 0) continue;
+    table.add({{summary.technique},
+               {summary.quantity},
+               {std::string(name(summary.form))},
+               {fmt::format("{}", summary.compared)},
+               {fmt::format("{:.2f}%", 100 * summary.median)},
+               {fmt::format("{:.1f}%", 100 * summary.p95)},
+               {fmt::format("{:.1f}%", 100 * summary.worst), summary.met() ? Style::plain : Style::doubtful},
+               {fmt::format("{:g}%", 100 * summary.goal.worst)},
+               {fmt::format("{}", summary.beyond)},
+               {where(summary.worst_at)}});
+  }
+  return table.text(screen) +
+         legend(screen,
+                "median, p95, worst: of the deviations of predictions from counts. goal: what the worst should not "
+                "exceed. beyond: how many do. D: dimension of the samples, n: their number, d/r0: radius of the discs "
+                "over that of the sphere around them, i: number of a nested sphere.");
 }
 
 /// A row in the table of the claims. Uses the claims' column names for values with the same meaning.
@@ -76,13 +95,14 @@ Json cells_of(const Deviation& row) {
 
 Columns sweep_columns() { return {"technique", "parameters", "disc_share", "i"}; }
 
-void report_sweep(const validate::SweepResult& sweep, Table& table, Result& result) {
+void report_sweep(const validate::SweepResult& sweep, const Screen& screen, Table& table, Result& result) {
   const auto summaries = validate::summarise(sweep.deviations);
   Json& json = result.json["sweep"];
   json = {{"points", sweep.points}, {"measured", sweep.measured}, {"resumed", sweep.resumed}};
   json["summary"] = Json::array();
   for (const DeviationSummary& summary : summaries) json["summary"].push_back(to_json(summary));
-  result.text += fmt::format("\n{} of {} workloads measured\n", sweep.measured, sweep.points) + to_text(summaries);
+  result.text +=
+      fmt::format("\n{} of {} workloads measured\n", sweep.measured, sweep.points) + to_text(summaries, screen);
   if (sweep.measured < sweep.points) result.stopped = {sweep.measured, sweep.points, "workloads of the sweep"};
   for (const Deviation& row : sweep.deviations) table.add(cells_of(row));
 }

@@ -11,6 +11,6 @@ namespace detp::cli {
 
 /// Adds a sweep to a command's result: a summary for each quantity ("sweep" in JSON, a table in the text), and every
 /// comparison as a row of the table.
-void report_sweep(const validate::SweepResult& sweep, Table& table, Result& result);
+void report_sweep(const validate::SweepResult& sweep, const Screen& screen, Table& table, Result& result);
 
 }  // namespace detp::cli

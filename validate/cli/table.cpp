@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <stdexcept>
 
 #include "detp/model/vocabulary/quoted.hpp"
-
+#include "text_table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -68,30 +69,29 @@ std::string Table::csv() const {
   return csv;
 }
 
-std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers) {
-  std::vector<Columns> shown;  // a column each, its name first
+std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers,
+                         const Screen& screen) {
+  std::vector<TextColumn> columns;
+  std::vector<std::vector<TextCell>> cells(rows.size());
   std::string above;
+  int spare = 0;
   const auto show = [&](const std::string& name, bool answer) {
-    Columns column{name};
-    for (const Json& row : rows) column.push_back(text_field(row, name));
-    const bool same =
-        std::all_of(column.begin() + 1, column.end(), [&](const std::string& field) { return field == column[1]; });
-    if (same && (column.size() == 1 || column[1].empty())) return;
-    if (same && !answer)
-      above += fmt::format("{:<16} {}\n", name, column[1]);
-    else
-      shown.push_back(std::move(column));
+    Columns fields;
+    for (const Json& row : rows) fields.push_back(text_field(row, name));
+    const bool same = std::adjacent_find(fields.begin(), fields.end(), std::not_equal_to<>()) == fields.end();
+    if (same && (fields.empty() || fields.front().empty())) return;
+    if (same && !answer) {
+      above += fmt::format("{:<16} {}\n", name, fields.front());
+      return;
+    }
+    columns.push_back({.head = name, .spare = answer ? spare++ : 0});
+    for (std::size_t i = 0; i < rows.size(); ++i) cells[i].push_back({std::move(fields[i])});
   };
   for (const std::string& name : inputs) show(name, false);
   for (const std::string& name : answers) show(name, true);
-  std::vector<std::string> lines(rows.size() + 1);
-  for (const Columns& column : shown) {
-    const auto longer = [](const std::string& a, const std::string& b) { return a.size() < b.size(); };
-    const std::size_t width = std::max_element(column.begin(), column.end(), longer)->size();
-    for (std::size_t line = 0; line < lines.size(); ++line)
-      lines[line] += fmt::format("{}{:>{}}", &column == &shown.front() ? "" : "  ", column[line], width);
-  }
-  return fmt::format("{}\n{}\n", above, fmt::join(lines, "\n"));
+  TextTable table(std::move(columns));
+  for (auto& row : cells) table.add(std::move(row));
+  return above + "\n" + table.text(screen);
 }
 
 const Columns& workload_columns() {

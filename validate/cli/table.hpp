@@ -32,7 +32,9 @@ class Table {
 };
 
 /// Rows for a reader: above, each input that all rows share; below, aligned, the inputs that differ and the answers.
-[[nodiscard]] std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers);
+/// Where the table is too wide for the screen, answers are left out, the last ones first, and a last line names them.
+[[nodiscard]] std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers,
+                                       const Screen& screen);
 
 /// The first columns of every table: rays and discs.
 [[nodiscard]] const Columns& workload_columns();

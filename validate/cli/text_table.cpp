@@ -79,12 +79,13 @@ std::string TextTable::text(const Screen& screen) const {
     trim_end(line);
     text += line + "\n";
   };
-  add_line([&](std::size_t i) { return styled(screen, Style::strong, padded(columns_[i], columns_[i].head, widths[i])); });
+  add_line(
+      [&](std::size_t i) { return styled(screen, Style::strong, padded(columns_[i], columns_[i].head, widths[i])); });
   for (const auto& row : rows_)
     add_line([&](std::size_t i) { return styled(screen, row[i].style, padded(columns_[i], row[i].text, widths[i])); });
   if (!left_out.empty())
-    text += wrapped(fmt::format("(left out of {} columns: {}; a wider terminal or --format csv shows all)", screen.width,
-                                fmt::join(left_out, ", ")),
+    text += wrapped(fmt::format("(left out of {} columns: {}; a wider terminal or --format csv shows all)",
+                                screen.width, fmt::join(left_out, ", ")),
                     screen.text_width(), 1);
   return text;
 }

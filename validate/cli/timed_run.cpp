@@ -1,15 +1,39 @@
 #include "timed_run.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 
+#include "detp/model/rank/predict.hpp"
+#include "detp/model/rank/registry.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/streamed.hpp"
+#include "detp/validate/base/search_work.hpp"
 
 namespace detp::cli {
+namespace {
+
+/// In units of sim::StopCheck; 0 where there is no closed form of the candidate.
+double predicted_work(const Workload& workload, const Candidate& candidate, Engine engine) {
+  const auto work = [&](const Candidate& one) {
+    return validate::search_work(model::predict(workload, one, engine), engine);
+  };
+  try {
+    if (model::has_closed_form(candidate.technique)) return work(candidate);
+  } catch (const std::invalid_argument&) {  // of these parameters
+  }
+  return 0;
+}
+
+}  // namespace
 
 TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim::RunOptions& options,
-                 const ProgressLine& progress) {
-  const auto show = [&](double done) { progress.show(name(candidate.technique), done); };
+                 const sim::ReportPhase& progress) {
+  const double work = progress ? predicted_work(job.workload, candidate, options.engine) : 0;
+  const double block = job.stream ? static_cast<double>(sim::default_block(job.discs.size())) : job.workload.rays;
+  const double each = std::min(1.0, block / job.workload.rays);  // the share of a block of rays
+  const auto show = [&](double done) {
+    if (progress) progress({std::string(name(candidate.technique)), done, std::min(1.0, done + each), each * work});
+  };
   show(0);
   if (job.stream) {
     sim::Streamed streamed = sim::run_streamed(job.discs, *job.stream, candidate,
@@ -23,10 +47,11 @@ TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim
 }
 
 Timing time_runs(const validate::Job& job, const Candidate& candidate, const TimedRun& counted, int repeat,
-                 const sim::RunOptions& options, const ProgressLine& progress) {
+                 const sim::RunOptions& options, const sim::ReportPhase& progress) {
   std::vector<Timing> timings;
+  const double each = 1.0 / std::max(1, repeat);
   for (int i = 0; i < repeat; ++i) {
-    const TimedRun run = run_job(job, candidate, options, progress);
+    const TimedRun run = run_job(job, candidate, options, sim::part_of(progress, i * each, (i + 1) * each));
     if (run.outcome.stopped) break;
     timings.push_back({run.outcome.seconds, run.prepare_seconds, {}});
   }

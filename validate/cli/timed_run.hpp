@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "command.hpp"
+#include "detp/sim/base/phase.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/choice/job.hpp"
 
@@ -17,7 +17,7 @@ struct TimedRun {
 };
 
 [[nodiscard]] TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim::RunOptions& options,
-                               const ProgressLine& progress);
+                               const sim::ReportPhase& progress);
 
 /// Times from discs and rays in memory to irradiance in memory, in seconds.
 struct Timing {
@@ -31,6 +31,6 @@ struct Timing {
 /// The timed runs: the counting run itself, or `repeat` others that only find hits. Returns the median run; for an even
 /// number, the slower of the two in the middle, so that its phases are those of a single run.
 [[nodiscard]] Timing time_runs(const validate::Job& job, const Candidate& candidate, const TimedRun& counted,
-                               int repeat, const sim::RunOptions& options, const ProgressLine& progress);
+                               int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress);
 
 }  // namespace detp::cli

@@ -9,7 +9,9 @@
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/claims/experiments.hpp"
 #include "outputs.hpp"
+#include "progress_line.hpp"
 #include "sweep_report.hpp"
+#include "text_table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -19,6 +21,7 @@ using validate::Claim;
 using validate::Verdict;
 
 constexpr double default_lines = 1e6;
+constexpr double share_of_claims = 0.03;  ///< of the time of a thorough validation
 
 struct ValidateOptions {
   WorkloadOptions workload;
@@ -100,36 +103,52 @@ std::string known_text(double number, const char* shape) {
   return std::isfinite(number) ? fmt::format(fmt::runtime(shape), number) : "?";
 }
 
-std::size_t longest_id(const std::vector<Claim>& claims) {
-  std::size_t longest = 0;
-  for (const Claim& claim : claims) longest = std::max(longest, claim.id.size());
-  return longest;
+Style style_of(Verdict verdict) {
+  return verdict == Verdict::agrees ? Style::good : verdict == Verdict::refuted ? Style::bad : Style::doubtful;
 }
 
-std::string to_text(const std::vector<Claim>& claims) {
-  const std::size_t width = longest_id(claims);
-  std::string text =
-      fmt::format("{:<{}} {:>11} {:>11} {:>9} {:>8} {:>6} {:>7}  {:<9}  {}\n", "claim", width, "predicted", "observed",
-                  "± error", "differs", "within", "detects", "verdict", "control");
+std::string to_text(const std::vector<Claim>& claims, const Screen& screen) {
+  TextTable table({{.head = "claim", .align = Align::left},
+                   {.head = "predicted"},
+                   {.head = "observed"},
+                   {.head = "±", .align = Align::left, .spare = 2},
+                   {.head = "differs"},
+                   {.head = "within", .spare = 3},
+                   {.head = "detects", .spare = 1},
+                   {.head = "verdict", .align = Align::left},
+                   {.head = "control", .align = Align::left, .spare = 4}});
   for (const Claim& claim : claims)
-    text += fmt::format("{:<{}} {:>11} {:>11} {:>9} {:>7}% {:>5.2g}% {:>6}%  {:<9}  {:<9} at {}%\n", claim.id, width,
-                        known_text(claim.predicted, "{:.5g}"), known_text(claim.observed.mean, "{:.5g}"),
-                        known_text(claim.observed.standard_error, "{:.1g}"),
-                        known_text(100 * claim.relative_difference, "{:+.2f}"), 100 * claim.tolerance,
-                        known_text(100 * claim.detectable, "{:.2g}"), name(claim.verdict), name(claim.control_verdict),
-                        known_text(100 * claim.control_offset, "{:+.2g}"));
-  return text;
+    table.add({{claim.id},
+               {known_text(claim.predicted, "{:.5g}")},
+               {known_text(claim.observed.mean, "{:.5g}")},
+               {known_text(claim.observed.standard_error, "{:.1g}")},
+               {known_text(100 * claim.relative_difference, "{:+.2f}%")},
+               {fmt::format("{:.2g}%", 100 * claim.tolerance)},
+               {known_text(100 * claim.detectable, "{:.2g}%")},
+               {std::string(name(claim.verdict)), style_of(claim.verdict)},
+               {std::string(name(claim.control_verdict)),
+                claim.control_verdict == Verdict::refuted ? Style::plain : Style::doubtful}});
+  return table.text(screen) +
+         legend(screen,
+                "±: one standard error of what was observed. differs: observed over predicted, less 1. within: a "
+                "difference that still counts as agreement. detects: the smallest error of the formula that would have "
+                "been refuted. control: the verdict on the formula made wrong by just that much; it should be refuted. "
+                "published: the paper's formula, corrected: ours; only a corrected one that is refuted is an error.");
 }
 
-std::string legend(const std::vector<Claim>& claims) {
-  const std::size_t width = longest_id(claims);
-  std::string text = "\n";
-  std::string last;
+/// What each claim is about.
+std::string quantities(const std::vector<Claim>& claims, const Screen& screen) {
+  std::vector<std::pair<std::string, std::string>> rows;
+  std::size_t width = 0;
   for (const Claim& claim : claims) {
     const std::string stem = claim.id.substr(0, claim.id.rfind('.'));
-    if (stem != last) text += fmt::format("{:<{}} {}\n", stem, width, claim.quantity);
-    last = stem;
+    if (!rows.empty() && rows.back().first == stem) continue;
+    rows.emplace_back(stem, claim.quantity);
+    width = std::max(width, stem.size());
   }
+  std::string text = "\n";
+  for (const auto& [stem, quantity] : rows)
+    text += wrapped(fmt::format("{:<{}}  {}", stem, width, quantity), screen.text_width(), width + 2);
   return text;
 }
 
@@ -145,7 +164,7 @@ std::string range_of_controls(const std::vector<Claim>& claims) {
   return least <= most ? fmt::format(", {:.2g} to {:.2g} %,", 100 * least, 100 * most) : "";
 }
 
-std::string summary(const std::vector<Claim>& claims) {
+std::string summary(const std::vector<Claim>& claims, const Screen& screen) {
   const auto count = [&](Form form, Verdict verdict) {
     return std::count_if(claims.begin(), claims.end(),
                          [&](const Claim& claim) { return claim.form == form && claim.verdict == verdict; });
@@ -156,9 +175,10 @@ std::string summary(const std::vector<Claim>& claims) {
                         count(form, Verdict::refuted), count(form, Verdict::undecided));
   const auto controls = std::count_if(claims.begin(), claims.end(),
                                       [](const Claim& claim) { return claim.control_verdict == Verdict::refuted; });
-  text += fmt::format("negative controls: {} of {} formulas made wrong by what is just detectable{} were refuted\n",
-                      controls, claims.size(), range_of_controls(claims));
-  return text;
+  return text + wrapped(fmt::format("negative controls: {} of {} formulas made wrong by what is just detectable{} were "
+                                    "refuted",
+                                    controls, claims.size(), range_of_controls(claims)),
+                        screen.text_width(), 2);
 }
 
 Table table_of(const std::vector<Claim>& claims, const Json& inputs) {
@@ -221,8 +241,8 @@ void check_files(const ValidateOptions& options, const CommonOptions& common, co
 void sweep(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop,
            const ProgressLine& progress, Table& table, Result& result) {
   validate::SweepOptions sweep = sweep_options(options, common, stop);
-  sweep.progress = [&](std::string_view point, double share) { progress.show(point, share); };
-  report_sweep(validate::run_sweep(points_of(options), sweep), table, result);
+  sweep.progress = sim::part_of(progress.report(), share_of_claims, 1);
+  report_sweep(validate::run_sweep(points_of(options), sweep), common.screen(), table, result);
 }
 
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
@@ -233,12 +253,14 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   const validate::Experiment experiment = make_experiment(options.workload.request(common, false), common, stop, result);
   sim::Progress done;
   const auto findings = validate::all_findings(
-      experiment, [&](std::string_view next, double share) { progress.show(next, share); }, &done);
+      experiment, sim::part_of(progress.report(), 0, options.thorough ? share_of_claims : 1), &done);
   const std::vector<Claim> claims = validate::judge_all(findings);
   result.json["claims"] = Json::array();
   for (const Claim& claim : claims) result.json["claims"].push_back(to_json(claim));
   if (done.done < done.of) result.stopped = done;
-  result.text = claims.empty() ? "no claim was judged\n" : to_text(claims) + legend(claims) + summary(claims);
+  const Screen screen = common.screen();
+  result.text = claims.empty() ? "no claim was judged\n"
+                               : to_text(claims, screen) + quantities(claims, screen) + summary(claims, screen);
   Table table = table_of(claims, result.inputs);
   if (options.thorough && !result.stopped) sweep(options, common, stop, progress, table, result);
   result.csv = table.csv();
@@ -253,13 +275,18 @@ Command validate_command(CLI::App& program) {
   app->footer("Example: detp validate --samples 20000 --disc-radius 0.02 --scene-side 2");
   const auto options = std::make_shared<ValidateOptions>();
   options->workload.add_to(*app);
+  for (const auto& [option, value] : {std::pair{"--rays", "how many rays; default: 1e6 lines"},
+                                      {"--samples", "how many samples; default: the scene's vertices, else 20000"},
+                                      {"--disc-radius", "d; default: half the distance between samples, else 0.02"},
+                                      {"--scene-side", "s, of a workload in numbers; default: 2"}})
+    app->get_option(option)->description(value);
   app->add_option_function<std::string>(
          "--effort", [options](const std::string& effort) { options->thorough = effort == "thorough"; },
-         "default; or thorough: also every formula over its whole range, some 20 minutes")
+         "default, or thorough: also every formula over its whole range, some 20 minutes; default: default")
       ->check(CLI::IsMember({"default", "thorough"}));
   app->add_option("--checkpoint", options->sweep.checkpoint, "thorough: keep what is measured in this file");
   app->add_flag("--resume", options->sweep.resume, "thorough: go on from the checkpoint");
-  add_number(*app, "--most-samples", options->most_samples, "thorough: leave out larger workloads");
+  add_number(*app, "--most-samples", options->most_samples, "thorough: leave out larger workloads; default: 1e7, all");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_validate(*options, common, stop);
           }};

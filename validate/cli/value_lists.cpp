@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 
 namespace detp::cli {
@@ -93,8 +94,8 @@ void append_range(std::string_view option, const std::string& item, std::vector<
 
 std::string one_of(std::string_view option, const std::string& text, const std::vector<std::string_view>& names) {
   if (std::find(names.begin(), names.end(), text) == names.end())
-    throw std::invalid_argument(
-        fmt::format("{} must be one of {} (got {})", option, fmt::join(names, ","), detp::quoted(text)));
+    throw std::invalid_argument(fmt::format("{} must be one of {} (got {}){}", option, fmt::join(names, ","),
+                                            detp::quoted(text), did_you_mean(text, names)));
   return text;
 }
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 
 namespace detp::cli {
@@ -13,12 +14,13 @@ namespace {
 
 constexpr std::string_view spheres_option = "spheres";
 
-std::string known_techniques() {
-  std::string list;
-  for (const Technique technique : all_techniques)
-    list += fmt::format("{}{}", list.empty() ? "" : ", ", name(technique));
-  return list;
+std::vector<std::string_view> technique_names() {
+  std::vector<std::string_view> names;
+  for (const Technique technique : all_techniques) names.push_back(name(technique));
+  return names;
 }
+
+std::string known_techniques() { return fmt::format("{}", fmt::join(technique_names(), ", ")); }
 
 /// A parameter that several techniques have, as one option: what it is for each of them.
 struct SharedParameter {
@@ -71,25 +73,31 @@ void WorkloadOptions::add_to(CLI::App& command, Values values) {
   using enum ValueLists::Kind;
   command.add_option("SCENE", request_.scene,
                      "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell");
-  command.add_option("--discs", request_.disc_file, "discs from a CSV or PLY file");
-  command.add_option("--ray-file", request_.ray_file, "rays from a CSV or PLY file");
-  lists.add(command, "--rays", values, request_.rays, "how many rays");
-  lists.add(command, "--samples", values, request_.samples, "how many samples; default: the scene's vertices");
+  command.add_option("--discs", request_.disc_file,
+                     "discs from a CSV or PLY file; default: one at each of the scene's samples");
+  command.add_option("--ray-file", request_.ray_file, "rays from a CSV or PLY file; default: made, as --field says");
+  lists.add(command, "--rays", values, request_.rays, "how many rays; default: 100000");
+  lists.add(command, "--samples", values, request_.samples,
+            "how many samples; default: the scene's vertices, with numbers alone none");
   lists.add(
       command, "--disc-radius", values, numbers,
       [this](const std::string& text) { request_.disc_radius = validate::parse_length(text); },
-      "d: a length, or a percentage of the scene's longest side");
-  lists.add(command, "--sphere-radius", values, request_.sphere_radius, "r0, of a workload in numbers");
-  lists.add(command, "--scene-side", values, request_.scene_side, "s, of a workload in numbers; r0 = s sqrt(3)/2 + d");
-  lists.add(command, "--dimension", values, request_.dimension, "D of the samples: 3 fill a volume, 2 lie on surfaces");
-  lists.add(command, "--sample-extent", values, request_.sample_extent, "volume or area that the samples fill");
+      "d: a length, or a percentage of the scene's longest side; default: half the distance between samples");
+  lists.add(command, "--sphere-radius", values, request_.sphere_radius,
+            "r0, of a workload in numbers; default: by --scene-side");
+  lists.add(command, "--scene-side", values, request_.scene_side,
+            "s, of a workload in numbers: r0 = s sqrt(3)/2 + d; default: by --sphere-radius");
+  lists.add(command, "--dimension", values, request_.dimension,
+            "D of the samples: 3 fill a volume, 2 lie on surfaces; default: measured, with numbers alone 3");
+  lists.add(command, "--sample-extent", values, request_.sample_extent,
+            "volume or area that the samples fill; default: the whole cube or its faces");
   lists.add(
       command, "--field", values, words,
       [this](const std::string& text) {
         const bool lines = one_of("--field", text, {"isotropic", "photons"}) == "isotropic";
         request_.field = lines ? sim::Field::isotropic : sim::Field::photons;
       },
-      "isotropic (lines) or photons (paths from the scene's light)");
+      "isotropic (lines) or photons (paths from the scene's light); default: photons where there is a light");
   command.add_flag("--front-facing", request_.front_facing, "count only rays that arrive at a disc's front");
 }
 
@@ -106,11 +114,15 @@ validate::JobRequest WorkloadOptions::request(const CommonOptions& common, bool 
 void CandidateOptions::add_to(CLI::App& command, Values values, SphereStop default_stop) {
   using enum ValueLists::Kind;
   lists.add(
-      command, "--technique", values, words, [this](const std::string& text) { technique = text; }, known_techniques());
+      command, "--technique", values, words, [this](const std::string& text) { technique = text; },
+      fmt::format("{}; default: {}", known_techniques(),
+                  default_stop == SphereStop::max ? name(Technique::sphere_cache) : "the fastest by the model"));
   for (const auto& [parameter, about] : shared_parameters()) {
     std::string help = about;
     if (!parameter->choices.empty()) help += fmt::format(": {}", fmt::join(parameter->choices, ", "));
-    if (parameter->name == spheres_option)
+    if (parameter->name != spheres_option)
+      help += "; default: the fastest by the model, where there is one";
+    else
       help += fmt::format(", as a number; max: the form's own; best: the fastest by the model; default: {}",
                           default_stop == SphereStop::max ? "max" : "best");
     lists.add(
@@ -149,8 +161,8 @@ Technique CandidateOptions::technique_or(Technique otherwise) const {
   if (!technique) return otherwise;
   const auto found = technique_named(*technique);
   if (!found)
-    throw std::invalid_argument(
-        fmt::format("there is no technique {}; there are {}", detp::quoted(*technique), known_techniques()));
+    throw std::invalid_argument(fmt::format("there is no technique {}; there are {}{}", detp::quoted(*technique),
+                                            known_techniques(), did_you_mean(*technique, technique_names())));
   return *found;
 }
 
@@ -245,11 +257,11 @@ std::string describe(const validate::Job& job) {
   const double x = sample_distance(w) / w.disc_radius;
   std::string text = fmt::format("scene     {}: ", shown_path(job.name));
   if (job.triangles > 0) text += fmt::format("{} triangles, ", spaced(static_cast<double>(job.triangles)));
-  text += fmt::format("{} discs of radius {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n", spaced(w.samples),
-                      w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
+  text += fmt::format("{} discs of radius d = {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n",
+                      spaced(w.samples), w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
   text += fmt::format("rays      {} ", spaced(w.rays));
   if (w.path_length > 0)
-    text += fmt::format("photon paths or segments, mean length inside the scene {:.2f} of its side\n",
+    text += fmt::format("photon paths or segments, mean length {:.2f} of the scene's side\n",
                         w.path_length / scene_side(w));
   else
     text += "isotropic lines\n";

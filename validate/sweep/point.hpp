@@ -26,9 +26,6 @@ struct SweepPoint {
 
   /// Its name, from its place in the sweep: "D=3 n=1000 d/r0=0.01".
   [[nodiscard]] std::string name() const;
-
-  /// Roughly proportional to the time that the point takes.
-  [[nodiscard]] double effort() const { return sets * (samples + 3e4); }
 };
 
 /// n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3. The largest come first, so that two cores finish at about the same time.

@@ -1,5 +1,6 @@
 #include "sweep.hpp"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -10,6 +11,7 @@
 
 #include "checkpoint.hpp"
 #include "detp/model/rank/predict.hpp"
+#include "detp/validate/base/search_work.hpp"
 #include "measure_point.hpp"
 
 namespace detp::validate {
@@ -31,6 +33,14 @@ std::uint64_t fingerprint(std::span<const SweepPoint> points) {
   return hash;
 }
 
+/// In units of sim::StopCheck.
+double predicted_work(const SweepPoint& point) {
+  double work = 0;
+  for (const Candidate& candidate : sweep_candidates(point))
+    work += search_work(model::predict(point.workload(), candidate, Engine::plain), Engine::plain);
+  return work * point.sets;
+}
+
 /// The checkpoint that the options name, already read if the sweep is to be resumed.
 std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options,
                                         std::stop_token stop) {
@@ -45,13 +55,15 @@ class Collector {
  public:
   Collector(std::span<const SweepPoint> points, const SweepOptions& options)
       : points_(points), options_(options), checkpoint_(checkpoint_of(points, options, {})) {
+    double work = 0;
     for (const SweepPoint& point : points) {
-      total_ += point.effort();
-      if (!checkpoint_ || !checkpoint_->points().contains(point.name())) continue;
-      measured_[point.name()] = checkpoint_->points().at(point.name());
-      done_ += point.effort();
+      if (checkpoint_ && checkpoint_->points().contains(point.name()))
+        measured_[point.name()] = checkpoint_->points().at(point.name());
+      else if (options.progress)
+        work += predicted_work(point);
     }
     resumed_ = measured_.size();
+    if (options.progress) options.progress({fmt::format("{} workloads", points.size() - resumed_), 0, 1, work});
   }
 
   /// The next point to measure, largest first; null if none is left or a stop was requested.
@@ -65,8 +77,6 @@ class Collector {
     const std::scoped_lock lock(mutex_);
     if (checkpoint_) checkpoint_->add(point.name(), deviations);
     measured_[point.name()] = std::move(deviations);
-    done_ += point.effort();
-    if (options_.progress) options_.progress(point.name(), done_ / total_);
   }
 
   [[nodiscard]] SweepResult finish() && {
@@ -84,8 +94,6 @@ class Collector {
   std::map<std::string, std::vector<Deviation>> measured_;
   std::size_t next_ = 0;
   std::size_t resumed_ = 0;
-  double total_ = 0;
-  double done_ = 0;
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
 
+#include "detp/sim/base/phase.hpp"
 #include "deviation.hpp"
 #include "point.hpp"
 
@@ -18,7 +18,7 @@ struct SweepOptions {
   std::optional<std::filesystem::path> checkpoint{};  ///< written, atomically, after each point
   bool resume = false;  ///< reuse the measurements in the checkpoint, which may be missing
   std::stop_token stop = {};
-  std::function<void(std::string_view done, double share)> progress = {};
+  sim::ReportPhase progress = {};
 };
 
 struct SweepResult {

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/mesh_file.hpp"
 #include "detp/sim/photons/mesh_light.hpp"
@@ -29,11 +30,14 @@ const std::vector<BuiltIn>& built_ins() {
 
 const BuiltIn& built_in_named(const std::string& name) {
   std::string known;
+  std::vector<std::string_view> names;
   for (const BuiltIn& scene : built_ins()) {
     if (scene.name == name) return scene;
     known += (known.empty() ? "" : ", ") + scene.name;
+    names.emplace_back(scene.name);
   }
-  throw std::invalid_argument("there is no built-in scene " + shortened(name) + "; known scenes are " + known);
+  throw std::invalid_argument("there is no built-in scene " + shortened(name) + "; known scenes are " + known +
+                              did_you_mean(name, names));
 }
 
 Box box_of(const Scene& scene) {

@@ -44,6 +44,23 @@ TEST_SUITE("bad input") {
          {uniform + "--technique", "--technique"}});
   }
 
+  TEST_CASE("for an unknown name that is near a known one, that one is suggested") {
+    check_refused({{"chose @tree", "did you mean choose?"},
+                   {"help chose", "did you mean choose?"},
+                   {"run @uniform --ryas 10", "did you mean --rays?"},
+                   {"run @uniform --disc-raduis=10", "did you mean --disc-radius?"},
+                   {uniform + "--technique octre", "did you mean octree?"},
+                   {uniform + "--technique grid,boxtree", "did you mean box-tree?"},
+                   {uniform + "--field photon", "did you mean photons?"},
+                   {"bench --techniques gird", "did you mean grid?"},
+                   {"run @treee", "did you mean @tree?"}});
+  }
+
+  TEST_CASE("a name that is near none is refused without a suggestion") {
+    for (const std::string line : {"frobnicate", "run @uniform --frobnicate 3", "run @moonshine"})
+      CHECK(detp(line).err.find("did you mean") == std::string::npos);
+  }
+
   TEST_CASE("a workload without a scene needs samples, a disc radius and a size; the message says which is missing") {
     for (const std::string command : {"model", "choose", "run", "scene"})
       check_refused({{command, "--samples"},

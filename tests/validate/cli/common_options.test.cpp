@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <set>
+
 #include "support/command.hpp"
 
 /// Properties of every command.
@@ -53,6 +55,38 @@ TEST_SUITE("end to end") {
       CHECK(help.code == 0);
       CHECK(help.err.empty());
       CHECK(help.out.find("Example: detp " + name + " ") != std::string::npos);
+    }
+  }
+
+  TEST_CASE("detp help shows the program's help, detp help COMMAND that of the command") {
+    CHECK(detp("help").out == detp("--help").out);
+    CHECK(detp("help").code == 0);
+    for (const std::string name : {"model", "bench"}) {
+      CHECK(detp("help " + name).out == detp(name + " --help").out);
+      CHECK(detp("help " + name).code == 0);
+    }
+  }
+
+  TEST_CASE("the help of each option that takes a value tells the default, except where nothing is done without it") {
+    const std::set<std::string> nothing{"--checkpoint", "--per-disc",    "--pairs",
+                                        "--write-mesh", "--write-discs", "--write-rays"};
+    const std::regex takes_value("^  (-[a-z],)?(--[a-z-]+) [A-Z]");
+    for (const std::string name : {"model", "choose", "run", "validate", "scene", "bench"}) {
+      CAPTURE(name);
+      std::istringstream lines(detp("help " + name).out);
+      std::vector<std::string> options;
+      for (std::string line; std::getline(lines, line);)
+        if (line.starts_with("  -"))
+          options.push_back(line);
+        else if (!options.empty())
+          options.back() += line;
+      CHECK(options.size() > 15);
+      for (const std::string& option : options) {
+        CAPTURE(option);
+        std::smatch found;
+        if (std::regex_search(option, found, takes_value) && !nothing.contains(found[2]))
+          CHECK(option.find("default: ") != std::string::npos);
+      }
     }
   }
 

@@ -1,0 +1,21 @@
+#include <unistd.h>
+
+#include "command.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
+#include "messages.hpp"
+
+namespace detp::cli {
+
+Screen CommonOptions::screen() const {
+  return output ? Screen{.width = 0, .colour = colour == Colour::always} : screen_of(STDOUT_FILENO, colour);
+}
+
+void note(const CommonOptions& common, const std::string& message) {
+  if (common.quiet) return;
+  const Screen screen = screen_of(STDERR_FILENO, common.colour);
+  const bool warning = message.starts_with("warning: ");
+  const char* const wipe = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";  // a line of progress
+  write_error(wipe + styled(screen, warning ? Style::doubtful : Style::plain, escaped(message)) + "\n");
+}
+
+}  // namespace detp::cli
