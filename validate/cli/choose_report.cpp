@@ -203,11 +203,11 @@ std::string to_text(const ChooseAnswer& answer, const Screen& screen) {
   add(fmt::format("paper     its rule takes {}: predicted {:.3g} s, {:.3g} times as long as the predicted choice",
                   title_of(answer.paper.candidate), answer.paper.time.total(), answer.paper.time.total() / fastest));
   const double share = answer.choosing_seconds / fastest;
-  add(fmt::format("planning  {:.2g} ms ({} the predicted run), rigor {}: {}", 1e3 * answer.choosing_seconds,
-                  share < 1 ? fmt::format("{:.2g} % of", 100 * share) : fmt::format("{:.3g} times", share),
-                  answer.rigor,
-                  answer.rigor == "structural" ? "parameters by closed forms, counts by the structures built with them"
-                                               : "closed forms alone"));
+  add(fmt::format(
+      "planning  {:.2g} ms ({} the predicted run), rigor {}: {}", 1e3 * answer.choosing_seconds,
+      share < 1 ? fmt::format("{:.2g} % of", 100 * share) : fmt::format("{:.3g} times", share), name(answer.rigor),
+      answer.rigor == Rigor::structural ? "parameters by closed forms, counts by the structures built with them"
+                                        : "closed forms alone"));
   add(fmt::format("costs     {}", answer.costs_given ? "of each operation, as given"
                                                      : "of each operation: built in, not calibrated on this machine"));
   return text;

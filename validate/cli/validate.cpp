@@ -250,7 +250,8 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   check_files(options, common, stop);
   const ProgressLine progress(common);
   Result result;
-  const validate::Experiment experiment = make_experiment(options.workload.request(common, false), common, stop, result);
+  const validate::Experiment experiment =
+      make_experiment(options.workload.request(common, false), common, stop, result);
   sim::Progress done;
   const auto findings = validate::all_findings(
       experiment, sim::part_of(progress.report(), 0, options.thorough ? share_of_claims : 1), &done);
