@@ -7,18 +7,18 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::size_t line = 64;  // bytes in a cache line: the alignment and the smallest size
+constexpr std::size_t cache_line = 64;  // bytes; the alignment and the smallest size
 
 /// A size class: 64 bytes, then four to an octave: 80, 96, 112, 128, 160, …
 std::size_t class_of(std::size_t bytes) {
-  if (bytes <= line) return 0;
+  if (bytes <= cache_line) return 0;
   const auto octave = static_cast<std::size_t>(std::bit_width(bytes - 1)) - 1;  // 2^octave < bytes <= 2^(octave + 1)
   return 4 * (octave - 6) + ((bytes - 1) >> (octave - 2) & 3) + 1;
 }
 
 /// Bytes of the blocks of a class.
 std::size_t size_of_class(std::size_t number) {
-  if (number == 0) return line;
+  if (number == 0) return cache_line;
   const std::size_t octave = (number - 1) / 4 + 6;
   return (std::size_t{1} << octave) + ((number - 1) % 4 + 1) * (std::size_t{1} << (octave - 2));
 }
@@ -35,12 +35,12 @@ void Scratch::release() {
     while (Free* const block = free_[number]) {
       free_[number] = block->next;
       held_ -= size_of_class(number);
-      ::operator delete (block, std::align_val_t{line});
+      ::operator delete (block, std::align_val_t{cache_line});
     }
 }
 
 void* Scratch::do_allocate(std::size_t bytes, std::size_t alignment) {
-  if (alignment > line) throw std::bad_alloc();
+  if (alignment > cache_line) throw std::bad_alloc();
   const std::size_t number = class_of(bytes);
   if (number >= sizes) throw std::bad_alloc();
   const std::size_t size = size_of_class(number);
@@ -49,7 +49,7 @@ void* Scratch::do_allocate(std::size_t bytes, std::size_t alignment) {
   if (block != nullptr) {
     free_[number] = free_[number]->next;
   } else {
-    block = ::operator new (size, std::align_val_t{line});
+    block = ::operator new (size, std::align_val_t{cache_line});
     held_ += size;
   }
   used_ += size;

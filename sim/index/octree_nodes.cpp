@@ -10,9 +10,9 @@
 namespace detp::sim {
 namespace {
 
-class Builder {
+class OctreeBuilder {
  public:
-  Builder(const Problem& problem, int depth, Insertion insertion, const std::stop_token& stop)
+  OctreeBuilder(const Problem& problem, int depth, Insertion insertion, const std::stop_token& stop)
       : problem_(problem), insertion_(insertion), check_(stop, "building the octree") {
     check_.now();
     const Box box = index_box(problem);
@@ -116,7 +116,7 @@ Box octant_of(const Box& box, unsigned octant) {
 }
 
 OctreeNodes build_octree(const Problem& problem, int depth, Insertion insertion, const std::stop_token& stop) {
-  return Builder(problem, depth, insertion, stop).build();
+  return OctreeBuilder(problem, depth, insertion, stop).build();
 }
 
 }  // namespace detp::sim

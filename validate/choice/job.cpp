@@ -26,7 +26,7 @@
 namespace detp::validate {
 namespace {
 
-constexpr double default_rays = 100'000;
+constexpr double rays_by_default = 100'000;
 
 /// A number of things of `bytes` bytes each, which must fit in memory.
 std::size_t count_in_memory(std::string_view what, double count, std::size_t bytes) {
@@ -140,7 +140,7 @@ class JobMaker {
       job_.field = sim::Field::photons;
       return;
     }
-    const double rays = request_.rays.value_or(default_rays);
+    const double rays = request_.rays.value_or(rays_by_default);
     require_count("number of rays", rays, 1, 1e18);
     job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
     const auto block = static_cast<double>(sim::default_block(job_.discs.size()));
@@ -192,7 +192,7 @@ class JobMaker {
     if (job_.stream)
       workload.rays = static_cast<double>(job_.stream->size());
     else if (request_.workload_only && !request_.ray_file)
-      workload.rays = std::max(workload.rays, request_.rays.value_or(default_rays));
+      workload.rays = std::max(workload.rays, request_.rays.value_or(rays_by_default));
     return workload;
   }
 
@@ -251,7 +251,7 @@ Workload workload_of_numbers(const JobRequest& request) {
   // A disc as large as S₀ leaves no room for the samples' cube. Then uses the cube inscribed in S₀.
   if (!(side > 0)) side = (d < outer ? outer - d : outer) / std::sqrt(0.75);
   Workload workload =
-      cube_workload(request.rays.value_or(default_rays), *request.samples, d, side, request.dimension.value_or(3));
+      cube_workload(request.rays.value_or(rays_by_default), *request.samples, d, side, request.dimension.value_or(3));
   workload.sphere_radius = outer;
   workload.sample_extent = request.sample_extent.value_or(0);
   if (request.sample_extent) require_positive("sample extent", *request.sample_extent);

@@ -21,7 +21,7 @@ std::string radius_text(const BenchWorkload& workload) {
   return radius.relative ? fmt::format("{:g}%", 100 * radius.value) : fmt::format("{:g}", radius.value);
 }
 
-std::string describe(const BenchWorkload& workload) {
+std::string title_of(const BenchWorkload& workload) {
   return fmt::format("{}, {}, {:g} rays{}, radius {}", workload.scene, name(workload.field), workload.rays,
                      workload.samples ? fmt::format(", {:g} samples", *workload.samples) : "", radius_text(workload));
 }
@@ -63,7 +63,7 @@ Json worst_json(const BenchEntry& entry) {
   return json;
 }
 
-Json to_json(const AgainstEmbree& summary, const BenchResult& bench) {
+Json embree_json(const AgainstEmbree& summary, const BenchResult& bench) {
   return {{"threads", summary.threads},
           {"races", summary.races},
           {"geometric_mean", summary.geometric_mean},
@@ -76,7 +76,8 @@ Json to_json(const AgainstEmbree& summary, const BenchResult& bench) {
 Json summary_json(const BenchResult& bench, const validate::BenchOptions& options) {
   Json all = Json::array();
   for (const int threads : options.threads)
-    if (const auto summary = validate::against_embree(bench.entries, threads)) all.push_back(to_json(*summary, bench));
+    if (const auto summary = validate::against_embree(bench.entries, threads))
+      all.push_back(embree_json(*summary, bench));
   const validate::WrongHits wrong = validate::embree_wrong_hits(bench.entries);
   Json json = Json::object();
   if (!all.empty()) {
@@ -141,7 +142,7 @@ std::string summary_text(const BenchResult& bench, const validate::BenchOptions&
       text += "\n";
       add(fmt::format("{} thread{}: {} races, Embree takes {:.3g} times as long (geometric mean), at worst {:.3g}",
                       threads, threads == 1 ? "" : "s", summary->races, summary->geometric_mean, summary->worst));
-      add(fmt::format("  worst: {}: {} {:.3g} s, Embree {} {:.3g} s", describe(worst.workload),
+      add(fmt::format("  worst: {}: {} {:.3g} s, Embree {} {:.3g} s", title_of(worst.workload),
                       technique_of(worst.best(true)->competitor), worst.best(true)->median_seconds(),
                       parameters_of(worst.best(false)->competitor), worst.best(false)->median_seconds()));
     }
@@ -158,7 +159,7 @@ std::string left_out_text(const BenchResult& bench, const std::vector<std::strin
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   for (const std::string& why : missing) add(fmt::format("left out  {}", why));
   for (const validate::BenchSkip& skip : bench.skipped)
-    add(fmt::format("skipped   {}: {}", describe(skip.workload), skip.why));
+    add(fmt::format("skipped   {}: {}", title_of(skip.workload), skip.why));
   return text.empty() ? text : "\n" + text;
 }
 
@@ -194,7 +195,7 @@ Result report_bench(const BenchResult& bench, const validate::BenchOptions& opti
     for (const Finish& finish : entry.race.finishes) rows.push_back(row_json(entry, finish));
   Json skipped = Json::array();
   for (const validate::BenchSkip& skip : bench.skipped)
-    skipped.push_back({{"workload", describe(skip.workload)}, {"why", skip.why}});
+    skipped.push_back({{"workload", title_of(skip.workload)}, {"why", skip.why}});
   result.json = {{"rows", std::move(rows)},
                  {"summary", summary_json(bench, options)},
                  {"skipped", std::move(skipped)},

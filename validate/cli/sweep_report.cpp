@@ -17,7 +17,7 @@ std::string where(const Deviation& row) {
   return row.sphere > 0 ? place + fmt::format(", i {}", row.sphere) : place;
 }
 
-Json to_json(const DeviationSummary& summary) {
+Json summary_json(const DeviationSummary& summary) {
   Json json{{"technique", summary.technique},
             {"quantity", summary.quantity},
             {"tier", name(summary.form)},
@@ -100,7 +100,7 @@ void report_sweep(const validate::SweepResult& sweep, const Screen& screen, Tabl
   Json& json = result.json["sweep"];
   json = {{"points", sweep.points}, {"measured", sweep.measured}, {"resumed", sweep.resumed}};
   json["summary"] = Json::array();
-  for (const DeviationSummary& summary : summaries) json["summary"].push_back(to_json(summary));
+  for (const DeviationSummary& summary : summaries) json["summary"].push_back(summary_json(summary));
   result.text +=
       fmt::format("\n{} of {} workloads measured\n", sweep.measured, sweep.points) + to_text(summaries, screen);
   if (sweep.measured < sweep.points) result.stopped = {sweep.measured, sweep.points, "workloads of the sweep"};

@@ -76,7 +76,7 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
 /// Null if the number is unknown: a relative error if all observations are zero.
 Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
-Json to_json(const Claim& claim) {
+Json claim_json(const Claim& claim) {
   return {{"id", claim.id},
           {"quantity", claim.quantity},
           {"technique", claim.technique.empty() ? Json() : Json(claim.technique)},
@@ -189,7 +189,7 @@ Table table_of(const std::vector<Claim>& claims, const Json& inputs) {
               sweep_columns());
   for (const Claim& claim : claims) {
     Json row = workload_cells(inputs);
-    row.update(to_json(claim));
+    row.update(claim_json(claim));
     row["control_offset"] = known(claim.control_offset);
     row["control_predicted"] = known(claim.control);
     row["control_verdict"] = name(claim.control_verdict);
@@ -257,7 +257,7 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
       experiment, sim::part_of(progress.report(), 0, options.thorough ? share_of_claims : 1), &done);
   const std::vector<Claim> claims = validate::judge_all(findings);
   result.json["claims"] = Json::array();
-  for (const Claim& claim : claims) result.json["claims"].push_back(to_json(claim));
+  for (const Claim& claim : claims) result.json["claims"].push_back(claim_json(claim));
   if (done.done < done.of) result.stopped = done;
   const Screen screen = common.screen();
   result.text = claims.empty() ? "no claim was judged\n"

@@ -15,7 +15,7 @@ constexpr double ridge = 10.9;   // height above the court
 constexpr double arcade = 0.4;   // thickness of the piers
 constexpr double partition = 0.3;
 constexpr double outer_wall = 0.4;
-constexpr double cell = 0.515;
+constexpr double cell_side = 0.515;
 
 constexpr glm::dvec3 up{0, 1, 0};
 
@@ -42,7 +42,7 @@ void add_frame(Mesh& mesh, const Square& first, const Square& second) {
     add_quad(mesh,
              {side.point(-first.half, first.y, first.half), side.point(-second.half, second.y, second.half),
               side.point(second.half, second.y, second.half), side.point(first.half, first.y, first.half)},
-             cell);
+             cell_side);
 }
 
 void add_partitions(Mesh& mesh, const Side& side, double floor) {
@@ -54,7 +54,7 @@ void add_partitions(Mesh& mesh, const Side& side, double floor) {
                     .length = outside - outer_wall - rooms - partition,
                     .height = ceiling,
                     .thickness = partition};
-    add_wall(mesh, wall, 1, door, cell);
+    add_wall(mesh, wall, 1, door, cell_side);
   }
 }
 
@@ -66,13 +66,13 @@ void add_storey(Mesh& mesh, const Side& side, int level) {
   };
   const double parapet = level == 0 ? 0.0 : 0.9;
   add_wall(mesh, wall(court, court, storey, arcade), 5, {.width = 3.1, .sill = parapet, .springing = 2.4, .rise = 1},
-           cell);
+           cell_side);
   add_wall(mesh, wall(rooms, rooms, ceiling, partition), 6, {.width = 1.4, .sill = 0, .springing = 2.2, .rise = 0.4},
-           cell);
+           cell_side);
   add_wall(mesh, wall(outside, outside - outer_wall, storey, outer_wall), 10,
-           {.width = 1.4, .sill = 1, .springing = 2.4, .rise = 0.4}, cell);
+           {.width = 1.4, .sill = 1, .springing = 2.4, .rise = 0.4}, cell_side);
   add_partitions(mesh, side, floor);
-  add_box(mesh, side.point(court, floor, court), {arcade * side.along, storey * up, arcade * side.out}, cell);
+  add_box(mesh, side.point(court, floor, court), {arcade * side.along, storey * up, arcade * side.out}, cell_side);
 }
 
 void add_storey_slabs(Mesh& mesh, int level) {
@@ -93,7 +93,7 @@ void add_roof(Mesh& mesh) {
 Setting courtyard() {
   Setting setting;
   Mesh& mesh = setting.mesh;
-  add_quad(mesh, {{{-court, 0, -court}, {-court, 0, court}, {court, 0, court}, {court, 0, -court}}}, cell);
+  add_quad(mesh, {{{-court, 0, -court}, {-court, 0, court}, {court, 0, court}, {court, 0, -court}}}, cell_side);
   for (int level = 0; level < 2; ++level) {
     add_storey_slabs(mesh, level);
     for (const Side& side : sides) add_storey(mesh, side, level);
