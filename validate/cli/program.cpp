@@ -1,0 +1,145 @@
+#include <fmt/format.h>
+#include <oneapi/tbb/global_control.h>
+
+#include <cmath>
+#include <fstream>
+#include <new>
+#include <stdexcept>
+#include <system_error>
+
+#include "command_line.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/files/file_error.hpp"
+#include "detp/sim/files/output_file.hpp"
+#include "interruption.hpp"
+#include "messages.hpp"
+#include "outputs.hpp"
+#include "program.hpp"
+#include "stop_report.hpp"
+
+namespace detp::cli {
+namespace {
+
+std::string cpu_name() {
+  std::ifstream cpus("/proc/cpuinfo");
+  for (std::string line; std::getline(cpus, line);)
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  return "unknown";
+}
+
+Json envelope(const std::string& command, const CommonOptions& common, int threads, Result& result) {
+  Json json{{"schema", {{"name", "detp." + command}, {"version", 1}}}, {"inputs", std::move(result.inputs)}};
+  json.update(result.json);
+  json["provenance"] = {
+      {"program", "detp"}, {"version", DETP_VERSION}, {"seed", common.seed}, {"threads", threads}, {"cpu", cpu_name()}};
+  return json;
+}
+
+/// Throws if a number is NaN or infinite, which JSON cannot represent: this is a bug, not an error in the input.
+void require_finite_numbers(const Json& json) {
+  if (json.is_number_float() && !std::isfinite(json.get<double>()))
+    throw std::logic_error("a result is not a finite number");
+  if (json.is_structured())
+    for (const Json& part : json) require_finite_numbers(part);
+}
+
+void print(const std::string& text, const CommonOptions& common) {
+  if (common.output) {
+    sim::OutputFile file(*common.output);
+    file.write(text);
+    file.commit();
+  } else {
+    write_result(text);
+  }
+}
+
+void set_memory_limit(const std::string& size) {
+  try {
+    sim::set_memory_limit(sim::parse_bytes(size));
+  } catch (const std::invalid_argument& error) {
+    throw std::invalid_argument(fmt::format("--memory-limit {}", error.what()));
+  }
+}
+
+/// If a command is stopped before it has a result, also reports this on stderr.
+Result result_of(const Command& command, const CommonOptions& common, const std::stop_token& stop) {
+  try {
+    return command.run(common, stop);
+  } catch (const sim::Stopped& stopped) {
+    static_cast<void>(fail(ExitCode::stopped, stopped.what()));
+    return stopped_result(*command.app, stopped);
+  }
+}
+
+int run(const Command& command, const CommonOptions& common, Interruption& interruption) {
+  if (common.memory_limit) set_memory_limit(*common.memory_limit);
+  const int wanted = sim::thread_count(common.threads);
+  const int threads = sim::startable_threads(wanted);
+  if (threads < wanted) note(common, fmt::format("the system starts {} threads only, not {}", threads, wanted));
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          static_cast<std::size_t>(threads));
+  require_non_negative("--time-limit", common.time_limit);
+  check_outputs({{"--output", common.output}});
+  interruption.limit(common.time_limit);
+  Result result = sim::in_memory(fmt::format("detp {} was at work", command.app->get_name()),
+                                 [&] { return result_of(command, common, interruption.token()); });
+  if (result.code == ExitCode::stopped && !result.stopped) result.stopped.emplace();
+  result.json["stopped"] = result.stopped.has_value();
+  if (result.stopped) mark_stopped(result, interruption.seconds_since_request(), common.screen());
+  if (common.format == "json") {
+    const Json json = envelope(command.app->get_name(), common, threads, result);
+    require_finite_numbers(json);
+    // A file's name may be invalid UTF-8, but JSON must be valid.
+    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", common);
+  } else {
+    print(common.format == "csv" ? result.csv : safe_text(result.text, common.screen().colour), common);
+  }
+  return static_cast<int>(result.code);
+}
+
+int guarded_main(int argc, char** argv) {
+  Interruption interruption;
+  CommandLine line;
+  try {
+    return run(line.parse(argc, argv), line.common(), interruption);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) {
+      line.exit(error);
+      check_written();
+      return 0;
+    }
+    return fail(ExitCode::bad_input,
+                with_short_arguments(line.message(error), {argv, argv + argc}) + " (detp --help tells more)");
+  }
+}
+
+}  // namespace
+
+int run_program(int argc, char** argv) {
+  prepare_streams();
+  try {
+    return guarded_main(argc, argv);
+  } catch (const sim::FileError& error) {
+    return fail(ExitCode::bad_input, error.what());
+  } catch (const std::invalid_argument& error) {
+    return fail(ExitCode::bad_input, with_short_arguments(error.what(), {argv, argv + argc}));
+  } catch (const std::length_error& error) {
+    return fail(ExitCode::bad_input, error.what());
+  } catch (const std::overflow_error& error) {
+    return fail(ExitCode::bad_input, error.what());
+  } catch (const sim::OutOfMemory& error) {
+    return fail(ExitCode::bad_input, std::string(error.what()) + "; fewer rays, samples or cells would fit");
+  } catch (const std::bad_alloc&) {
+    return fail(ExitCode::bad_input, "out of memory; fewer rays, samples or cells would fit");
+  } catch (const std::system_error& error) {
+    if (error.code() == std::errc::resource_unavailable_try_again)
+      return fail(ExitCode::bad_input, "the system starts no thread; allow more processes (ulimit -u) or memory");
+    return fail(ExitCode::internal, std::string("internal error: ") + error.what());
+  } catch (const std::exception& error) {
+    return fail(ExitCode::internal, std::string("internal error: ") + error.what());
+  }
+}
+
+}  // namespace detp::cli
