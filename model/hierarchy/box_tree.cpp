@@ -9,6 +9,7 @@
 
 #include "box_tree_expected.hpp"
 #include "detp/model/lines/line_measure.hpp"
+#include "detp/model/vocabulary/ray_blocks.hpp"
 
 namespace detp::model {
 namespace {
@@ -166,44 +167,43 @@ class Widening {
   std::vector<std::pair<std::size_t, double>> next_;
 };
 
-/// Probability that any ray crosses what each ray crosses with that one.
-double crossed_at_all(const Valid<Workload>& workload, double share) {
-  return share < 1 ? -std::expm1(workload.rays * std::log1p(-share)) : 1;
-}
-
 /// What `samples` in a cube of that side, or on its faces, meet.
-Met met_in(int dimension, const Valid<Workload>& workload, double samples, double side, int fan_out, int leaf) {
+Met met_in(int dimension, const Valid<Workload>& workload, double samples, double side, int fan_out, int leaf,
+           Engine engine) {
   constexpr double far = 1e60;  // beyond all that makes a difference
   const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
-  const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf);
+  const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf, engine);
   const Crossing crossing(workload, side);
+  const RayBlocks blocks = ray_blocks(workload.rays, workload.samples, engine);
   Met met;
   Widening widening(nodes, box_tree::cell_kinds(dimension), fan_out);
   widening.for_each([&](std::size_t kind, double wide, double children) {
     const double share = kind == 0 ? 1 : crossing.share(nodes[kind].inner);
     met.tests += wide * children * share;
     if (kind > 0) met.listed += wide * share;
-    met.culls += wide * children * crossed_at_all(workload, share);
+    met.culls += wide * children * blocks.with_any(share);
   });
   for (std::size_t kind = 0; kind < nodes.size(); ++kind) {
     if (kind > 0) met.listed += crossing(nodes[kind].leaves);
     const double share = kind > 0 ? crossing.share(nodes[kind].discs) : 1;
     met.discs += nodes[kind].discs.count * share;
-    met.visits += nodes[kind].discs.count * crossed_at_all(workload, share);
+    met.visits += nodes[kind].discs.count * blocks.with_any(share);
   }
   return met;
 }
 
 }  // namespace
 
-Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxTreeParameters>& parameters) {
+Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxTreeParameters>& parameters,
+                               Engine engine) {
   const double rays = workload.rays;
   const double samples = workload.samples;
   Counts<double> counts{
       .references = samples, .placements = samples, .sorted = samples, .hits = expected_hits(workload)};
+  const double blocks = ray_blocks(rays, samples, engine).count();
   if (samples <= parameters.leaf) {
     counts.disc_tests = rays * samples;
-    counts.visits = samples;
+    counts.visits = blocks * samples;
     return counts;
   }
   const int fan_out = std::min(parameters.fan_out, box_tree_most_children);
@@ -212,7 +212,9 @@ Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxT
   const double in_one = static_cast<double>(parameters.leaf) / leaf;
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
   const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);
-  const auto of = [&](int whole) { return met_in(whole, workload, std::round(samples / in_one), side, fan_out, leaf); };
+  const auto of = [&](int whole) {
+    return met_in(whole, workload, std::round(samples / in_one), side, fan_out, leaf, engine);
+  };
   Met met = of(dimension < 3 ? 2 : 3);
   if (dimension > 2 && dimension < 3) {
     const Met volume = of(3);
@@ -222,7 +224,7 @@ Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxT
   counts.cull_tests = rays * met.tests;
   counts.listed = rays * met.listed;
   counts.disc_tests = rays * std::min(samples, in_one * met.discs);
-  counts.visits = std::min(samples, in_one * met.visits);
+  counts.visits = std::min(blocks * samples, in_one * met.visits);
   counts.culls = met.culls;
   return counts;
 }

@@ -19,8 +19,9 @@
 ///
 ///     lines      P = F/(4π r₀²)                      segments   P = (V + ℓF/4)/V_box   (crossing_probability)
 ///
-///   where  F, V   surface of the convex body whose lines the cull lists (a box's, and some 9 % more), its volume;
-///                 means over the nodes of a level
+///   where  F, V   surface and volume of the convex body whose lines the cull lists (a box; for the simd engine some 9
+///   %
+///                 more surface); means over the nodes of a level
 ///
 /// A wide node joins an inner node with the f - 1 inner nodes around its top that have the largest boxes: here the
 /// least deep ones. Of the X inner nodes at most j levels below one, E[min(f - 1, X)] are joined, X taken as normal,
@@ -35,8 +36,8 @@ namespace detp::model {
 inline constexpr int box_tree_most_children = 16;
 inline constexpr int box_tree_largest_leaf = 256;
 
-/// Expected counts of the tree, all rays in one list. `culls` are tests of a node that any ray takes part in, `visits`
-/// discs of leaves that any ray crosses.
+/// Expected counts of the tree, by either engine. `culls` are the lists made, `visits` the discs of leaves whose lists
+/// hold a ray: for each block of rays again (ray_blocks).
 ///
 /// Source     our derivation.
 /// Valid      fan-out 2 … 16, leaf 1 … 256; samples uniform over a volume or over surfaces, discs turned isotropically.
@@ -59,6 +60,6 @@ inline constexpr int box_tree_largest_leaf = 256;
 /// Costs      10 … 90 µs for D = 3, 30 … 190 µs for D = 2, the more the smaller the leaf; 4 ms once for a table.
 /// Throws     std::invalid_argument for a workload or parameters out of range.
 [[nodiscard]] Counts<double> box_tree_counts(const Valid<Workload>& workload,
-                                             const Valid<BoxTreeParameters>& parameters);
+                                             const Valid<BoxTreeParameters>& parameters, Engine engine);
 
 }  // namespace detp::model

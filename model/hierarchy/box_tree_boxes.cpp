@@ -89,8 +89,8 @@ double CellBoxes::missing(const Row& row, double discs) {
   return weight * next + (1 - weight) * (column == 0 ? row.single : there);
 }
 
-CellBoxes::CellBoxes(const CellKind& cell, double disc_radius)
-    : radius_(disc_radius), flat_(row_of(0, disc_radius, 0)) {
+CellBoxes::CellBoxes(const CellKind& cell, double disc_radius, Engine engine)
+    : radius_(disc_radius), engine_(engine), flat_(row_of(0, disc_radius, 0)) {
   const double log_radius = std::log2(disc_radius);
   std::array<double, 3> on_faces{};
   double area = 0;
@@ -132,7 +132,7 @@ MeanBox CellBoxes::operator()(double discs) const {
   constexpr double for_nothing = 0.28768207245178093 / pi;  // ln(4/3)/π
   MeanBox box;
   box.products = x * y + y * z + z * x;
-  box.surface = 2 * (box.products + for_nothing * (x * x + y * y + z * z));
+  box.surface = 2 * (box.products + (engine_ == Engine::simd ? for_nothing * (x * x + y * y + z * z) : 0));
   box.volume = x * y * z;
   return box;
 }

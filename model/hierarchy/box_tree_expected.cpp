@@ -44,11 +44,12 @@ using Alive = std::vector<double>;
 
 class Levels {
  public:
-  Levels(int dimension, double samples, double radius, int leaf)
+  Levels(int dimension, double samples, double radius, int leaf, Engine engine)
       : kinds_(cell_kinds(dimension)),
         samples_(samples),
         radius_(radius),
         leaf_(leaf),
+        engine_(engine),
         most_(std::max(leaf, most_dropped)),
         drops_(dimension, samples, radius, leaf),
         alive_(kinds_.size()),
@@ -85,7 +86,7 @@ class Levels {
     const CellKind& cell = kinds_[number];
     LevelNodes& nodes = nodes_[number];
     if (all_inner(cell)) {
-      nodes.inner.add(cell.cells, CellBoxes(cell, radius_)(samples_ * cell.share));
+      nodes.inner.add(cell.cells, CellBoxes(cell, radius_, engine_)(samples_ * cell.share));
     } else {
       Alive& alive = alive_[number];
       if (alive.empty())
@@ -118,7 +119,7 @@ class Levels {
     const int last = most_of(expected);
     binomial(samples_, cell.share, last, probability_);
     const Dropped* dropped = drops_.of(cell);
-    const CellBoxes boxes(cell, radius_);
+    const CellBoxes boxes(cell, radius_, engine_);
     const Halves halves = halves_of(cell);
     double above = 1 - probability_[0];
     double discs_above = expected;
@@ -159,9 +160,9 @@ class Levels {
 
   [[nodiscard]] Halves halves_of(const CellKind& cell) const {
     if (leaf_ >= most_in_one_half || cell.child[0] == 0) return {};
-    const CellBoxes first(kinds_[cell.child[0]], radius_);
+    const CellBoxes first(kinds_[cell.child[0]], radius_, engine_);
     if (cell.child[0] == cell.child[1]) return {{first, first}};
-    return {{first, CellBoxes(kinds_[cell.child[1]], radius_)}};
+    return {{first, CellBoxes(kinds_[cell.child[1]], radius_, engine_)}};
   }
 
   /// The share of cells with discs in both halves. Other cells are not nodes; their half is. Changes the mean box to
@@ -266,6 +267,7 @@ class Levels {
   double samples_;
   double radius_;
   int leaf_;
+  Engine engine_;
   int most_;
   Drops drops_;
   std::vector<Alive> alive_;
@@ -278,8 +280,9 @@ class Levels {
 
 }  // namespace
 
-std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf) {
-  return Levels(dimension, samples, disc_radius, leaf).take();
+std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf,
+                                             Engine engine) {
+  return Levels(dimension, samples, disc_radius, leaf, engine).take();
 }
 
 }  // namespace detp::model::box_tree

@@ -42,6 +42,7 @@ struct LevelNodes {
 ///
 /// Source     our derivation.
 /// Valid      as box_tree.hpp says, which gives the accuracy.
-[[nodiscard]] std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf);
+[[nodiscard]] std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf,
+                                                           Engine engine = Engine::simd);
 
 }  // namespace detp::model::box_tree

@@ -8,7 +8,7 @@ namespace detp::model {
 /// paper says, the paper's). Times the unit costs (`price`) they are its time.
 ///
 /// The plain engine makes one list of all rays; the simd engine makes lists, and visits discs, for each block of
-/// rays_in_block again. All other counts are the same.
+/// rays_in_block again. Its cull of a box lists some rays that miss the box. All other counts are the same.
 ///
 /// Throws std::invalid_argument for a workload or parameters out of range, and for candidates without a closed form:
 /// bsp, bvh and photon-map, octrees with neighbour links, sphere caches along the Hilbert curve.

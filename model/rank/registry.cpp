@@ -14,19 +14,52 @@
 #include "detp/model/sphere_cache/rebuild_law.hpp"
 #include "detp/model/sphere_cache/sphere_cache.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
+#include "detp/model/vocabulary/ray_blocks.hpp"
 #include "fastest.hpp"
 #include "index_best.hpp"
 
 namespace detp::model {
 namespace {
 
-/// A formula of one technique's parameters, for candidates of any.
-template <class P, auto counts>
-Counts<double> predicted(const Valid<Workload>& workload, const Valid<Candidate>& candidate) {
-  return counts(workload, Valid<P>(candidate, std::get<P>(candidate.parameters)));
+/// The candidate's parameters, which its check covers.
+template <class P>
+Valid<P> own(const Valid<Candidate>& candidate) {
+  return Valid<P>(candidate, std::get<P>(candidate.parameters));
 }
 
-/// Plain density estimation on the tangent plane: each disc against each ray.
+/// A formula of one technique's parameters, for candidates of any.
+template <class P, auto counts>
+Counts<double> predicted(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine) {
+  return counts(workload, own<P>(candidate));
+}
+
+/// The same of a technique with a simd engine, where the formula counts the lists and visits of one block of rays.
+template <class P, auto counts>
+Counts<double> in_blocks(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
+  const auto& parameters = own<P>(candidate);
+  Counts<double> all = counts(workload, parameters);
+  const RayBlocks blocks = ray_blocks(workload.rays, workload.samples, engine);
+  if (blocks.count() == 1) return all;
+  const auto of_block = [&](double rays) {
+    Workload block = workload;
+    block.rays = rays;
+    return counts(Valid<Workload>(workload, block), parameters);
+  };
+  const Counts<double> full = of_block(blocks.size);
+  all.culls = blocks.whole * full.culls;
+  all.visits = blocks.whole * full.visits;
+  if (blocks.last > 0) {
+    const Counts<double> last = of_block(blocks.last);
+    all.culls += last.culls;
+    all.visits += last.visits;
+  }
+  return all;
+}
+
+Counts<double> box_tree(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
+  return box_tree_counts(workload, own<BoxTreeParameters>(candidate), engine);
+}
+
 Counts<double> brute_force(const Valid<Workload>& workload, const BruteForceParameters&) {
   return {.visits = workload.samples, .disc_tests = workload.rays * workload.samples, .hits = expected_hits(workload)};
 }
@@ -103,13 +136,13 @@ std::optional<Parameters> best_grid(const Valid<Workload>& workload, const Valid
 }
 
 const std::array<TechniqueModel, all_techniques.size()> registry{{
-    {Technique::brute_force, predicted<BruteForceParameters, brute_force>},
-    {Technique::sphere_cache, predicted<SphereCacheParameters, sphere_cache_counts>, best_cache, uncounted_cache},
+    {Technique::brute_force, in_blocks<BruteForceParameters, brute_force>},
+    {Technique::sphere_cache, in_blocks<SphereCacheParameters, sphere_cache_counts>, best_cache, uncounted_cache},
     {Technique::sphere_cache_published, predicted<SphereCacheParameters, published_cache>, best_cache, uncounted_cache},
-    {Technique::cell_spheres, predicted<CellSpheresParameters, cell_sphere_counts>, best_cells, uncounted_cells},
+    {Technique::cell_spheres, in_blocks<CellSpheresParameters, cell_sphere_counts>, best_cells, uncounted_cells},
     {Technique::sphere_tree, predicted<SphereTreeParameters, sphere_tree_counts>, best_sphere_tree,
      uncounted_sphere_tree},
-    {Technique::box_tree, predicted<BoxTreeParameters, box_tree_counts>, best_box_tree, uncounted_box_tree},
+    {Technique::box_tree, box_tree, best_box_tree, uncounted_box_tree},
     {Technique::octree, predicted<OctreeParameters, octree>, best_octree, uncounted_octree},
     {Technique::grid, predicted<GridParameters, grid>, best_grid, uncounted_grid},
     {Technique::bsp},

@@ -37,8 +37,8 @@ struct Wish {
 struct TechniqueModel {
   Technique technique;
 
-  /// Expected counts. Null where there is no closed form.
-  Counts<double> (*predict)(const Valid<Workload>&, const Valid<Candidate>&) = nullptr;
+  /// Expected counts of a search by that engine. Null where there is no closed form.
+  Counts<double> (*predict)(const Valid<Workload>&, const Valid<Candidate>&, Engine) = nullptr;
 
   /// The fastest parameters among those with what is given; nothing where none fits the limits. Not called where all
   /// numbers are given.

@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <iterator>
 #include <numbers>
+#include <span>
 #include <vector>
 
 #include "detp/sim/technique/technique.hpp"
@@ -45,6 +47,12 @@ const std::vector<Candidate>& exact_candidates() {
   return list;
 }
 
+/// The engines of a technique.
+std::span<const Engine> engines_of(const Candidate& candidate) {
+  static constexpr std::array both{Engine::simd, Engine::plain};
+  return std::span(both).first(record_of(candidate.technique).simd ? 2 : 1);
+}
+
 /// Number of pairs that only one of the technique and the canonical predicate finds.
 std::size_t differences(const Outcome& outcome, const Outcome& expected) {
   std::vector<Pair> different;
@@ -63,12 +71,14 @@ void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, 
       const Problem problem = make_problem(scene.rays, scene.discs);
       const Outcome expected = truth_of(problem);
       hits += expected.total_hits;
-      for (const Candidate& candidate : exact_candidates()) {
-        const std::size_t different = differences(run(problem, candidate, {.pairs = true}), expected);
-        INFO(families[family].name, ", scene ", i, ", ", name(candidate.technique));
-        CHECK(different == 0);
-        all_different += different;
-      }
+      for (const Candidate& candidate : exact_candidates())
+        for (const Engine engine : engines_of(candidate)) {
+          const Outcome outcome = run(problem, candidate, {.pairs = true, .engine = engine});
+          const std::size_t different = differences(outcome, expected);
+          INFO(families[family].name, ", scene ", i, ", ", name(candidate.technique), ", ", name(engine));
+          CHECK(different == 0);
+          all_different += different;
+        }
     }
     CHECK(hits > scenes * rays / 10);
     if (told)
@@ -118,7 +128,8 @@ TEST_SUITE("identity") {
       const Outcome expected = truth_of(problem);
       hits += expected.total_hits;
       for (const Candidate& candidate : exact_candidates())
-        CHECK(differences(run(problem, candidate, {.pairs = true}), expected) == 0);
+        for (const Engine engine : engines_of(candidate))
+          CHECK(differences(run(problem, candidate, {.pairs = true, .engine = engine}), expected) == 0);
     }
     CHECK(hits > 3000);
   }

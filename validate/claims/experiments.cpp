@@ -35,7 +35,7 @@ std::vector<Finding> all_findings(const Experiment& experiment, const sim::Repor
   constexpr std::array steps{Step{"predictions of the choice", choice_findings, choice_work, 3},
                              Step{"lines against spheres and discs", line_hit_findings, line_hit_work, 1},
                              Step{"sphere cache", sphere_cache_findings, sphere_cache_work, 1},
-                             Step{"hierarchies of spheres", sphere_hierarchy_findings, sphere_hierarchy_work, 2.2},
+                             Step{"hierarchies of spheres and boxes", hierarchy_findings, hierarchy_work, 2.2},
                              Step{"index of discs", disc_index_findings, disc_index_work, 7.5}};
   std::array<double, steps.size()> work{};
   double whole = 0;

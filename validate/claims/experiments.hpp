@@ -18,8 +18,8 @@ namespace detp::validate {
 /// k, m_i, T_R and T_I of the sphere cache on sorted samples, at several Q.
 [[nodiscard]] std::vector<Finding> sphere_cache_findings(const Experiment& experiment);
 
-/// Sphere and disc tests of cell spheres and of the sphere tree.
-[[nodiscard]] std::vector<Finding> sphere_hierarchy_findings(const Experiment& experiment);
+/// Counts of cell spheres, of the sphere tree and, by each engine, of the box tree.
+[[nodiscard]] std::vector<Finding> hierarchy_findings(const Experiment& experiment);
 
 /// Cells per line, ray-disc tests per line of an octree, and the hits of all discs.
 [[nodiscard]] std::vector<Finding> disc_index_findings(const Experiment& experiment);
@@ -31,7 +31,7 @@ namespace detp::validate {
 /// Predicted work of each experiment, in units of sim::StopCheck, for a display of progress.
 [[nodiscard]] double line_hit_work(const Experiment& experiment);
 [[nodiscard]] double sphere_cache_work(const Experiment& experiment);
-[[nodiscard]] double sphere_hierarchy_work(const Experiment& experiment);
+[[nodiscard]] double hierarchy_work(const Experiment& experiment);
 [[nodiscard]] double disc_index_work(const Experiment& experiment);
 [[nodiscard]] double choice_work(const Experiment& experiment);
 

@@ -18,30 +18,30 @@ double expected_hits(const sim::Problem& problem, double rays) {
 
 }  // namespace
 
-Counts<double> structural_brute_force(const sim::Problem& problem, double rays, const Parameters&,
+Counts<double> structural_brute_force(const sim::Problem& problem, const Lines& lines, const Parameters&,
                                       const std::stop_token&) {
   const auto discs = static_cast<double>(problem.discs.size());
-  return {.visits = discs * blocks_of(rays, discs), .disc_tests = rays * discs};
+  return {.visits = discs * lines.blocks(problem).count(), .disc_tests = lines.rays * discs};
 }
 
 Counts<double> structural_counts(const sim::Problem& problem, double rays, const Valid<Candidate>& candidate,
-                                 const std::stop_token& stop, bool front_facing) {
+                                 const std::stop_token& stop, bool front_facing, Engine engine) {
   require_count("number of rays", rays, 1, 1e18);
   const StructuralModel& model = structural_model(candidate.technique);
   if (model.counts == nullptr)
     throw std::invalid_argument(
         fmt::format("{} has no structural counts: {}", name(candidate.technique), model.why_none));
-  Counts<double> counts = model.counts(problem, rays, candidate.parameters, stop);
+  Counts<double> counts = model.counts(problem, {rays, engine}, candidate.parameters, stop);
   counts.hits = (front_facing ? 0.5 : 1) * expected_hits(problem, rays);
   return counts;
 }
 
 Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Valid<Candidate>& candidate,
-                                 const std::stop_token& stop, bool front_facing) {
+                                 const std::stop_token& stop, bool front_facing, Engine engine) {
   const sim::Sphere enclosing = sim::enclosing_sphere(discs, stop);
   const double farthest = glm::distance(discs[0].centre, enclosing.centre);  // sets the slack for rays that start in S₀
   return structural_counts(sim::make_problem_without_rays(discs, farthest, false, stop), rays, candidate, stop,
-                           front_facing);
+                           front_facing, engine);
 }
 
 }  // namespace detp::validate

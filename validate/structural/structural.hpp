@@ -34,11 +34,11 @@ namespace detp::validate {
 ///            photon-map, and for an octree that is not searched top-down or front to back.
 [[nodiscard]] Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays,
                                                const Valid<Candidate>& candidate, const std::stop_token& stop = {},
-                                               bool front_facing = false);
+                                               bool front_facing = false, Engine engine = Engine::simd);
 
 /// Structural counts for the discs of a problem; its rays do not matter.
 [[nodiscard]] Counts<double> structural_counts(const sim::Problem& problem, double rays,
                                                const Valid<Candidate>& candidate, const std::stop_token& stop = {},
-                                               bool front_facing = false);
+                                               bool front_facing = false, Engine engine = Engine::simd);
 
 }  // namespace detp::validate

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "detp/sim/base/stop_check.hpp"
-#include "structural_registry.hpp"
 
 namespace detp::validate {
 namespace {
@@ -43,8 +42,19 @@ std::vector<PoolLine> make_pool() {
 
 using Triple = std::array<double, 3>;
 
+/// Whether the line x = p + a z, y = q + b z crosses the box around the origin, whose projections along x and y it
+/// crosses.
+bool crosses(double p, double a, double q, double b, const Triple& half, int x, int y, int z) {
+  const auto between = [&](double at, double slope, double most, double sign) {
+    return slope == 0 ? sign * half[z] : (sign * std::copysign(most, slope) - at) / slope;
+  };
+  const double low = std::max({-half[z], between(p, a, half[x], -1), between(q, b, half[y], -1)});
+  const double high = std::min({half[z], between(p, a, half[x], 1), between(q, b, half[y], 1)});
+  return low <= high;
+}
+
 /// Share of the lines listed for a box that cross the sphere around the origin.
-double share_through(double radius, const Triple& centre, const Triple& half, std::size_t lines) {
+double share_through(double radius, const Triple& centre, const Triple& half, std::size_t lines, Engine engine) {
   static const std::vector<PoolLine> pool = make_pool();
   double all = 0;
   double through = 0;
@@ -54,6 +64,7 @@ double share_through(double radius, const Triple& centre, const Triple& half, st
       const PoolLine& line = pool[i];
       const double wide = half[x] + std::abs(line.a) * half[z];
       const double high = half[y] + std::abs(line.b) * half[z];
+      if (engine == Engine::plain && !crosses(line.u * wide, line.a, line.v * high, line.b, half, x, y, z)) continue;
       const double weight = line.weight * wide * high;
       const double p = centre[x] + line.u * wide - line.a * centre[z];
       const double q = centre[y] + line.v * high - line.b * centre[z];
@@ -68,31 +79,33 @@ double share_through(double radius, const Triple& centre, const Triple& half, st
 
 }  // namespace
 
-BoxCrossing::BoxCrossing(double outer_radius, double margin) : outer_(outer_radius), margin_(margin) {}
+BoxCrossing::BoxCrossing(double outer_radius, double margin, Engine engine)
+    : outer_(outer_radius), margin_(margin), engine_(engine) {}
 
 double BoxCrossing::operator()(const TreeNode& box) const {
   const Triple centre{box.centre[0], box.centre[1], box.centre[2]};
   const Triple half{box.half[0] + margin_, box.half[1] + margin_, box.half[2] + margin_};
   const double products = half[0] * half[1] + half[1] * half[2] + half[2] * half[0];
   const double squares = half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
-  const double share = 2 / (pi * outer_ * outer_) * (products + std::log(4.0 / 3) / pi * squares);
+  const double missing = engine_ == Engine::simd ? std::log(4.0 / 3) / pi * squares : 0;
+  const double share = 2 / (pi * outer_ * outer_) * (products + missing);
   // A listed line passes within (h_x + h_z, h_y + h_z) of the centre; the same holds with each axis as z.
   double reach = 0;
   for (int z = 0; z < 3; ++z)
     reach = std::max(reach, std::hypot(half[(z + 1) % 3] + half[z], half[(z + 2) % 3] + half[z]));
   if (std::hypot(centre[0], centre[1], centre[2]) + reach <= outer_) return share;
   const auto lines = static_cast<std::size_t>(std::clamp(16 * pool_size * share, 64.0, 1.0 * pool_size));
-  return std::min(1.0, share * share_through(outer_, centre, half, lines));
+  return std::min(1.0, share * share_through(outer_, centre, half, lines, engine_));
 }
 
-Counts<double> structural_box_tree(const sim::Problem& problem, double rays, const Parameters& parameters,
+Counts<double> structural_box_tree(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
                                    const std::stop_token& stop) {
   const sim::stream::Frame frame(problem);
   const sim::stream::DiscTree tree =
       sim::stream::make_disc_tree(problem, frame, std::get<BoxTreeParameters>(parameters), {.stop = stop});
-  const BoxCrossing crossing(problem.enclosing.radius * frame.scale, frame.margin);
+  const BoxCrossing crossing(problem.enclosing.radius * frame.scale, frame.margin, lines.engine);
   const auto discs = static_cast<double>(problem.discs.size());
-  const double blocks = blocks_of(rays, discs);
+  const RayBlocks blocks = lines.blocks(problem);
   Counts<double> counts{.references = discs, .placements = discs, .sorted = discs};
   sim::StopCheck check(stop, "counting boxes");
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
@@ -102,12 +115,11 @@ Counts<double> structural_box_tree(const sim::Problem& problem, double rays, con
     if (i > 0) counts.listed += listed;
     const auto count = static_cast<double>(node.count);
     // A node's children are tested, and a leaf's discs visited, if the node's list holds at least one ray of the block.
-    const double none = listed < 1 ? std::exp(rays / blocks * std::log1p(-listed)) : 0;
     (node.leaf ? counts.disc_tests : counts.cull_tests) += listed * count;
-    (node.leaf ? counts.visits : counts.culls) += blocks * count * (1 - none);
+    (node.leaf ? counts.visits : counts.culls) += count * blocks.with_any(listed);
   }
   for (const auto per_ray : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests})
-    counts.*per_ray *= rays;
+    counts.*per_ray *= lines.rays;
   return counts;
 }
 

@@ -1,15 +1,16 @@
 #pragma once
 
-#include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/lists/simd/disc_tree.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "structural_registry.hpp"
 
 /// Expected counts of a box tree, computed from its boxes without rays.
 namespace detp::validate {
 
-/// Share of the isotropic lines through S₀ that the cull of a box lists (cull_box of sim/lists/simd/kernels-inl.hpp).
+/// Share of the isotropic lines through S₀ that the cull of a box lists. The plain engine lists the lines that cross the
+/// box, P = F/(4π r₀²). The simd engine (cull_box of sim/lists/simd/kernels-inl.hpp) lists some more.
 ///
-/// A line of the class of axis z, x = p + a z and y = q + b z, is listed if
+/// A line of the class of axis z, x = p + a z and y = q + b z, is listed by the simd engine if
 ///
 ///     |p + a c_z - c_x| <= h_x + |a| h_z    and    |q + b c_z - c_y| <= h_y + |b| h_z
 ///
@@ -36,13 +37,14 @@ namespace detp::validate {
 class BoxCrossing {
  public:
   /// Lengths are in the frame's units. Boxes are grown by the margin.
-  BoxCrossing(double outer_radius, double margin);
+  BoxCrossing(double outer_radius, double margin, Engine engine = Engine::simd);
 
   [[nodiscard]] double operator()(const sim::stream::TreeNode& box) const;
 
  private:
   double outer_;
   double margin_;
+  Engine engine_;
 };
 
 }  // namespace detp::validate

@@ -125,19 +125,20 @@ Counts<double> of_rays(Counts<double> per_ray, const sim::Problem& problem, doub
 
 }  // namespace
 
-Counts<double> structural_cell_spheres(const sim::Problem& problem, double rays, const Parameters& parameters,
+Counts<double> structural_cell_spheres(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
                                        const std::stop_token& stop) {
   Counts<double> counts =
-      of_rays(cell_spheres(problem, std::get<CellSpheresParameters>(parameters), stop), problem, rays);
-  const double blocks = blocks_of(rays, static_cast<double>(problem.discs.size()));
+      of_rays(cell_spheres(problem, std::get<CellSpheresParameters>(parameters), stop), problem, lines.rays);
+  const double blocks = lines.blocks(problem).count();
   counts.culls *= blocks;
   counts.visits *= blocks;
   return counts;
 }
 
-Counts<double> structural_sphere_tree(const sim::Problem& problem, double rays, const Parameters& parameters,
+Counts<double> structural_sphere_tree(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
                                       const std::stop_token& stop) {
-  return of_rays(sphere_tree(problem, rays, std::get<SphereTreeParameters>(parameters), stop), problem, rays);
+  return of_rays(sphere_tree(problem, lines.rays, std::get<SphereTreeParameters>(parameters), stop), problem,
+                 lines.rays);
 }
 
 }  // namespace detp::validate

@@ -136,27 +136,27 @@ Counts<double> index_counts(const sim::Problem& problem, double rays, double Cou
 
 }  // namespace
 
-Counts<double> structural_octree(const sim::Problem& problem, double rays, const Parameters& parameters,
+Counts<double> structural_octree(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
                                  const std::stop_token& stop) {
   const auto& own = std::get<OctreeParameters>(parameters);
   if (own.traversal != Traversal::top_down && own.traversal != Traversal::front_to_back)
     throw std::invalid_argument(
         fmt::format("structural counts know an octree top-down or front-to-back only (got {})", name(own.traversal)));
-  return index_counts(problem, rays, &Counts<double>::nodes, stop,
+  return index_counts(problem, lines.rays, &Counts<double>::nodes, stop,
                       [&](const auto& visit) { return inspect_octree(problem, own, {}, visit, stop); });
 }
 
-Counts<double> structural_grid(const sim::Problem& problem, double rays, const Parameters& parameters,
+Counts<double> structural_grid(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
                                const std::stop_token& stop) {
   const auto& own = std::get<GridParameters>(parameters);
-  return index_counts(problem, rays, &Counts<double>::steps, stop,
+  return index_counts(problem, lines.rays, &Counts<double>::steps, stop,
                       [&](const auto& visit) { return inspect_grid(problem, own, {}, visit, stop); });
 }
 
-Counts<double> structural_bsp(const sim::Problem& problem, double rays, const Parameters& parameters,
+Counts<double> structural_bsp(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
                               const std::stop_token& stop) {
   const auto& own = std::get<BspParameters>(parameters);
-  return index_counts(problem, rays, &Counts<double>::nodes, stop,
+  return index_counts(problem, lines.rays, &Counts<double>::nodes, stop,
                       [&](const auto& visit) { return inspect_bsp(problem, own, visit, stop); });
 }
 

@@ -3,6 +3,7 @@
 #include <stop_token>
 #include <string_view>
 
+#include "detp/model/vocabulary/ray_blocks.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/technique/technique.hpp"
 
@@ -10,9 +11,18 @@
 /// technique.
 namespace detp::validate {
 
-/// Expected counts on `rays` isotropic lines through S₀, for the engine that choose runs, without hits. Throws
-/// sim::Stopped if a stop was requested.
-using StructuralCounts = Counts<double>(const sim::Problem& problem, double rays, const Parameters& parameters,
+/// Isotropic lines through S₀, and the engine that searches them.
+struct Lines {
+  double rays = 0;
+  Engine engine = Engine::simd;
+
+  [[nodiscard]] RayBlocks blocks(const sim::Problem& problem) const {
+    return ray_blocks(rays, static_cast<double>(problem.discs.size()), engine);
+  }
+};
+
+/// Expected counts of a search, hits left out. Throws sim::Stopped if a stop was requested.
+using StructuralCounts = Counts<double>(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
                                         const std::stop_token& stop);
 
 struct StructuralModel {

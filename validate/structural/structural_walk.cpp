@@ -117,7 +117,7 @@ ExpectedWalk structural_walk(std::span<const sim::Disc> discs, const sim::Sphere
   return std::move(walk).finish();
 }
 
-Counts<double> structural_sphere_cache(const sim::Problem& problem, double rays, const Parameters& parameters,
+Counts<double> structural_sphere_cache(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
                                        const std::stop_token& stop) {
   const auto& own = std::get<SphereCacheParameters>(parameters);
   if (own.order != SampleOrder::lebesgue)
@@ -126,14 +126,14 @@ Counts<double> structural_sphere_cache(const sim::Problem& problem, double rays,
                     name(own.order)));
   const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, own, stop);
   const auto discs = static_cast<double>(problem.discs.size());
-  const double blocks = blocks_of(rays, discs);
-  Counts<double> counts{.cull_tests = rays * walk.cull_tests,
-                        .visits = discs * blocks,
-                        .disc_tests = rays * walk.disc_tests,
+  const double blocks = lines.blocks(problem).count();
+  Counts<double> counts{.cull_tests = lines.rays * walk.cull_tests,
+                        .visits = blocks * discs,
+                        .disc_tests = lines.rays * walk.disc_tests,
                         .sorted = discs};
   for (const ExpectedSphere& sphere : walk.spheres) {
     counts.culls += blocks * sphere.rebuilds;
-    counts.listed += rays * sphere.listed;
+    counts.listed += lines.rays * sphere.listed;
   }
   return counts;
 }

@@ -66,6 +66,11 @@ TEST_SUITE("statistical") {
     for (const char* id : {"sphere-hit-probability.corrected", "disc-hit-probability.corrected",
                            "rays-in-sphere-1.corrected", "cells-per-line.corrected", "hits-per-line.corrected"})
       CHECK(ids.contains(id));
+    for (const std::string engine : {"plain", "simd"})
+      for (const char* count :
+           {"box-tests", "disc-tests", "listed-rays", "nodes-visited", "discs-visited", "box-structural",
+            "disc-structural", "listed-structural", "nodes-structural", "visits-structural"})
+        CHECK(ids.contains("box-tree-" + engine + "-" + count + ".corrected"));
     CHECK(std::count_if(claims.begin(), claims.end(), [](const Claim& c) { return c.verdict == Verdict::agrees; }) >=
           15);
   }

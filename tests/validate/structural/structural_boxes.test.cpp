@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "detp/model/hierarchy/box_tree.hpp"
 #include "detp/model/rank/predict.hpp"
@@ -64,9 +65,11 @@ TEST_SUITE("reference value") {
     }
   }
 
-  TEST_CASE("the lists of a cube hold 9.2 % more lines than cross it") {
+  TEST_CASE("the plain engine lists the lines that cross a cube, the simd engine 9.2 % more") {
     const double crossing = 24 * 0.01 / (4 * std::numbers::pi);
-    CHECK(BoxCrossing(1, 0)(box_of({0, 0, 0}, {0.1F, 0.1F, 0.1F})) / crossing == Approx(1.0916).epsilon(1e-4));
+    const TreeNode cube = box_of({0, 0, 0}, {0.1F, 0.1F, 0.1F});
+    CHECK(BoxCrossing(1, 0, Engine::plain)(cube) / crossing == Approx(1).epsilon(1e-6));
+    CHECK(BoxCrossing(1, 0, Engine::simd)(cube) / crossing == Approx(1.0916).epsilon(1e-4));
   }
 }
 
@@ -100,11 +103,14 @@ TEST_SUITE("statistical") {
       request.disc_radius = Length{0.01, true};
       request.field = sim::Field::isotropic;
       const Job job = make_job(request);
-      for (const BoxTreeParameters& parameters : {BoxTreeParameters{4, 16}, {8, 4}}) {
+      for (const auto& [parameters, engine] : {std::pair{BoxTreeParameters{4, 16}, Engine::simd},
+                                               {BoxTreeParameters{8, 4}, Engine::simd},
+                                               {BoxTreeParameters{8, 4}, Engine::plain}}) {
         const Candidate candidate{Technique::box_tree, parameters};
-        const Counts<double> counted = as_expected(sim::run(job.problem(), candidate).counts);
-        const Counts<double> expected = structural_counts(job.discs, rays, candidate);
+        const Counts<double> counted = as_expected(sim::run(job.problem(), candidate, {.engine = engine}).counts);
+        const Counts<double> expected = structural_counts(job.discs, rays, candidate, {}, false, engine);
         CAPTURE(scene);
+        CAPTURE(name(engine));
         CAPTURE(describe(candidate));
         for (const auto term : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests,
                                 &Counts<double>::culls, &Counts<double>::visits}) {

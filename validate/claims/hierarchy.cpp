@@ -1,0 +1,224 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "detp/model/rank/predict.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/search_work.hpp"
+#include "detp/validate/structural/structural.hpp"
+#include "experiments.hpp"
+#include "samples.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double tolerance = 0.025;
+
+/// One count, and its claims.
+struct Quantity {
+  std::string_view id;          ///< ends the id of the claim about the closed form
+  std::string_view structural;  ///< ends the id of the claim about the structural counts
+  std::string_view what;        ///< the count in words
+  double Counts<double>::*term;
+  bool per_line = true;  ///< proportional to the number of lines; the others are counted on few lines
+};
+
+/// The claims about one technique and engine.
+struct Subject {
+  Technique technique;
+  std::string id;
+  Engine engine;
+  std::vector<Candidate> candidates;
+  std::string over;         ///< the candidates that the mean is over
+  std::string_view source;  ///< source of the closed form
+  std::string_view bodies;  ///< whose areas the structural counts sum
+  std::vector<Quantity> quantities;
+};
+
+constexpr Quantity sphere_tests{"sphere-tests", "sphere-structural", "ray-sphere tests", &Counts<double>::cull_tests};
+constexpr Quantity box_tests{"box-tests", "box-structural", "ray-box tests", &Counts<double>::cull_tests};
+constexpr Quantity disc_tests{"disc-tests", "disc-structural", "ray-disc tests", &Counts<double>::disc_tests};
+constexpr Quantity listed{"listed-rays", "listed-structural", "rays listed", &Counts<double>::listed};
+constexpr Quantity nodes{"nodes-visited", "nodes-structural", "nodes visited", &Counts<double>::culls, false};
+constexpr Quantity discs_visited{"discs-visited", "visits-structural", "discs visited", &Counts<double>::visits, false};
+
+Subject cell_spheres(const Workload& workload) {
+  // Down to the smallest cells that a disc fits in, within the resolution of the curve.
+  const double halvings = std::floor(std::log2(scene_side(workload) / (2 * workload.disc_radius)));
+  const int deepest = static_cast<int>(std::clamp(halvings, 2.0, 16.0));
+  return {Technique::cell_spheres,
+          "cell-spheres",
+          Engine::plain,
+          {{Technique::cell_spheres, CellSpheresParameters{deepest - 1}},
+           {Technique::cell_spheres, CellSpheresParameters{deepest}}},
+          fmt::format("geometric mean over depth {} and {}", deepest - 1, deepest),
+          "r_i^2/r_0^2 times occupied cells, our derivation",
+          "spheres",
+          {sphere_tests, disc_tests}};
+}
+
+Subject sphere_tree() {
+  return {Technique::sphere_tree,
+          "sphere-tree",
+          Engine::plain,
+          {{Technique::sphere_tree, SphereTreeParameters{8, 8}}, {Technique::sphere_tree, SphereTreeParameters{4, 16}}},
+          "geometric mean over 8 children a node, 8 samples a leaf and 4 and 16",
+          "tabulated spheres of runs, our derivation",
+          "spheres",
+          {sphere_tests, disc_tests}};
+}
+
+Subject box_tree(Engine engine) {
+  return {Technique::box_tree,
+          fmt::format("box-tree-{}", name(engine)),
+          engine,
+          {{Technique::box_tree, BoxTreeParameters{8, 4}}, {Technique::box_tree, BoxTreeParameters{4, 16}}},
+          fmt::format("{} engine, geometric mean over 8 children a node, 4 samples a leaf and 4 and 16", name(engine)),
+          "mean boxes of cells, our derivation",
+          "boxes",
+          {box_tests, disc_tests, listed, nodes, discs_visited}};
+}
+
+std::vector<Subject> all_subjects(const Workload& workload) {
+  return {cell_spheres(workload), sphere_tree(), box_tree(Engine::plain), box_tree(Engine::simd)};
+}
+
+/// Share of the lines on which nodes and visits are counted. With all lines hardly any list is empty.
+constexpr double few_lines = 0.01;
+
+/// Mean logarithms over a subject's candidates, one for each of its quantities.
+using Logs = std::vector<double>;
+
+/// The results of one set of samples and lines.
+struct SetResult {
+  Logs counted, closed, structural;
+};
+
+/// Adds one candidate to the quantities that are counted on all lines, or to those counted on few.
+void add(Logs& logs, const Subject& subject, bool per_line, const Counts<double>& counts, double lines) {
+  logs.resize(subject.quantities.size(), 0);
+  for (std::size_t i = 0; i < logs.size(); ++i) {
+    const Quantity& quantity = subject.quantities[i];
+    if (quantity.per_line == per_line)
+      logs[i] += std::log(counts.*quantity.term / lines) / static_cast<double>(subject.candidates.size());
+  }
+}
+
+/// The workload with the actual S₀ and number of lines of this problem.
+Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
+  Workload workload = experiment.workload;
+  workload.rays = static_cast<double>(problem.rays.size());
+  workload.sphere_radius = problem.enclosing.radius;
+  return workload;
+}
+
+/// Counts and predicts all candidates on one problem. False if a stop was requested.
+bool run_lines(const Experiment& experiment, const Subject& subject, const sim::Problem& problem, bool per_line,
+               SetResult& result) {
+  const auto lines = static_cast<double>(problem.rays.size());
+  for (const Candidate& candidate : subject.candidates) {
+    const sim::Outcome outcome = sim::run(problem, candidate, {.engine = subject.engine, .stop = experiment.stop});
+    if (outcome.stopped) return false;
+    const Counts<double> closed = model::predict(workload_of(experiment, problem), candidate, subject.engine);
+    const Counts<double> structural =
+        structural_counts(problem, lines, candidate, experiment.stop, false, subject.engine);
+    add(result.counted, subject, per_line, as_expected(outcome.counts), lines);
+    add(result.closed, subject, per_line, closed, lines);
+    add(result.structural, subject, per_line, structural, lines);
+  }
+  return true;
+}
+
+SetResult run_set(const Experiment& experiment, const Subject& subject, std::size_t lines, int set) {
+  SetResult result;
+  const std::vector<sim::Disc> discs = sample_discs(experiment, set);
+  const auto rays =
+      sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 31, set)).lines(0, lines, experiment.stop);
+  if (!run_lines(experiment, subject, sim::make_problem(rays, discs), true, result)) return {};
+  const bool all_per_line = std::ranges::all_of(subject.quantities, &Quantity::per_line);
+  const auto few = static_cast<std::size_t>(std::ceil(few_lines * static_cast<double>(lines)));
+  const std::span<const sim::Ray> some(rays.data(), few);
+  if (!all_per_line && !run_lines(experiment, subject, sim::make_problem(some, discs), false, result)) return {};
+  return result;
+}
+
+using Column = Logs SetResult::*;
+
+double geometric_mean(const std::vector<SetResult>& sets, Column column, std::size_t quantity) {
+  double sum = 0;
+  for (const SetResult& set : sets) sum += (set.*column)[quantity];
+  return std::exp(sum / static_cast<double>(sets.size()));
+}
+
+/// Geometric mean of the counts, divided by `below` if set. The standard error between sets is computed for the
+/// logarithm, and converted.
+Estimate counted(const std::vector<SetResult>& sets, std::size_t quantity, Column below = nullptr) {
+  std::vector<double> logs;
+  for (const SetResult& set : sets)
+    logs.push_back(set.counted[quantity] - (below == nullptr ? 0 : (set.*below)[quantity]));
+  const Estimate log = batch_means(logs);
+  return {std::exp(log.mean), std::exp(log.mean) * log.standard_error};
+}
+
+Finding closed_finding(const Subject& subject, const std::vector<SetResult>& sets, std::size_t i) {
+  const Quantity& quantity = subject.quantities[i];
+  return {.id = fmt::format("{}-{}", subject.id, quantity.id),
+          .quantity = fmt::format("{} per line{} of {}: {}", quantity.what, quantity.per_line ? "" : ", few lines",
+                                  name(subject.technique), subject.over),
+          .predictions = {{Form::corrected, std::string(subject.source), geometric_mean(sets, &SetResult::closed, i)}},
+          .observed = counted(sets, i),
+          .tolerance = tolerance};
+}
+
+Finding structural_finding(const Subject& subject, const std::vector<SetResult>& sets, std::size_t i) {
+  const Quantity& quantity = subject.quantities[i];
+  return {.id = fmt::format("{}-{}", subject.id, quantity.structural),
+          .quantity =
+              fmt::format("{} of {}, counted over those from its {} alone", quantity.what, subject.id, subject.bodies),
+          .predictions = {{Form::corrected, fmt::format("areas of nested {}, our derivation", subject.bodies), 1}},
+          .observed = counted(sets, i, &SetResult::structural),
+          .tolerance = tolerance};
+}
+
+}  // namespace
+
+std::vector<Finding> hierarchy_findings(const Experiment& experiment) {
+  const std::size_t lines =
+      std::max<std::size_t>(100, static_cast<std::size_t>(experiment.workload.rays) / batch_count);
+  std::vector<Finding> findings;
+  for (const Subject& subject : all_subjects(experiment.workload)) {
+    const sim::Stopwatch clock;
+    const auto sets = for_each_batch(experiment, [&](int set) { return run_set(experiment, subject, lines, set); });
+    if (experiment.stop.stop_requested()) return {};
+    std::vector<Finding> found;
+    for (std::size_t i = 0; i < subject.quantities.size(); ++i) found.push_back(closed_finding(subject, sets, i));
+    for (std::size_t i = 0; i < subject.quantities.size(); ++i) found.push_back(structural_finding(subject, sets, i));
+    for (Finding& finding : found) {
+      finding.technique = name(subject.technique);
+      finding.batches = batch_count;
+      finding.lines = lines * batch_count;
+      finding.seconds = clock.seconds();
+      findings.push_back(std::move(finding));
+    }
+  }
+  return findings;
+}
+
+double hierarchy_work(const Experiment& experiment) {
+  double work = 0;
+  for (const Subject& subject : all_subjects(experiment.workload)) {
+    const int runs = std::ranges::all_of(subject.quantities, &Quantity::per_line) ? 1 : 2;
+    for (const Candidate& candidate : subject.candidates)
+      // The structures are built and looked at with some 40 units for a disc.
+      work += test_work(model::predict(experiment.workload, candidate, subject.engine), subject.engine) +
+              40.0 * runs * batch_count * experiment.workload.samples;
+  }
+  return work;
+}
+
+}  // namespace detp::validate
