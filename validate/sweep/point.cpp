@@ -64,6 +64,19 @@ std::vector<Candidate> hierarchies(const SweepPoint& point) {
           {Technique::sphere_tree, SphereTreeParameters{8, 16}}};
 }
 
+/// Every leaf size, each with one of the fan-outs. The pairs change from point to point, so that the points together
+/// cover all of them.
+std::vector<Candidate> box_trees(const SweepPoint& point) {
+  constexpr std::array fan_outs{2, 4, 8, 16};
+  constexpr std::array leaves{1, 4, 16, 64, 256};
+  const double place = std::log10(point.samples) - 2 * std::log10(point.disc_share) + point.dimension;
+  std::vector<Candidate> candidates;
+  auto turn = static_cast<std::size_t>(std::lround(place));
+  for (const int leaf : leaves)
+    candidates.push_back({Technique::box_tree, BoxTreeParameters{fan_outs[turn++ % fan_outs.size()], leaf}});
+  return candidates;
+}
+
 }  // namespace
 
 double SweepPoint::disc_radius() const { return disc_share / (1 - disc_share) * std::sqrt(3.0) / 2 * side; }
@@ -91,7 +104,7 @@ std::vector<SweepPoint> sweep_points() {
 
 std::vector<Candidate> sweep_candidates(const SweepPoint& point) {
   std::vector<Candidate> candidates = caches(point);
-  for (const auto& others : {indices(point), hierarchies(point)})
+  for (const auto& others : {indices(point), hierarchies(point), box_trees(point)})
     candidates.insert(candidates.end(), others.begin(), others.end());
   std::erase_if(candidates, [&](const Candidate& candidate) {
     const Counts<double> counts = model::predict(point.workload(), candidate, Engine::plain);

@@ -31,8 +31,8 @@ struct SweepPoint {
 /// n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3. The largest come first, so that two cores finish at about the same time.
 [[nodiscard]] std::vector<SweepPoint> sweep_points();
 
-/// The candidates run on a point: sphere caches at five Q, and indices and hierarchies at two resolutions. Candidates
-/// with more than 10⁹ tests on one set are left out.
+/// The candidates run on a point: sphere caches at five Q, and indices and hierarchies at two resolutions, and
+/// box trees of five leaf sizes. Candidates with more than 10⁹ tests on one set are left out.
 [[nodiscard]] std::vector<Candidate> sweep_candidates(const SweepPoint& point);
 
 }  // namespace detp::validate

@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <set>
+#include <tuple>
 
 #include "support/scratch_file.hpp"
 
@@ -74,6 +76,17 @@ TEST_SUITE("sweep") {
       CHECK(point.disc_radius() / point.workload().sphere_radius == doctest::Approx(point.disc_share));
   }
 
+  TEST_CASE("the points together cover box trees of every fan-out with every leaf size, in volumes and on surfaces") {
+    std::set<std::tuple<int, int, int>> trees;
+    for (const SweepPoint& point : sweep_points())
+      for (const Candidate& candidate : sweep_candidates(point))
+        if (const auto* tree = std::get_if<BoxTreeParameters>(&candidate.parameters))
+          trees.insert({point.dimension, tree->fan_out, tree->leaf});
+    for (const int dimension : {2, 3})
+      for (const int fan_out : {2, 4, 8, 16})
+        for (const int leaf : {1, 4, 16, 64, 256}) CHECK(trees.contains({dimension, fan_out, leaf}));
+  }
+
   TEST_CASE("every quantity is compared with each form that predicts it") {
     const SweepResult result = run_sweep(small_points());
     CHECK(result.points == 2);
@@ -91,6 +104,8 @@ TEST_SUITE("sweep") {
     }
     CHECK(has("sphere-cache", "L_i", Form::corrected));
     CHECK(has("grid", "steps", Form::corrected));
+    for (const char* quantity : {"cull_tests", "culls", "listed", "visits", "disc_tests", "hits"})
+      CHECK(has("box-tree", quantity, Form::corrected));
   }
 }
 
