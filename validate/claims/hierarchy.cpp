@@ -89,7 +89,7 @@ std::vector<Subject> all_subjects(const Workload& workload) {
 }
 
 /// Share of the lines on which nodes and visits are counted. With all lines hardly any list is empty.
-constexpr double few_lines = 0.01;
+constexpr double few_lines = 0.125;
 
 /// Mean logarithms over a subject's candidates, one for each of its quantities.
 using Logs = std::vector<double>;
