@@ -15,22 +15,20 @@ namespace detp::model {
 namespace {
 
 using box_tree::CellKind;
+using box_tree::Leaves;
 using box_tree::LevelNodes;
 using box_tree::Sums;
 
-/// Σ P over bodies, each of the mean size.
+/// P of bodies by their mean surface and volume.
 class Crossing {
  public:
   Crossing(const Valid<Workload>& workload, double side)
       : of_surface_(crossing_probability(workload, 0, std::min(largest, unit * side * side)) / unit),
         of_volume_(crossing_probability(workload, std::min(largest, unit * side * side * side), 0) / unit) {}
 
-  [[nodiscard]] double share(const Sums& sums) const {
-    if (sums.count <= 0) return 0;
-    return std::min(1.0, (of_surface_ * sums.surface + of_volume_ * sums.volume) / sums.count);
+  [[nodiscard]] double operator()(double surface, double volume) const {
+    return std::min(1.0, of_surface_ * surface + of_volume_ * volume);
   }
-
-  [[nodiscard]] double operator()(const Sums& sums) const { return sums.count * share(sums); }
 
  private:
   static constexpr double unit = 0x1p-40;  // so small that every probability is below 1
@@ -172,23 +170,27 @@ Met met_in(int dimension, const Valid<Workload>& workload, double samples, doubl
            Engine engine) {
   constexpr double far = 1e60;  // beyond all that makes a difference
   const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
-  const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf, engine);
+  // 64 units of the last place of floats next to 1 (sim/lists/simd/frame.hpp), where r₀ is scaled to [½, 1).
+  const double margin = std::ldexp(0x1p-18, std::ilogb(workload.sphere_radius) + 1) / side;
+  const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
   const Crossing crossing(workload, side);
   const RayBlocks blocks = ray_blocks(workload.rays, workload.samples, engine);
   Met met;
-  Widening widening(nodes, box_tree::cell_kinds(dimension), fan_out);
+  Widening widening(nodes, box_tree::cell_kinds(dimension, samples), fan_out);
   widening.for_each([&](std::size_t kind, double wide, double children) {
-    const double share = kind == 0 ? 1 : crossing.share(nodes[kind].inner);
+    const Sums& inner = nodes[kind].inner;
+    const double share = kind == 0 ? 1 : crossing(inner.surface / inner.count, inner.volume / inner.count);
     met.tests += wide * children * share;
     if (kind > 0) met.listed += wide * share;
     met.culls += wide * children * blocks.with_any(share);
   });
-  for (std::size_t kind = 0; kind < nodes.size(); ++kind) {
-    if (kind > 0) met.listed += crossing(nodes[kind].leaves);
-    const double share = kind > 0 ? crossing.share(nodes[kind].discs) : 1;
-    met.discs += nodes[kind].discs.count * share;
-    met.visits += nodes[kind].discs.count * blocks.with_any(share);
-  }
+  for (std::size_t kind = 0; kind < nodes.size(); ++kind)
+    for (const Leaves& leaves : nodes[kind].leaves) {
+      const double share = kind > 0 ? crossing(leaves.surface, leaves.volume) : 1;
+      if (kind > 0) met.listed += leaves.count * share;
+      met.discs += leaves.count * leaves.discs * share;
+      met.visits += leaves.count * leaves.discs * blocks.with_any(share, leaves.spread);
+    }
   return met;
 }
 

@@ -89,8 +89,8 @@ double CellBoxes::missing(const Row& row, double discs) {
   return weight * next + (1 - weight) * (column == 0 ? row.single : there);
 }
 
-CellBoxes::CellBoxes(const CellKind& cell, double disc_radius, Engine engine)
-    : radius_(disc_radius), engine_(engine), flat_(row_of(0, disc_radius, 0)) {
+CellBoxes::CellBoxes(const CellKind& cell, double disc_radius, const Listing& listing)
+    : radius_(disc_radius), listing_(listing), flat_(row_of(0, disc_radius, 0)) {
   const double log_radius = std::log2(disc_radius);
   std::array<double, 3> on_faces{};
   double area = 0;
@@ -125,15 +125,39 @@ double CellBoxes::side_of(const Axis& axis, double discs) const {
   return std::max(0.0, whole - at_face - at_end);
 }
 
+double CellBoxes::variance_of(const Axis& axis, double discs) const {
+  constexpr double of_reaches = 8.0 / 3 - pi * pi / 4;  // of a single disc's side over d²
+  const double uniform = axis.uniform_share * discs;
+  const double length = uniform > 1 ? axis.length / (uniform + 1) : 0;
+  return 2 * length * length * (uniform - 1) / (uniform + 2) + of_reaches * radius_ * radius_ / discs;
+}
+
 MeanBox CellBoxes::operator()(double discs) const {
-  const double x = side_of(axes_[0], discs);
-  const double y = side_of(axes_[1], discs);
-  const double z = side_of(axes_[2], discs);
-  constexpr double for_nothing = 0.28768207245178093 / pi;  // ln(4/3)/π
+  constexpr double for_missing = 0.28768207245178093 / pi;  // ln(4/3)/π
+  std::array<double, 3> side{};
+  std::array<double, 3> variance{};
+  for (int i = 0; i < 3; ++i) {
+    side[i] = side_of(axes_[i], discs);
+    variance[i] = variance_of(axes_[i], discs);
+  }
   MeanBox box;
-  box.products = x * y + y * z + z * x;
-  box.surface = 2 * (box.products + (engine_ == Engine::simd ? for_nothing * (x * x + y * y + z * z) : 0));
-  box.volume = x * y * z;
+  double squares = 0;
+  box.volume = 1;
+  for (int i = 0; i < 3; ++i) {
+    const int j = (i + 1) % 3;
+    const int k = (i + 2) % 3;
+    box.products += side[i] * side[j];
+    box.spread += variance[i] * (std::pow(side[j] + side[k], 2) + variance[j]);
+  }
+  box.spread /= box.products * box.products;
+  double grown = 0;
+  for (double& one : side) one += 2 * listing_.margin;
+  for (int i = 0; i < 3; ++i) {
+    grown += side[i] * side[(i + 1) % 3];
+    squares += side[i] * side[i];
+    box.volume *= side[i];
+  }
+  box.surface = 2 * (grown + (listing_.engine == Engine::simd ? for_missing * squares : 0));
   return box;
 }
 

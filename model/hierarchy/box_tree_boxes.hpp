@@ -7,9 +7,16 @@
 
 namespace detp::model::box_tree {
 
+/// How an engine lists rays for a box: it grows the box by the margin on all sides, in multiples of the cube's side.
+struct Listing {
+  Engine engine = Engine::simd;
+  double margin = 0;
+};
+
 /// Means over boxes.
 struct MeanBox {
   double products = 0;  ///< xy + yz + zx of the sides, half the surface
+  double spread = 0;    ///< variance of the products over their squared mean
   double surface = 0;   ///< of the convex body whose lines the cull lists
   double volume = 0;
 };
@@ -34,7 +41,7 @@ struct MeanBox {
 /// Accuracy   E[y], interpolated, 0.2 %.
 class CellBoxes {
  public:
-  CellBoxes(const CellKind& cell, double disc_radius, Engine engine = Engine::simd);
+  CellBoxes(const CellKind& cell, double disc_radius, const Listing& listing = {});
 
   /// m >= 1, not necessarily a whole number.
   [[nodiscard]] MeanBox operator()(double discs) const;
@@ -61,9 +68,10 @@ class CellBoxes {
   static Row row_of(double side, double radius, double log_radius);
   static double missing(const Row& row, double discs);
   [[nodiscard]] double side_of(const Axis& axis, double discs) const;
+  [[nodiscard]] double variance_of(const Axis& axis, double discs) const;
 
   double radius_;
-  Engine engine_;
+  Listing listing_;
   Row flat_;  ///< L = 0
   std::array<Axis, 3> axes_;
 };

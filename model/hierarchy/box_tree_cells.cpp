@@ -18,16 +18,21 @@ static_assert(edge_halvings % 3 == 0 && corner_halvings % 3 == 0);
 /// The number of halvings across an axis (0 is halved first) after `halvings` halvings in all.
 int across(int axis, int halvings) { return (halvings + 2 - axis) / 3; }
 
-std::array<double, 3> sides_of(int halvings) {
+/// Of a curve with cells of 2^-bits.
+std::array<double, 3> sides_of(int halvings, int bits) {
   std::array<double, 3> side;
-  for (int axis = 0; axis < 3; ++axis) side[axis] = std::ldexp(1.0, -across(axis, halvings));
+  for (int axis = 0; axis < 3; ++axis) side[axis] = std::ldexp(1.0, -std::min(bits, across(axis, halvings)));
   return side;
 }
 
-std::vector<CellKind> volume_kinds() {
+std::vector<CellKind> volume_kinds(int bits) {
   std::vector<CellKind> kinds(most_halvings + 1);
   for (int i = 0; i <= most_halvings; ++i) {
-    kinds[i] = {.cells = std::ldexp(1.0, i), .share = std::ldexp(1.0, -i), .side = sides_of(i), .halvings = i};
+    kinds[i] = {.cells = std::ldexp(1.0, i),
+                .share = std::ldexp(1.0, -i),
+                .side = sides_of(i, bits),
+                .last = i >= 3 * bits,
+                .halvings = i};
     if (i == most_halvings) break;
     const auto next = static_cast<std::uint16_t>(i + 1);
     kinds[i].child = {next, next};
@@ -42,7 +47,7 @@ int faces(const Flags& touched) { return touched[0] + touched[1] + touched[2]; }
 /// faces have the same kinds.
 class SurfaceKinds {
  public:
-  SurfaceKinds() {
+  explicit SurfaceKinds(int bits) : bits_(bits) {
     add(0, {2, 2, 2});
     add(1, {1, 2, 2});
     add(2, {1, 1, 2});
@@ -69,15 +74,16 @@ class SurfaceKinds {
   static constexpr Flags edge{1, 0, 1};  ///< also represents edges along the other axes
 
   void add(int halvings, const Flags& touched) {
-    const std::array<double, 3> side = sides_of(halvings);
+    const std::array<double, 3> side = sides_of(halvings, 64);
     double area = 0;
     for (int axis = 0; axis < 3; ++axis) area += touched[axis] * side[(axis + 1) % 3] * side[(axis + 2) % 3];
     // Cells that are split up into cells on faces come before these.
     const bool whole = halvings < (faces(touched) == 3 ? corner_halvings : edge_halvings) || faces(touched) > 3;
-    keys_.push_back(
-        {halvings, whole ? 4 * halvings : 4 * halvings - 3,
-         CellKind{
-             .share = area / 6, .side = side, .touched = touched, .halvings = std::max(0, (2 * halvings - 2) / 3)}});
+    keys_.push_back({halvings, whole ? 4 * halvings : 4 * halvings - 3,
+                     CellKind{.share = area / 6,
+                              .side = sides_of(halvings, bits_),
+                              .touched = touched,
+                              .halvings = std::max(0, (2 * halvings - 2) / 3)}});
   }
 
   void add_face(int halvings) {
@@ -85,10 +91,13 @@ class SurfaceKinds {
     const int place = std::max(1, halvings % 2 == 0 ? 6 * halvings - 2 : 6 * halvings);
     keys_.push_back({-1, place,
                      CellKind{.share = std::ldexp(1.0, -halvings) / 6,
-                              .side = {std::ldexp(1.0, -(halvings + 1) / 2), std::ldexp(1.0, -(halvings / 2)), 0},
+                              .side = {side((halvings + 1) / 2), side(halvings / 2), 0},
                               .touched = {0, 0, 1},
+                              .last = halvings >= 2 * bits_,
                               .halvings = halvings}});
   }
+
+  double side(int halvings) const { return std::ldexp(1.0, -std::min(bits_, halvings)); }
 
   /// The number of that kind of cells.
   std::size_t find(int halvings, const Flags& touched) const {
@@ -140,15 +149,18 @@ class SurfaceKinds {
     kinds_[second].cells += kind.cells;
   }
 
+  int bits_;
   std::vector<Key> keys_;
   std::vector<CellKind> kinds_;
 };
 
 }  // namespace
 
-const std::vector<CellKind>& cell_kinds(int dimension) {
-  static const std::array all{SurfaceKinds().take(), volume_kinds()};
-  return all[dimension - 2];
+const std::vector<CellKind>& cell_kinds(int dimension, double samples) {
+  constexpr double fine = 8192;  // samples
+  static const std::array coarse_curve{SurfaceKinds(6).take(), volume_kinds(6)};
+  static const std::array fine_curve{SurfaceKinds(10).take(), volume_kinds(10)};
+  return (samples < fine ? coarse_curve : fine_curve)[dimension - 2];
 }
 
 }  // namespace detp::model::box_tree

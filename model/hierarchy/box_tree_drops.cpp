@@ -44,18 +44,46 @@ int most_discs(double expected) {
   return static_cast<int>(std::clamp(expected + deviations * std::sqrt(expected) + 10, 28.0, 1.0 * most_dropped));
 }
 
-/// Sets the share of dropped nodes with two discs. Pairs with a small area A are dropped: children > (2 - 1.6) A.
-/// Returns the expected cost.
-double drop_pair(Dropped& level, double area, double children) {
-  constexpr double shape = 4;
-  const double y = std::min(700.0, shape * children / ((2 - cull_cost) * area));
-  const double rest = std::exp(-y) * (1 + y * (1 + y / 2 * (1 + y / 3)));
-  const double share = 1 - rest;
-  const double part = 1 - rest - std::exp(-y) * std::pow(y, shape) / 24;
-  level.share[2] = share;
-  level.box[2] = share > 1e-9 ? part / share : 0;
-  return 2 * area * part + rest * children + cull_cost * area * (1 - part);
-}
+// Of nodes with 2 … 6 discs: share, box and cost (validate/tools/box_tree_drops_table.cpp).
+constexpr int most_in_table = 6;
+constexpr std::size_t small_row = 3 * (most_in_table - 1);
+constexpr std::size_t small_radii = 21;              // d over the cell's longest side, 2⁻⁹, 2^{-8.5} … 2
+constexpr std::size_t small_shapes = 2 + 3 + 3 + 2;  // of cells: on a face, in the volume, at an edge; the last ones
+#include "box_tree_drops.inc"
+
+int faces_of(const CellKind& cell) { return cell.touched[0] + cell.touched[1] + cell.touched[2]; }
+
+/// Small nodes of cells of one shape, interpolated between two radii.
+class SmallNodes {
+ public:
+  SmallNodes(const CellKind& cell, double radius) {
+    const double side = std::max(cell.side[1], cell.side[2]);
+    const double at = std::clamp(18 + 2 * std::log2(radius / side), 0.0, small_radii - 1.0);
+    const auto row = std::min(static_cast<std::size_t>(at), small_radii - 2);
+    const int faces = faces_of(cell);
+    const std::size_t first = faces == 1 ? 0 : faces == 0 ? 2 : 5;
+    const std::size_t cuts = (cell.side[0] < side ? 1 : 0) + (cell.side[1] < side ? 1 : 0);
+    const std::size_t shape = !cell.last ? first + cuts : faces == 1 ? 8 : 9;
+    row_ = small_table.data() + small_row * (small_radii * shape + row);
+    weight_ = at - static_cast<double>(row);
+  }
+
+  /// Sets which nodes of so many discs are dropped. Returns their expected cost over their mean area.
+  double drop(Dropped& level, int discs) const {
+    level.share[discs] = value(discs, 0);
+    level.box[discs] = value(discs, 1);
+    return value(discs, 2);
+  }
+
+ private:
+  [[nodiscard]] double value(int discs, int which) const {
+    const double* low = row_ + 3 * (discs - 2) + which;
+    return low[0] + weight_ * (low[small_row] - low[0]);
+  }
+
+  const double* row_;
+  double weight_;
+};
 
 /// Sets the share of dropped nodes with `discs` discs. Returns the expected cost.
 double drop(Dropped& level, int discs, double area, double children, double deviation, double of_points) {
@@ -86,7 +114,7 @@ Drops::Drops(int dimension, double samples, double radius, int leaf)
       least_discs_(std::exp((std::log(1e-4) + std::lgamma(leaf + 2)) / leaf) / (dimension == 2 ? 3 : 1)) {
   if (leaf >= most_dropped) return;
   std::vector<const CellKind*> cells;  // by number of halvings
-  for (const CellKind& kind : cell_kinds(dimension)) {
+  for (const CellKind& kind : cell_kinds(dimension, samples)) {
     if (on_faces_ && kind.side[2] > 0) continue;
     cells.resize(static_cast<std::size_t>(kind.halvings) + 1, nullptr);
     cells[kind.halvings] = &kind;
@@ -107,8 +135,19 @@ Drops::Drops(int dimension, double samples, double radius, int leaf)
   }
 }
 
-const Dropped* Drops::of(const CellKind& cell) const {
-  return levels_.empty() ? nullptr : &levels_[std::min(static_cast<std::size_t>(cell.halvings), levels_.size() - 1)];
+const Dropped* Drops::of(const CellKind& cell) {
+  if (levels_.empty()) return nullptr;
+  const Dropped& level = levels_[std::min(static_cast<std::size_t>(cell.halvings), levels_.size() - 1)];
+  if (faces_of(cell) <= 1) return &level;
+  at_edge_ = level;
+  for (double& share : at_edge_.share) {
+    const double kept = 1 - share;
+    share *= 1 + 0.75 * kept * kept * kept * kept * kept;
+  }
+  if (leaf_ > 1) return &at_edge_;
+  const SmallNodes small(cell, radius_);
+  for (int discs = 2; discs <= most_in_table; ++discs) small.drop(at_edge_, discs);
+  return &at_edge_;
 }
 
 bool Drops::matters(const CellKind& cell, double samples) const {
@@ -150,6 +189,7 @@ void Drops::halve(const CellKind& cell, int most, Row& area, Row& cost) {
   for (int m = 1; m <= most; ++m) either[m] = 2 * (list_cost * half_area[m] + half_cost[m]);
   const double deviation = spread(leaf_ > 1 ? 1 : levels_[cell.halvings + 1].share[2]);
   const CellBoxes boxes(cell, radius_);
+  const SmallNodes small(cell, radius_);
   double none = 1;  // probability that one half has all discs
   for (int m = 1; m <= most; ++m, none /= 2) {
     area[m] = boxes(m).products;
@@ -157,15 +197,18 @@ void Drops::halve(const CellKind& cell, int most, Row& area, Row& cost) {
       cost[m] = m * area[m];
       continue;
     }
+    const double split_area = std::max((area[m] - none * half_area[m]) / (1 - none), 1e-300);
+    if (leaf_ == 1 && m <= most_in_table) {
+      cost[m] = none * half_cost[m] + (1 - none) * split_area * small.drop(level, m);
+      continue;
+    }
     const Row& weight = halves()[m];
     double children = 0;
     const int off = static_cast<int>(2.5 * std::sqrt(m)) + 1;  // five deviations
     for (int k = std::max(1, m / 2 - off); k <= std::min(m - 1, m / 2 + off); ++k) children += weight[k] * either[k];
     children /= 1 - none;
-    const double split_area = std::max((area[m] - none * half_area[m]) / (1 - none), 1e-300);
-    const double least = m == 2 ? drop_pair(level, split_area, children)
-                                : drop(level, m, split_area, children, deviation * split_area * powers()[m],
-                                       of_points(cell, m, area[m]));
+    const double least =
+        drop(level, m, split_area, children, deviation * split_area * powers()[m], of_points(cell, m, area[m]));
     cost[m] = none * half_cost[m] + (1 - none) * least;
   }
 }

@@ -41,17 +41,22 @@ struct Dropped {
 ///
 ///   where  A_0   area if the discs were points;   p   share of the children with two discs that are dropped
 ///
-/// For pairs of discs A is taken as a gamma variable of shape 4. Dropped nodes have smaller boxes than others, by the
-/// share 0.3 σ φ(z)/(Φ(z) A (m - 1.6)), z = E[Z]/σ.
+/// Dropped nodes have smaller boxes than others, by the share 0.3 σ φ(z)/(Φ(z) A (m - 1.6)), z = E[Z]/σ.
 ///
-/// Source     our derivation; the numbers in σ, 0.3 and 4 are fitted to counts of about 270 sets of samples.
+/// For nodes of 2 … 6 discs, with one disc per leaf, Z is far from normal. Their shares, boxes and costs are tabulated
+/// by d over the cell's side and the shape of the cell (validate/tools/box_tree_drops_table.cpp). Where two faces of the
+/// cube pass through a cell, its halves differ: the shares q of larger nodes, or for larger leaves, are those of faces
+/// times 1 + 0.75 (1 - q)⁵.
+///
+/// Source     our derivation; the numbers in σ, 0.3 and 0.75 are fitted to counts of about 270 sets of samples.
 class Drops {
  public:
   /// Samples uniform in a cube of side 1 (dimension 3) or on its faces (2), discs of that radius.
   Drops(int dimension, double samples, double radius, int leaf);
 
-  /// The dropped nodes among those that are cells of this kind. Null: none is dropped.
-  [[nodiscard]] const Dropped* of(const CellKind& cell) const;
+  /// The dropped nodes among those that are cells of this kind. Null: none is dropped. The result is valid until the
+  /// next call.
+  [[nodiscard]] const Dropped* of(const CellKind& cell);
 
  private:
   using Row = Dropped::Row;
@@ -68,6 +73,7 @@ class Drops {
   double least_side_;            ///< in smaller cells all boxes are about equal, and all nodes are dropped
   double least_discs_;           ///< in cells that expect fewer, almost none has more discs than a leaf
   std::vector<Dropped> levels_;  ///< indexed by CellKind::halvings
+  Dropped at_edge_{};            ///< result of `of` for a cell that two faces of the cube pass through
 };
 
 }  // namespace detp::model::box_tree

@@ -44,12 +44,12 @@ using Alive = std::vector<double>;
 
 class Levels {
  public:
-  Levels(int dimension, double samples, double radius, int leaf, Engine engine)
-      : kinds_(cell_kinds(dimension)),
+  Levels(int dimension, double samples, double radius, int leaf, const Listing& listing)
+      : kinds_(cell_kinds(dimension, samples)),
         samples_(samples),
         radius_(radius),
         leaf_(leaf),
-        engine_(engine),
+        listing_(listing),
         most_(std::max(leaf, most_dropped)),
         drops_(dimension, samples, radius, leaf),
         alive_(kinds_.size()),
@@ -64,7 +64,8 @@ class Levels {
     for (std::size_t number = 0; number < kinds_.size(); ++number) {
       if (reached_[number]) {
         visit(number);
-        const double count = nodes_[number].inner.count + nodes_[number].leaves.count;
+        double count = nodes_[number].inner.count;
+        for (const Leaves& leaves : nodes_[number].leaves) count += leaves.count;
         largest = std::max(largest, count);
         if (count > 1e-3 * largest) end = number + 1;
         if (number > end + 5) break;
@@ -86,7 +87,7 @@ class Levels {
     const CellKind& cell = kinds_[number];
     LevelNodes& nodes = nodes_[number];
     if (all_inner(cell)) {
-      nodes.inner.add(cell.cells, CellBoxes(cell, radius_, engine_)(samples_ * cell.share));
+      nodes.inner.add(cell.cells, CellBoxes(cell, radius_, listing_)(samples_ * cell.share));
     } else {
       Alive& alive = alive_[number];
       if (alive.empty())
@@ -103,15 +104,10 @@ class Levels {
   }
 
   /// The share of leaves among nodes with `discs` discs.
-  [[nodiscard]] double leaf_share(const CellKind& cell, const Dropped* dropped, int discs) const {
+  [[nodiscard]] double leaf_share(const Dropped* dropped, int discs) const {
     if (discs <= leaf_) return 1;
     if (dropped == nullptr || discs > most_dropped) return 0;
-    const double share = dropped->share[discs];
-    if (cell.touched[0] + cell.touched[1] + cell.touched[2] <= 1) return share;
-    // If an edge of the cube passes through the cell, its halves differ. Then more of the nodes that are seldom dropped
-    // are dropped (fitted).
-    const double kept = 1 - share;
-    return share * (1 + 0.75 * kept * kept * kept * kept * kept);
+    return dropped->share[discs];
   }
 
   void count_nodes(const CellKind& cell, const Alive& alive, LevelNodes& nodes) {
@@ -119,7 +115,7 @@ class Levels {
     const int last = most_of(expected);
     binomial(samples_, cell.share, last, probability_);
     const Dropped* dropped = drops_.of(cell);
-    const CellBoxes boxes(cell, radius_, engine_);
+    const CellBoxes boxes(cell, radius_, listing_);
     const Halves halves = halves_of(cell);
     double above = 1 - probability_[0];
     double discs_above = expected;
@@ -138,7 +134,7 @@ class Levels {
         const double present = probability_[m] * alive[m];
         weight += present;
         discs += m * present;
-        const double dropped_share = leaf_share(cell, dropped, m);
+        const double dropped_share = leaf_share(dropped, m);
         leaves += present * dropped_share;
         leaf_boxes += present * dropped_share * (m > leaf_ && dropped != nullptr ? dropped->box[m] : 1);
       }
@@ -160,9 +156,9 @@ class Levels {
 
   [[nodiscard]] Halves halves_of(const CellKind& cell) const {
     if (leaf_ >= most_in_one_half || cell.child[0] == 0) return {};
-    const CellBoxes first(kinds_[cell.child[0]], radius_, engine_);
+    const CellBoxes first(kinds_[cell.child[0]], radius_, listing_);
     if (cell.child[0] == cell.child[1]) return {{first, first}};
-    return {{first, CellBoxes(kinds_[cell.child[1]], radius_, engine_)}};
+    return {{first, CellBoxes(kinds_[cell.child[1]], radius_, listing_)}};
   }
 
   /// The share of cells with discs in both halves. Other cells are not nodes; their half is. Changes the mean box to
@@ -186,13 +182,10 @@ class Levels {
 
   /// Adds nodes of about `discs` discs. `leaves` is the share of leaves, `leaf_boxes` their share of the boxes.
   static void add(LevelNodes& nodes, double cells, double discs, const MeanBox& box, double leaves, double leaf_boxes) {
-    const double in_leaves = leaf_boxes * cells;
-    nodes.leaves.count += leaves * cells;
-    nodes.leaves.surface += in_leaves * box.surface;
-    nodes.leaves.volume += in_leaves * box.volume;
-    nodes.discs.count += leaves * cells * discs;
-    nodes.discs.surface += in_leaves * discs * box.surface;
-    nodes.discs.volume += in_leaves * discs * box.volume;
+    if (leaves > 0) {
+      const double size = leaf_boxes / leaves;
+      nodes.leaves.push_back({leaves * cells, discs, size * box.surface, size * box.volume, box.spread});
+    }
     nodes.inner.count += (1 - leaves) * cells;
     nodes.inner.surface += (1 - leaf_boxes) * cells * box.surface;
     nodes.inner.volume += (1 - leaf_boxes) * cells * box.volume;
@@ -233,7 +226,7 @@ class Levels {
     const Dropped* dropped = drops_.of(kinds_[number]);
     goes_on_.assign(2 * static_cast<std::size_t>(most_) + 3, 1);
     for (int m = 0; m <= most_; ++m) {
-      goes_on_[m] = (1 - leaf_share(kinds_[number], dropped, m)) * (alive.empty() ? 1 : alive[m]);
+      goes_on_[m] = (1 - leaf_share(dropped, m)) * (alive.empty() ? 1 : alive[m]);
     }
   }
 
@@ -267,7 +260,7 @@ class Levels {
   double samples_;
   double radius_;
   int leaf_;
-  Engine engine_;
+  Listing listing_;
   int most_;
   Drops drops_;
   std::vector<Alive> alive_;
@@ -281,8 +274,8 @@ class Levels {
 }  // namespace
 
 std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf,
-                                             Engine engine) {
-  return Levels(dimension, samples, disc_radius, leaf, engine).take();
+                                             const Listing& listing) {
+  return Levels(dimension, samples, disc_radius, leaf, listing).take();
 }
 
 }  // namespace detp::model::box_tree

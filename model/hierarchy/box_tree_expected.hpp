@@ -20,11 +20,19 @@ struct Sums {
   }
 };
 
+/// Leaves that have about the same number of discs.
+struct Leaves {
+  double count = 0;
+  double discs = 0;    ///< in each of them
+  double surface = 0;  ///< mean of their boxes (MeanBox), as the next two
+  double volume = 0;
+  double spread = 0;
+};
+
 /// Expected nodes of the binary tree whose discs are those of a cell of one kind (none of its halves).
 struct LevelNodes {
   Sums inner;
-  Sums leaves;
-  Sums discs;  ///< of the leaves: each with its leaf's box
+  std::vector<Leaves> leaves;
 };
 
 /// For each of cell_kinds(dimension) as far as there are nodes: samples uniform in a cube of side 1 (3) or on its
@@ -43,6 +51,6 @@ struct LevelNodes {
 /// Source     our derivation.
 /// Valid      as box_tree.hpp says, which gives the accuracy.
 [[nodiscard]] std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf,
-                                                           Engine engine = Engine::simd);
+                                                           const Listing& listing = {});
 
 }  // namespace detp::model::box_tree

@@ -14,10 +14,14 @@ struct RayBlocks {
 
   [[nodiscard]] double count() const { return whole + (last > 0 ? 1 : 0); }
 
-  /// Expected number of blocks of which a list holds any ray. Each ray is listed with the same probability,
-  /// independently.
-  [[nodiscard]] double with_any(double probability) const {
-    const auto any = [&](double rays) { return probability < 1 ? -std::expm1(rays * std::log1p(-probability)) : 1; };
+  /// Expected number of blocks of which a list holds any ray. Each ray is listed independently, with that mean
+  /// probability. Its spread over the lists (variance over squared mean) is taken as that of a gamma variable.
+  [[nodiscard]] double with_any(double probability, double spread = 0) const {
+    const double hits = probability < 1 ? -std::log1p(-probability) : 1e300;
+    const auto any = [&](double rays) {
+      const double rate = rays * hits;
+      return -std::expm1(spread > 1e-6 ? -std::log1p(spread * rate) / spread : -rate);
+    };
     return whole * any(size) + (last > 0 ? any(last) : 0);
   }
 };

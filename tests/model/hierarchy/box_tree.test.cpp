@@ -102,7 +102,7 @@ TEST_SUITE("identity") {
     for (const double dimension : {2.0, 2.4, 3.0}) {
       const Counts<double> once = counts_of(cube_workload(1e5, 1e5, 0.01, 2, dimension));
       const Counts<double> twice = counts_of(cube_workload(2e5, 1e5, 0.01, 2, dimension));
-      const Counts<double> scaled = counts_of(cube_workload(1e5, 1e5, 0.01e6, 2e6, dimension));
+      const Counts<double> scaled = counts_of(cube_workload(1e5, 1e5, 0.01 * 0x1p20, 0x1p21, dimension));
       for (const auto term : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests}) {
         CHECK(twice.*term == Approx(2 * once.*term).epsilon(1e-12));
         CHECK(scaled.*term == Approx(once.*term).epsilon(1e-9));

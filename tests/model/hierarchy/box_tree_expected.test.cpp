@@ -19,8 +19,10 @@ Total total(int dimension, double samples, double radius, int leaf) {
   Total sum;
   for (const LevelNodes& level : expected_binary_tree(dimension, samples, radius, leaf)) {
     sum.inner += level.inner.count;
-    sum.leaves += level.leaves.count;
-    sum.discs += level.discs.count;
+    for (const Leaves& leaves : level.leaves) {
+      sum.leaves += leaves.count;
+      sum.discs += leaves.count * leaves.discs;
+    }
   }
   return sum;
 }

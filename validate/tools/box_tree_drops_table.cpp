@@ -1,0 +1,189 @@
+// Makes model/hierarchy/box_tree_drops.inc: which small nodes of a box tree the builder makes leaves, with one disc per
+// leaf.
+//
+//   cmake --build build --target box_tree_drops_table && build/box_tree_drops_table > model/hierarchy/box_tree_drops.inc
+//
+// Draws sets of m discs, uniform in a cell and with isotropic normals, and keeps the sets with discs in both halves.
+// Builds their binary tree by the rule of sim/lists/simd/disc_tree.hpp. Prints, for cells on a face of a cube, then in
+// its volume, then at an edge (samples on two faces), for each shape of cell (the next cut is across x, y or z), then
+// for square and cubic cells that the curve does not cut (their discs are split in the middle of an arbitrary order),
+// and each disc radius d = 2⁻⁹, 2^{-8.5} … 2 times the longest side, for m = 2 … 6:
+//   the share of the sets that become a leaf,
+//   the mean area of the boxes of these leaves over that of all sets,
+//   the mean cost over the mean area.
+// Takes some minutes.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <vector>
+
+#include "detp/sim/geometry/random.hpp"
+
+namespace {
+
+using namespace detp;
+using Triple = std::array<double, 3>;
+
+constexpr std::uint64_t seed = 20261122;
+constexpr int sets = 40'000;
+
+struct SmallDisc {
+  Triple centre;
+  Triple reach;  ///< half the sides of its box
+};
+
+struct Box {
+  Triple low{1e9, 1e9, 1e9};
+  Triple high{-1e9, -1e9, -1e9};
+
+  void include(const Triple& from, const Triple& to) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], from[axis]);
+      high[axis] = std::max(high[axis], to[axis]);
+    }
+  }
+
+  [[nodiscard]] double area() const {
+    const double x = high[0] - low[0];
+    const double y = high[1] - low[1];
+    const double z = high[2] - low[2];
+    return x * y + y * z + z * x;
+  }
+};
+
+struct Cell {
+  Triple low;
+  Triple side;
+  std::size_t axis;  ///< the next cut is across it
+  std::size_t axes;  ///< that are cut in turn; 0: none
+
+  [[nodiscard]] Cell half(bool upper) const {
+    Cell cell = *this;
+    if (axes == 0) return cell;
+    cell.side[axis] /= 2;
+    if (upper) cell.low[axis] += cell.side[axis];
+    cell.axis = (axis + 1) % axes;
+    return cell;
+  }
+};
+
+struct Built {
+  Box box;
+  double cost;
+  bool leaf;
+};
+
+/// The number of discs in the cell's lower half, which are moved to the front.
+std::size_t divide(const Cell& cell, std::span<SmallDisc> discs) {
+  if (cell.axes == 0) return discs.size() / 2;
+  const double middle = cell.low[cell.axis] + cell.side[cell.axis] / 2;
+  const auto end = std::partition(discs.begin(), discs.end(),
+                                  [&](const SmallDisc& disc) { return disc.centre[cell.axis] < middle; });
+  return static_cast<std::size_t>(end - discs.begin());
+}
+
+Built build(Cell cell, std::span<SmallDisc> discs) {
+  Built node{};
+  if (discs.size() == 1) {
+    Triple low;
+    Triple high;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = discs[0].centre[axis] - discs[0].reach[axis];
+      high[axis] = discs[0].centre[axis] + discs[0].reach[axis];
+    }
+    node.box.include(low, high);
+    return {node.box, node.box.area(), true};
+  }
+  std::size_t lower = divide(cell, discs);
+  while (lower == 0 || lower == discs.size()) {
+    cell = cell.half(lower == 0);
+    lower = divide(cell, discs);
+  }
+  const Built left = build(cell.half(false), discs.first(lower));
+  const Built right = build(cell.half(true), discs.subspan(lower));
+  node.box = left.box;
+  node.box.include(right.box.low, right.box.high);
+  const double area = node.box.area();
+  const double inner = 1.6 * area + 0.5 * (left.box.area() + right.box.area()) + left.cost + right.cost;
+  const double as_leaf = static_cast<double>(discs.size()) * area;
+  return {node.box, std::min(as_leaf, inner), as_leaf <= inner};
+}
+
+SmallDisc random_disc(const Cell& cell, bool edge, double radius, std::uint64_t number) {
+  const auto place = sim::uniform4(seed, sim::Stream::tests, number);
+  const auto turn = sim::uniform4(seed, sim::Stream::tests, number, 1);
+  const double z = 2 * turn[0] - 1;
+  const double angle = 2 * std::numbers::pi * turn[1];
+  const double across = std::sqrt(1 - z * z);
+  const Triple normal{across * std::cos(angle), across * std::sin(angle), z};
+  SmallDisc disc{};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    disc.centre[axis] = cell.side[axis] * place[axis];
+    disc.reach[axis] = radius * std::sqrt(1 - normal[axis] * normal[axis]);
+  }
+  if (edge) {  // on the lower face across x or z, by their areas
+    const double of_x = cell.side[1] * cell.side[2];
+    const double of_z = cell.side[0] * cell.side[1];
+    disc.centre[turn[2] * (of_x + of_z) < of_x ? 0 : 2] = 0;
+  }
+  return disc;
+}
+
+void print_nodes(const Cell& cell, bool edge, double radius, std::size_t discs, std::uint64_t& number) {
+  double all = 0;
+  double cost = 0;
+  double leaves = 0;
+  double leaf_area = 0;
+  std::vector<SmallDisc> some(discs);
+  for (int set = 0; set < sets;) {
+    for (SmallDisc& disc : some) disc = random_disc(cell, edge, radius, number++);
+    const std::size_t lower = divide(cell, some);
+    if (lower == 0 || lower == discs) continue;
+    ++set;
+    const Built node = build(cell, some);
+    const double area = node.box.area();
+    all += area;
+    cost += node.cost;
+    if (!node.leaf) continue;
+    ++leaves;
+    leaf_area += area;
+  }
+  fmt::print("{:.4f},{:.4f},{:.4f},", leaves / sets, leaves > 0 ? leaf_area / leaves / (all / sets) : 1, cost / all);
+}
+
+/// Prints the nodes of one shape of cell.
+void print_shape(const Cell& cell, bool edge, std::uint64_t& number) {
+  for (int octave = -18; octave <= 2; ++octave) {
+    for (const std::size_t discs : {2U, 3U, 4U, 5U, 6U})
+      print_nodes(cell, edge, std::exp2(octave / 2.0), discs, number);
+    fmt::print("\n");
+  }
+}
+
+/// Prints the shapes of cells that are cut across so many axes in turn.
+void print_shapes(std::size_t axes, bool edge, std::uint64_t& number) {
+  Cell cell{{}, {1, 1, axes == 2 ? 0.0 : 1.0}, 0, axes};
+  for (; cell.axis < axes; ++cell.axis) {
+    print_shape(cell, edge, number);
+    cell.side[cell.axis] = 0.5;
+  }
+}
+
+}  // namespace
+
+int main() {
+  fmt::print("// Made by validate/tools/box_tree_drops_table.cpp.\n\n");
+  fmt::print("constexpr std::array<double, small_shapes * small_radii * small_row> small_table{{{{\n");
+  std::uint64_t number = 0;
+  print_shapes(2, false, number);
+  print_shapes(3, false, number);
+  print_shapes(3, true, number);
+  print_shape({{}, {1, 1, 0}, 0, 0}, false, number);
+  print_shape({{}, {1, 1, 1}, 0, 0}, false, number);
+  fmt::print("}}}};\n");
+}
