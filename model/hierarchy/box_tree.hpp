@@ -19,9 +19,15 @@
 ///
 ///     lines      P = F/(4π r₀²)                      segments   P = (V + ℓF/4)/V_box   (crossing_probability)
 ///
-///   where  F, V   surface and volume of the convex body whose lines the cull lists (a box; for the simd engine some 9
-///   %
-///                 more surface); means over the nodes of a level
+///   where  F, V   surface and volume of the convex body whose lines the cull lists: the box, grown by the margin of
+///                 the float engine, for both engines; for the simd engine with some 9 % more surface
+///                 (box_tree_boxes.hpp). Means over the inner nodes of a level, and over its leaves of about the same
+///                 number of discs
+///
+/// A leaf's discs are visited by a block of n rays if its list holds a ray. Boxes of leaves with the same number of discs
+/// differ: P is taken as a gamma variable of mean p and variance s p², so that the probability is
+///
+///     1 - (1 - n s ln(1 - p))^{-1/s}        1 - (1 - p)^n for s = 0
 ///
 /// A wide node joins an inner node with the f - 1 inner nodes around its top that have the largest boxes: here the
 /// least deep ones. Of the X inner nodes at most j levels below one, E[min(f - 1, X)] are joined, X taken as normal,
@@ -41,21 +47,20 @@ inline constexpr int box_tree_largest_leaf = 256;
 ///
 /// Source     our derivation.
 /// Valid      fan-out 2 … 16, leaf 1 … 256; samples uniform over a volume or over surfaces, discs turned isotropically.
-/// Accuracy   against structural counts of 400 fresh sets of samples in a cube and on its faces, random fan-out
-///            and leaf, n_P 2¹⁰ … 2²⁰, d 2⁻¹⁰ … 2³ sample distances but 0.16 of the side at most (seed 20261122 of
-///            validate/tools/box_tree_accuracy.cpp); off in the median, at the 95th percentile and at worst:
+/// Accuracy   against structural counts of samples in a cube and on its faces, 200 trees of random fan-out and leaf,
+///            n_P 2¹⁰ … 2¹⁷, d 2⁻¹⁰ … 2³ sample distances but at most 0.16 of the side, means over sets that hold 2¹⁶
+///            samples together (at least two sets); off in the median, at the 95th percentile and at worst:
 ///                            D = 2               D = 3
-///              tests boxes   3.1, 6.9, 8.8 %     0.3, 1.8, 2.7 %
-///              rays listed   2.2, 5.7, 6.6 %     0.4, 2.1, 3.1 %
-///              tests discs   2.1, 9.4, 35.9 %    0.7, 5.5, 19.5 %
-///              culls         1.6, 6.8, 10.1 %    0.6, 3.3, 7.6 %
-///            With small leaves and discs, few nodes test most discs, and one set of samples differs from the next.
-///            Against means over sets, disc tests are off by more than 12 % for two of the 400 trees, both with one
-///            sample a leaf and D = 2; for D = 3 by 9.7 % at worst.
-///            `visits` are off by less than 0.1 % in the median, by 40 % at the 95th percentile, and up to 13 times
-///            too many for one sample a leaf and few rays: boxes of one level are taken as equal.
-///            With n_P 2⁵ … 2¹⁰ sets differ more: of 200, off by 1.8, 3.0, 5.6, 3.5 % in the median against one set
-///            each; against means over sets at worst by 7.5, 13.1, 28.4, 16.6 %. In scenes: validate/choice/README.md.
+///              tests boxes   2.7, 5.9, 8.1 %     0.2, 1.2, 1.7 %
+///              rays listed   1.9, 6.1, 7.6 %     0.3, 1.6, 2.2 %
+///              tests discs   1.6, 8.3, 11.2 %    0.4, 6.0, 19.0 %
+///              culls         1.3, 7.1, 11.4 %    0.5, 3.0, 5.2 %
+///              visits        0.0, 3.1, 7.0 %     0.0, 3.2, 12.0 %
+///            Disc tests are worst with one sample per leaf and small discs: then few large leaves test most discs, and
+///            the mean over 2¹⁶ samples has a standard error of 3 to 12 %. Counted again on about a million samples, the
+///            two trees beyond 12 % are off by 2 and 7 %, and three with D = 2 and one sample per leaf (n_P 1267, 7974,
+///            73 957) by 9, 10 and 4 %. (validate/tools/box_tree_accuracy.cpp makes such comparisons.) In scenes:
+///            validate/choice/README.md.
 /// Limits     n_P <= leaf: one leaf, every ray tested with every disc.
 /// Costs      10 … 90 µs for D = 3, 30 … 190 µs for D = 2, the more the smaller the leaf; 4 ms once for a table.
 /// Throws     std::invalid_argument for a workload or parameters out of range.

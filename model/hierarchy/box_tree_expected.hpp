@@ -45,8 +45,7 @@ struct LevelNodes {
 ///   where  P(s)    binomial: of s samples in the other half of the parent
 ///          a', q'  of the parent; q(m) the probability that a node is a leaf
 ///
-/// A node is a leaf if m <= leaf, and for some of m <= 64 (box_tree_drops.hpp); where an edge of the cube passes the
-/// cell, q (1 + 0.75 (1 - q)⁵) for the q of faces: fitted, for the halves differ.
+/// A node is a leaf if m <= leaf, and for some of m <= 64 (box_tree_drops.hpp).
 ///
 /// Source     our derivation.
 /// Valid      as box_tree.hpp says, which gives the accuracy.
