@@ -60,6 +60,7 @@ Counts<double> box_tree(const Valid<Workload>& workload, const Valid<Candidate>&
   return box_tree_counts(workload, own<BoxTreeParameters>(candidate), engine);
 }
 
+/// Plain density estimation on the tangent plane: each disc against each ray.
 Counts<double> brute_force(const Valid<Workload>& workload, const BruteForceParameters&) {
   return {.visits = workload.samples, .disc_tests = workload.rays * workload.samples, .hits = expected_hits(workload)};
 }
