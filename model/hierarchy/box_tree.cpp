@@ -170,8 +170,9 @@ Met met_in(int dimension, const Valid<Workload>& workload, double samples, doubl
            Engine engine) {
   constexpr double far = 1e60;  // beyond all that makes a difference
   const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
-  // 64 units of the last place of floats next to 1 (sim/lists/simd/frame.hpp), where r₀ is scaled to [½, 1).
-  const double margin = std::ldexp(0x1p-18, std::ilogb(workload.sphere_radius) + 1) / side;
+  // 64 units of the last place of floats next to 1 (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
+  // of two: here to √3/2, as in a cube with a side of 1, so that the unit of length does not matter.
+  const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
   const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
   const Crossing crossing(workload, side);
   const RayBlocks blocks = ray_blocks(workload.rays, workload.samples, engine);
