@@ -56,7 +56,7 @@ Counts<double> in_blocks(const Valid<Workload>& workload, const Valid<Candidate>
   return all;
 }
 
-Counts<double> box_tree(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
+Counts<double> counts_of_box_tree(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
   return box_tree_counts(workload, own<BoxTreeParameters>(candidate), engine);
 }
 
@@ -143,7 +143,7 @@ const std::array<TechniqueModel, all_techniques.size()> registry{{
     {Technique::cell_spheres, in_blocks<CellSpheresParameters, cell_sphere_counts>, best_cells, uncounted_cells},
     {Technique::sphere_tree, predicted<SphereTreeParameters, sphere_tree_counts>, best_sphere_tree,
      uncounted_sphere_tree},
-    {Technique::box_tree, box_tree, best_box_tree, uncounted_box_tree},
+    {Technique::box_tree, counts_of_box_tree, best_box_tree, uncounted_box_tree},
     {Technique::octree, predicted<OctreeParameters, octree>, best_octree, uncounted_octree},
     {Technique::grid, predicted<GridParameters, grid>, best_grid, uncounted_grid},
     {Technique::bsp},
