@@ -21,29 +21,29 @@
 /// plain octree has no factor log n_P: the nodes above the leaves only double the number of steps.
 namespace detp::model {
 
-/// Expected counts of an octree whose leaves all lie at one depth k, empty nodes left out, for every depth from 0 to
-/// that of `deepest`, by its traversal.
+/// Expected counts of an octree whose leaves all lie at one depth k, with empty nodes omitted. Returns the counts for
+/// every depth from 0 to that of `deepest`, with its traversal.
 ///
-///     disc_tests   n_R n_P E_k P_k;  with mailboxes n_R n_P P(a cell or more of those that one disc overlaps)
+///     disc_tests   n_R n_P E_k P_k;  with mailboxes n_R n_P P(at least one of the cells that a disc overlaps)
 ///     nodes        top-down, front-to-back  n_R Σ_{l=0..k} P_l O_l
 ///                  restart                  n_R [(k + 1) P_k O_k + Σ_{l=1..k} l P_l (8 O_{l-1} - O_l)]
 ///     placements   n_P Σ_{l=1..k} E_l
 ///
-///   where  O_l   occupied_cells of level l (index_cells.hpp). 8 O_{l-1} - O_l octants were left out there; a descent
-///                to one visits l nodes.
+///   where  O_l   occupied_cells of level l (index_cells.hpp). 8 O_{l-1} - O_l octants are omitted there; a descent to
+///                one visits l nodes.
 ///
-/// Limits     no node empty: 2^{k+1} - 1 nodes per line top-down, (k + 1) 2^k by restarts (the paper's k 2^k does not
+/// Limits     no node empty: 2^{k+1} - 1 nodes per line top-down, (k + 1) 2^k with restarts (the paper's k 2^k does not
 ///            count the root).
-/// Accuracy   per line that hits the cube, cases as in index_cells.hpp, 20 000 lines through S₀: nodes within 1.7 % by
-///            either way (median 0.7 %); disc tests of n_P 1e4 and 1e5 within 2.4 % (median of all 0.7 %), with
-///            mailboxes 2.1 %; of 1000 samples up to 14 % off, where lines make but some hundred tests.
-/// Throws     std::invalid_argument for a workload or depth out of range, and for neighbour links: how many inner nodes
-///            a ray goes through from a link down to a leaf has no closed form here.
+/// Accuracy   per line that hits the cube, cases as in index_cells.hpp, 20 000 lines through S₀: nodes within 1.7 % for
+///            either traversal (median 0.7 %); disc tests of n_P 1e4 and 1e5 within 2.4 % (median of all 0.7 %), with
+///            mailboxes 2.1 %; of 1000 samples up to 14 % off, where lines make only a few hundred tests.
+/// Throws     std::invalid_argument for a workload or depth out of range, and for neighbour links: the number of inner
+///            nodes that a ray visits from a link down to a leaf has no closed form here.
 [[nodiscard]] std::vector<Counts<double>> octree_counts_by_depth(const Valid<Workload>& workload,
                                                                  const OctreeParameters& deepest,
                                                                  const IndexVariant& variant = {});
 
-/// Expected counts of such an octree of one depth.
+/// Expected counts of an octree of one depth.
 [[nodiscard]] Counts<double> octree_counts(const Valid<Workload>& workload, const OctreeParameters& parameters,
                                            const IndexVariant& variant = {});
 

@@ -11,7 +11,7 @@ constexpr int deepest = 2096;
 
 void check_depth(int depth) { require_count("depth", depth, 0, deepest); }
 
-/// u n_R n_P/4^k in long double: u may be large where 4^{-k} is small.
+/// u n_R n_P/4^k in long double: u may be large and 4^{-k} small.
 long double time(const Valid<Workload>& workload, int depth, double disc_test) {
   require_non_negative("time of a ray-disc test", disc_test);
   check_depth(depth);

@@ -29,7 +29,7 @@ namespace detp::model::published {
 /// T = u k n_R n_P/4^k (eq 22): multiplies the disc tests, not the steps, by the depth.
 [[nodiscard]] double octree_time(const Valid<Workload>& workload, int depth, double disc_test);
 
-/// T = u n_R n_P/4^k: where a cell's neighbour is reached in O(1) (balanced tree).
+/// T = u n_R n_P/4^k: if a cell's neighbour is found in O(1) (balanced tree).
 [[nodiscard]] double balanced_octree_time(const Valid<Workload>& workload, int depth, double disc_test);
 
 }  // namespace detp::model::published

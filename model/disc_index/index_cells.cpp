@@ -24,7 +24,7 @@ IndexAxis axis_of(const Valid<Workload>& workload, const Cells& cells, std::size
   return {cells.along[axis], cells.side, workload.box[axis], workload.disc_radius};
 }
 
-/// Share of the samples on the two faces across each axis: by area.
+/// Share of the samples on the two faces across each axis, by area.
 std::array<double, 3> face_shares(const Valid<Workload>& workload) {
   const auto& box = workload.box;
   std::array<double, 3> areas{box[1] * box[2], box[2] * box[0], box[0] * box[1]};
@@ -33,12 +33,12 @@ std::array<double, 3> face_shares(const Valid<Workload>& workload) {
   return areas;
 }
 
-/// Whether the samples lie on the faces of their box, as far as is known; 0 … 1.
+/// Weight 0 … 1 of samples on the faces of their box, estimated from the dimension.
 double on_faces(const Valid<Workload>& workload) {
   return workload.sample_extent == 0 ? 1 - std::clamp(workload.dimension - 2, 0.0, 1.0) : 0;
 }
 
-/// E and S, means over where the samples are.
+/// Computes E and S, means over the places of the samples.
 void put_overlapped(Cells& cells, const Valid<Workload>& workload) {
   const double x = workload.disc_radius / cells.side;
   const auto one = [&](std::size_t axis, Centres centres) {

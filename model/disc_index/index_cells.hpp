@@ -26,31 +26,33 @@ struct Cells {
   [[nodiscard]] double count() const { return along[0] * along[1] * along[2]; }
 };
 
-/// `parts` cells along the longest side of the box grown by d; as many as it takes along the others.
+/// `parts` cells along the longest side of the box grown by d, and as many as needed along the others.
 ///
-/// E by the planes that cross a disc (`Crossings`, index_overlap.hpp), S by the same (index_mailbox.hpp). Samples of
-/// dimension 2 without an extent of their own lie on the box's faces, in proportion to their areas, with a coordinate
-/// fixed; between dimensions 2 and 3 the two are mixed.
+/// E is computed from the planes that cross a disc (`Crossings`, index_overlap.hpp), S likewise (index_mailbox.hpp).
+/// Samples of dimension 2 without an extent of their own lie on the box's faces, in proportion to the faces' areas,
+/// with one coordinate fixed. For dimensions between 2 and 3 the two cases are interpolated.
 ///
-/// Valid      P: cells inside S₀. The corners of a cube of samples, grown by d, poke out: by the formula it is met by
-///            0.1 % too many lines where d is 1/20 of the samples' side, 0.5 % at 1/10, 2 % at 1/5, 11 % at 1/2.
+/// Valid      P: cells inside S₀. The corners of a cube of samples, grown by d, extend outside S₀: by the formula 0.1 %
+///            too many lines meet it if d is 1/20 of the samples' side, 0.5 % at 1/10, 2 % at 1/5, 11 % at 1/2.
 /// Accuracy   counted in a cube and on its faces, n_P 1e3 … 1e5, d/a 0.05 … 4, 1 to 8 halvings, d <= side/5 (150
 ///            cases): E within 2.2 % (median 0.3 %), by bounding box 2.9 % (0.3 %); the noise of 1000 samples is 2 %.
-///            With d up to side/4, E within 2.1 % (n_P 1e4, 1e5); with larger discs, which no index is for, up to 6 %
-///            too small, and disc tests with mailboxes up to 13 % too many.
+///            With d up to side/4, E within 2.1 % (n_P 1e4, 1e5). With larger discs, for which an index makes no sense,
+///            E is up to 6 % too small, and disc tests with mailboxes up to 13 % too many.
 [[nodiscard]] Cells index_cells(const Valid<Workload>& workload, double parts, Insertion insertion = Insertion::exact);
 
 /// Cells that hold at least one disc:
 ///
 ///     Σ_cells 1 - (1 - q)^n_P
 ///
-///   where  q   chance that a disc overlaps the cell: the terms of E, shared out over the cells by the chances that the
-///              centre lies in a cell's slab across each axis, or the disc reaches in: less at the index's ends
+///   where  q   probability that a disc overlaps the cell: the terms of E, distributed over the cells by the
+///              probability
+///              that, along each axis, the centre lies in the cell's slab or the disc reaches into it; smaller at the
+///              index's ends
 ///
 /// Accuracy   counted as for E: within 2.7 % (median 0.2 %); with d > side/4 up to 13 % too few.
 ///
-/// Samples on surfaces with an extent A of their own: the cells that a random surface crosses, R = min(C, 1.5 A/a²), as
-/// likely each, R (1 - exp(-n_P E/R)); C are all cells. No more than a guess.
+/// Samples on surfaces with an extent A of their own: the cells that a random surface crosses, R = min(C, 1.5 A/a²),
+/// all equally likely, R (1 - exp(-n_P E/R)); C is the number of all cells. This is only an estimate.
 [[nodiscard]] double occupied_cells(const Valid<Workload>& workload, const Cells& cells);
 
 }  // namespace detp::model

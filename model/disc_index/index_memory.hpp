@@ -12,22 +12,22 @@ struct IndexLayout {
   double reference = 4;  ///< of a disc
 };
 
-/// Expected bytes of memory of an octree between building and searching:
+/// Expected bytes of memory of an octree, after it is built and before it is searched:
 ///
 ///     node Σ_{l=0..k} O_l + reference n_P E_k
 ///
 ///   where  O_l, E_k   occupied nodes of level l, cells that a disc overlaps (index_cells.hpp)
 ///
-/// Accuracy   within 2.1 % of the bytes taken (median 0.3 %; cases as in index_cells.hpp).
+/// Accuracy   within 2.1 % of the measured bytes (median 0.3 %; cases as in index_cells.hpp).
 ///
-/// Neighbour links are not in it.
-///
-/// While it is built it takes up to twice that, and the lists of the nodes that are being split.
+/// Does not include neighbour links. Building needs up to twice that, plus the lists of the nodes that are being split.
 [[nodiscard]] double octree_bytes(const Valid<Workload>& workload, const OctreeParameters& parameters,
                                   const IndexVariant& variant = {}, const IndexLayout& layout = {});
 
-/// Expected bytes of a grid: cell (C + 1) + reference n_P E, C its cells. While it is built, 16 n_P E more.
-/// Accuracy   within 2 % of the bytes taken (median 0.1 %).
+/// Expected bytes of a grid: cell (C + 1) + reference n_P E, where C is its number of cells. Building needs 16 n_P E
+/// more.
+///
+/// Accuracy   within 2 % of the measured bytes (median 0.1 %).
 [[nodiscard]] double grid_bytes(const Valid<Workload>& workload, const GridParameters& parameters,
                                 const IndexVariant& variant = {}, const IndexLayout& layout = {});
 

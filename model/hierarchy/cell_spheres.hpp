@@ -50,12 +50,13 @@ namespace detp::model {
 /// n_i: n_R times crossing_probability of S_i, n_R (r_i/r₀)² for lines.
 [[nodiscard]] double rays_in_cell_sphere(const Valid<Workload>& workload, int level);
 
-/// Expected counts with spheres at the levels 1 … depth of the cube, rays of the workload: each sphere is built once,
-/// from its parent's list, and each disc is tested against the innermost.
+/// Expected counts with spheres at the levels 1 … depth of the cube. Each sphere is built once, from its parent's list,
+/// and each disc is tested against the innermost.
 ///
 ///     T_R = t Σ_{i=1..k} m_i n_{i-1},  n_0 = n_R      T_I = u n_P n_k
 ///
-/// Source     our derivation.   Valid  samples uniform in the cube or on its faces, S₀ around it, lines: exact.
+/// Source     our derivation.
+/// Valid      exact for samples uniform in the cube or on its faces, S₀ around it, and lines.
 [[nodiscard]] Counts<double> cell_sphere_counts(const Valid<Workload>& workload,
                                                 const Valid<CellSpheresParameters>& parameters);
 

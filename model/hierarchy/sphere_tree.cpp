@@ -90,7 +90,7 @@ double radius(const Valid<Workload>& workload, const SphereTreeParameters& param
   return shape * std::pow(cube / runs, 2 / dimension);
 }
 
-/// P(node) of a sphere of radius r around a run.
+/// P(node) for a sphere of radius r around a run.
 double crossed(const Valid<Workload>& workload, double run, double r) {
   using std::numbers::pi;
   if (workload.path_length > 0) {

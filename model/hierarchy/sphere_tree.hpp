@@ -40,8 +40,8 @@ namespace detp::model {
 
 /// Expected values of one level of the tree.
 struct TreeLevel {
-  double nodes = 1;       ///< N, exact: those of the last run, cut short, too
-  double samples = 1;     ///< c, in each node but the last
+  double nodes = 1;       ///< N, exact, including nodes over the shorter last run
+  double samples = 1;     ///< c, in each node except the last
   double rms_radius = 0;  ///< √<(ρ + d)²>
   double rays = 0;        ///< mean length of a node's list
 };
@@ -56,12 +56,11 @@ struct TreeLevel {
 
 /// Expected counts of the sphere tree.
 ///
-/// Accuracy   against the structural counts of samples in a cube and on its faces, f 2 … 16, leaves of 1 … 100, d 0.1 …
-/// 2
-///            sample distances: n_P 20 000 … 200 000 (882 trees), sphere tests off by 1.0 % in the median, 3.9 % at the
-///            95th percentile and 13 % at worst; disc tests by 0.8 %, 4.3 % and 9.2 % (leaves of 2 samples, whose few
-///            largest spheres chance makes); at the built-in unit costs, time by 0.8 %, 2.5 % and 3.9 %. With 1000 or
-///            3000 samples too (1470 trees), time by 1.2 %, 4.9 % and 8.6 %.
+/// Accuracy   compared with the structural counts of samples in a cube and on its faces, f 2 … 16, leaves of 1 … 100, d
+///            0.1 … 2 sample distances. Deviations (median, 95th percentile, largest) for n_P 20 000 … 200 000 (882
+///            trees): sphere tests 1.0, 3.9, 13 %; disc tests 0.8, 4.3, 9.2 % (leaves of 2 samples, whose few largest
+///            spheres are random); time at the built-in unit costs 0.8, 2.5, 3.9 %. Including 1000 and 3000 samples
+///            (1470 trees): time 1.2, 4.9, 8.6 %.
 [[nodiscard]] Counts<double> sphere_tree_counts(const Valid<Workload>& workload,
                                                 const Valid<SphereTreeParameters>& parameters);
 

@@ -50,10 +50,11 @@ namespace detp::model {
 ///          ℓ       mean length of the rays inside the samples' box grown by d;   V_box  its volume
 ///
 /// Source     eq (3); for segments our derivation: a segment with uniform origin meets K if its origin lies in K or if
-///            it enters through the boundary, where the flux of ℓ-long segments is ℓ/(4 V_box) per area.
+///            it enters K through its surface, where the flux of segments of length ℓ is ℓ/(4 V_box) per area.
 /// Valid      segments: origins uniform in the box, isotropic directions. Real paths start and end on surfaces: expect
-///            tens of percent.
-/// Accuracy   1.1e-16: in long double, for d² or V_box may lie below the doubles where P does not.
+///            errors of tens of percent.
+/// Accuracy   1.1e-16. Computed in long double, because d² or V_box may be below the range of doubles although P is
+///            not.
 [[nodiscard]] double crossing_probability(const Valid<Workload>& workload, double volume, double area);
 
 /// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².

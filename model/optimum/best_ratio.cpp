@@ -72,7 +72,7 @@ class Times {
   }
 
   const Valid<Workload>& workload_;
-  UnitCosts costs_;  ///< lists are made, and discs visited, for each block of rays
+  UnitCosts costs_;  ///< multiplied by the number of blocks: each block makes lists and visits discs
   mutable std::int64_t looked_at_ = 0;
 };
 
@@ -216,7 +216,7 @@ class Search {
   BestRatio best_;
 };
 
-/// The largest k with r_k >= d, at most `most`; Q off the steps, or just above one.
+/// The largest k with r_k >= d, at most `most`. Q must not be at a step, or must be just above it.
 std::int64_t last_stop(const Valid<Workload>& workload, double ratio, std::int64_t most) {
   const double exact = std::log(workload.disc_radius / workload.sphere_radius) / std::log(ratio);
   return static_cast<std::int64_t>(std::min(static_cast<double>(most), std::floor(exact * (1 + 1e-12))));

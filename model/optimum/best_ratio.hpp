@@ -25,13 +25,13 @@ struct BestRatio {
 
 inline constexpr std::int64_t most_looked_at = 16'000;
 
-/// A good ratio in little time: the best of eight fixed ones, each with its best stop.
+/// A good ratio in little time: the best of eight fixed ones, each with its best number of spheres.
 ///
-/// Accuracy   T above that of best_ratio_and_stop by 1.1 % in the median, 5 % at the 90th percentile, 14 % at worst
-/// (300
-///            random workloads: n_R, n_P 10² … 10⁸, d/r₀ 10⁻⁴ … 0.1, D 2 … 3, copies 0 … 2 t, rebuilds 0 … 50 t). One
-///            ratio alone, optimal_ratio's, is 16 % above in the median, 95 % at worst.
-/// Cost       about 30 µs, 4 µs a ratio.   Throws  as best_ratio_and_stop.
+/// Accuracy   T exceeds that of best_ratio_and_stop by 1.1 % in the median, 5 % at the 90th percentile, at most 14 %
+///            (300 random workloads: n_R, n_P 10² … 10⁸, d/r₀ 10⁻⁴ … 0.1, D 2 … 3, copies 0 … 2 t, rebuilds 0 … 50 t).
+///            With the single ratio of optimal_ratio it is 16 % in the median, at most 95 %.
+/// Cost       about 30 µs, 4 µs a ratio.
+/// Throws     as best_ratio_and_stop.
 [[nodiscard]] BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs);
 
 /// Minimises T jointly over 0.02 <= Q <= 0.98 and k = 1 … most_spheres with r_k >= d.
@@ -44,10 +44,10 @@ inline constexpr std::int64_t most_looked_at = 16'000;
 [[nodiscard]] BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                             std::int64_t most_spheres = 40);
 
-/// The fastest stop k for a given Q, at least 1 (where a sphere holds a disc) and at most 4096.
+/// The fastest number of spheres k for a given Q, at least 1 (if a sphere holds a disc) and at most 4096.
 [[nodiscard]] BestRatio best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio);
 
-/// The fastest Q for a given k, 0 … 9e18. Where no Q of the range has r_k >= d, the largest one.
+/// The fastest Q for a given k, 0 … 9e18. If no Q in the range has r_k >= d, the largest Q.
 [[nodiscard]] BestRatio best_ratio_for(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                        std::int64_t spheres);
 

@@ -12,10 +12,10 @@ constexpr double third = 1.0 / 3;
 
 bool is_tree_of_cells(Technique technique) { return technique == Technique::octree || technique == Technique::grid; }
 
-/// The paper's techniques, and those made of the same parts.
+/// Whether the technique is the paper's, or made of the same parts.
 bool is_known(Technique technique) { return is_tree_of_cells(technique) || !record_of(technique).ray_by_ray; }
 
-/// Published, the discs shrinking.
+/// The published growth if the discs shrink.
 Growth published_growth(const GrowthCase& asked) {
   if (!is_tree_of_cells(asked.technique)) return {.power = third, .logarithms = 0};
   return {.power = 1 - 2 / asked.dimension, .logarithms = asked.technique == Technique::octree ? 1 : 0};

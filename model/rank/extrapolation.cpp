@@ -18,7 +18,7 @@ constexpr double about_equal = 0.1;
 
 bool differ(double a, double b) { return std::abs(a - b) > about_equal * b; }
 
-/// What was counted for no technique.
+/// Adds reasons that apply to every technique: workloads outside the sweep.
 void uncounted_scene(const Valid<Workload>& workload, Reasons& reasons) {
   const double side = scene_side(workload);
   if (workload.path_length > 0) reasons.add("rays that end: only lines were counted");

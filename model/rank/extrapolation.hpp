@@ -35,7 +35,7 @@ class Reasons {
   std::vector<std::string> reasons_;
 };
 
-/// The reasons of one technique; for the registry.
+/// Adds the reasons of one technique; for the registry.
 void uncounted_cache(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
 void uncounted_cells(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
 void uncounted_sphere_tree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);

@@ -13,9 +13,10 @@ namespace detp::model {
 
 /// n_i: rays that cross a sphere of radius r inside S₀.
 ///
-///     n_i = n_R r²/r₀²   of lines;   n_R (V + ℓF/4)/V_box   of segments of mean length ℓ, V and F those of the sphere
+///     n_i = n_R r²/r₀²                   lines
+///     n_i = n_R (V + ℓF/4)/V_box         segments of mean length ℓ; V and F are volume and surface of the sphere
 ///
-/// Exact where the sphere lies in S₀ and the rays are uniform; where it pokes out, g_i tells.
+/// Exact if the sphere lies in S₀ and the rays are uniform. If it extends outside S₀, g_i corrects this.
 [[nodiscard]] double rays_through(const Valid<Workload>& workload, double radius);
 
 /// g_i along the Morton curve: share of the rays through S_i that cross all spheres around it, mean over its builds.

@@ -117,7 +117,7 @@ double cube_distance_cdf(double t) {
   return 1 - (1 - cube_distance_cdf(1)) * rest * rest * rest;
 }
 
-/// Share of the samples within ρ of a random one.
+/// Share of the samples within ρ of a random sample.
 double share_within(const Valid<Workload>& workload, double radius) {
   const double in_cube = cube_distance_cdf(radius / scene_side(workload));
   const double on_surface = 1 - std::exp(-std::numbers::pi * radius * radius / sample_extent(workload));

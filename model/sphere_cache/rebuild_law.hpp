@@ -52,10 +52,11 @@ struct Ball {
 /// The ball of radius ρ > 0 among the workload's samples. Throws std::invalid_argument for numbers out of range.
 [[nodiscard]] Ball ball_of(const Valid<Workload>& workload, double radius);
 
-/// s_i along the curve: rebuilds of one ball alone among so many samples, from 1 to all.
+/// s_i along the curve: rebuilds of one ball alone, from 1 to `samples`.
 ///
-/// Source     our tabulation.  Accuracy  of the table 1 % (the nearer to a jump in φ, the less: up to 5 %); between
-///            D = 2 and 3 the geometric interpolation is a guess.
+/// Source     our tabulation.
+/// Accuracy   of the table 1 %, up to 5 % near a jump in φ; between D = 2 and 3 the geometric interpolation is
+///            unverified.
 /// Throws     std::invalid_argument unless λ >= 0, n > 0, h is finite and 1 <= D <= 3.
 [[nodiscard]] double single_rebuilds(double dimension, double samples, const Ball& ball);
 
@@ -63,7 +64,8 @@ struct Ball {
 /// formula for other curves.
 void require_rebuild_law(SampleOrder order);
 
-/// The same for the workload's samples in order or in none. ρ <= 0: each sample. Throws as require_rebuild_law does.
+/// Rebuilds of one ball alone among the workload's samples, sorted or unsorted. If ρ <= 0, each sample causes a
+/// rebuild. Throws as require_rebuild_law does.
 [[nodiscard]] double single_rebuilds(const Valid<Workload>& workload, double radius, SampleOrder order);
 
 /// w: share of a ball's own rebuilds that remain inside another.

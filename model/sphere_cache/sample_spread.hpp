@@ -12,9 +12,9 @@ namespace detp::model {
 ///
 ///   where  a, b, c   sides of the box, length
 ///
-/// Source     our derivation; on the faces exact for a cube, all three pairs of faces counting alike.  Between D = 2
-///            and 3 the two are mixed.
-/// Throws     nothing: the workload is to be checked before.
+/// Source     our derivation; on the faces exact for a cube, because all three pairs of faces have the same weight.
+///            Interpolated for D between 2 and 3.
+/// Throws     nothing; the caller checks the workload.
 [[nodiscard]] inline double mean_square_distance(const Valid<Workload>& workload) {
   double squares = 0;
   for (const double side : workload.box) squares += side * side;

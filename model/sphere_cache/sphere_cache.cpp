@@ -113,7 +113,7 @@ double sum_of_terms(double a, double b, double terms, double log_ratio) {
                        : b * (std::expm1(-terms * log_ratio) / std::expm1(-log_ratio));
 }
 
-/// Of the k spheres, those with r_i >= d; of a few, all: they need no groups.
+/// The number of the k spheres with r_i >= d. If k is small, all k: they need no groups.
 std::int64_t spheres_that_hold(const Valid<Workload>& workload, const SphereCacheParameters& parameters) {
   if (parameters.spheres <= most_groups) return parameters.spheres;
   if (workload.disc_radius >= workload.sphere_radius) return 0;

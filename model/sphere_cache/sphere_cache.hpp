@@ -46,20 +46,23 @@ struct SphereLevel {
 void for_each_level(const Valid<Workload>& workload, const Valid<SphereCacheParameters>& parameters,
                     const std::function<bool(const SphereLevel&)>& visit);
 
-/// Expected counts, in bounded time for any k (0: each disc is tested with all rays): beyond 4096 spheres they are
-/// summed in groups. Over a group s_i w_i/n of the rebuild law is held, so that n - m_i shrinks by the same factor at
-/// each sphere, and so is the ratio of the terms m_i L'_{i-1} of one sphere to the next; both are then summed in closed
-/// form. Spheres of r_i < d, rebuilt for each sample, have groups of their own.
+/// Expected counts, in bounded time for any k (0: each disc is tested with all rays). More than 4096 spheres are summed
+/// in groups: in a group s_i w_i/n of the rebuild law is constant, so n - m_i shrinks by the same factor at each
+/// sphere, and the ratio of consecutive terms m_i L'_{i-1} is constant too. Both are then summed in closed form.
+/// Spheres with r_i < d, which are rebuilt for each sample, have groups of their own.
 ///
-/// Accuracy   against walks counted over samples uniform in a cube (D = 3) or on its faces (D = 2), n_P 10³ … 10⁷,
+/// Accuracy   compared with walks counted over samples uniform in a cube (D = 3) or on its faces (D = 2), n_P 10³ …
+///            10⁷,
 ///            d/r₀ 10⁻⁴ … 0.2, Q 0.3 … 0.9 (250 workloads, means over 1000 (n_P = 10³) to 2 (10⁷) sets of samples; the
-///            4463 spheres with at least 30 rebuilds), deviations in the median, at the 95th percentile and at worst:
-///              m_i   0.4, 3.1, 9.4 % (D = 2; worst at n_P = 10⁷, Q = 0.8) and 0.1, 2.0, 7.9 % (D = 3; 10⁷, 0.9)
-///              L_i   0.3, 1.6, 6.4 % (D = 2) and 0.2, 1.8, 5.3 % (D = 3), the worst at n_P = 10⁷ with up to 3 % of
+///            4463 spheres with at least 30 rebuilds). Deviations (median, 95th percentile, largest):
+///              m_i   0.4, 3.1, 9.4 % (D = 2; largest at n_P = 10⁷, Q = 0.8) and 0.1, 2.0, 7.9 % (D = 3; 10⁷, 0.9)
+///              L_i   0.3, 1.6, 6.4 % (D = 2) and 0.2, 1.8, 5.3 % (D = 3), the largest at n_P = 10⁷ with up to 3 % of
 ///                    noise in the count; up to n_P = 10⁶ 3.2 and 2.9 %
 ///              T_R   0.7, 1.7, 2.6 % (D = 2) and 0.4, 1.3, 2.3 % (D = 3)
-///            T_I, stopped at r_k = 0.3 or 0.1 r₀ (32 workloads): within 5.4 %, mostly 2 %, the worst for surfaces and
-///            one sphere. Groups against the sum over all, k 4097 … 10⁶, n_P 10³ … 10⁹, d/r₀ 10⁻⁶ … 0.5: 0.2 %.
+///            T_I, with the innermost sphere at r_k = 0.3 or 0.1 r₀ (32 workloads): within 5.4 %, mostly 2 %, the
+///            largest
+///            for surfaces and one sphere. Groups compared with the sum over all spheres, k 4097 … 10⁶, n_P 10³ … 10⁹,
+///            d/r₀ 10⁻⁶ … 0.5: 0.2 %.
 [[nodiscard]] Counts<double> sphere_cache_counts(const Valid<Workload>& workload,
                                                  const Valid<SphereCacheParameters>& parameters);
 

@@ -48,10 +48,11 @@ namespace detp::model::published {
 [[nodiscard]] double intersect_time(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k,
                                     double disc_test);
 
-/// Expected counts behind T_R and T_I: Σ min(n_P, m_i) rebuilds, their sphere tests, and the disc tests.
+/// Expected counts from which T_R and T_I follow: Σ min(n_P, m_i) rebuilds, their sphere tests, and the disc tests.
 [[nodiscard]] Counts<double> counts(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k);
 
-/// The same cache without sorting, which the paper says gains nothing over testing every disc: u n_R n_P (section 4).
+/// Time of the sphere cache without sorting, which the paper says is no faster than testing every disc: u n_R n_P
+/// (section 4).
 [[nodiscard]] double unsorted_time(const Valid<Workload>& workload, double disc_test);
 
 }  // namespace detp::model::published

@@ -2,21 +2,21 @@
 
 #include "parameter.hpp"
 
-/// Where a prediction comes from.
+/// The source of a prediction.
 namespace detp {
 
-/// Which version of a formula.
+/// The version of a formula.
 enum class Form {
   published,  ///< as the paper printed it
-  corrected   ///< as derivation and simulation say it should be
+  corrected   ///< as corrected by derivation and simulation
 };
 template <>
 inline constexpr std::array<std::string_view, 2> choice_names<Form>{"published", "corrected"};
 
-/// What a choice rests on.
+/// What a choice is based on.
 enum class Rigor {
   estimate,   ///< closed forms alone
-  structural  ///< the structures that the techniques build of the discs
+  structural  ///< the structures that the techniques build from the discs
 };
 template <>
 inline constexpr std::array<std::string_view, 2> choice_names<Rigor>{"estimate", "structural"};

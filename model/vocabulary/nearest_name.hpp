@@ -6,12 +6,12 @@
 
 namespace detp {
 
-/// Least number of letters inserted, left out, replaced or swapped with their neighbour that turns one word into the
-/// other, no letter being touched twice.
+/// The edit distance of two words: the smallest number of letters to insert, delete, replace or swap with their
+/// neighbour. Each letter is changed at most once.
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
-/// For a message on an unknown name: "; did you mean octree?", or nothing where no name is near: within a third of the
-/// word's letters, and within three.
+/// For a message about an unknown name: "; did you mean octree?". Empty if no name is near: within a third of the
+/// word's letters, and within three letters.
 [[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string_view> names);
 
 }  // namespace detp

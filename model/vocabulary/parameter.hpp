@@ -46,7 +46,7 @@ struct ParameterRecord {
   double least = 0;         ///< smallest value of a number; for a ratio 0 and 1 are excluded
   double most = 0;
   ParameterValue small = std::int64_t{0};          ///< a value for few samples, for tests and first trials
-  std::span<const std::string_view> choices = {};  ///< of a choice: the names
+  std::span<const std::string_view> choices = {};  ///< names of a choice
   double step = 1.4;                               ///< factor to values worth a try; 0: one more or less
   ParameterValue (*get)(const Parameters&) = nullptr;
   void (*set)(Parameters&, const ParameterValue&) = nullptr;

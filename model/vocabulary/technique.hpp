@@ -179,8 +179,8 @@ void check(const Own& parameters) {
     if (std::holds_alternative<Own>(record.defaults)) return check(Candidate{record.technique, parameters});
 }
 
-/// The technique with small parameters, and with each parameter at its least value and at each of its choices: those
-/// that tests run on few samples.
+/// The technique with small parameters, with each parameter at its smallest value, and with each of its choices: the
+/// variants that tests run on few samples.
 [[nodiscard]] std::vector<Candidate> small_variants(Technique technique);
 
 }  // namespace detp

@@ -4,22 +4,22 @@
 #include <string>
 #include <utility>
 
-/// How long work reports what it is doing, for a display of its progress.
+/// How long-running work reports its current phase, for a display of progress.
 namespace detp::sim {
 
-/// A part of some work. `from` and `to` are shares of the whole work, 0 to 1, in proportion to predicted time.
+/// A phase of some work. `from` and `to` are shares of the whole work, 0 to 1, in proportion to predicted time.
 struct Phase {
   std::string what;    ///< "making rays"
   double from = 0;     ///< done before this phase
   double to = 0;       ///< done after it
-  double work = 0;     ///< predicted units of work in between, as StopCheck counts them; 0: not known
-  double seconds = 0;  ///< predicted time in between, where the work is not known; 0: not known either
+  double work = 0;     ///< predicted units of work of this phase, as StopCheck counts them; 0: unknown
+  double seconds = 0;  ///< predicted time of this phase if the work is unknown; 0: unknown too
 };
 
 /// Called at the beginning of each phase, by any thread. May be empty.
 using ReportPhase = std::function<void(const Phase&)>;
 
-/// Phases of a part of the work that lies between two shares of the whole. Empty if `whole` is.
+/// Reports phases of a part of the work, which extends from one share of the whole to another. Empty if `whole` is.
 [[nodiscard]] inline ReportPhase part_of(ReportPhase whole, double from, double to) {
   if (!whole) return {};
   return [whole = std::move(whole), from, to](const Phase& phase) {

@@ -29,7 +29,7 @@ class ListWalk {
   [[nodiscard]] virtual const Sphere& sphere(int level) const = 0;
 };
 
-/// Makes a walk that has not yet met a disc, in that memory.
+/// Makes, in the given memory, a walk that has not met a disc yet.
 using MakeWalk = std::function<OwnedIn<ListWalk>(std::pmr::memory_resource&)>;
 
 }  // namespace detp::sim

@@ -34,7 +34,7 @@ class Tally {
 /// techniques add powers in the same order, and irradiance is the same to the last bit.
 class HitCollector {
  public:
-  /// Borrows all three, and the options' totals if there are any. Pairs are kept in the outcome.
+  /// Keeps references to all three and, if set, to the options' totals. Pairs are kept in the outcome.
   HitCollector(const Problem& problem, const RunOptions& options, Outcome& outcome)
       : problem_(problem), options_(options), outcome_(outcome), own_(options.memory) {
     if (totals().empty()) totals().resize(problem.discs.size());

@@ -30,12 +30,12 @@ struct Streamed {
 /// of 64, and a grid (10⁶ discs) takes the same time for blocks of 2¹⁶ and of 10⁶ rays.
 [[nodiscard]] std::size_t default_block(std::size_t discs);
 
-/// What run gives, bit for bit (hits, irradiance, pairs), whatever the block. The index over the discs is built once.
+/// Runs a candidate over any number of rays. The result is that of `run`, bit for bit (hits, irradiance, pairs), for
+/// any block size. The index over the discs is built once.
 ///
-/// A stop request ends it while it makes rays, too; what is given is then what the first rays hit. Throws as
-/// make_problem and run do (but there may be more than 2³² rays, unless pairs are asked for), and std::length_error,
-/// naming the bytes, before it would take more than the memory budget. Pairs (8 bytes each)
-/// are checked as they grow.
+/// A stop request also ends the making of rays; the result is then that of the first rays. Throws as make_problem and
+/// run do (but there may be more than 2³² rays, unless pairs are requested), and std::length_error, naming the bytes,
+/// before it would exceed the memory budget. Pairs (8 bytes each) are checked as they grow.
 [[nodiscard]] Streamed run_streamed(std::span<const Disc> discs, const RaySource& source,
                                     const Valid<Candidate>& candidate, const StreamOptions& options = {});
 

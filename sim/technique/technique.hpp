@@ -7,8 +7,9 @@
 namespace detp::sim {
 
 /// Runs one technique: prepares its index, and searches it once. Throws std::invalid_argument for a problem that
-/// make_problem did not make, parameters out of range or not the technique's, a number of threads out of range or
-/// totals of other discs, and std::length_error, naming the bytes, where an index would not fit the memory.
+/// make_problem did not make, for parameters that are out of range or belong to another technique, for a number of
+/// threads out of range or totals of other discs, and std::length_error, naming the bytes, if an index would not fit in
+/// memory.
 [[nodiscard]] Outcome run(const Problem& problem, const Valid<Candidate>& candidate, const RunOptions& options = {});
 
 }  // namespace detp::sim

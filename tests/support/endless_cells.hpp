@@ -4,16 +4,16 @@
 
 #include "detp/model/disc_index/index_overlap.hpp"
 
-/// Cells that a uniformly placed isotropic disc overlaps in endless cubic cells, x = d/a: what many small cells of an
-/// index come to.
+/// Number of endless cubic cells that a uniformly placed isotropic disc overlaps, x = d/a: the limit for an index with
+/// many small cells.
 namespace detp::support {
 
-/// 1 + (3π/2) x + (3π/2) x². A plane of the grid that crosses the disc adds a cell, and so does a line of the grid that
-/// pierces it. Planes of one axis: 2 E[h]/a = (π/2) x. Lines along one axis: the disc seen from there has the area
-/// π d² E|n| = (π/2) d².
+/// Cells that the disc overlaps: 1 + (3π/2) x + (3π/2) x². A plane of the grid that crosses the disc adds a cell, and
+/// so does a line of the grid that pierces it. Planes of one axis: 2 E[h]/a = (π/2) x. Lines along one axis: the disc's
+/// projection along the axis has the area π d² E|n| = (π/2) d².
 inline double overlapped_cells(double x) { return 1 + 1.5 * std::numbers::pi * x * (1 + x); }
 
-/// Those that its bounding box overlaps: E ∏ (1 + 2h_i/a), the box's place along each axis being uniform.
+/// Cells that its bounding box overlaps: E ∏ (1 + 2h_i/a), because the box's place along each axis is uniform.
 inline double boxed_cells(double x) {
   using namespace model;
   return 1 + x * (1.5 * std::numbers::pi + x * (12 * mean_reach_product_2 + 8 * mean_reach_product_3 * x));

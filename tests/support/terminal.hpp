@@ -6,12 +6,12 @@
 
 #include "command.hpp"
 
-/// The command on a terminal of its own.
+/// Runs the command on a terminal of its own.
 namespace detp::support {
 
 using Environment = std::vector<std::pair<std::string, std::string>>;
 
-/// What a terminal of that many columns receives of the command's stdout and stderr, \r\n at the ends of lines made \n.
+/// The command's stdout and stderr as a terminal with `columns` columns receives them, with \r\n converted to \n.
 inline std::string shown_on_terminal(const std::string& line, unsigned short columns = 120,
                                      const Environment& environment = {}) {
   std::vector<std::string> all{DETP_COMMAND};

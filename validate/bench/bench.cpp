@@ -24,10 +24,10 @@ JobRequest request_of(const BenchWorkload& workload, std::uint64_t seed) {
   return request;
 }
 
-/// In proportion to the time that a workload takes, roughly.
+/// Roughly proportional to the time that a workload takes.
 double effort(const BenchWorkload& workload) { return workload.rays + 3e4; }
 
-constexpr double share_of_job = 0.1;  ///< of a workload's time, roughly: making scene and rays
+constexpr double share_of_job = 0.1;  ///< rough share of a workload's time for making scene and rays
 
 class Benchmark {
  public:
@@ -53,8 +53,8 @@ class Benchmark {
   }
 
  private:
-  /// The part of the progress that the workload is. The others are expected to take as long as those done, in
-  /// proportion to their rays; some of the time does not depend on the rays.
+  /// The workload's part of the progress. The remaining workloads are expected to take as long as those done, in
+  /// proportion to their rays plus a constant.
   [[nodiscard]] sim::ReportPhase progress_of(std::size_t place) const {
     const double done = watch_.seconds();
     const double speed = effort_done_ > 0 ? done / effort_done_ : 1;
@@ -65,7 +65,7 @@ class Benchmark {
     return sim::part_of(options_.progress, before / whole, (before + speed * effort(workloads_[place])) / whole);
   }
 
-  /// Reports a part of a workload's phases, as "@tree 10000 rays, 2 threads".
+  /// Reports one part of a workload's phases, such as "@tree 10000 rays, 2 threads".
   [[nodiscard]] sim::ReportPhase part(const BenchWorkload& workload, std::string what, double from, double to) const {
     if (!progress_) return {};
     return [part = sim::part_of(progress_, from, to),

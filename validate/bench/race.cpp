@@ -40,10 +40,10 @@ class Runner {
   }
 
  private:
-  /// Reports the next run. One that is not known is expected to take as long as those before it.
+  /// Reports the next run. A run without earlier measurements is expected to take as long as those before it.
   void report(const Finish& next) {
     if (!options_.progress) return;
-    constexpr double first_round = 0.8;  // share of the time: then only the fastest go on
+    constexpr double first_round = 0.8;  // share of the time; afterwards only the fastest continue
     const bool first = next.seconds.empty();
     const double step = first ? first_round / static_cast<double>(race_.finishes.size())
                               : (1 - first_round) / (2.0 * options_.finalists * std::max(1, options_.repeats - 1));
@@ -90,7 +90,7 @@ class Runner {
   const EmbreePeer& embree_;
   const RaceOptions& options_;
   sim::Stopwatch watch_;
-  double share_ = 0;  ///< of the time, done after the current run
+  double share_ = 0;  ///< share of the time that is done after the current run
   Race race_;
 };
 

@@ -16,8 +16,9 @@
 namespace detp::validate {
 namespace {
 
-constexpr double least_patience = 0.02;    // seconds
-constexpr std::size_t usually_tried = 16;  // candidates, for the progress: neighbours are found on the way
+constexpr double least_patience = 0.02;  // seconds
+// expected number of candidates, for the progress: neighbours are added during the analysis
+constexpr std::size_t usually_tried = 16;
 
 class Analyser {
  public:
@@ -70,7 +71,7 @@ class Analyser {
                        [&](const Analysed& one) { return one.candidate == candidate; });
   }
 
-  /// Begins a run that is expected to take `seconds`, and what comes after it `remaining`.
+  /// Reports the start of a run that is expected to take `seconds`, with `remaining` seconds after it.
   void report(std::size_t place, double seconds, double remaining) const {
     if (!options_.progress) return;
     const Analysed& one = all_.candidates[place];
@@ -85,8 +86,8 @@ class Analyser {
 
   [[nodiscard]] double patience() const { return std::max(least_patience, options_.patience * fastest_); }
 
-  /// Expected seconds of a run that counts: as it was, or as predicted on a machine as slow as the runs so far have
-  /// shown it to be; given up after the patience for it.
+  /// Expected seconds of a counting run: the measured ones if known, else the prediction times the slowness of this
+  /// machine in the runs so far; limited by the patience.
   [[nodiscard]] double expected_counting(std::size_t place) const {
     if (place < first_seconds_.size() && std::isfinite(first_seconds_[place])) return first_seconds_[place];
     const Analysed& one = all_.candidates[place];
@@ -94,7 +95,7 @@ class Analyser {
     return std::min(patience(), slowness_ * one.predicted->time.total());
   }
 
-  /// Expected seconds of all timed runs of those that are here.
+  /// Expected seconds of all timed runs of the current candidates.
   [[nodiscard]] double expected_timing() const {
     double seconds = 0;
     for (std::size_t i = 0; i < all_.candidates.size(); ++i) {
@@ -105,7 +106,7 @@ class Analyser {
     return seconds;
   }
 
-  /// Expected seconds of the other runs that count, and of all timed runs.
+  /// Expected seconds of the remaining counting runs, and of all timed runs.
   [[nodiscard]] double remaining_after_counting(std::size_t place) const {
     double seconds = expected_timing();
     for (std::size_t i = place + 1; i < all_.candidates.size(); ++i) seconds += expected_counting(i);
@@ -176,7 +177,7 @@ class Analyser {
   Analysis all_;
   std::vector<double> first_seconds_;  ///< of the counting runs; infinite if a run did not finish
   double fastest_ = std::numeric_limits<double>::infinity();
-  double slowness_ = 1;  ///< measured over predicted seconds of the predicted choice
+  double slowness_ = 1;  ///< measured / predicted seconds of the predicted choice
   sim::Stopwatch watch_;
 };
 

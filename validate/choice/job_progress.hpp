@@ -8,7 +8,7 @@
 
 namespace detp::validate {
 
-/// Reports how far the making of a job has come. Each function begins a part of it.
+/// Reports the progress of making a job. Each function starts a part of it.
 class JobProgress {
  public:
   explicit JobProgress(sim::ReportPhase report) : report_(std::move(report)) {}
@@ -31,7 +31,7 @@ class JobProgress {
   void begin(const char* what, const Part& part, double later);
 
   sim::ReportPhase report_;
-  double done_ = 0;  ///< share that is done when the current part is
+  double done_ = 0;  ///< share that is done when the current part is finished
 };
 
 }  // namespace detp::validate

@@ -29,7 +29,7 @@ struct CommonOptions {
   double time_limit = 0;  ///< seconds; 0: none
   std::optional<std::string> memory_limit;
 
-  /// Where the result is shown.
+  /// The screen on which the result is shown.
   [[nodiscard]] Screen screen() const;
 };
 

@@ -91,7 +91,8 @@ CommandLine::CommandLine()
       commands_{model_command(program_),    choose_command(program_), run_command(program_),
                 validate_command(program_), scene_command(program_),  bench_command(program_)} {
   program_.set_version_flag("--version", "detp " DETP_VERSION);
-  program_.require_subcommand(0, 1);  // with 1 needed, an unknown command would be reported as a missing one
+  // if exactly 1 were required, an unknown command would be reported as a missing one
+  program_.require_subcommand(0, 1);
   const auto formatter = std::make_shared<HelpFormatter>();
   program_.formatter(formatter);
   program_.footer("detp help COMMAND explains a command and its options.");

@@ -22,7 +22,8 @@ class CommandLine {
   /// The error in words; for an unknown option, with the option that is probably meant.
   [[nodiscard]] std::string message(const CLI::ParseError& error) const;
 
-  /// Prints the help or the version that the error stands for; 0. For other errors, their exit code, which is not 0.
+  /// Prints the help or the version that the error represents, and returns 0. For other errors returns their exit code,
+  /// which is not 0.
   int exit(const CLI::ParseError& error) const { return program_.exit(error); }
 
  private:

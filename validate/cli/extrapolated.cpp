@@ -13,7 +13,7 @@ Json extrapolated_json(const std::vector<std::string>& reasons) {
 
 std::string extrapolated_note(std::span<const std::pair<Technique, std::vector<std::string>>> predictions) {
   std::set<Technique> marked;
-  std::vector<std::pair<std::string, std::set<Technique>>> reasons;  // as they come
+  std::vector<std::pair<std::string, std::set<Technique>>> reasons;  // in order of appearance
   for (const auto& [technique, why] : predictions)
     for (const std::string& reason : why) {
       marked.insert(technique);

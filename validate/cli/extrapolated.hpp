@@ -14,8 +14,8 @@ namespace detp::cli {
 /// The keys "extrapolated", and "extrapolated_because" with the reasons.
 [[nodiscard]] Json extrapolated_json(const std::vector<std::string>& reasons);
 
-/// For text: why predictions are marked with ~. A reason that does not hold for all techniques marked has the names of
-/// those for which it does. Empty where no prediction is extrapolated.
+/// For text: the reasons why predictions are marked with ~. A reason that does not apply to all marked techniques is
+/// followed by the names of those to which it does. Empty if no prediction is extrapolated.
 [[nodiscard]] std::string extrapolated_note(
     std::span<const std::pair<Technique, std::vector<std::string>>> predictions);
 

@@ -5,7 +5,8 @@
 
 namespace detp::cli {
 
-/// The columns that a table of candidates has beside the predictions: counted, measured, predicted over measured.
+/// Head of the columns that a table of candidates has in addition to the predictions: counted, measured, predicted over
+/// measured.
 [[nodiscard]] std::vector<TextColumn> measured_table_columns();
 [[nodiscard]] std::vector<TextCell> measured_cells(const validate::Analysed& run);
 
@@ -16,7 +17,7 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
 /// timed.
 [[nodiscard]] Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs);
 
-/// "choice", "regret" and "missed" lines: the measured winner, and what the prediction said instead.
+/// The lines "choice", "regret" and "missed": the measured winner, and the errors of the prediction.
 [[nodiscard]] std::string measured_lines(const ChooseAnswer& answer, const Screen& screen);
 
 /// The "choice" line.

@@ -16,7 +16,7 @@ void prepare_streams();
 /// Writes to stdout. Throws sim::FileError with the system's reason.
 void write_result(const std::string& text);
 
-/// Throws likewise if std::cout could not be written.
+/// Throws sim::FileError if std::cout could not be written.
 void check_written();
 
 /// Writes to stderr. Ignores errors, because they cannot be reported.

@@ -22,12 +22,12 @@ namespace detp::cli {
 namespace {
 
 constexpr std::chrono::milliseconds between_drawings{100};
-constexpr double first_drawing = 0.3;  // seconds: what ends before shows nothing
-constexpr double least_share = 0.005;  // before, nothing is said of the time left
-constexpr double sure = 0.8;           // share of the predicted work from which the prediction may turn out too low
+constexpr double first_drawing = 0.3;  // seconds: shorter work shows nothing
+constexpr double least_share = 0.005;  // before this share is done, no time left is shown
+constexpr double sure = 0.8;           // share of the predicted work up to which the prediction is trusted
 
-/// The share of a phase that is done after so much of its predicted work or time: it never stands still and never ends before
-/// the phase does, however much more work there is than predicted.
+/// The share of a phase that is done, from the share of its predicted work or time. It always increases, and reaches 1
+/// only at the end of the phase, even if there is more work than predicted.
 double share_done(double work) { return work <= sure ? work : 1 - (1 - sure) * sure / work; }
 
 }  // namespace
@@ -73,13 +73,13 @@ class ProgressLine::Display {
     while (!never.wait_for(lock, end, between_drawings, [&] { return end.stop_requested(); })) draw();
   }
 
-  /// By its work, or where that is not known by its time.
+  /// From the work; from the time if the work is unknown.
   [[nodiscard]] double share_of_phase() const {
     if (phase_.work > 0) return share_done(static_cast<double>(log_.total - work_before_) / phase_.work);
     return phase_.seconds > 0 ? share_done((clock_.seconds() - begun_) / phase_.seconds) : 0;
   }
 
-  /// With the mutex held.
+  /// Must be called with the mutex locked.
   void draw() {
     share_ = std::max(share_, phase_.from + (phase_.to - phase_.from) * share_of_phase());
     const Moment now{clock_.seconds(), share_};
@@ -103,10 +103,10 @@ class ProgressLine::Display {
   sim::Stopwatch clock_;
   std::mutex mutex_;
   sim::Phase phase_;
-  std::uint64_t work_before_ = 0;  ///< this phase
-  double begun_ = 0;               ///< the phase, seconds
+  std::uint64_t work_before_ = 0;  ///< work before this phase
+  double begun_ = 0;               ///< start of the phase, seconds
   double share_ = 0;               ///< of the whole work; it does not decrease
-  std::deque<Moment> moments_;     ///< from half of the time on
+  std::deque<Moment> moments_;     ///< of the latter half of the time
   bool drawn_ = false;
   std::jthread drawing_;
 };

@@ -31,8 +31,9 @@ class Table {
   std::vector<std::vector<Json>> rows_;
 };
 
-/// Rows for a reader: above, each input that all rows share; below, aligned, the inputs that differ and the answers.
-/// Where the table is too wide for the screen, answers are left out, the last ones first, and a last line names them.
+/// Rows as text: first each input that is the same in all rows; below, in aligned columns, the inputs that differ and
+/// the results. If the table is too wide for the screen, results are left out, the last ones first, and a last line
+/// names them.
 [[nodiscard]] std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers,
                                        const Screen& screen);
 

@@ -22,7 +22,7 @@ std::vector<std::string_view> technique_names() {
 
 std::string known_techniques() { return fmt::format("{}", fmt::join(technique_names(), ", ")); }
 
-/// A parameter that several techniques have, as one option: what it is for each of them.
+/// A parameter that several techniques have, as one option, with its meaning for each of them.
 struct SharedParameter {
   const Parameter* parameter;
   std::string help;

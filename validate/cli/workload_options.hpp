@@ -22,8 +22,8 @@ class WorkloadOptions {
 
   ValueLists lists;  ///< of the options that may have many values
 
-  /// What the chosen row asks for. Throws std::invalid_argument for options that do not go together and, unless the
-  /// command completes it by defaults of its own, for numbers that lack one.
+  /// The request of the current row. Throws std::invalid_argument for options that do not go together and, if
+  /// `complete`, for missing numbers of a workload without a scene.
   [[nodiscard]] validate::JobRequest request(const CommonOptions& common, bool complete = true) const;
 
  private:

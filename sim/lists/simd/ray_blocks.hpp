@@ -32,8 +32,8 @@ class Block {
   std::size_t capacity_ = 0;  ///< of its lists; not reduced for a smaller block, so that no other pages are touched
 };
 
-/// Calls search(block) for one block after another, until all have been or a stop is requested. The next one is
-/// loaded meanwhile, if there is a thread for it.
+/// Calls search(block) for one block after another, until all are searched or a stop is requested. Meanwhile another
+/// thread, if there is one, loads the next block.
 template <class Search>
 void for_each_block(const Problem& problem, const Frame& frame, const RunOptions& options, const Search& search) {
   const std::size_t size = rays_in_block(problem.discs.size());
