@@ -65,6 +65,11 @@ std::string describe(const Candidate& candidate) {
   return text;
 }
 
+std::string title(const Candidate& candidate) {
+  const std::string parameters = describe(candidate);
+  return fmt::format("{}{}{}", name(candidate.technique), parameters.empty() ? "" : ", ", parameters);
+}
+
 void check(const Candidate& candidate) {
   const TechniqueRecord& record = record_of(candidate.technique);
   if (candidate.parameters.index() != record.defaults.index())

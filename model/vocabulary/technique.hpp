@@ -168,6 +168,9 @@ void set_parameter(Candidate& candidate, std::string_view name, const ParameterV
 /// no parameters.
 [[nodiscard]] std::string describe(const Candidate& candidate);
 
+/// The technique and its parameters: "box-tree, fan-out 4, leaf 16".
+[[nodiscard]] std::string title(const Candidate& candidate);
+
 /// Throws std::invalid_argument if a parameter is out of range or does not belong to the technique.
 void check(const Candidate& candidate);
 

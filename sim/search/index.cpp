@@ -8,6 +8,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "power_squares.hpp"
+#include "run_memory.hpp"
 
 namespace detp::sim {
 
@@ -26,6 +27,8 @@ void check_options(const RunOptions& options, const Problem& problem) {
 namespace {
 
 void search_with_error(const Index& index, const Problem& problem, RunOptions options, Outcome& outcome) {
+  const double bytes = error_bytes * static_cast<double>(problem.discs.size());
+  require_memory_for("the standard errors", bytes, problem);
   PowerSquares squares;
   const bool pairs = options.pairs;
   options.pairs = squares.needs_pairs(problem, {}) || pairs;
@@ -33,6 +36,7 @@ void search_with_error(const Index& index, const Problem& problem, RunOptions op
   if (outcome.stopped) return;
   squares.add(problem, outcome.pairs);
   squares.finish(problem.discs, problem.rays.size(), outcome);
+  outcome.bytes += bytes;
   if (!pairs) outcome.pairs.clear();
 }
 

@@ -7,6 +7,9 @@
 
 namespace detp::sim {
 
+/// Bytes for each disc: its sum of squares and its standard error.
+constexpr double error_bytes = 2 * sizeof(double);
+
 /// The squares of the powers of each disc's hits, summed up: what the standard error of its irradiance needs.
 ///
 /// As long as all rays carry one power, they follow from the hits. From then on pairs are needed.

@@ -1,5 +1,7 @@
 #include "searcher.hpp"
 
+#include <utility>
+
 #include "registry.hpp"
 
 namespace detp::sim {
@@ -16,14 +18,16 @@ Problem problem_of(std::span<const Disc> discs, std::optional<double> farthest, 
 
 Searcher::Searcher(std::span<const Disc> discs, const Candidate& candidate, std::optional<double> farthest,
                    bool front_facing, const RunOptions& options)
-    : problem_(problem_of(discs, farthest, front_facing, options.stop)) {
-  check_options(options, problem_);
-  index_ = prepare(problem_, candidate, options);
-}
+    : Searcher(std::vector<Disc>{}, discs, candidate, farthest, front_facing, options) {}
 
 Searcher::Searcher(const DiscsView& discs, const Candidate& candidate, std::optional<double> farthest,
                    bool front_facing, const RunOptions& options)
-    : own_discs_(read_discs(discs)), problem_(problem_of(own_discs_, farthest, front_facing, options.stop)) {
+    : Searcher(read_discs(discs), {}, candidate, farthest, front_facing, options) {}
+
+Searcher::Searcher(std::vector<Disc> copies, std::span<const Disc> borrowed, const Candidate& candidate,
+                   std::optional<double> farthest, bool front_facing, const RunOptions& options)
+    : own_discs_(std::move(copies)),
+      problem_(problem_of(own_discs_.empty() ? borrowed : own_discs_, farthest, front_facing, options.stop)) {
   check_options(options, problem_);
   index_ = prepare(problem_, candidate, options);
 }

@@ -43,6 +43,10 @@ class Searcher {
   [[nodiscard]] const Built& built() const { return index_->built(); }
 
  private:
+  /// Of the copies if there are any, else of the borrowed discs.
+  Searcher(std::vector<Disc> copies, std::span<const Disc> borrowed, const Candidate& candidate,
+           std::optional<double> farthest, bool front_facing, const RunOptions& options);
+
   std::vector<Disc> own_discs_;
   Problem problem_;  ///< without rays
   std::unique_ptr<Index> index_;

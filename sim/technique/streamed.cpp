@@ -76,7 +76,8 @@ class Stream {
 
   /// Predicts the bytes in addition to those of each block's search. Throws before allocation if they do not fit.
   void predict_bytes() {
-    constexpr double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double);
+    const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
+                              (options_.run.standard_error ? error_bytes : 0);
     own_bytes_ =
         static_cast<double>(problem_.discs.size()) * for_a_disc + static_cast<double>(streamed_.block) * sizeof(Ray);
     streamed_.bytes = std::max(streamed_.bytes, own_bytes_);

@@ -33,7 +33,7 @@ int main() {
   for (int frame = 0; frame < 3; ++frame) {
     trace_photons();
     const detp::sim::Outcome& found = searcher.search(rays, scratch, {.count = false, .standard_error = true});
-    std::printf("%s: %llu hits; irradiance of sample 0: %.3f +- %.3f\n", detp::describe(best).c_str(),
+    std::printf("%s: %llu hits; irradiance of sample 0: %.3f +- %.3f\n", detp::title(best).c_str(),
                 static_cast<unsigned long long>(found.total_hits), found.irradiance[0], found.standard_error[0]);
     if (found.total_hits == 0) return 1;
   }

@@ -29,7 +29,8 @@ std::vector<Candidate> all_exact() {
                            {Technique::octree, OctreeParameters{4, Traversal::neighbour_links}},
                            {Technique::bsp, BspParameters{}},
                            {Technique::grid, GridParameters{16}},
-                           {Technique::bvh, BvhParameters{}}});
+                           {Technique::bvh, BvhParameters{}},
+                           {Technique::ray_map, RayMapParameters{}}});
   return list;
 }
 

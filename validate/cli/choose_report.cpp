@@ -174,11 +174,6 @@ std::string margin(const ChooseAnswer& answer) {
                      name(answer.ranking[1].candidate.technique));
 }
 
-std::string title_of(const Candidate& candidate) {
-  const std::string parameters = describe(candidate);
-  return fmt::format("{}{}{}", name(candidate.technique), parameters.empty() ? "" : ", ", parameters);
-}
-
 std::string effects_line(const Workload& workload) {
   std::string on;
   std::string off;
@@ -198,10 +193,10 @@ std::string to_text(const ChooseAnswer& answer, const Screen& screen) {
   text += table(answer, screen) + notes(answer, screen) + "\n";
   const double fastest = answer.ranking.front().time.total();
   if (!answer.analysis || !answer.analysis->best)
-    text += choice_text(fmt::format("{}: {}", title_of(answer.ranking.front().candidate), margin(answer)), screen);
+    text += choice_text(fmt::format("{}: {}", title(answer.ranking.front().candidate), margin(answer)), screen);
   if (answer.analysis) text += measured_lines(answer, screen);
   add(fmt::format("paper     its rule takes {}: predicted {:.3g} s, {:.3g} times as long as the predicted choice",
-                  title_of(answer.paper.candidate), answer.paper.time.total(), answer.paper.time.total() / fastest));
+                  title(answer.paper.candidate), answer.paper.time.total(), answer.paper.time.total() / fastest));
   const double share = answer.choosing_seconds / fastest;
   add(fmt::format(
       "planning  {:.2g} ms ({} the predicted run), rigor {}: {}", 1e3 * answer.choosing_seconds,

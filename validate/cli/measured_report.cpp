@@ -2,27 +2,18 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "detp/validate/choice/prediction_error.hpp"
+#include "table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
 namespace {
-
-std::string title_of(const Candidate& candidate) {
-  const std::string parameters = describe(candidate);
-  return fmt::format("{}{}{}", name(candidate.technique), parameters.empty() ? "" : ", ", parameters);
-}
 
 std::string why_not_measured(const validate::Analysis& analysis, const validate::Analysed& run) {
   if (run.given_up_after) return fmt::format("given up after {:.2g} s", *run.given_up_after);
   if (!run.refused.empty()) return "not run: " + run.refused;
   return analysis.stopped ? "stopped before" : "not timed";
 }
-
-/// Null if the number is not finite.
-Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
 /// The predicted choice, and the fastest candidate if that is another one and has a prediction.
 std::vector<const validate::Analysed*> to_explain(const validate::Analysis& analysis) {
@@ -32,15 +23,15 @@ std::vector<const validate::Analysed*> to_explain(const validate::Analysis& anal
 }
 
 std::string missed_line(const validate::Analysed& run, const UnitCosts& costs) {
-  const std::string title = title_of(run.candidate);
-  if (!run.predicted) return fmt::format("missed    {} has no closed form: it was not predicted", title);
+  const std::string tried = title(run.candidate);
+  if (!run.predicted) return fmt::format("missed    {} has no closed form: it was not predicted", tried);
   if (!run.counted || !run.seconds) return "";
   const auto error = validate::prediction_error(*run.predicted, *run.counted, *run.seconds, costs);
   return fmt::format(
       "missed    {}: predicted {:.3g} times its time = counts {:.3g} times (worst: {} {:.3g} times) x unit costs "
       "{:.3g} "
       "times",
-      title, error.seconds, error.counts, error.worst, error.worst_ratio, error.unit_costs);
+      tried, error.seconds, error.counts, error.worst, error.worst_ratio, error.unit_costs);
 }
 
 Json missed_json(const validate::Analysed& run, const UnitCosts& costs) {
@@ -103,7 +94,7 @@ std::string measured_lines(const ChooseAnswer& answer, const Screen& screen) {
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   if (analysis.best) {
     const validate::Analysed& best = analysis.candidates[*analysis.best];
-    text += choice_text(fmt::format("{}: measured {:.3g} s, the fastest of {} tried", title_of(best.candidate),
+    text += choice_text(fmt::format("{}: measured {:.3g} s, the fastest of {} tried", title(best.candidate),
                                     *best.seconds, analysis.tried),
                         screen);
     const validate::Analysed& predicted = analysis.candidates.front();
@@ -111,7 +102,7 @@ std::string measured_lines(const ChooseAnswer& answer, const Screen& screen) {
       add("regret    0 %: it is the predicted choice");
     else if (analysis.regret)
       add(fmt::format("regret    {:.1f} %: {}, the predicted choice, takes {:.3g} s", 100 * *analysis.regret,
-                      title_of(predicted.candidate), *predicted.seconds));
+                      title(predicted.candidate), *predicted.seconds));
     for (const validate::Analysed* run : to_explain(analysis))
       if (const std::string line = missed_line(*run, answer.costs); !line.empty()) add(line);
   }

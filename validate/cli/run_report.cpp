@@ -213,8 +213,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   const Timing& timing = answer.timing;
   std::string text = wrapped(describe(job), screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
-  const std::string parameters = describe(answer.candidate);
-  add(fmt::format("technique {}{}{}", name(answer.candidate.technique), parameters.empty() ? "" : ", ", parameters));
+  add("technique " + title(answer.candidate));
   add("hits      " + hits_text(answer));
   add(fmt::format(
       "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before{}",

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <tuple>
+
+#include "detp/sim/files/output_file.hpp"
+
 #include "text_table.hpp"
 #include "workload_options.hpp"
 
@@ -20,7 +25,7 @@ std::string where(const Deviation& row) {
 Json summary_json(const DeviationSummary& summary) {
   Json json{{"technique", summary.technique},
             {"quantity", summary.quantity},
-            {"tier", name(summary.form)},
+            {"form", name(summary.form)},
             {"compared", summary.compared},
             {"too_noisy", summary.noisy},
             {"median", summary.median},
@@ -43,7 +48,7 @@ Json summary_json(const DeviationSummary& summary) {
 std::string to_text(const std::vector<DeviationSummary>& summaries, const Screen& screen) {
   TextTable table({{.head = "technique", .align = Align::left},
                    {.head = "quantity", .align = Align::left},
-                   {.head = "tier", .align = Align::left},
+                   {.head = "form", .align = Align::left},
                    {.head = "compared", .spare = 2},
                    {.head = "median"},
                    {.head = "p95", .spare = 1},
@@ -92,6 +97,35 @@ Json cells_of(const Deviation& row) {
 }
 
 }  // namespace
+
+void write_sweep_rows(const std::string& path, const std::vector<Deviation>& deviations) {
+  struct Row {
+    const Deviation* any = nullptr;
+    std::string published;
+    std::string corrected;
+  };
+  std::map<std::tuple<std::string, std::int64_t>, std::size_t> places;
+  std::vector<Row> rows;
+  for (const Deviation& deviation : deviations) {
+    const std::string key =
+        fmt::format("{} {} {} {} {} {}", deviation.dimension, deviation.samples, deviation.disc_share,
+                    deviation.technique, deviation.parameters, deviation.quantity);
+    const auto [place, is_new] = places.try_emplace({key, deviation.sphere}, rows.size());
+    if (is_new) rows.push_back({.any = &deviation, .published = {}, .corrected = {}});
+    Row& row = rows[place->second];
+    (deviation.form == Form::published ? row.published : row.corrected) = fmt::format("{:.5g}", deviation.predicted);
+  }
+  sim::OutputFile file(path);
+  file.write(
+      "dimension,samples,disc_share,technique,parameters,quantity,sphere,published,corrected,observed,"
+      "standard_error\n");
+  for (const Row& row : rows)
+    file.write(fmt::format("{},{:g},{:g},{},\"{}\",{},{},{},{},{:.5g},{:.2g}\n", row.any->dimension, row.any->samples,
+                           row.any->disc_share, row.any->technique, row.any->parameters, row.any->quantity,
+                           row.any->sphere, row.published, row.corrected, row.any->observed.mean,
+                           row.any->observed.standard_error));
+  file.commit();
+}
 
 Columns sweep_columns() { return {"technique", "parameters", "disc_share", "i"}; }
 

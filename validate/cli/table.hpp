@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,9 @@ class Table {
 
 /// The columns of effect_cells().
 [[nodiscard]] const Columns& effect_columns();
+
+/// Null if the number is not finite: a relative error is unknown if all observations are zero.
+[[nodiscard]] inline Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
 /// A list of texts as one cell, separated by "; ".
 [[nodiscard]] std::string joined(const std::vector<std::string>& texts);

@@ -28,6 +28,7 @@ struct ValidateOptions {
   bool thorough = false;
   double most_samples = 1e7;
   validate::SweepOptions sweep;
+  std::optional<std::string> sweep_rows;
 };
 
 /// By default 20 000 samples uniform in a cube of side 2, discs of radius 0.02.
@@ -72,9 +73,6 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
   result.inputs["seed"] = request.seed;
   return experiment;
 }
-
-/// Null if the number is unknown: a relative error if all observations are zero.
-Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
 Json claim_json(const Claim& claim) {
   return {{"id", claim.id},
@@ -207,8 +205,9 @@ ExitCode code_of(const std::vector<Claim>& claims) {
 }
 
 void check_effort(const ValidateOptions& options, const validate::JobRequest& request) {
-  if (!options.thorough && (options.sweep.checkpoint || options.sweep.resume || options.most_samples < 1e7))
-    throw std::invalid_argument("--checkpoint, --resume and --most-samples belong to --effort thorough");
+  if (!options.thorough &&
+      (options.sweep.checkpoint || options.sweep.resume || options.sweep_rows || options.most_samples < 1e7))
+    throw std::invalid_argument("--checkpoint, --resume, --sweep-rows and --most-samples belong to --effort thorough");
   if (options.sweep.resume && !options.sweep.checkpoint)
     throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
   if (options.thorough && !request.numbers_alone())
@@ -234,7 +233,7 @@ validate::SweepOptions sweep_options(const ValidateOptions& options, const Commo
 void check_files(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   Output checkpoint{"--checkpoint", std::nullopt};
   if (options.sweep.checkpoint) checkpoint.path = options.sweep.checkpoint->string();
-  check_outputs({{"--output", common.output}, checkpoint});
+  check_outputs({{"--output", common.output}, checkpoint, {"--sweep-rows", options.sweep_rows}});
   if (options.thorough) validate::check_checkpoint(points_of(options), sweep_options(options, common, stop));
 }
 
@@ -242,7 +241,9 @@ void sweep(const ValidateOptions& options, const CommonOptions& common, const st
            const ProgressLine& progress, Table& table, Result& result) {
   validate::SweepOptions sweep = sweep_options(options, common, stop);
   sweep.progress = sim::part_of(progress.report(), share_of_claims, 1);
-  report_sweep(validate::run_sweep(points_of(options), sweep), common.screen(), table, result);
+  const validate::SweepResult measured = validate::run_sweep(points_of(options), sweep);
+  if (options.sweep_rows) write_sweep_rows(*options.sweep_rows, measured.deviations);
+  report_sweep(measured, common.screen(), table, result);
 }
 
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
@@ -287,6 +288,7 @@ Command validate_command(CLI::App& program) {
       ->check(CLI::IsMember({"default", "thorough"}));
   app->add_option("--checkpoint", options->sweep.checkpoint, "thorough: keep what is measured in this file");
   app->add_flag("--resume", options->sweep.resume, "thorough: go on from the checkpoint");
+  app->add_option("--sweep-rows", options->sweep_rows, "thorough: write one row for each count of the sweep as CSV");
   add_number(*app, "--most-samples", options->most_samples, "thorough: leave out larger workloads; default: 1e7, all");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_validate(*options, common, stop);

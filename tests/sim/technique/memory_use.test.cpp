@@ -163,6 +163,7 @@ std::vector<Case> cases() {
                                    {Technique::bvh, BvhParameters{BuildQuality::low}},
                                    {Technique::bvh, BvhParameters{BuildQuality::medium}}};
   RunOptions pairs{.count = false, .pairs = true, .threads = 2};
+  RunOptions errors{.count = false, .standard_error = true, .threads = 2};
   RunOptions plain{.count = false, .engine = Engine::plain, .threads = 2};
   std::vector<Case> list;
   for (const Candidate& candidate : all) {
@@ -182,6 +183,7 @@ std::vector<Case> cases() {
     list.push_back({candidate, few_rays_on_clusters, "few rays on clusters, plain", plain});
     list.push_back({candidate, few_lines, "few lines, plain", plain});
   }
+  list.push_back({{Technique::box_tree, BoxTreeParameters{4, 16}}, segments, "standard errors", errors});
   list.push_back({{Technique::photon_map, PhotonMapParameters{}}, many_segments, "many segments"});
   list.push_back({{Technique::photon_map, PhotonMapParameters{}}, many_segments, "pairs", pairs});
   return list;

@@ -170,6 +170,7 @@ TEST_SUITE("bad input") {
           {"run @uniform --per-disc " + one + " --pairs " + other, "--per-disc and --pairs name the same"});
       refusals.push_back({"scene @tree --write-rays " + one + " --write-discs " + other, "name the same"});
       refusals.push_back({thorough + one + " --output " + other, "--output and --checkpoint name the same"});
+      refusals.push_back({thorough + one + " --sweep-rows " + other, "--checkpoint and --sweep-rows name the same"});
     }
     check_refused(refusals);
     CHECK(folder.entries() == 1);

@@ -60,6 +60,7 @@ TEST_SUITE("end to end") {
     check_refused({{"validate --resume", "--effort thorough"},
                    {"validate --checkpoint x.json", "--effort thorough"},
                    {"validate --most-samples 1000", "--effort thorough"},
+                   {"validate --sweep-rows rows.csv", "--effort thorough"},
                    {"validate --effort thorough --resume", "--checkpoint"},
                    {"validate @tree --effort thorough", "takes no scene"},
                    {"validate --effort thorough --most-samples 0", "--most-samples"},
