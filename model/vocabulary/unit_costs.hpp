@@ -11,9 +11,8 @@ namespace detp {
 
 /// Time in seconds of each counted operation on one machine; all from 0 to 1e200.
 ///
-/// The paper has t, u and (implicitly) v; the others are operations that its formulas omit (sorting, copying). Each
-/// cost belongs to a term and an engine: those of lists to the engine that tests whole lists, the others to the one
-/// that tests one ray and one disc at a time.
+/// The paper has t, u and (implicitly) v; the others are operations that its formulas omit (sorting, copying).
+/// unit_cost_terms says to which count and engine each belongs.
 struct UnitCosts {
   double cull_test = 1;   ///< t: testing one ray of a list against a sphere or a box
   double disc_test = 1;   ///< u: testing one ray of a list against a disc
@@ -30,30 +29,6 @@ struct UnitCosts {
   bool operator==(const UnitCosts&) const = default;
 };
 
-/// A unit cost and its name in results and on the command line.
-struct UnitCostTerm {
-  std::string_view symbol;  ///< "t"
-  double UnitCosts::*cost;
-  std::string_view meaning;  ///< operation whose time it is
-};
-
-inline constexpr std::array unit_cost_terms{
-    UnitCostTerm{"t", &UnitCosts::cull_test, "testing a ray of a list against a sphere or a box"},
-    UnitCostTerm{"u", &UnitCosts::disc_test, "testing a ray of a list against a disc"},
-    UnitCostTerm{"w", &UnitCosts::index_test, "testing one ray against one disc of an index"},
-    UnitCostTerm{"v", &UnitCosts::step, "a ray's step to a cell of a grid"},
-    UnitCostTerm{"n", &UnitCosts::node, "a visit to a node of a tree"},
-    UnitCostTerm{"c", &UnitCosts::listed, "putting a ray into a list"},
-    UnitCostTerm{"b", &UnitCosts::placement, "placing a disc in a cell or node while an index is built"},
-    UnitCostTerm{"p", &UnitCosts::leaf, "placing a disc in a leaf of a tree that lists are culled down"},
-    UnitCostTerm{"s", &UnitCosts::sort, "sorting a disc along the curve"},
-    UnitCostTerm{"r", &UnitCosts::cull, "making a list, beside its tests and rays"},
-    UnitCostTerm{"l", &UnitCosts::visit, "a disc's visit to a list, beside its tests"},
-};
-
-/// Throws std::invalid_argument, which names the cost, if one is negative, above 1e200 or NaN.
-void check(const UnitCosts& costs);
-
 /// The time of a technique by part, in the unit of the UnitCosts from which it was computed.
 struct CostBreakdown {
   double order = 0;      ///< sorting the samples
@@ -66,24 +41,60 @@ struct CostBreakdown {
   [[nodiscard]] constexpr double total() const { return order + build + rebuild + copy + traverse + intersect; }
 };
 
-/// Counts × unit costs, part by part, for a technique that tests lists of rays.
-[[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs) {
-  return {.order = counts.sorted * costs.sort,
-          .build = counts.placements * costs.leaf,
-          .rebuild = counts.cull_tests * costs.cull_test + counts.culls * costs.cull,
-          .copy = counts.listed * costs.listed,
-          .traverse = counts.steps * costs.step + counts.nodes * costs.node,
-          .intersect = counts.disc_tests * costs.disc_test + counts.visits * costs.visit};
+/// The two ways to search: a list of rays against one disc after another, or one ray and one disc at a time.
+enum class CostEngine { lists, ray_by_ray, both };
+
+/// A unit cost: its name in results and on the command line, and the count and engine whose time it is.
+struct UnitCostTerm {
+  std::string_view symbol;  ///< "t"
+  double UnitCosts::*cost;
+  double Counts<double>::*count;
+  CostEngine engine;
+  double CostBreakdown::*part;
+  std::string_view meaning;  ///< operation whose time it is
+};
+
+inline constexpr std::array unit_cost_terms{
+    UnitCostTerm{"t", &UnitCosts::cull_test, &Counts<double>::cull_tests, CostEngine::both, &CostBreakdown::rebuild,
+                 "testing a ray of a list against a sphere or a box"},
+    UnitCostTerm{"u", &UnitCosts::disc_test, &Counts<double>::disc_tests, CostEngine::lists, &CostBreakdown::intersect,
+                 "testing a ray of a list against a disc"},
+    UnitCostTerm{"w", &UnitCosts::index_test, &Counts<double>::disc_tests, CostEngine::ray_by_ray,
+                 &CostBreakdown::intersect, "testing one ray against one disc of an index"},
+    UnitCostTerm{"v", &UnitCosts::step, &Counts<double>::steps, CostEngine::both, &CostBreakdown::traverse,
+                 "a ray's step to a cell of a grid"},
+    UnitCostTerm{"n", &UnitCosts::node, &Counts<double>::nodes, CostEngine::both, &CostBreakdown::traverse,
+                 "a visit to a node of a tree"},
+    UnitCostTerm{"c", &UnitCosts::listed, &Counts<double>::listed, CostEngine::both, &CostBreakdown::copy,
+                 "putting a ray into a list"},
+    UnitCostTerm{"b", &UnitCosts::placement, &Counts<double>::placements, CostEngine::ray_by_ray, &CostBreakdown::build,
+                 "placing a disc in a cell or node while an index is built"},
+    UnitCostTerm{"p", &UnitCosts::leaf, &Counts<double>::placements, CostEngine::lists, &CostBreakdown::build,
+                 "placing a disc in a leaf of a tree that lists are culled down"},
+    UnitCostTerm{"s", &UnitCosts::sort, &Counts<double>::sorted, CostEngine::both, &CostBreakdown::order,
+                 "sorting a disc along the curve"},
+    UnitCostTerm{"r", &UnitCosts::cull, &Counts<double>::culls, CostEngine::both, &CostBreakdown::rebuild,
+                 "making a list, beside its tests and rays"},
+    UnitCostTerm{"l", &UnitCosts::visit, &Counts<double>::visits, CostEngine::both, &CostBreakdown::intersect,
+                 "a disc's visit to a list, beside its tests"},
+};
+
+/// Throws std::invalid_argument, which names the cost, if one is negative, above 1e200 or NaN.
+void check(const UnitCosts& costs);
+
+/// Counts × unit costs, part by part, with the costs of one engine.
+[[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs,
+                                            CostEngine engine = CostEngine::lists) {
+  CostBreakdown time;
+  for (const UnitCostTerm& term : unit_cost_terms)
+    if (term.engine == CostEngine::both || term.engine == engine)
+      time.*term.part += counts.*term.count * costs.*term.cost;
+  return time;
 }
 
-/// Counts × unit costs, part by part, for any technique. If the technique searches rays one by one, uses its own costs
-/// of disc tests and insertions.
-[[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, UnitCosts costs, Technique technique) {
-  if (record_of(technique).ray_by_ray) {
-    costs.disc_test = costs.index_test;
-    costs.leaf = costs.placement;
-  }
-  return price(counts, costs);
+/// The same with the costs of the technique's engine.
+[[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs, Technique technique) {
+  return price(counts, costs, record_of(technique).ray_by_ray ? CostEngine::ray_by_ray : CostEngine::lists);
 }
 
 }  // namespace detp
