@@ -101,10 +101,11 @@ class PhotonMap {
         wanted_(static_cast<std::size_t>(nearest)) {
     cloud_.building = nullptr;
     if (cloud_.photons.empty())
-      throw std::invalid_argument("no ray is a segment, so that there is no photon; give the rays lengths");
-    if (cloud_.photons.size() < wanted_)
       throw std::invalid_argument(
-          fmt::format("there are {} photons, fewer than the {} nearest asked for", cloud_.photons.size(), wanted_));
+          "photon-map needs photons, the end points of rays, but all rays are lines: give rays with a finite length");
+    if (cloud_.photons.size() < wanted_)
+      throw std::invalid_argument(fmt::format("photon-map needs the {} nearest photons, but the rays have only {}",
+                                              wanted_, cloud_.photons.size()));
   }
 
   void estimate(const RunOptions& options, Outcome& outcome) const {
@@ -150,8 +151,10 @@ class PhotonMap {
 
   double density(double power, double square, std::uint32_t disc) const {
     if (!(square >= 1e-200))
-      throw std::invalid_argument(fmt::format(
-          "{} photons lie at the centre of disc {}, where their density has no bound; ask for more", wanted_, disc));
+      throw std::invalid_argument(
+          fmt::format("{} photons lie at the centre of disc {}, so the density there is infinite: increase the number "
+                      "of nearest photons",
+                      wanted_, disc));
     return power / (std::numbers::pi * square);
   }
 
@@ -193,10 +196,11 @@ class PhotonMapIndex final : public Index {
   /// exactly at a disc's centre, and for totals to continue, which this estimator does not have.
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     if (options.totals != nullptr)
-      throw std::invalid_argument("photon-map needs all rays at once: the nearest of each block are not those of all");
+      throw std::invalid_argument(
+          "photon-map needs all rays at once: the nearest photons of a block of rays are not the nearest of all rays");
     if (options.standard_error)
       throw std::invalid_argument(
-          "photon-map has no standard error: its photons are not independent samples of a disc");
+          "photon-map has no standard error, because the photons near a disc are not independent samples");
     need_memory("the photon map", map_bytes(problem), problem, outcome);
     Stopwatch watch;
     const PhotonMap map(problem, nearest_, options.stop);
