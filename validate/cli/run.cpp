@@ -35,8 +35,8 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
   const UnitCosts costs = validate::built_in_unit_costs();
   const Technique technique = options.technique ? options.technique_or(Technique::brute_force)
                                                 : model::rank(workload, costs).front().candidate.technique;
-  const model::Wish wish = options.wish(technique);
-  auto candidate = model::complete(technique, wish, workload, costs);
+  const model::FixedParameters fixed = options.fixed_parameters(technique);
+  auto candidate = model::complete(technique, fixed, workload, costs);
   if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
   if (auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
       cache != nullptr && options.stop == SphereStop::max)
