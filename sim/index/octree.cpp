@@ -33,8 +33,8 @@ class Octree {
   template <class Search>
   void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(traced);
-    const Stretch stretch = clipped.inside({tree_.cube.low - slack_, tree_.cube.high + slack_});
-    if (stretch.empty()) return;
+    const RayInterval interval = clipped.inside({tree_.cube.low - slack_, tree_.cube.high + slack_});
+    if (interval.empty()) return;
     const OctreeDescent descent(tree_, clipped, slack_);
     switch (traversal_) {
       case Traversal::top_down:
@@ -42,12 +42,13 @@ class Octree {
       case Traversal::front_to_back:
         return descent.in_order(ray, search);
       case Traversal::restart:
-        return walk_.go(traced, clipped, stretch,
-                        [&](const Leaf& place, int) { return from_root(place, ray, search); });
+        return walk_.for_each_leaf(traced, clipped, interval,
+                                   [&](const Leaf& place, int) { return from_root(place, ray, search); });
       case Traversal::neighbour_links: {
         std::uint32_t number = 0;
-        return walk_.go(traced, clipped, stretch,
-                        [&](const Leaf& place, int face) { return along_link(number, place, face, ray, search); });
+        return walk_.for_each_leaf(traced, clipped, interval, [&](const Leaf& place, int face) {
+          return along_link(number, place, face, ray, search);
+        });
       }
     }
   }

@@ -41,7 +41,9 @@ class OctreeDescent {
     Box box;
   };
 
-  [[nodiscard]] Stretch inside(const Box& box) const { return clipped_.inside({box.low - slack_, box.high + slack_}); }
+  [[nodiscard]] RayInterval inside(const Box& box) const {
+    return clipped_.inside({box.low - slack_, box.high + slack_});
+  }
 
   template <class Search>
   void all(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
@@ -61,11 +63,11 @@ class OctreeDescent {
     std::array<CrossedChild, 8> crossed;
     std::size_t count = 0;
     for_each_child(node, box, [&](std::uint32_t child, const Box& part) {
-      const Stretch stretch = inside(part);
-      if (stretch.empty()) return;
+      const RayInterval interval = inside(part);
+      if (interval.empty()) return;
       std::size_t place = count++;
-      for (; place > 0 && crossed[place - 1].from > stretch.from; --place) crossed[place] = crossed[place - 1];
-      crossed[place] = {stretch.from, child, part};
+      for (; place > 0 && crossed[place - 1].from > interval.from; --place) crossed[place] = crossed[place - 1];
+      crossed[place] = {interval.from, child, part};
     });
     for (std::size_t i = 0; i < count; ++i) in_order(crossed[i].number, crossed[i].box, level + 1, ray, search);
   }

@@ -51,7 +51,7 @@ class Sum {
   explicit Sum(HitCollector& collector) : collector_(collector) {}
 
   void add(const Chunk& chunk) {
-    for (const Pair& hit : *chunk.hits) collector_.keep(hit.ray, hit.disc);
+    for (const Pair& hit : *chunk.hits) collector_.add_hit(hit.ray, hit.disc);
     batches_.add(chunk.last - chunk.first, chunk.hits->size());
   }
 
@@ -111,7 +111,7 @@ void search_rays(const Problem& problem, const RunOptions& options, MakeRaySearc
   else
     on_threads(threads, [&] { outcome.counts = search_together(chunks, under_way, make, sum); });
   outcome.batches = sum.batches();
-  collector.give(outcome.batches.rays);
+  collector.store_results(outcome.batches.rays);
 }
 
 }  // namespace detp::sim

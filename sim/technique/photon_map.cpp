@@ -201,7 +201,7 @@ class PhotonMapIndex final : public Index {
     if (options.standard_error)
       throw std::invalid_argument(
           "photon-map has no standard error, because the photons near a disc are not independent samples");
-    need_memory("the photon map", map_bytes(problem), problem, outcome);
+    add_checked_bytes("the photon map", map_bytes(problem), problem, outcome);
     Stopwatch watch;
     const PhotonMap map(problem, nearest_, options.stop);
     outcome.seconds.build = watch.lap();
