@@ -52,7 +52,7 @@ double pierced_up_to(double distance) {
   return distance < 0 ? -share : share;
 }
 
-bool spread(const IndexAxis& axis, Centres centres) {
+bool is_spread(const IndexAxis& axis, Centres centres) {
   return centres == Centres::uniform && axis.room > 1e-6 * axis.disc;
 }
 
@@ -63,7 +63,7 @@ double centre_of(const IndexAxis& axis, Centres centres) {
 
 /// Crossings of a plane that cuts the disc, for centres below the plane.
 PlaneCrossings crossings_from_below(const IndexAxis& axis, double plane, Centres centres, Insertion insertion) {
-  if (!spread(axis, centres)) {
+  if (!is_spread(axis, centres)) {
     const double at = centre_of(axis, centres);
     return at < plane ? crossings_at((plane - at) / axis.disc, insertion) : PlaneCrossings{};
   }
@@ -74,7 +74,7 @@ PlaneCrossings crossings_from_below(const IndexAxis& axis, double plane, Centres
 }
 
 PlaneCrossings crossings_from_above(const IndexAxis& axis, double plane, Centres centres, Insertion insertion) {
-  if (!spread(axis, centres)) {
+  if (!is_spread(axis, centres)) {
     const double at = centre_of(axis, centres);
     return at >= plane ? crossings_at((plane - at) / axis.disc, insertion) : PlaneCrossings{};
   }
@@ -87,7 +87,7 @@ PlaneCrossings crossings_from_above(const IndexAxis& axis, double plane, Centres
 
 /// The probability that the centre lies between two planes.
 double centred_between(const IndexAxis& axis, double low, double high, Centres centres) {
-  if (!spread(axis, centres)) {
+  if (!is_spread(axis, centres)) {
     const double at = centre_of(axis, centres);
     return low <= at && at < high ? 1 : 0;
   }
@@ -95,7 +95,8 @@ double centred_between(const IndexAxis& axis, double low, double high, Centres c
 }
 
 double pierced_between(const IndexAxis& axis, double low, double high, Centres centres, Insertion insertion) {
-  if (spread(axis, centres) || insertion == Insertion::bounding_box) return centred_between(axis, low, high, centres);
+  if (is_spread(axis, centres) || insertion == Insertion::bounding_box)
+    return centred_between(axis, low, high, centres);
   const double at = centre_of(axis, centres);
   return pierced_up_to((high - at) / axis.disc) - pierced_up_to((low - at) / axis.disc);
 }

@@ -23,20 +23,20 @@ namespace {
 
 /// The candidate's parameters, which its check covers.
 template <class P>
-Valid<P> own(const Valid<Candidate>& candidate) {
+Valid<P> checked_parameters(const Valid<Candidate>& candidate) {
   return Valid<P>(candidate, std::get<P>(candidate.parameters));
 }
 
 /// A formula of one technique's parameters, for candidates of any.
 template <class P, auto counts>
 Counts<double> predicted(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine) {
-  return counts(workload, own<P>(candidate));
+  return counts(workload, checked_parameters<P>(candidate));
 }
 
 /// The same of a technique with a simd engine, where the formula counts the lists and visits of one block of rays.
 template <class P, auto counts>
 Counts<double> in_blocks(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
-  const auto& parameters = own<P>(candidate);
+  const auto& parameters = checked_parameters<P>(candidate);
   Counts<double> all = counts(workload, parameters);
   const RayBlocks blocks = ray_blocks(workload.rays, workload.samples, engine);
   if (blocks.count() == 1) return all;
@@ -57,7 +57,7 @@ Counts<double> in_blocks(const Valid<Workload>& workload, const Valid<Candidate>
 }
 
 Counts<double> counts_of_box_tree(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
-  return box_tree_counts(workload, own<BoxTreeParameters>(candidate), engine);
+  return box_tree_counts(workload, checked_parameters<BoxTreeParameters>(candidate), engine);
 }
 
 /// Plain density estimation on the tangent plane: each disc against each ray.

@@ -21,7 +21,7 @@ class Bsp {
             .building_bytes = tree_.building_bytes};
   }
 
-  void show(const VisitNode& visit) const { show(0, tree_.box, 0, visit); }
+  void visit_nodes(const VisitNode& visit) const { visit_nodes(0, tree_.box, 0, visit); }
 
   template <class Search>
   void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
@@ -31,12 +31,12 @@ class Bsp {
   }
 
  private:
-  void show(std::uint32_t number, const Box& box, int level, const VisitNode& visit) const {
+  void visit_nodes(std::uint32_t number, const Box& box, int level, const VisitNode& visit) const {
     const BspNode& node = tree_.nodes[number];
     visit({box, level, node.leaf(), node.count});
     if (node.leaf()) return;
     for (const bool above : {false, true})
-      show(node.first + above, part_of(box, node.axis, node.plane, above), level + 1, visit);
+      visit_nodes(node.first + above, part_of(box, node.axis, node.plane, above), level + 1, visit);
   }
 
   /// `interval` is the part of the ray in the node, grown by the slack. Continues in the child that the ray enters
@@ -74,7 +74,7 @@ IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, c
                       const std::stop_token& stop) {
   check({Technique::bsp, parameters});
   const Bsp tree(problem, parameters, stop);
-  tree.show(visit);
+  tree.visit_nodes(visit);
   return tree.size();
 }
 

@@ -39,7 +39,7 @@ class Grid {
             .building_bytes = building_bytes(references_.size())};
   }
 
-  void show(const VisitNode& visit) const {
+  void visit_nodes(const VisitNode& visit) const {
     for (Cell cell{}; cell[2] < along_[2]; ++cell[2])
       for (cell[1] = 0; cell[1] < along_[1]; ++cell[1])
         for (cell[0] = 0; cell[0] < along_[0]; ++cell[0]) {
@@ -164,7 +164,7 @@ IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters,
                        const VisitNode& visit, const std::stop_token& stop) {
   check({Technique::grid, parameters});
   const Grid grid(problem, parameters.cells, variant.insertion, stop);
-  grid.show(visit);
+  grid.visit_nodes(visit);
   return grid.size();
 }
 

@@ -23,15 +23,15 @@ class OctreeDescent {
 
   /// Visits children in the order of their octants.
   template <class Search>
-  void all(std::uint32_t ray, Search& search) const {
-    all(0, tree_.cube, 0, ray, search);
+  void visit_all(std::uint32_t ray, Search& search) const {
+    visit_all(0, tree_.cube, 0, ray, search);
   }
 
   /// Visits the same nodes. Of each node's children, the one that the ray enters first comes first; of children entered
   /// together, the lower octant.
   template <class Search>
-  void in_order(std::uint32_t ray, Search& search) const {
-    in_order(0, tree_.cube, 0, ray, search);
+  void visit_in_order(std::uint32_t ray, Search& search) const {
+    visit_in_order(0, tree_.cube, 0, ray, search);
   }
 
  private:
@@ -46,17 +46,17 @@ class OctreeDescent {
   }
 
   template <class Search>
-  void all(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
+  void visit_all(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
     search.visit(&Counts<std::uint64_t>::nodes);
     const OctreeNode& node = tree_.nodes[number];
     if (level == tree_.depth) return search.test(ray, tree_.references_in(node));
     for_each_child(node, box, [&](std::uint32_t child, const Box& part) {
-      if (!inside(part).empty()) all(child, part, level + 1, ray, search);
+      if (!inside(part).empty()) visit_all(child, part, level + 1, ray, search);
     });
   }
 
   template <class Search>
-  void in_order(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
+  void visit_in_order(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
     search.visit(&Counts<std::uint64_t>::nodes);
     const OctreeNode& node = tree_.nodes[number];
     if (level == tree_.depth) return search.test(ray, tree_.references_in(node));
@@ -69,7 +69,7 @@ class OctreeDescent {
       for (; place > 0 && crossed[place - 1].from > interval.from; --place) crossed[place] = crossed[place - 1];
       crossed[place] = {interval.from, child, part};
     });
-    for (std::size_t i = 0; i < count; ++i) in_order(crossed[i].number, crossed[i].box, level + 1, ray, search);
+    for (std::size_t i = 0; i < count; ++i) visit_in_order(crossed[i].number, crossed[i].box, level + 1, ray, search);
   }
 
   const OctreeNodes& tree_;
