@@ -10,15 +10,16 @@ namespace detp::model {
 namespace {
 
 /// The three axes. Along the first the centres may have a fixed coordinate.
-using Axes = std::array<Crossings, 3>;
+using Axes = std::array<PlaneCrossings, 3>;
 
-double planes_across(const Axes& n) { return n[0].one + n[1].one + n[2].one; }
+double planes_across(const Axes& n) { return n[0].planes + n[1].planes + n[2].planes; }
 
 double lines_through(const Axes& n, Insertion insertion) {
-  return n[0].two * (n[1].one + n[2].one) + uniform_crossings(1, insertion).two * n[1].one * n[2].one;
+  return n[0].line_weight * (n[1].planes + n[2].planes) +
+         uniform_crossings(1, insertion).line_weight * n[1].planes * n[2].planes;
 }
 
-double corners_in(const Axes& n) { return n[0].three * n[1].one * n[2].one; }
+double corners_in(const Axes& n) { return n[0].corner_weight * n[1].planes * n[2].planes; }
 
 IndexAxis axis_of(const Valid<Workload>& workload, const Cells& cells, std::size_t axis) {
   return {cells.along[axis], cells.side, workload.box[axis], workload.disc_radius};
@@ -39,12 +40,13 @@ double on_faces(const Valid<Workload>& workload) {
 }
 
 /// Computes E and S, means over the places of the samples.
-void put_overlapped(Cells& cells, const Valid<Workload>& workload) {
+void set_overlapped(Cells& cells, const Valid<Workload>& workload) {
   const double x = workload.disc_radius / cells.side;
-  const auto one = [&](std::size_t axis, Centres centres) {
+  const auto crossings_of = [&](std::size_t axis, Centres centres) {
     return crossings(axis_of(workload, cells, axis), centres, cells.insertion);
   };
-  const Axes uniform{one(0, Centres::uniform), one(1, Centres::uniform), one(2, Centres::uniform)};
+  const Axes uniform{crossings_of(0, Centres::uniform), crossings_of(1, Centres::uniform),
+                     crossings_of(2, Centres::uniform)};
   cells.overlapped = cells.seen = 0;
   const auto add = [&](const Axes& n, double weight) {
     const double planes = planes_across(n);
@@ -58,42 +60,45 @@ void put_overlapped(Cells& cells, const Valid<Workload>& workload) {
   const std::array<double, 3> shares = face_shares(workload);
   for (std::size_t axis = 0; axis < 3; ++axis)
     for (const Centres centres : {Centres::low_face, Centres::high_face})
-      add({one(axis, centres), uniform[(axis + 1) % 3], uniform[(axis + 2) % 3]}, faces * shares[axis] / 2);
+      add({crossings_of(axis, centres), uniform[(axis + 1) % 3], uniform[(axis + 2) % 3]}, faces * shares[axis] / 2);
 }
 
 /// The probability that a disc overlaps a cell, from the terms of E: along each axis the centre lies in the cell's
 /// slab, or the disc reaches into it.
-double overlap_chance(const std::array<const Slabs*, 3>& slabs, std::size_t fixed, Centres centres, double two) {
+double overlap_probability(const std::array<const Slabs*, 3>& slabs, std::size_t fixed, Centres centres,
+                           double line_weight) {
   const auto at = static_cast<std::size_t>(centres);
   const Slabs& j = *slabs[(fixed + 1) % 3];
   const Slabs& k = *slabs[(fixed + 2) % 3];
   const double in_both = j.centred[0] * k.centred[0];
-  const double in_one = j.reached[0].one * k.centred[0] + j.centred[0] * k.reached[0].one;
-  const double in_none = j.reached[0].one * k.reached[0].one;
+  const double in_one = j.reached[0].planes * k.centred[0] + j.centred[0] * k.reached[0].planes;
+  const double in_none = j.reached[0].planes * k.reached[0].planes;
   const double in = slabs[fixed]->centred[at];
-  const Crossings& reached = slabs[fixed]->reached[at];
-  return in * (in_both + in_one) + slabs[fixed]->pierced[at] * two * in_none + reached.one * in_both +
-         reached.two * in_one + reached.three * in_none;
+  const PlaneCrossings& reached = slabs[fixed]->reached[at];
+  return in * (in_both + in_one) + slabs[fixed]->pierced[at] * line_weight * in_none + reached.planes * in_both +
+         reached.line_weight * in_one + reached.corner_weight * in_none;
 }
 
 /// The probability that a disc overlaps a cell, averaged over the places of the samples.
-class OverlapChance {
+class OverlapProbability {
  public:
-  OverlapChance(const Valid<Workload>& workload, Insertion insertion)
-      : faces_(on_faces(workload)), shares_(face_shares(workload)), two_(uniform_crossings(1, insertion).two) {}
+  OverlapProbability(const Valid<Workload>& workload, Insertion insertion)
+      : faces_(on_faces(workload)),
+        shares_(face_shares(workload)),
+        line_weight_(uniform_crossings(1, insertion).line_weight) {}
 
   [[nodiscard]] double operator()(const std::array<const Slabs*, 3>& slabs) const {
-    double all = faces_ < 1 ? (1 - faces_) * overlap_chance(slabs, 0, Centres::uniform, two_) : 0;
+    double all = faces_ < 1 ? (1 - faces_) * overlap_probability(slabs, 0, Centres::uniform, line_weight_) : 0;
     for (std::size_t axis = 0; axis < 3 && faces_ > 0; ++axis)
       for (const Centres centres : {Centres::low_face, Centres::high_face})
-        all += faces_ * shares_[axis] / 2 * overlap_chance(slabs, axis, centres, two_);
+        all += faces_ * shares_[axis] / 2 * overlap_probability(slabs, axis, centres, line_weight_);
     return std::min(all, 1.0);
   }
 
  private:
   double faces_;
   std::array<double, 3> shares_;
-  double two_;
+  double line_weight_;
 };
 
 }  // namespace
@@ -104,7 +109,7 @@ Cells index_cells(const Valid<Workload>& workload, double parts, Insertion inser
   Cells cells{.side = (scene_side(workload) + 2 * d) / parts, .insertion = insertion};
   for (std::size_t axis = 0; axis < 3; ++axis)
     cells.along[axis] = std::max(1.0, std::ceil((workload.box[axis] + 2 * d) / cells.side * (1 - 1e-12)));
-  put_overlapped(cells, workload);
+  set_overlapped(cells, workload);
   cells.overlapped = std::min(cells.overlapped, cells.count());
   const double face = cells.side * cells.side;
   cells.crossing = crossing_probability(workload, face * cells.side, 6 * face);
@@ -126,13 +131,13 @@ double occupied_cells(const Valid<Workload>& workload, const Cells& cells) {
     axes[axis] = axis > 0 && workload.box[axis] == workload.box[axis - 1]
                      ? axes[axis - 1]
                      : slab_runs(axis_of(workload, cells, axis), cells.insertion);
-  const OverlapChance chance(workload, cells.insertion);
+  const OverlapProbability overlap_of(workload, cells.insertion);
   double occupied = 0;
   for (std::size_t i = 0; i < axes[0].size; ++i)
     for (std::size_t j = 0; j < axes[1].size; ++j)
       for (std::size_t k = 0; k < axes[2].size; ++k) {
         const std::array<const Slabs*, 3> slabs{&axes[0].runs[i], &axes[1].runs[j], &axes[2].runs[k]};
-        const double q = chance(slabs);
+        const double q = overlap_of(slabs);
         // With more than 40 expected discs in a cell, the share of empty cells is below 1e-17.
         const double held = workload.samples * q < 40 ? -std::expm1(workload.samples * std::log1p(-q)) : 1;
         occupied += slabs[0]->count * slabs[1]->count * slabs[2]->count * held;

@@ -28,7 +28,8 @@ struct Cells {
 
 /// `parts` cells along the longest side of the box grown by d, and as many as needed along the others.
 ///
-/// E is computed from the planes that cross a disc (`Crossings`, index_overlap.hpp), S likewise (index_mailbox.hpp).
+/// E is computed from the planes that cross a disc (`PlaneCrossings`, index_overlap.hpp), S likewise
+/// (index_mailbox.hpp).
 /// Samples of dimension 2 without an extent of their own lie on the box's faces, in proportion to the faces' areas,
 /// with one coordinate fixed. For dimensions between 2 and 3 the two cases are interpolated.
 ///

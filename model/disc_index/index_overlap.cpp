@@ -30,7 +30,7 @@ double mean_reach_around(double z) {
 }
 
 /// Crossings of a plane at that distance from the centre, in disc radii.
-Crossings crossings_at(double distance, Insertion insertion) {
+PlaneCrossings crossings_at(double distance, Insertion insertion) {
   const double u = std::abs(distance);
   if (u >= 1) return {};
   const double k = std::sqrt((1 - u) * (1 + u));
@@ -52,7 +52,7 @@ double pierced_up_to(double distance) {
   return distance < 0 ? -share : share;
 }
 
-bool spread(const IndexAxis& axis, Centres centres) {
+bool is_spread(const IndexAxis& axis, Centres centres) {
   return centres == Centres::uniform && axis.room > 1e-6 * axis.disc;
 }
 
@@ -62,10 +62,10 @@ double centre_of(const IndexAxis& axis, Centres centres) {
 }
 
 /// Crossings of a plane that cuts the disc, for centres below the plane.
-Crossings crossings_from_below(const IndexAxis& axis, double plane, Centres centres, Insertion insertion) {
-  if (!spread(axis, centres)) {
+PlaneCrossings crossings_from_below(const IndexAxis& axis, double plane, Centres centres, Insertion insertion) {
+  if (!is_spread(axis, centres)) {
     const double at = centre_of(axis, centres);
-    return at < plane ? crossings_at((plane - at) / axis.disc, insertion) : Crossings{};
+    return at < plane ? crossings_at((plane - at) / axis.disc, insertion) : PlaneCrossings{};
   }
   const double last = std::min(plane, axis.disc + axis.room);
   if (last <= axis.disc) return {};
@@ -73,10 +73,10 @@ Crossings crossings_from_below(const IndexAxis& axis, double plane, Centres cent
   return uniform_crossings(chords * axis.disc / axis.room, insertion);
 }
 
-Crossings crossings_from_above(const IndexAxis& axis, double plane, Centres centres, Insertion insertion) {
-  if (!spread(axis, centres)) {
+PlaneCrossings crossings_from_above(const IndexAxis& axis, double plane, Centres centres, Insertion insertion) {
+  if (!is_spread(axis, centres)) {
     const double at = centre_of(axis, centres);
-    return at >= plane ? crossings_at((plane - at) / axis.disc, insertion) : Crossings{};
+    return at >= plane ? crossings_at((plane - at) / axis.disc, insertion) : PlaneCrossings{};
   }
   const double first = std::max(plane, axis.disc);
   if (first >= axis.disc + axis.room) return {};
@@ -87,7 +87,7 @@ Crossings crossings_from_above(const IndexAxis& axis, double plane, Centres cent
 
 /// The probability that the centre lies between two planes.
 double centred_between(const IndexAxis& axis, double low, double high, Centres centres) {
-  if (!spread(axis, centres)) {
+  if (!is_spread(axis, centres)) {
     const double at = centre_of(axis, centres);
     return low <= at && at < high ? 1 : 0;
   }
@@ -95,7 +95,8 @@ double centred_between(const IndexAxis& axis, double low, double high, Centres c
 }
 
 double pierced_between(const IndexAxis& axis, double low, double high, Centres centres, Insertion insertion) {
-  if (spread(axis, centres) || insertion == Insertion::bounding_box) return centred_between(axis, low, high, centres);
+  if (is_spread(axis, centres) || insertion == Insertion::bounding_box)
+    return centred_between(axis, low, high, centres);
   const double at = centre_of(axis, centres);
   return pierced_up_to((high - at) / axis.disc) - pierced_up_to((low - at) / axis.disc);
 }
@@ -119,9 +120,9 @@ void add_slab(Slabs& run, const IndexAxis& axis, double j, Insertion insertion) 
 }
 
 /// Collects the slabs of an axis.
-class Collector {
+class SlabCollector {
  public:
-  Collector(const IndexAxis& axis, Insertion insertion) : axis_(axis), insertion_(insertion) {}
+  SlabCollector(const IndexAxis& axis, Insertion insertion) : axis_(axis), insertion_(insertion) {}
 
   /// Adds the slabs from `first` up to `last` in at most 5 runs; the runs towards the axis's end are shorter.
   void add_end(double first, double last, bool low_end) {
@@ -167,23 +168,24 @@ class Collector {
 
 }  // namespace
 
-Crossings& Crossings::operator+=(const Crossings& other) {
-  one += other.one;
-  two += other.two;
-  three += other.three;
+PlaneCrossings& PlaneCrossings::operator+=(const PlaneCrossings& other) {
+  planes += other.planes;
+  line_weight += other.line_weight;
+  corner_weight += other.corner_weight;
   return *this;
 }
 
-Crossings uniform_crossings(double one, Insertion insertion) {
-  if (insertion == Insertion::exact) return {one, 2 / pi * one, 0};
-  return {one, 2 * two_pi_squared * mean_reach_product_2 * one, 8 * two_pi_squared / pi * mean_reach_product_3 * one};
+PlaneCrossings uniform_crossings(double planes, Insertion insertion) {
+  if (insertion == Insertion::exact) return {planes, 2 / pi * planes, 0};
+  return {planes, 2 * two_pi_squared * mean_reach_product_2 * planes,
+          8 * two_pi_squared / pi * mean_reach_product_3 * planes};
 }
 
-Crossings crossings(const IndexAxis& axis, Centres centres, Insertion insertion) {
+PlaneCrossings crossings(const IndexAxis& axis, Centres centres, Insertion insertion) {
   const double x = axis.disc / axis.side;
   if (x > most_planes || axis.cells > most_cells)
     return uniform_crossings(std::min(0.5 * pi * x, axis.cells - 1), insertion);
-  Crossings all;
+  PlaneCrossings all;
   const auto add = [&](double plane) {
     all += crossings_from_below(axis, plane * axis.side, centres, insertion);
     all += crossings_from_above(axis, plane * axis.side, centres, insertion);
@@ -201,7 +203,7 @@ Crossings crossings(const IndexAxis& axis, Centres centres, Insertion insertion)
 }
 
 SlabRuns slab_runs(const IndexAxis& axis, Insertion insertion) {
-  Collector collector(axis, insertion);
+  SlabCollector collector(axis, insertion);
   const auto [first, last] = inner_planes(axis);
   if (axis.disc > most_planes * axis.side || axis.cells > most_cells) {
     collector.add_mean();

@@ -32,46 +32,45 @@ enum class Centres {
   high_face
 };
 
-/// Expected planes of an axis that cross the disc, with three weights: for the planes themselves, and for the lines and
-/// corners where planes of different axes meet.
+/// The expected number of planes of an axis that cross the disc, and the weights of the lines and corners in which
+/// these planes meet those of other axes. Below, N is `planes`, L is `line_weight`, C is `corner_weight`.
 ///
-///     E = 1 + Σ one_i + two_i (one_j + one_k) + c₂ one_j one_k + three_i one_j one_k
+///     E = 1 + Σ N_i + L_i (N_j + N_k) + c₂ N_j N_k + C_i N_j N_k
 ///
 ///   where  i        the axis along which the centres may be fixed; along j and k they are uniform
-///          c₂       two/one of uniform centres
-///          exact    one = Σ_p √(1 - u²), two = Σ_p (8/π²) [E(k) - u² K(k)], three = 0
-///          boxes    one the same, two = Σ_p (8/π²) ∫₀^k E(√(1 - z²)) dz, three = Σ_p (16/π²) ∫₀^k B(z) dz
+///          c₂       L/N of uniform centres
+///          exact    N = Σ_p √(1 - u²), L = Σ_p (8/π²) [E(k) - u² K(k)], C = 0
+///          boxes    N the same, L = Σ_p (8/π²) ∫₀^k E(√(1 - z²)) dz, C = Σ_p (16/π²) ∫₀^k B(z) dz
 ///          u, k     u = |p - c|/d <= 1 for plane p and centre c; k = √(1 - u²)
 ///          E, K     complete elliptic integrals;   B   mean of √((1 - n₂²)(1 - n₃²)) for n₁ = z
 ///
 /// Source     our derivation. h > u d with probability √(1 - u²). A line of the grid at the distance ρ d from the
-///            centre pierces the disc with probability (2/π) acos ρ; `two` is the integral of this along the plane.
-/// Limits     uniform centres in endless cells: one = (π/2) x; two/one = 2/π (exact), 0.9616 (boxes);
-///            three/one = 0.8706.
-struct Crossings {
-  double one = 0;
-  double two = 0;
-  double three = 0;
+///            centre pierces the disc with probability (2/π) acos ρ; L is the integral of this along the plane.
+/// Limits     uniform centres in endless cells: N = (π/2) x; L/N = 2/π (exact), 0.9616 (boxes); C/N = 0.8706.
+struct PlaneCrossings {
+  double planes = 0;
+  double line_weight = 0;
+  double corner_weight = 0;
 
-  Crossings& operator+=(const Crossings& other);
-  friend Crossings operator*(double factor, const Crossings& crossings) {
-    return {factor * crossings.one, factor * crossings.two, factor * crossings.three};
+  PlaneCrossings& operator+=(const PlaneCrossings& other);
+  friend PlaneCrossings operator*(double factor, const PlaneCrossings& crossings) {
+    return {factor * crossings.planes, factor * crossings.line_weight, factor * crossings.corner_weight};
   }
 };
 
-/// Crossings if the centres are uniform along the axis; `one` is the expected number of planes.
-[[nodiscard]] Crossings uniform_crossings(double one, Insertion insertion);
+/// Crossings if the centres are uniform along the axis; `planes` is their expected number.
+[[nodiscard]] PlaneCrossings uniform_crossings(double planes, Insertion insertion);
 
 /// Crossings of all planes of the axis. Those at the index's own ends cross no disc. Exact up to x = 64, except that
-/// `two` and `three` of uniform centres are those of endless cells; beyond, as in endless cells.
-[[nodiscard]] Crossings crossings(const IndexAxis& axis, Centres centres, Insertion insertion);
+/// the weights of uniform centres are those of endless cells; beyond, as in endless cells.
+[[nodiscard]] PlaneCrossings crossings(const IndexAxis& axis, Centres centres, Insertion insertion);
 
 /// A run of equal slabs of an axis. A slab is the space between neighbouring planes. Means over the run, by `Centres`.
 struct Slabs {
   double count = 0;
-  std::array<double, 3> centred{};     ///< probability that the disc's centre lies in one of them
-  std::array<double, 3> pierced{};     ///< share of the lines along the axis that pierce the disc inside one of them
-  std::array<Crossings, 3> reached{};  ///< discs that have their centre outside and reach into one of them
+  std::array<double, 3> centred{};  ///< probability that the disc's centre lies in one of them
+  std::array<double, 3> pierced{};  ///< share of the lines along the axis that pierce the disc inside one of them
+  std::array<PlaneCrossings, 3> reached{};  ///< discs that have their centre outside and reach into one of them
 };
 
 /// The slabs of an axis, for the cells that hold a disc, in at most 5 runs from each side and one between. (A line

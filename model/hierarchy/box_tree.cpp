@@ -20,9 +20,9 @@ using box_tree::LevelNodes;
 using box_tree::Sums;
 
 /// P of bodies by their mean surface and volume.
-class Crossing {
+class CrossingProbability {
  public:
-  Crossing(const Valid<Workload>& workload, double side)
+  CrossingProbability(const Valid<Workload>& workload, double side)
       : of_surface_(crossing_probability(workload, 0, std::min(largest, unit * side * side)) / unit),
         of_volume_(crossing_probability(workload, std::min(largest, unit * side * side * side), 0) / unit) {}
 
@@ -39,7 +39,7 @@ class Crossing {
 };
 
 /// Expected counts in the wide tree: per ray, except that `culls` and `visits` are for all rays.
-struct Met {
+struct TreeCounts {
   double tests = 0;
   double listed = 0;
   double discs = 0;
@@ -137,7 +137,8 @@ class Widening {
       next_.clear();
       for (const auto& [kind, count] : frontier_) {
         if (depth > 0) wide_[kind] += wide_[number] * count * (1 - part);
-        for (int side = 0; side < 2; ++side) put(links_[kind].child[side], count * part * links_[kind].inner[side]);
+        for (int side = 0; side < 2; ++side)
+          add_to_next(links_[kind].child[side], count * part * links_[kind].inner[side]);
       }
       frontier_.swap(next_);
     }
@@ -145,7 +146,7 @@ class Widening {
     return opened;
   }
 
-  void put(std::size_t kind, double count) {
+  void add_to_next(std::size_t kind, double count) {
     if (count <= 1e-9) return;
     for (auto& [other, sum] : next_)
       if (other == kind) {
@@ -165,34 +166,34 @@ class Widening {
   std::vector<std::pair<std::size_t, double>> next_;
 };
 
-/// What `samples` in a cube of that side, or on its faces, meet.
-Met met_in(int dimension, const Valid<Workload>& workload, double samples, double side, int fan_out, int leaf,
-           Engine engine) {
+/// The counts for `samples` in a cube of that side, or on its faces.
+TreeCounts tree_counts(int dimension, const Valid<Workload>& workload, double samples, double side, int fan_out,
+                       int leaf, Engine engine) {
   constexpr double far = 1e60;  // beyond all that makes a difference
   const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
   // 64 units of the last place of floats next to 1 (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
   // of two: here to √3/2, as in a cube with a side of 1, so that the unit of length does not matter.
   const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
   const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
-  const Crossing crossing(workload, side);
+  const CrossingProbability crossing(workload, side);
   const RayBlocks blocks = ray_blocks(workload.rays, workload.samples, engine);
-  Met met;
+  TreeCounts counts;
   Widening widening(nodes, box_tree::cell_kinds(dimension, samples), fan_out);
   widening.for_each([&](std::size_t kind, double wide, double children) {
     const Sums& inner = nodes[kind].inner;
     const double share = kind == 0 ? 1 : crossing(inner.surface / inner.count, inner.volume / inner.count);
-    met.tests += wide * children * share;
-    if (kind > 0) met.listed += wide * share;
-    met.culls += wide * children * blocks.with_any(share);
+    counts.tests += wide * children * share;
+    if (kind > 0) counts.listed += wide * share;
+    counts.culls += wide * children * blocks.with_any(share);
   });
   for (std::size_t kind = 0; kind < nodes.size(); ++kind)
     for (const Leaves& leaves : nodes[kind].leaves) {
       const double share = kind > 0 ? crossing(leaves.surface, leaves.volume) : 1;
-      if (kind > 0) met.listed += leaves.count * share;
-      met.discs += leaves.count * leaves.discs * share;
-      met.visits += leaves.count * leaves.discs * blocks.with_any(share, leaves.spread);
+      if (kind > 0) counts.listed += leaves.count * share;
+      counts.discs += leaves.count * leaves.discs * share;
+      counts.visits += leaves.count * leaves.discs * blocks.with_any(share, leaves.spread);
     }
-  return met;
+  return counts;
 }
 
 }  // namespace
@@ -215,20 +216,21 @@ Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxT
   const double in_one = static_cast<double>(parameters.leaf) / leaf;
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
   const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);
-  const auto of = [&](int whole) {
-    return met_in(whole, workload, std::round(samples / in_one), side, fan_out, leaf, engine);
+  const auto counts_in = [&](int whole) {
+    return tree_counts(whole, workload, std::round(samples / in_one), side, fan_out, leaf, engine);
   };
-  Met met = of(dimension < 3 ? 2 : 3);
+  TreeCounts tree = counts_in(dimension < 3 ? 2 : 3);
   if (dimension > 2 && dimension < 3) {
-    const Met volume = of(3);
-    for (const auto term : {&Met::tests, &Met::listed, &Met::discs, &Met::culls, &Met::visits})
-      met.*term = std::pow(met.*term, 3 - dimension) * std::pow(volume.*term, dimension - 2);
+    const TreeCounts volume = counts_in(3);
+    for (const auto term :
+         {&TreeCounts::tests, &TreeCounts::listed, &TreeCounts::discs, &TreeCounts::culls, &TreeCounts::visits})
+      tree.*term = std::pow(tree.*term, 3 - dimension) * std::pow(volume.*term, dimension - 2);
   }
-  counts.cull_tests = rays * met.tests;
-  counts.listed = rays * met.listed;
-  counts.disc_tests = rays * std::min(samples, in_one * met.discs);
-  counts.visits = std::min(blocks * samples, in_one * met.visits);
-  counts.culls = met.culls;
+  counts.cull_tests = rays * tree.tests;
+  counts.listed = rays * tree.listed;
+  counts.disc_tests = rays * std::min(samples, in_one * tree.discs);
+  counts.visits = std::min(blocks * samples, in_one * tree.visits);
+  counts.culls = tree.culls;
   return counts;
 }
 

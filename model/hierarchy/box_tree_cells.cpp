@@ -61,7 +61,7 @@ class SurfaceKinds {
     for (std::size_t i = 0; i < kinds_.size(); ++i) split(i);
   }
 
-  std::vector<CellKind> take() && { return std::move(kinds_); }
+  std::vector<CellKind> kinds() && { return std::move(kinds_); }
 
  private:
   /// A kind, its number of halvings of the cube, and its place in an order in which parents come before children.
@@ -158,8 +158,8 @@ class SurfaceKinds {
 
 const std::vector<CellKind>& cell_kinds(int dimension, double samples) {
   constexpr double fine = 8192;  // samples
-  static const std::array coarse_curve{SurfaceKinds(6).take(), volume_kinds(6)};
-  static const std::array fine_curve{SurfaceKinds(10).take(), volume_kinds(10)};
+  static const std::array coarse_curve{SurfaceKinds(6).kinds(), volume_kinds(6)};
+  static const std::array fine_curve{SurfaceKinds(10).kinds(), volume_kinds(10)};
   return (samples < fine ? coarse_curve : fine_curve)[dimension - 2];
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "box_tree_drops.hpp"
+#include "box_tree_sah_leaves.hpp"
 
 namespace detp::model::box_tree {
 namespace {
@@ -40,25 +40,25 @@ void binomial(double trials, double share, int last, std::vector<double>& out) {
 }
 
 /// a(m) of a kind of cells; while it is being summed, times their number. Empty if all these cells are nodes.
-using Alive = std::vector<double>;
+using NodeProbabilities = std::vector<double>;
 
-class Levels {
+class ExpectedLevels {
  public:
-  Levels(int dimension, double samples, double radius, int leaf, const Listing& listing)
+  ExpectedLevels(int dimension, double samples, double radius, int leaf, const Listing& listing)
       : kinds_(cell_kinds(dimension, samples)),
         samples_(samples),
         radius_(radius),
         leaf_(leaf),
         listing_(listing),
-        most_(std::max(leaf, most_dropped)),
-        drops_(dimension, samples, radius, leaf),
-        alive_(kinds_.size()),
+        most_(std::max(leaf, largest_sah_leaf)),
+        sah_leaf_model_(dimension, samples, radius, leaf),
+        node_probabilities_(kinds_.size()),
         reached_(kinds_.size(), false),
         nodes_(kinds_.size()) {
     reached_[0] = true;
   }
 
-  std::vector<LevelNodes> take() && {
+  std::vector<LevelNodes> level_nodes() && {
     double largest = 0;
     std::size_t end = 0;
     for (std::size_t number = 0; number < kinds_.size(); ++number) {
@@ -81,40 +81,42 @@ class Levels {
     return static_cast<int>(std::min<double>(most_, expected + deviations * std::sqrt(expected) + 10));
   }
 
-  [[nodiscard]] bool all_inner(const CellKind& cell) const { return all_more_than(most_, samples_ * cell.share); }
+  [[nodiscard]] bool are_all_inner(const CellKind& cell) const {
+    return almost_all_exceed(most_, samples_ * cell.share);
+  }
 
   void visit(std::size_t number) {
     const CellKind& cell = kinds_[number];
     LevelNodes& nodes = nodes_[number];
-    if (all_inner(cell)) {
+    if (are_all_inner(cell)) {
       nodes.inner.add(cell.cells, CellBoxes(cell, radius_, listing_)(samples_ * cell.share));
     } else {
-      Alive& alive = alive_[number];
-      if (alive.empty())
-        alive.assign(static_cast<std::size_t>(most_) + 1, 1);
+      NodeProbabilities& node_probability = node_probabilities_[number];
+      if (node_probability.empty())
+        node_probability.assign(static_cast<std::size_t>(most_) + 1, 1);
       else
-        for (double& value : alive) value /= cell.cells;
-      count_nodes(cell, alive, nodes);
+        for (double& value : node_probability) value /= cell.cells;
+      count_nodes(cell, node_probability, nodes);
     }
     if (cell.child[0] == 0) return;
     for (const std::size_t child : cell.child) reached_[child] = true;
-    goes_on(number);
-    pass_on(number, 0, cell.child[0] == cell.child[1] ? 2 : 1);
-    if (cell.child[0] != cell.child[1]) pass_on(number, 1, 1);
+    set_inner_probabilities(number);
+    add_to_child(number, 0, cell.child[0] == cell.child[1] ? 2 : 1);
+    if (cell.child[0] != cell.child[1]) add_to_child(number, 1, 1);
   }
 
   /// The share of leaves among nodes with `discs` discs.
-  [[nodiscard]] double leaf_share(const Dropped* dropped, int discs) const {
+  [[nodiscard]] double leaf_share(const SahLeaves* sah_leaves, int discs) const {
     if (discs <= leaf_) return 1;
-    if (dropped == nullptr || discs > most_dropped) return 0;
-    return dropped->share[discs];
+    if (sah_leaves == nullptr || discs > largest_sah_leaf) return 0;
+    return sah_leaves->share[discs];
   }
 
-  void count_nodes(const CellKind& cell, const Alive& alive, LevelNodes& nodes) {
+  void count_nodes(const CellKind& cell, const NodeProbabilities& node_probability, LevelNodes& nodes) {
     const double expected = samples_ * cell.share;
     const int last = most_of(expected);
     binomial(samples_, cell.share, last, probability_);
-    const Dropped* dropped = drops_.of(cell);
+    const SahLeaves* sah_leaves = sah_leaf_model_.for_cell(cell);
     const CellBoxes boxes(cell, radius_, listing_);
     const Halves halves = halves_of(cell);
     double above = 1 - probability_[0];
@@ -131,12 +133,12 @@ class Levels {
       for (int m = first; m < end; ++m) {
         above -= probability_[m];
         discs_above -= m * probability_[m];
-        const double present = probability_[m] * alive[m];
+        const double present = probability_[m] * node_probability[m];
         weight += present;
         discs += m * present;
-        const double dropped_share = leaf_share(dropped, m);
-        leaves += present * dropped_share;
-        leaf_boxes += present * dropped_share * (m > leaf_ && dropped != nullptr ? dropped->box[m] : 1);
+        const double leaf_part = leaf_share(sah_leaves, m);
+        leaves += present * leaf_part;
+        leaf_boxes += present * leaf_part * (m > leaf_ && sah_leaves != nullptr ? sah_leaves->box[m] : 1);
       }
       if (weight * cell.cells > 1e-12) {
         discs /= weight;
@@ -192,11 +194,11 @@ class Levels {
   }
 
   /// Adds this parent's contribution to a(m) of a child.
-  void pass_on(std::size_t number, int side, double times) {
+  void add_to_child(std::size_t number, int side, double times) {
     const CellKind& parent = kinds_[number];
     const CellKind& child = kinds_[parent.child[side]];
-    if (all_inner(child)) return;
-    Alive& sum = alive_[parent.child[side]];
+    if (are_all_inner(child)) return;
+    NodeProbabilities& sum = node_probabilities_[parent.child[side]];
     if (sum.empty()) sum.assign(static_cast<std::size_t>(most_) + 1, 0);
     const double cells = times * parent.cells;
     const double expected = samples_ * child.share;
@@ -207,34 +209,35 @@ class Levels {
     const int last = most_of(expected);
     const double others = std::floor(samples_ - expected);
     binomial(others, sibling, most_of(others * sibling), probability_);
-    const Alive& alive = alive_[number];
+    const NodeProbabilities& node_probability = node_probabilities_[number];
     convolve(static_cast<std::size_t>(first - 1), static_cast<std::size_t>(std::min(last, most_) + 1));
     const double none = probability_[0];
     for (int m = first; m <= last; ++m) {
       const double at = std::clamp(m + (expected - m) * sibling, first - 1.0, last + 0.999);
       const auto low = static_cast<std::size_t>(at);
       double share = conditional_[low] + (at - static_cast<double>(low)) * (conditional_[low + 1] - conditional_[low]);
-      if (none > 0 && m > leaf_) share += none * ((alive.empty() ? 1 : alive[m]) - goes_on_[m]);
+      if (none > 0 && m > leaf_)
+        share += none * ((node_probability.empty() ? 1 : node_probability[m]) - inner_probability_[m]);
       sum[m] += cells * std::clamp(share, 0.0, 1.0);
     }
   }
 
   /// The share of a kind's cells that are inner nodes, by their number of discs.
-  void goes_on(std::size_t number) {
-    if (all_inner(kinds_[kinds_[number].child[0]]) && all_inner(kinds_[kinds_[number].child[1]])) return;
-    const Alive& alive = alive_[number];
-    const Dropped* dropped = drops_.of(kinds_[number]);
-    goes_on_.assign(2 * static_cast<std::size_t>(most_) + 3, 1);
+  void set_inner_probabilities(std::size_t number) {
+    if (are_all_inner(kinds_[kinds_[number].child[0]]) && are_all_inner(kinds_[kinds_[number].child[1]])) return;
+    const NodeProbabilities& node_probability = node_probabilities_[number];
+    const SahLeaves* sah_leaves = sah_leaf_model_.for_cell(kinds_[number]);
+    inner_probability_.assign(2 * static_cast<std::size_t>(most_) + 3, 1);
     for (int m = 0; m <= most_; ++m) {
-      goes_on_[m] = (1 - leaf_share(dropped, m)) * (alive.empty() ? 1 : alive[m]);
+      inner_probability_[m] = (1 - leaf_share(sah_leaves, m)) * (node_probability.empty() ? 1 : node_probability[m]);
     }
   }
 
-  /// Σ P(s) goes_on(m + s) for m = first … last.
+  /// Σ P(s) inner_probability_(m + s) for m = first … last.
   void convolve(std::size_t first, std::size_t last) {
     conditional_.assign(static_cast<std::size_t>(most_) + 2, 0);
     double rest = 1;
-    if (leaf_ >= most_dropped) {  // all nodes with more discs than a leaf are inner nodes
+    if (leaf_ >= largest_sah_leaf) {  // all nodes with more discs than a leaf are inner nodes
       for (const double p : probability_) rest -= p;
       double sum = std::max(0.0, rest);
       std::size_t s = probability_.size();
@@ -249,7 +252,7 @@ class Levels {
       const double p = probability_[s];
       if (p < 1e-7) continue;
       rest -= p;
-      const double* from = &goes_on_[s];
+      const double* from = &inner_probability_[s];
       double* to = conditional_.data();
       for (std::size_t m = first; m <= last; ++m) to[m] += p * from[m];
     }
@@ -262,12 +265,12 @@ class Levels {
   int leaf_;
   Listing listing_;
   int most_;
-  Drops drops_;
-  std::vector<Alive> alive_;
+  SahLeafModel sah_leaf_model_;
+  std::vector<NodeProbabilities> node_probabilities_;
   std::vector<bool> reached_;
   std::vector<LevelNodes> nodes_;
   std::vector<double> probability_;
-  std::vector<double> goes_on_;
+  std::vector<double> inner_probability_;
   std::vector<double> conditional_;
 };
 
@@ -275,7 +278,7 @@ class Levels {
 
 std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf,
                                              const Listing& listing) {
-  return Levels(dimension, samples, disc_radius, leaf, listing).take();
+  return ExpectedLevels(dimension, samples, disc_radius, leaf, listing).level_nodes();
 }
 
 }  // namespace detp::model::box_tree

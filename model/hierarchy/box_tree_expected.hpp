@@ -45,7 +45,7 @@ struct LevelNodes {
 ///   where  P(s)    binomial: of s samples in the other half of the parent
 ///          a', q'  of the parent; q(m) the probability that a node is a leaf
 ///
-/// A node is a leaf if m <= leaf, and for some of m <= 64 (box_tree_drops.hpp).
+/// A node is a leaf if m <= leaf, and for some of m <= 64 (box_tree_sah_leaves.hpp).
 ///
 /// Source     our derivation.
 /// Valid      as box_tree.hpp says, which gives the accuracy.

@@ -15,16 +15,16 @@ namespace detp::model {
 namespace {
 
 /// T of the sphere cache at one Q for all numbers of spheres, in one pass from the outside in.
-class Times {
+class CacheTimes {
  public:
-  Times(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) : workload_(workload), costs_(costs) {
+  CacheTimes(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) : workload_(workload), costs_(costs) {
     const double blocks = blocks_of(workload.rays, workload.samples);
     costs_.cull *= blocks;
     costs_.visit *= blocks;
   }
 
   /// Number of spheres whose counts have been evaluated.
-  [[nodiscard]] std::int64_t looked_at() const { return looked_at_; }
+  [[nodiscard]] std::int64_t evaluated_spheres() const { return evaluated_spheres_; }
 
   /// T without spheres; Q does not matter.
   [[nodiscard]] BestRatio without_spheres() const {
@@ -34,7 +34,7 @@ class Times {
   /// T with k spheres.
   [[nodiscard]] double at(double ratio, std::int64_t k) const {
     if (k > summed_one_by_one) {
-      looked_at_ += summed_one_by_one;
+      evaluated_spheres_ += summed_one_by_one;
       return price(sphere_cache_counts(workload_, {ratio, k}), costs_).total();
     }
     double time = 0;
@@ -46,13 +46,13 @@ class Times {
   }
 
   /// The fastest number of spheres among 1 … last; spheres = 0 if last = 0. Stops early if the spheres alone take
-  /// longer than `enough`; the result is then slower than that.
-  [[nodiscard]] BestRatio best_stop(double ratio, std::int64_t last, double enough) const {
+  /// longer than `time_limit`; the result is then slower than that.
+  [[nodiscard]] BestRatio best_stop(double ratio, std::int64_t last, double time_limit) const {
     BestRatio best{ratio, 0, 0};
     if (last >= 1)
       pass(ratio, last, [&](std::int64_t i, double with_discs, double spheres) {
         if (best.spheres == 0 || with_discs < best.time) best = {ratio, i, with_discs};
-        return spheres < std::min(enough, best.time);
+        return spheres < std::min(time_limit, best.time);
       });
     return best;
   }
@@ -65,7 +65,7 @@ class Times {
   void pass(double ratio, std::int64_t last, const Visit& visit) const {
     double spheres = (costs_.sort + costs_.visit) * workload_.samples;
     for_each_level(workload_, {ratio, last, SampleOrder::lebesgue}, [&](const SphereLevel& level) {
-      ++looked_at_;
+      ++evaluated_spheres_;
       spheres += level.rebuilds * (level.tests * costs_.cull_test + level.listed * costs_.listed + costs_.cull);
       return visit(level.i, spheres + workload_.samples * level.served * costs_.disc_test, spheres);
     });
@@ -73,18 +73,18 @@ class Times {
 
   const Valid<Workload>& workload_;
   UnitCosts costs_;  ///< multiplied by the number of blocks: each block makes lists and visits discs
-  mutable std::int64_t looked_at_ = 0;
+  mutable std::int64_t evaluated_spheres_ = 0;
 };
 
 /// ln(ln 1/Q), the coordinate of the search. Changing ln Q by a step moves sphere i by i steps, and there are
 /// ln(d/r₀)/ln Q spheres; so T has about as many local minima in each unit of this coordinate.
-double place_of(double ratio) { return std::log(-std::log(ratio)); }
+double search_coordinate(double ratio) { return std::log(-std::log(ratio)); }
 
 /// The first ratios of a search, including all steps Q_j with j <= most_spheres.
 std::vector<double> first_ratios(const StepPieces& pieces, std::int64_t most_spheres) {
   constexpr int parts = 128;
-  const double from = place_of(least_ratio);
-  const double to = place_of(most_ratio);
+  const double from = search_coordinate(least_ratio);
+  const double to = search_coordinate(most_ratio);
   std::vector<double> ratios;
   for (int i = 0; i <= parts; ++i) ratios.push_back(std::exp(-std::exp(from + (to - from) * i / parts)));
   for (std::int64_t j = 1; j <= most_spheres && pieces.above(j) <= most_ratio; ++j)
@@ -98,28 +98,29 @@ class Search {
  public:
   /// Searches numbers of spheres up to most_spheres; if most_spheres is 0, `run` decides the number. One ratio takes at
   /// most `spheres` spheres.
-  Search(const Times& times, const StepPieces& pieces, std::int64_t most_spheres, std::int64_t spheres)
+  Search(const CacheTimes& times, const StepPieces& pieces, std::int64_t most_spheres, std::int64_t spheres)
       : times_(times),
         pieces_(pieces),
         most_spheres_(most_spheres),
-        most_looked_at_(most_looked_at * (std::clamp<std::int64_t>(spheres, 40, 4000) / 40)) {}
+        most_evaluated_spheres_(most_evaluated_spheres * (std::clamp<std::int64_t>(spheres, 40, 4000) / 40)) {}
 
-  /// The best result of evaluate(Q, enough) for Q between the first and the last of the ratios.
+  /// The best result of evaluate(Q, time_limit) for Q between the first and the last of the ratios.
   template <class Evaluate>
   BestRatio run(const std::vector<double>& ratios, const Evaluate& evaluate) {
-    for (const double ratio : ratios) add(evaluate(ratio, enough()));
+    for (const double ratio : ratios) add(evaluate(ratio, time_limit()));
     const std::vector<BestRatio> first = points_;
     for (std::size_t i = 1; i < first.size(); ++i) split_later(first[i - 1], first[i]);
-    while (!intervals_.empty() && intervals_.top().hope < best_.time && times_.looked_at() < most_looked_at_ / 4 * 3) {
+    while (!intervals_.empty() && intervals_.top().lower_bound < best_.time &&
+           times_.evaluated_spheres() < most_evaluated_spheres_ / 4 * 3) {
       const Interval interval = intervals_.top();
       intervals_.pop();
-      const BestRatio middle = evaluate(0.5 * (interval.left.ratio + interval.right.ratio), enough());
+      const BestRatio middle = evaluate(0.5 * (interval.left.ratio + interval.right.ratio), time_limit());
       add(middle);
       split_later(interval.left, middle);
       split_later(middle, interval.right);
     }
     narrow_down();
-    best_.looked_at = times_.looked_at();
+    best_.evaluated_spheres = times_.evaluated_spheres();
     return best_;
   }
 
@@ -127,9 +128,9 @@ class Search {
   struct Interval {
     BestRatio left;
     BestRatio right;
-    double hope;  ///< a lower bound for T in the interval, if T is no steeper than `steepness`
+    double lower_bound;  ///< for T in the interval, if T is no steeper than `steepness`
 
-    bool operator<(const Interval& other) const { return hope > other.hope; }
+    bool operator<(const Interval& other) const { return lower_bound > other.lower_bound; }
   };
 
   /// Assumed largest relative slope of T over ln(ln 1/Q). Sufficient in all cases tried, but not proved.
@@ -138,7 +139,7 @@ class Search {
   static constexpr double next_to = 1.0005;    ///< minima with T up to this factor above the best are refined
   static constexpr std::int64_t evaluations_at_once = 60;  ///< largest number of evaluations by Brent's method
 
-  [[nodiscard]] double enough() const { return best_.spheres > 0 ? 1.2 * best_.time : HUGE_VAL; }
+  [[nodiscard]] double time_limit() const { return best_.spheres > 0 ? 1.2 * best_.time : HUGE_VAL; }
 
   void add(const BestRatio& point) {
     if (point.spheres == 0) return;
@@ -147,7 +148,7 @@ class Search {
   }
 
   void split_later(const BestRatio& left, const BestRatio& right) {
-    const double width = place_of(left.ratio) - place_of(right.ratio);
+    const double width = search_coordinate(left.ratio) - search_coordinate(right.ratio);
     if (width <= narrowest || left.spheres == 0 || right.spheres == 0) return;
     intervals_.push({left, right, std::min(left.time, right.time) * (1 - steepness * width / 2)});
   }
@@ -164,7 +165,7 @@ class Search {
                      [&](std::size_t a, std::size_t b) { return points_[a].time < points_[b].time; });
     for (const std::size_t i : minima) {
       const std::int64_t to_compare_stops = 3 * (points_[i].spheres + 1);
-      if (points_[i].time > near_best || times_.looked_at() + to_compare_stops > most_looked_at_) break;
+      if (points_[i].time > near_best || times_.evaluated_spheres() + to_compare_stops > most_evaluated_spheres_) break;
       for (const std::int64_t k : stops_around(points_[i]))
         minimise(std::max(points_[i > 0 ? i - 1 : 0].ratio, pieces_.above(k)), points_[std::min(i + 1, last)].ratio, k);
     }
@@ -182,23 +183,23 @@ class Search {
   /// several kinks, and so several minima.
   void minimise(double low, double high, std::int64_t k) {
     constexpr int parts = 16;
-    if (!(low < high) || (most_looked_at_ - times_.looked_at()) / k <= parts) return;
+    if (!(low < high) || (most_evaluated_spheres_ - times_.evaluated_spheres()) / k <= parts) return;
     const auto ratio = [&](int i) { return low + (high - low) * i / parts; };
     std::array<double, parts + 1> times{};
     for (int i = 0; i <= parts; ++i) times[static_cast<std::size_t>(i)] = times_.at(ratio(i), k);
-    const double hope = 1 - steepness * (place_of(low) - place_of(high)) / parts / 2;
+    const double bound_factor = 1 - steepness * (search_coordinate(low) - search_coordinate(high)) / parts / 2;
     for (int i = 0; i <= parts; ++i) {
       const int left = std::max(i - 1, 0);
       const int right = std::min(i + 1, parts);
       const double time = times[static_cast<std::size_t>(i)];
       const double beside = std::min(times[static_cast<std::size_t>(left)], times[static_cast<std::size_t>(right)]);
-      if (time <= beside && time * hope < best_.time) follow(ratio(left), ratio(right), k);
+      if (time <= beside && time * bound_factor < best_.time) follow(ratio(left), ratio(right), k);
     }
   }
 
   /// Brent's method in a coordinate from -1 to 1, in which its tolerance is 4e-6 of the width, at a kink too.
   void follow(double low, double high, std::int64_t k) {
-    const std::int64_t evaluations_left = (most_looked_at_ - times_.looked_at()) / k - 1;
+    const std::int64_t evaluations_left = (most_evaluated_spheres_ - times_.evaluated_spheres()) / k - 1;
     if (evaluations_left < 2) return;
     const auto ratio = [&](double place) { return low + (high - low) * (place + 1) / 2; };
     auto evaluations = static_cast<std::uintmax_t>(std::min(evaluations_at_once, evaluations_left));
@@ -207,10 +208,10 @@ class Search {
     if (time < best_.time) best_ = {ratio(place), k, time};
   }
 
-  const Times& times_;
+  const CacheTimes& times_;
   const StepPieces& pieces_;
   std::int64_t most_spheres_;
-  std::int64_t most_looked_at_;
+  std::int64_t most_evaluated_spheres_;
   std::priority_queue<Interval> intervals_;
   std::vector<BestRatio> points_;
   BestRatio best_;
@@ -232,19 +233,19 @@ bool holds_a_disc(const Valid<Workload>& workload, double ratio) {
 BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                               std::int64_t most_spheres) {
   require_count("largest number of spheres", static_cast<double>(most_spheres), 1, 9e18);
-  const Times times(workload, costs);
+  const CacheTimes times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   const StepPieces pieces(workload);
   const BestRatio best =
       Search(times, pieces, most_spheres, most_spheres)
-          .run(first_ratios(pieces, std::min<std::int64_t>(most_spheres, 40)), [&](double ratio, double enough) {
-            return times.best_stop(ratio, last_stop(workload, ratio, most_spheres), enough);
+          .run(first_ratios(pieces, std::min<std::int64_t>(most_spheres, 40)), [&](double ratio, double time_limit) {
+            return times.best_stop(ratio, last_stop(workload, ratio, most_spheres), time_limit);
           });
   return best.spheres > 0 ? best : times.without_spheres();
 }
 
 BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) {
-  const Times times(workload, costs);
+  const CacheTimes times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   BestRatio best;
   // The ratios were chosen one after another. Each minimises the remaining mean square excess over the best T.
@@ -257,14 +258,14 @@ BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitC
 
 BestRatio best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio) {
   constexpr std::int64_t most = 4096;
-  const Times times(workload, costs);
+  const CacheTimes times(workload, costs);
   const std::int64_t last = sphere_count(Form::corrected, ratio, {workload.disc_radius}, {workload.sphere_radius});
   return last == 0 ? times.without_spheres() : times.best_stop(ratio.value, std::min(last, most), HUGE_VAL);
 }
 
 BestRatio best_ratio_for(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, std::int64_t spheres) {
   require_count("number of spheres", static_cast<double>(spheres), 0, 9e18);
-  const Times times(workload, costs);
+  const CacheTimes times(workload, costs);
   if (spheres == 0 || !holds_a_disc(workload, 1)) return times.without_spheres();
   const StepPieces pieces(workload);
   std::vector<double> ratios = first_ratios(pieces, 0);

@@ -12,18 +12,18 @@
 /// as long as T might be smaller inside than the best so far. Around each remaining minimum, T at 17 ratios shows which
 /// parts may hold a lower one, and Brent's method finds it. Often the best innermost sphere has r_k of a few d, not of
 /// d. If T is almost constant (a cost of zero, extreme numbers of samples or spheres), no interval can be excluded: the
-/// search then ends after most_looked_at spheres with the best result so far.
+/// search then ends after most_evaluated_spheres spheres with the best result so far.
 namespace detp::model {
 
 /// If no sphere holds a disc (d > 0.98 r₀), k is 0 and Q is the paper's, but has no effect.
 struct BestRatio {
-  double ratio = 0;            ///< Q
-  std::int64_t spheres = 0;    ///< k; 0: no sphere, each disc is tested with all rays
-  double time = 0;             ///< T at (Q, k), in the unit of the costs
-  std::int64_t looked_at = 0;  ///< spheres evaluated one by one by a search over Q
+  double ratio = 0;                    ///< Q
+  std::int64_t spheres = 0;            ///< k; 0: no sphere, each disc is tested with all rays
+  double time = 0;                     ///< T at (Q, k), in the unit of the costs
+  std::int64_t evaluated_spheres = 0;  ///< spheres evaluated one by one by a search over Q
 };
 
-inline constexpr std::int64_t most_looked_at = 16'000;
+inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 
 /// A good ratio in little time: the best of eight fixed ones, each with its best number of spheres.
 ///
@@ -39,7 +39,7 @@ inline constexpr std::int64_t most_looked_at = 16'000;
 /// Accuracy   compared with the smallest T on at least 20 000 ratios, at the steps of k, and on ever finer grids around
 ///            all minima, on 750 random workloads: within 6e-11 of it. There is no proved lower bound for T: the
 ///            largest slope of T is estimated from experiments.
-/// Cost       4000 spheres in the mean, at 0.4 … 0.8 µs each; with most_spheres <= 40 at most most_looked_at.
+/// Cost       4000 spheres in the mean, at 0.4 … 0.8 µs each; with most_spheres <= 40 at most most_evaluated_spheres.
 /// Throws     std::invalid_argument for a workload or costs out of range.
 [[nodiscard]] BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                             std::int64_t most_spheres = 40);

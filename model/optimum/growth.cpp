@@ -16,28 +16,30 @@ bool is_tree_of_cells(Technique technique) { return technique == Technique::octr
 bool is_known(Technique technique) { return is_tree_of_cells(technique) || !record_of(technique).ray_by_ray; }
 
 /// The published growth if the discs shrink.
-Growth published_growth(const GrowthCase& asked) {
-  if (!is_tree_of_cells(asked.technique)) return {.power = third, .logarithms = 0};
-  return {.power = 1 - 2 / asked.dimension, .logarithms = asked.technique == Technique::octree ? 1 : 0};
+Growth published_growth(const GrowthCase& growth_case) {
+  if (!is_tree_of_cells(growth_case.technique)) return {.power = third, .logarithms = 0};
+  return {.power = 1 - 2 / growth_case.dimension, .logarithms = growth_case.technique == Technique::octree ? 1 : 0};
 }
 
 /// The corrected growth if the discs shrink.
-Growth corrected_growth(const GrowthCase& asked) {
-  if (asked.technique == Technique::grid) return {.power = third, .logarithms = 0};
-  return {.power = 1 - 2 / asked.dimension, .logarithms = asked.dimension == 2 ? 1 : 0};
+Growth corrected_growth(const GrowthCase& growth_case) {
+  if (growth_case.technique == Technique::grid) return {.power = third, .logarithms = 0};
+  return {.power = 1 - 2 / growth_case.dimension, .logarithms = growth_case.dimension == 2 ? 1 : 0};
 }
 
 }  // namespace
 
-Growth growth(const GrowthCase& asked) {
-  if (!(asked.dimension >= 2 && asked.dimension <= 3))
-    throw std::invalid_argument(fmt::format("sample dimension must be from 2 to 3 (got {})", asked.dimension));
-  if (!is_known(asked.technique))
-    throw std::invalid_argument(fmt::format("there is no closed form of {}", name(asked.technique)));
-  const bool unsorted = asked.order == SampleOrder::none && !is_tree_of_cells(asked.technique);
-  if (asked.technique == Technique::brute_force || unsorted || asked.disc == DiscRule::fixed) return proportional;
-  const bool published = asked.form == Form::published || asked.technique == Technique::sphere_cache_published;
-  return published ? published_growth(asked) : corrected_growth(asked);
+Growth growth(const GrowthCase& growth_case) {
+  if (!(growth_case.dimension >= 2 && growth_case.dimension <= 3))
+    throw std::invalid_argument(fmt::format("sample dimension must be from 2 to 3 (got {})", growth_case.dimension));
+  if (!is_known(growth_case.technique))
+    throw std::invalid_argument(fmt::format("there is no closed form of {}", name(growth_case.technique)));
+  const bool unsorted = growth_case.order == SampleOrder::none && !is_tree_of_cells(growth_case.technique);
+  if (growth_case.technique == Technique::brute_force || unsorted || growth_case.disc == DiscRule::fixed)
+    return proportional;
+  const bool published =
+      growth_case.form == Form::published || growth_case.technique == Technique::sphere_cache_published;
+  return published ? published_growth(growth_case) : corrected_growth(growth_case);
 }
 
 }  // namespace detp::model

@@ -56,6 +56,6 @@ struct GrowthCase {
 ///            p to 0.012, published to 0.001. For cell spheres and sphere trees only the derivation supports the
 ///            orders.
 /// Throws     std::invalid_argument unless 2 <= D <= 3, and for a technique without a closed form.
-[[nodiscard]] Growth growth(const GrowthCase& asked);
+[[nodiscard]] Growth growth(const GrowthCase& growth_case);
 
 }  // namespace detp::model

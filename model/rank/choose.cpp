@@ -8,20 +8,20 @@
 namespace detp::model {
 namespace {
 
-/// The technique's defaults with the values in `wish`. Throws as set_parameter.
-Candidate with(Technique technique, const Wish& wish) {
+/// The technique's defaults with the values in `fixed`. Throws as set_parameter.
+Candidate candidate_with(Technique technique, const FixedParameters& fixed) {
   Candidate candidate = default_candidate(technique);
-  for (const auto& [name, value] : wish.given) set_parameter(candidate, name, value);
+  for (const auto& [name, value] : fixed.values) set_parameter(candidate, name, value);
   return candidate;
 }
 
 bool is_number(const Parameter& parameter) { return parameter.choices.empty(); }
 
-bool gives_all_numbers(const Wish& wish, Technique technique) {
+bool are_all_numbers_fixed(const FixedParameters& fixed, Technique technique) {
   const auto& parameters = record_of(technique).parameters;
   return std::all_of(parameters.begin(), parameters.end(), [&](const Parameter& parameter) {
-    return !is_number(parameter) || std::any_of(wish.given.begin(), wish.given.end(),
-                                                [&](const auto& given) { return given.first == parameter.name; });
+    return !is_number(parameter) || std::any_of(fixed.values.begin(), fixed.values.end(),
+                                                [&](const auto& value) { return value.first == parameter.name; });
   });
 }
 
@@ -32,14 +32,14 @@ Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate
   return {candidate, counts, price(counts, costs, candidate.technique), extrapolations(workload, candidate)};
 }
 
-std::optional<Candidate> complete(Technique technique, const Wish& wish, const Valid<Workload>& workload,
+std::optional<Candidate> complete(Technique technique, const FixedParameters& fixed, const Valid<Workload>& workload,
                                   const Valid<UnitCosts>& costs, const SearchLimits& limits) {
-  Candidate candidate = with(technique, wish);
-  if (model_of(technique).best == nullptr || gives_all_numbers(wish, technique)) return candidate;
-  const auto best = model_of(technique).best(workload, costs, wish, limits);
+  Candidate candidate = candidate_with(technique, fixed);
+  if (model_of(technique).best == nullptr || are_all_numbers_fixed(fixed, technique)) return candidate;
+  const auto best = model_of(technique).best(workload, costs, fixed, limits);
   if (!best) return std::nullopt;
   candidate.parameters = *best;
-  for (const auto& [name, value] : wish.given) set_parameter(candidate, name, value);
+  for (const auto& [name, value] : fixed.values) set_parameter(candidate, name, value);
   return candidate;
 }
 

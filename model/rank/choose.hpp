@@ -31,11 +31,12 @@ struct Ranked {
 [[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload,
                                             const Valid<UnitCosts>& costs, const SearchLimits& limits = {});
 
-/// One technique with the parameters in `wish`. The others are the best ones if a closed form gives them, else the
+/// One technique with the parameters in `fixed`. The others are the best ones if a closed form gives them, else the
 /// defaults. Nothing if no parameters are within the limits. Throws std::invalid_argument for a workload or parameter
 /// out of range, and for parameters of another technique.
-[[nodiscard]] std::optional<Candidate> complete(Technique technique, const Wish& wish, const Valid<Workload>& workload,
-                                                const Valid<UnitCosts>& costs, const SearchLimits& limits = {});
+[[nodiscard]] std::optional<Candidate> complete(Technique technique, const FixedParameters& fixed,
+                                                const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                                const SearchLimits& limits = {});
 
 /// One candidate as `rank` would return it.
 [[nodiscard]] Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate,

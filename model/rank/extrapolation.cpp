@@ -106,7 +106,7 @@ std::vector<std::string> extrapolations(const Valid<Workload>& workload, const V
   Reasons reasons;
   if (const auto uncounted = model_of(candidate.technique).uncounted)
     uncounted(workload, candidate.parameters, reasons);
-  return std::move(reasons).take();
+  return std::move(reasons).texts();
 }
 
 }  // namespace detp::model

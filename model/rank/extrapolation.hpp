@@ -29,7 +29,7 @@ class Reasons {
   /// Adds a reason unless least <= value <= most, except for rounding.
   void range(std::string_view what, double value, double least, double most);
   void add(std::string reason) { reasons_.push_back(std::move(reason)); }
-  [[nodiscard]] std::vector<std::string> take() && { return std::move(reasons_); }
+  [[nodiscard]] std::vector<std::string> texts() && { return std::move(reasons_); }
 
  private:
   std::vector<std::string> reasons_;

@@ -8,9 +8,9 @@
 namespace detp::model {
 namespace {
 
-constexpr double enough = 3;    // stop when a time is this many times the smallest
-constexpr double ripple = 1.4;  // how far, as a factor, the minimum may be from the best step
-constexpr int most_tried = 64;  // largest number of cell counts tried in that range
+constexpr double slow_factor = 3;  // stop when a time is this many times the smallest
+constexpr double ripple = 1.4;     // how far, as a factor, the minimum may be from the best step
+constexpr int most_tried = 64;     // largest number of cell counts tried in that range
 
 }  // namespace
 
@@ -35,7 +35,7 @@ std::optional<int> best_grid_cells(const Valid<Workload>& workload, const Valid<
     for (int cells = std::max(1, from); cells <= to && fits(cells); cells += step) consider(cells);
   };
   for (int cells = 1; fits(cells); cells = std::max(cells + 1, static_cast<int>(1.1 * cells)))
-    if (consider(cells) > enough * fastest.least()) break;
+    if (consider(cells) > slow_factor * fastest.least()) break;
   const int middle = fastest.best().value_or(0);
   const auto from = static_cast<int>(middle / ripple);
   const auto to = static_cast<int>(middle * ripple);

@@ -23,20 +23,20 @@ namespace {
 
 /// The candidate's parameters, which its check covers.
 template <class P>
-Valid<P> own(const Valid<Candidate>& candidate) {
+Valid<P> checked_parameters(const Valid<Candidate>& candidate) {
   return Valid<P>(candidate, std::get<P>(candidate.parameters));
 }
 
 /// A formula of one technique's parameters, for candidates of any.
 template <class P, auto counts>
 Counts<double> predicted(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine) {
-  return counts(workload, own<P>(candidate));
+  return counts(workload, checked_parameters<P>(candidate));
 }
 
 /// The same of a technique with a simd engine, where the formula counts the lists and visits of one block of rays.
 template <class P, auto counts>
 Counts<double> in_blocks(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
-  const auto& parameters = own<P>(candidate);
+  const auto& parameters = checked_parameters<P>(candidate);
   Counts<double> all = counts(workload, parameters);
   const RayBlocks blocks = ray_blocks(workload.rays, workload.samples, engine);
   if (blocks.count() == 1) return all;
@@ -57,7 +57,7 @@ Counts<double> in_blocks(const Valid<Workload>& workload, const Valid<Candidate>
 }
 
 Counts<double> counts_of_box_tree(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
-  return box_tree_counts(workload, own<BoxTreeParameters>(candidate), engine);
+  return box_tree_counts(workload, checked_parameters<BoxTreeParameters>(candidate), engine);
 }
 
 /// Plain density estimation on the tangent plane: each disc against each ray.
@@ -78,10 +78,10 @@ Counts<double> grid(const Valid<Workload>& workload, const GridParameters& param
   return grid_counts(workload, parameters);
 }
 
-std::optional<Parameters> best_cache(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const Wish& wish,
-                                     const SearchLimits&) {
-  const auto ratio = wish.value<double>("ratio");
-  const auto spheres = wish.value<std::int64_t>("spheres");
+std::optional<Parameters> best_cache(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                     const FixedParameters& fixed, const SearchLimits&) {
+  const auto ratio = fixed.value<double>("ratio");
+  const auto spheres = fixed.value<std::int64_t>("spheres");
   if (workload.disc_radius >= workload.sphere_radius)
     return SphereCacheParameters{ratio.value_or(published_ratio), spheres.value_or(0)};  // no sphere holds a disc
   const BestRatio best = ratio     ? best_stop(workload, costs, {*ratio})
@@ -90,8 +90,8 @@ std::optional<Parameters> best_cache(const Valid<Workload>& workload, const Vali
   return SphereCacheParameters{ratio.value_or(best.ratio), spheres.value_or(best.spheres)};
 }
 
-std::optional<Parameters> best_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const Wish&,
-                                     const SearchLimits& limits) {
+std::optional<Parameters> best_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                     const FixedParameters&, const SearchLimits& limits) {
   Fastest<CellSpheresParameters> fastest(costs, Technique::cell_spheres, limits);
   for (int depth = 0; depth <= std::min(limits.most_depth, 16) && !limits.stop.stop_requested(); ++depth)
     fastest.consider({depth}, cell_sphere_counts(workload, {depth}));
@@ -99,12 +99,12 @@ std::optional<Parameters> best_cells(const Valid<Workload>& workload, const Vali
 }
 
 std::optional<Parameters> best_sphere_tree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
-                                           const Wish& wish, const SearchLimits& limits) {
+                                           const FixedParameters& fixed, const SearchLimits& limits) {
   constexpr std::array<std::int64_t, 7> fan_outs{2, 3, 4, 6, 8, 12, 16};
   constexpr std::array<std::int64_t, 14> leaves{1, 2, 3, 4, 6, 8, 12, 16, 24, 32, 64, 128, 256, 1024};
   const auto only = [&](std::string_view name, std::span<const std::int64_t> all) {
-    const auto given = wish.value<std::int64_t>(name);
-    return given ? std::vector<std::int64_t>{*given} : std::vector<std::int64_t>(all.begin(), all.end());
+    const auto value = fixed.value<std::int64_t>(name);
+    return value ? std::vector<std::int64_t>{*value} : std::vector<std::int64_t>(all.begin(), all.end());
   };
   Fastest<SphereTreeParameters> fastest(costs, Technique::sphere_tree, limits);
   for (const std::int64_t fan_out : only("fan-out", fan_outs))
@@ -115,23 +115,23 @@ std::optional<Parameters> best_sphere_tree(const Valid<Workload>& workload, cons
   return fastest.best();
 }
 
-std::optional<Parameters> best_box_tree(const Valid<Workload>& workload, const Valid<UnitCosts>&, const Wish& wish,
-                                        const SearchLimits&) {
+std::optional<Parameters> best_box_tree(const Valid<Workload>& workload, const Valid<UnitCosts>&,
+                                        const FixedParameters& fixed, const SearchLimits&) {
   BoxTreeParameters tree = box_tree_rule(workload);
-  if (const auto fan_out = wish.value<std::int64_t>("fan-out")) tree.fan_out = static_cast<int>(*fan_out);
-  if (const auto leaf = wish.value<std::int64_t>("leaf")) tree.leaf = static_cast<int>(*leaf);
+  if (const auto fan_out = fixed.value<std::int64_t>("fan-out")) tree.fan_out = static_cast<int>(*fan_out);
+  if (const auto leaf = fixed.value<std::int64_t>("leaf")) tree.leaf = static_cast<int>(*leaf);
   return tree;
 }
 
 /// The depth that is best top-down serves for all traversals.
-std::optional<Parameters> best_octree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const Wish&,
-                                      const SearchLimits& limits) {
+std::optional<Parameters> best_octree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                      const FixedParameters&, const SearchLimits& limits) {
   const auto depth = best_octree_depth(workload, costs, limits);
   return depth ? std::optional<Parameters>(OctreeParameters{*depth}) : std::nullopt;
 }
 
-std::optional<Parameters> best_grid(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const Wish&,
-                                    const SearchLimits& limits) {
+std::optional<Parameters> best_grid(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                    const FixedParameters&, const SearchLimits& limits) {
   const auto cells = best_grid_cells(workload, costs, limits);
   return cells ? std::optional<Parameters>(GridParameters{*cells}) : std::nullopt;
 }

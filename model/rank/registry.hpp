@@ -21,14 +21,14 @@ struct SearchLimits {
   std::stop_token stop = {};     ///< ends the search, which then returns what it has found so far
 };
 
-/// Parameters that the user fixes by name; the others are to be found.
-struct Wish {
-  std::vector<std::pair<std::string_view, ParameterValue>> given = {};
+/// Parameters that the user sets by name. The others are chosen.
+struct FixedParameters {
+  std::vector<std::pair<std::string_view, ParameterValue>> values = {};
 
   /// The value of a parameter of that type, if it is fixed.
   template <class T>
   [[nodiscard]] std::optional<T> value(std::string_view name) const {
-    for (const auto& [parameter, value] : given)
+    for (const auto& [parameter, value] : values)
       if (parameter == name) return std::get<T>(value);
     return std::nullopt;
   }
@@ -40,9 +40,9 @@ struct TechniqueModel {
   /// Expected counts of a search by that engine. Null where there is no closed form.
   Counts<double> (*predict)(const Valid<Workload>&, const Valid<Candidate>&, Engine) = nullptr;
 
-  /// The fastest parameters among those with what is given; nothing where none fits the limits. Not called where all
-  /// numbers are given.
-  std::optional<Parameters> (*best)(const Valid<Workload>&, const Valid<UnitCosts>&, const Wish&,
+  /// The fastest parameters among those with the fixed values; nothing if none fits the limits. Not called if all
+  /// numbers are fixed.
+  std::optional<Parameters> (*best)(const Valid<Workload>&, const Valid<UnitCosts>&, const FixedParameters&,
                                     const SearchLimits&) = nullptr;
 
   /// Adds reasons why the prediction is outside the range in which it was compared with counts.

@@ -153,13 +153,13 @@ double listed_share(const Valid<Workload>& workload, double radius, double octav
   return std::clamp(1 - lost_share, 0.0, 1.0);
 }
 
-double unsorted_listed_share(double radius, double rebuilds, const std::vector<Enclosing>& around) {
+double unsorted_listed_share(double radius, double rebuilds, const std::vector<EnclosingSphere>& around) {
   require_non_negative("sphere radius", radius);
   require_positive("rebuilds of the sphere", rebuilds);
   static const OffsetShares offset_shares;
   double product = 1;
   double least = 1;
-  for (const Enclosing& outer : around) {
+  for (const EnclosingSphere& outer : around) {
     require_non_negative("sphere radius", outer.radius);
     require_non_negative("rebuilds of the outer sphere", outer.rebuilds);
     const double concentric = std::min(1.0, outer.rebuilds / rebuilds);

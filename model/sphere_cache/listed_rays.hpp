@@ -40,7 +40,7 @@ namespace detp::model {
 [[nodiscard]] double listed_share(const Valid<Workload>& workload, double radius, double octaves);
 
 /// A sphere around S_i.
-struct Enclosing {
+struct EnclosingSphere {
   double radius = 0;    ///< r_l, length
   double rebuilds = 0;  ///< m_l; 0 for S₀, which is never rebuilt
   /// radius of the disc over which the distance between the centres of S_i and this sphere is spread, length
@@ -57,6 +57,6 @@ struct Enclosing {
 ///
 /// If the lost rays of different spheres were independent, the product would be right; if they were nested, the
 /// minimum. The formula is the geometric mean of both. Source: our derivation. Accuracy: not measured.
-[[nodiscard]] double unsorted_listed_share(double radius, double rebuilds, const std::vector<Enclosing>& around);
+[[nodiscard]] double unsorted_listed_share(double radius, double rebuilds, const std::vector<EnclosingSphere>& around);
 
 }  // namespace detp::model

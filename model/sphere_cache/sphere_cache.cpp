@@ -99,7 +99,7 @@ class Walk {
   SphereCacheParameters parameters_;
   double log_ratio_ = 0;
   SphereLevel current_;
-  std::vector<Enclosing> around_;  ///< the nearest first; for unsorted samples
+  std::vector<EnclosingSphere> around_;  ///< the nearest first; for unsorted samples
 };
 
 /// Sum of `terms` terms of a geometric sequence. Its last term is b, and a is the one before the first. If b is too

@@ -49,7 +49,7 @@ std::string escape_of(std::string_view bytes) {
 }
 
 /// Removes the next character from the front of the text, and returns it as a message shows it.
-std::string cut_shown(std::string_view& text) {
+std::string cut_escaped_character(std::string_view& text) {
   const Piece piece = first_piece(text);
   const std::string_view bytes = text.substr(0, piece.bytes);
   text.remove_prefix(piece.bytes);
@@ -63,7 +63,7 @@ std::size_t width(const std::string& shown) { return shown.front() == '\\' ? sho
 
 std::string escaped(std::string_view text) {
   std::string shown;
-  while (!text.empty()) shown += cut_shown(text);
+  while (!text.empty()) shown += cut_escaped_character(text);
   return shown;
 }
 
@@ -71,7 +71,7 @@ std::string shortened(std::string_view text, std::size_t most) {
   std::string shown;
   std::size_t characters = 0;
   while (!text.empty()) {
-    const std::string next = cut_shown(text);
+    const std::string next = cut_escaped_character(text);
     characters += width(next);
     if (characters > most) return shown + "...";
     shown += next;
@@ -87,7 +87,7 @@ std::string shown_path(std::string_view path) {
   std::vector<std::string> pieces;
   std::size_t characters = 0;
   for (std::string_view rest = path; !rest.empty();) {
-    pieces.push_back(cut_shown(rest));
+    pieces.push_back(cut_escaped_character(rest));
     characters += width(pieces.back());
   }
   const std::size_t too_many = characters > most ? characters - (most - 3) : 0;

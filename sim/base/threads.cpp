@@ -15,13 +15,13 @@
 namespace detp::sim {
 namespace {
 
-/// The number of threads that can be started beside this one, at most `wanted`.
-int started_beside(int wanted) {
+/// The number of threads that can be started beside this one, at most `most`.
+int count_startable_threads(int most) {
   std::latch end(1);
   std::vector<std::thread> threads;
-  threads.reserve(static_cast<std::size_t>(wanted));
+  threads.reserve(static_cast<std::size_t>(most));
   try {
-    while (static_cast<int>(threads.size()) < wanted) threads.emplace_back([&end] { end.wait(); });
+    while (static_cast<int>(threads.size()) < most) threads.emplace_back([&end] { end.wait(); });
   } catch (const std::exception&) {  // a limit on processes or memory is reached
   }
   end.count_down();
@@ -38,21 +38,21 @@ int startable_threads(int threads) {
   const std::lock_guard lock(mutex);
   if (threads > tried) {
     // Tries as many as are wanted beside this one, plus one that the program may need for something else.
-    started = std::max(1, started_beside(threads));
+    started = std::max(1, count_startable_threads(threads));
     tried = threads;
   }
   return std::min(threads, started);
 }
 
-int thread_count(int asked) { return asked > 0 ? asked : oneapi::tbb::info::default_concurrency(); }
+int thread_count(int requested) { return requested > 0 ? requested : oneapi::tbb::info::default_concurrency(); }
 
 void on_threads(int threads, FunctionRef<void()> work) {
   using oneapi::tbb::global_control;
   const int started = startable_threads(threads);
-  const auto wanted = static_cast<std::size_t>(started);
+  const auto parallelism = static_cast<std::size_t>(started);
   std::optional<global_control> more_than_cores;
-  if (wanted > global_control::active_value(global_control::max_allowed_parallelism))
-    more_than_cores.emplace(global_control::max_allowed_parallelism, wanted);
+  if (parallelism > global_control::active_value(global_control::max_allowed_parallelism))
+    more_than_cores.emplace(global_control::max_allowed_parallelism, parallelism);
   oneapi::tbb::task_arena(started).execute(work);
 }
 

@@ -35,7 +35,7 @@ InputFile::~InputFile() { ::close(descriptor_); }
 
 std::optional<std::uint64_t> InputFile::rest() const {
   if (size_ == 0) return std::nullopt;  // files of /proc report 0, too
-  return ahead().size() + (size_ > read_ ? size_ - read_ : 0);
+  return buffered().size() + (size_ > read_ ? size_ - read_ : 0);
 }
 
 bool InputFile::fetch_more(std::size_t bytes) {
@@ -78,10 +78,10 @@ std::string read_file(const std::string& path, std::size_t most, std::stop_token
   InputFile file(path, std::move(stop));
   std::string content;
   while (file.fetch(1)) {
-    if (content.size() + file.ahead().size() > most)
+    if (content.size() + file.buffered().size() > most)
       throw FileError(path, "is larger than " + std::to_string(most) + " bytes");
-    content += file.ahead();
-    file.skip(file.ahead().size());
+    content += file.buffered();
+    file.skip(file.buffered().size());
   }
   return content;
 }

@@ -25,13 +25,13 @@ class InputFile {
   [[nodiscard]] const std::string& path() const { return path_; }
 
   /// The bytes that have been read and not skipped. Valid until the next fetch.
-  [[nodiscard]] std::string_view ahead() const { return {buffer_.data() + begin_, end_ - begin_}; }
+  [[nodiscard]] std::string_view buffered() const { return {buffer_.data() + begin_, end_ - begin_}; }
 
-  /// Reads until at least `bytes` bytes are in ahead(). Returns false if the file ends before. Throws FileError with
+  /// Reads until at least `bytes` bytes are in buffered(). Returns false if the file ends before. Throws FileError with
   /// the system's reason (for instance if it is a folder), and Stopped.
   bool fetch(std::size_t bytes) { return end_ - begin_ >= bytes || fetch_more(bytes); }
 
-  /// Skips bytes of ahead().
+  /// Skips bytes of buffered().
   void skip(std::size_t bytes) { begin_ += bytes; }
 
   /// Number of bytes after the position; unknown for pipes and devices.

@@ -38,37 +38,37 @@ class PlyMeshReader {
       : path_(path), file_(path, std::move(stop)), memory_(path) {}
 
   Mesh read() {
-    std::vector<PlyWish> wishes{vertex_wish()};
-    if (const PlyElement* face = file_.element("face")) wishes.push_back(face_wish(*face));
-    file_.read(wishes);
+    std::vector<PlyRequest> requests{vertex_request()};
+    if (const PlyElement* face = file_.element("face")) requests.push_back(face_request(*face));
+    file_.read(requests);
     return std::move(mesh_);
   }
 
  private:
-  PlyWish vertex_wish() {
+  PlyRequest vertex_request() {
     const PlyElement* vertex = file_.element("vertex");
     if (vertex != nullptr) vertices_ = vertex->rows;
-    PlyWish wish{.element = "vertex", .properties = {}, .take = {}};
-    if (vertices_ > 0) wish.properties = places_of(*vertex, {"x", "y", "z"});
-    if (wish.properties.empty())
+    PlyRequest request{.element = "vertex", .properties = {}, .on_row = {}};
+    if (vertices_ > 0) request.properties = places_of(*vertex, {"x", "y", "z"});
+    if (request.properties.empty())
       throw FileError(path_, "has no element vertex with the properties x, y and z, or no vertex");
     const std::vector<std::size_t> normal = places_of(*vertex, {"nx", "ny", "nz"});
-    wish.properties.insert(wish.properties.end(), normal.begin(), normal.end());
-    wish.take = [this, has_normals = !normal.empty()](std::uint64_t row, const PlyValues& values) {
+    request.properties.insert(request.properties.end(), normal.begin(), normal.end());
+    request.on_row = [this, has_normals = !normal.empty()](std::uint64_t row, const PlyValues& values) {
       if (row == 0) memory_.reserve(mesh_.positions, vertices_);
       if (row == 0 && has_normals) memory_.reserve(mesh_.normals, vertices_);
       memory_.push(mesh_.positions, {values[0][0], values[1][0], values[2][0]});
       if (has_normals) memory_.push(mesh_.normals, {values[3][0], values[4][0], values[5][0]});
     };
-    return wish;
+    return request;
   }
 
-  PlyWish face_wish(const PlyElement& face) {
+  PlyRequest face_request(const PlyElement& face) {
     for (const char* name : {"vertex_indices", "vertex_index"})
       if (const auto place = face.property(name, true))
-        return {.element = "face", .properties = {*place}, .take = [this](std::uint64_t row, const PlyValues& values) {
-                  add_face(row, values[0]);
-                }};
+        return {.element = "face",
+                .properties = {*place},
+                .on_row = [this](std::uint64_t row, const PlyValues& values) { add_face(row, values[0]); }};
     throw FileError(path_, "its element face has no list vertex_indices");
   }
 

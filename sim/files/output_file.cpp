@@ -25,7 +25,7 @@ int open_unnamed(const std::string& target) {
 
 }  // namespace
 
-OutputFile::OutputFile(const std::string& path, Aside aside) : path_(path) {
+OutputFile::OutputFile(const std::string& path, Temporary temporary) : path_(path) {
   struct stat status {};
   const bool exists = ::stat(path.c_str(), &status) == 0;
   if (const auto descriptor = descriptor_named(path)) {
@@ -37,7 +37,7 @@ OutputFile::OutputFile(const std::string& path, Aside aside) : path_(path) {
   } else {
     // A rename would replace even a write-protected file, so check first.
     if (exists && ::access(path.c_str(), W_OK) != 0) fail("cannot be written");
-    open_aside(aside);
+    open_temporary(temporary);
     if (exists && ::fchmod(descriptor_, status.st_mode & 07777) != 0) fail("cannot be written");
   }
   buffer_.reserve(buffer_size);
@@ -45,14 +45,14 @@ OutputFile::OutputFile(const std::string& path, Aside aside) : path_(path) {
 
 OutputFile::~OutputFile() { discard(); }
 
-void OutputFile::open_aside(Aside aside) {
+void OutputFile::open_temporary(Temporary temporary) {
   const auto target = followed(path_);
   if (!target) errno = ELOOP;
   if (!target) fail("cannot be written");
   target_ = *target;
   struct stat status {};
   if (::lstat(target_.c_str(), &status) != 0 && (errno != ENOENT || target_.empty())) fail("cannot be written");
-  if (aside == Aside::unnamed) descriptor_ = open_unnamed(target_);
+  if (temporary == Temporary::unnamed) descriptor_ = open_unnamed(target_);
   if (descriptor_ < 0) descriptor_ = create_part_file(target_, part_);
   if (descriptor_ >= 0) return;
   part_.clear();

@@ -15,12 +15,12 @@ namespace detp::sim {
 /// work.)
 class OutputFile {
  public:
-  enum class Aside {
+  enum class Temporary {
     unnamed,  ///< a nameless file, if the file system supports it; else `named`
     named     ///< a part file (part_files.hpp)
   };
 
-  explicit OutputFile(const std::string& path, Aside aside = Aside::unnamed);
+  explicit OutputFile(const std::string& path, Temporary temporary = Temporary::unnamed);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -32,7 +32,7 @@ class OutputFile {
   void commit();
 
  private:
-  void open_aside(Aside aside);
+  void open_temporary(Temporary temporary);
   void flush();
   void name_unnamed();
   void discard();

@@ -16,16 +16,16 @@ class BodyReader {
  public:
   BodyReader(const std::string& path, Source source) : path_(path), source_(std::move(source)), memory_(path) {}
 
-  void read(const PlyElement& element, const PlyWish* wish) {
+  void read(const PlyElement& element, const PlyRequest* request) {
     check_size(element);
     if (element.properties.empty()) return;
-    PlyValues values(wish == nullptr ? 0 : wish->properties.size());
+    PlyValues values(request == nullptr ? 0 : request->properties.size());
     std::vector<std::vector<double>*> places(element.properties.size());  // null: skipped
-    for (std::size_t i = 0; i < values.size(); ++i) places[wish->properties[i]] = &values[i];
+    for (std::size_t i = 0; i < values.size(); ++i) places[request->properties[i]] = &values[i];
     for (row_ = 1; row_ <= element.rows; ++row_) {
       for (std::vector<double>& entries : values) entries.clear();
       for (std::size_t i = 0; i < places.size(); ++i) read(element, element.properties[i], places[i]);
-      if (wish != nullptr) wish->take(row_ - 1, values);
+      if (request != nullptr) request->on_row(row_ - 1, values);
     }
   }
 
@@ -61,7 +61,7 @@ class BodyReader {
 
   double number(const PlyElement& element, const PlyProperty& property, PlyType type) {
     const auto value = source_.next(type);
-    if (!value) fail(element, source_.why_none(quoted(property.name)));
+    if (!value) fail(element, source_.missing_number_reason(quoted(property.name)));
     return *value;
   }
 
@@ -81,12 +81,13 @@ class BodyReader {
 };
 
 template <class Source>
-void read_body(const std::string& path, const PlyHeader& header, const std::vector<PlyWish>& wishes, Source source) {
+void read_body(const std::string& path, const PlyHeader& header, const std::vector<PlyRequest>& requests,
+               Source source) {
   BodyReader<Source> body(path, std::move(source));
   for (const PlyElement& element : header.elements) {
-    const auto wish =
-        std::find_if(wishes.begin(), wishes.end(), [&](const PlyWish& each) { return each.element == element.name; });
-    body.read(element, wish == wishes.end() ? nullptr : &*wish);
+    const auto request = std::find_if(requests.begin(), requests.end(),
+                                      [&](const PlyRequest& each) { return each.element == element.name; });
+    body.read(element, request == requests.end() ? nullptr : &*request);
   }
   body.check_end();
 }
@@ -102,11 +103,11 @@ const PlyElement* PlyFile::element(std::string_view name) const {
   return found == header_.elements.end() ? nullptr : &*found;
 }
 
-void PlyFile::read(const std::vector<PlyWish>& wishes) {
+void PlyFile::read(const std::vector<PlyRequest>& requests) {
   if (header_.format == PlyFormat::ascii)
-    return read_body(file_.path(), header_, wishes, PlyText(file_, header_.lines));
+    return read_body(file_.path(), header_, requests, PlyText(file_, header_.lines));
   const bool little = header_.format == PlyFormat::little_endian;
-  read_body(file_.path(), header_, wishes, PlyBytes(file_, little ? std::endian::little : std::endian::big));
+  read_body(file_.path(), header_, requests, PlyBytes(file_, little ? std::endian::little : std::endian::big));
 }
 
 }  // namespace detp::sim

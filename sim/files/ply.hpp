@@ -13,16 +13,16 @@
 /// PLY files: ascii, binary of both byte orders, all number types, lists.
 namespace detp::sim {
 
-/// One row's values of each wanted property: one number, or the entries of a list. A double holds every PLY number
+/// One row's values of each requested property: one number, or the entries of a list. A double holds every PLY number
 /// exactly.
 using PlyValues = std::vector<std::vector<double>>;
 
-/// The properties wanted of one element.
-struct PlyWish {
+/// A request for properties of one element.
+struct PlyRequest {
   std::string element;
   std::vector<std::size_t> properties;  ///< their places in the element
   /// receives each row, numbered from 0; may throw
-  std::function<void(std::uint64_t row, const PlyValues& values)> take;
+  std::function<void(std::uint64_t row, const PlyValues& values)> on_row;
 };
 
 /// A PLY file. Its rows are passed on one by one.
@@ -34,11 +34,11 @@ class PlyFile {
   /// The element of that name; null if the file has none.
   [[nodiscard]] const PlyElement* element(std::string_view name) const;
 
-  /// Reads the body in its order, and skips elements that are not wanted. Can be called once.
+  /// Reads the body in its order, and skips elements that were not requested. Can be called once.
   ///
   /// Throws FileError with the element and its row counted from 1 ("vertex 17 of 100") if the file is unreadable,
   /// malformed or truncated, or is an ascii file with more numbers than its header declares. Throws Stopped.
-  void read(const std::vector<PlyWish>& wishes);
+  void read(const std::vector<PlyRequest>& requests);
 
  private:
   InputFile file_;

@@ -33,28 +33,28 @@ class PlyText {
     if (at_end()) return std::nullopt;
     std::size_t size = 0;
     do {
-      const std::string_view text = file_.ahead();
+      const std::string_view text = file_.buffered();
       size = std::min(text.find_first_of(blanks, size), text.size());
-    } while (size == file_.ahead().size() && size <= longest_word && file_.fetch(size + 1));
+    } while (size == file_.buffered().size() && size <= longest_word && file_.fetch(size + 1));
     if (size > longest_word) return std::nullopt;
-    const auto number = number_in(file_.ahead().substr(0, size));
+    const auto number = number_in(file_.buffered().substr(0, size));
     if (number) file_.skip(size);
     return number;
   }
 
   /// The reason that there was no next number.
-  [[nodiscard]] std::string why_none(const std::string& name) const {
-    return file_.ahead().empty() ? "the file ends early" : "its " + name + " is not a number";
+  [[nodiscard]] std::string missing_number_reason(const std::string& name) const {
+    return file_.buffered().empty() ? "the file ends early" : "its " + name + " is not a number";
   }
 
   /// Whether only blanks are left; skips blanks.
   [[nodiscard]] bool at_end() {
     while (file_.fetch(1)) {
-      const std::string_view text = file_.ahead();
+      const std::string_view text = file_.buffered();
       const std::size_t skipped = std::min(text.find_first_not_of(blanks), text.size());
       line_ += static_cast<std::size_t>(std::count(text.begin(), text.begin() + static_cast<long>(skipped), '\n'));
       file_.skip(skipped);
-      if (!file_.ahead().empty()) return false;
+      if (!file_.buffered().empty()) return false;
     }
     return true;
   }
@@ -81,26 +81,26 @@ class PlyBytes {
     if (!file_.fetch(size_of(type))) return std::nullopt;
     switch (type) {
       case PlyType::int8:
-        return take<std::int8_t>();
+        return read_binary<std::int8_t>();
       case PlyType::uint8:
-        return take<std::uint8_t>();
+        return read_binary<std::uint8_t>();
       case PlyType::int16:
-        return take<std::int16_t>();
+        return read_binary<std::int16_t>();
       case PlyType::uint16:
-        return take<std::uint16_t>();
+        return read_binary<std::uint16_t>();
       case PlyType::int32:
-        return take<std::int32_t>();
+        return read_binary<std::int32_t>();
       case PlyType::uint32:
-        return take<std::uint32_t>();
+        return read_binary<std::uint32_t>();
       case PlyType::float32:
-        return take<float>();
+        return read_binary<float>();
       case PlyType::float64:
-        return take<double>();
+        return read_binary<double>();
     }
     return std::nullopt;
   }
 
-  [[nodiscard]] static std::string why_none(const std::string&) { return "the file ends early"; }
+  [[nodiscard]] static std::string missing_number_reason(const std::string&) { return "the file ends early"; }
 
   /// A binary file may have bytes after its last element: many writers append a line feed.
   [[nodiscard]] static bool at_end() { return true; }
@@ -108,9 +108,9 @@ class PlyBytes {
 
  private:
   template <class Number>
-  double take() {
+  double read_binary() {
     std::array<char, sizeof(Number)> bytes;
-    std::copy_n(file_.ahead().begin(), sizeof(Number), bytes.begin());
+    std::copy_n(file_.buffered().begin(), sizeof(Number), bytes.begin());
     if (swapped_) std::reverse(bytes.begin(), bytes.end());
     file_.skip(sizeof(Number));
     return static_cast<double>(std::bit_cast<Number>(bytes));

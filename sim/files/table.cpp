@@ -19,11 +19,11 @@ std::size_t read_ply_table(const std::string& path, const std::vector<TableColum
   const PlyElement* vertex = file.element("vertex");
   if (vertex == nullptr) throw FileError(path, "has no element vertex");
   TableRow row(path, columns);
-  PlyWish wish{.element = "vertex", .properties = {}, .take = {}};
+  PlyRequest request{.element = "vertex", .properties = {}, .on_row = {}};
   std::vector<std::size_t> given;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (const auto property = vertex->property(columns[i].name, false)) {
-      wish.properties.push_back(*property);
+      request.properties.push_back(*property);
       given.push_back(i);
     } else if (columns[i].absent) {
       row.set(i, *columns[i].absent);
@@ -31,12 +31,12 @@ std::size_t read_ply_table(const std::string& path, const std::vector<TableColum
       throw FileError(path, fmt::format("its element vertex has no property {}{}", columns[i].name, columns[i].remedy));
     }
   }
-  wish.take = [&](std::uint64_t number, const PlyValues& values) {
+  request.on_row = [&](std::uint64_t number, const PlyValues& values) {
     for (std::size_t i = 0; i < given.size(); ++i) row.set(given[i], values[i].front());
     row.place(number + 1, vertex->rows);
     sink(row);
   };
-  file.read({wish});
+  file.read({request});
   return vertex->rows;
 }
 

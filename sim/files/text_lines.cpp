@@ -15,7 +15,7 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 TextLines::TextLines(InputFile& file) : file_(file) {
   (void)file.fetch(byte_order_mark.size());
-  const std::string_view front = file.ahead();
+  const std::string_view front = file.buffered();
   if (front.starts_with("\xFF\xFE") || front.starts_with("\xFE\xFF") || front.starts_with("\0\0\xFE"sv))
     throw FileError(file.path(), "is text in UTF-16 or UTF-32; UTF-8 or ASCII is needed");
   if (front.starts_with(byte_order_mark)) file.skip(byte_order_mark.size());
@@ -36,16 +36,16 @@ bool TextLines::next() {
 
 void TextLines::find_end() {
   do {
-    const std::string_view text = file_.ahead();
+    const std::string_view text = file_.buffered();
     const auto is_end = [](char c) { return c == '\n' || c == '\r' || c == '\0'; };
     size_ = static_cast<std::size_t>(
         std::find_if(text.begin() + static_cast<std::ptrdiff_t>(size_), text.end(), is_end) - text.begin());
     if (size_ > longest) fail("the line is longer than " + std::to_string(longest) + " bytes");
-  } while (size_ == file_.ahead().size() && file_.fetch(size_ + 1));
-  if (size_ == file_.ahead().size()) return;
-  if (file_.ahead()[size_] == '\0') fail("contains a NUL byte; is the file binary or damaged?");
-  const bool cr = file_.ahead()[size_] == '\r';
-  end_size_ = cr && file_.fetch(size_ + 2) && file_.ahead()[size_ + 1] == '\n' ? 2 : 1;
+  } while (size_ == file_.buffered().size() && file_.fetch(size_ + 1));
+  if (size_ == file_.buffered().size()) return;
+  if (file_.buffered()[size_] == '\0') fail("contains a NUL byte; is the file binary or damaged?");
+  const bool cr = file_.buffered()[size_] == '\r';
+  end_size_ = cr && file_.fetch(size_ + 2) && file_.buffered()[size_ + 1] == '\n' ? 2 : 1;
   cr_alone_ = cr && end_size_ == 1;
 }
 

@@ -23,7 +23,7 @@ class TextLines {
   bool next();
 
   /// Valid until the file is read again.
-  [[nodiscard]] std::string_view line() const { return file_.ahead().substr(0, size_); }
+  [[nodiscard]] std::string_view line() const { return file_.buffered().substr(0, size_); }
 
   /// Line number, from 1; 0 before the first line.
   [[nodiscard]] std::size_t number() const { return number_; }

@@ -14,7 +14,7 @@ namespace {
 constexpr const char* doing = "sorting along the curve";
 
 /// Moves bit i of a 10-bit number to bit 3i.
-std::uint32_t spread(std::uint32_t bits) {
+std::uint32_t spread_10_bits(std::uint32_t bits) {
   bits = (bits | bits << 16) & 0x0300'00ff;
   bits = (bits | bits << 8) & 0x0300'f00f;
   bits = (bits | bits << 4) & 0x030c'30c3;
@@ -48,7 +48,9 @@ std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells, con
   constexpr double least_side = 1e-290;
   const double scale = side > least_side ? cells / side : 0;
   const auto last = static_cast<std::uint32_t>(cells) - 1;
-  const auto cell = [&](double above) { return spread(std::min(static_cast<std::uint32_t>(above * scale), last)); };
+  const auto cell = [&](double above) {
+    return spread_10_bits(std::min(static_cast<std::uint32_t>(above * scale), last));
+  };
   std::vector<CurvePlace> places(discs.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, discs.size(), 1U << 14), [&](const auto& range) {
     StopCheck check(stop, doing);

@@ -8,7 +8,7 @@
 namespace detp::sim {
 
 /// An interval on a ray, by the distance from its origin (negative behind the origin, on a line).
-struct Stretch {
+struct RayInterval {
   double from;
   double to;
   [[nodiscard]] bool empty() const { return !(from <= to); }
@@ -21,11 +21,11 @@ struct ClippedRay {
 
   glm::dvec3 origin;
   glm::dvec3 inverse;  ///< 1 / direction; infinite along an axis to which the ray is perpendicular
-  Stretch whole;
+  RayInterval whole;
 
   /// The interval inside the closed box.
-  [[nodiscard]] Stretch inside(const Box& box) const {
-    Stretch stretch = whole;
+  [[nodiscard]] RayInterval inside(const Box& box) const {
+    RayInterval interval = whole;
     for (int axis = 0; axis < 3; ++axis) {
       if (std::isinf(inverse[axis])) {
         if (origin[axis] < box.low[axis] || origin[axis] > box.high[axis]) return {0, -1};
@@ -33,10 +33,10 @@ struct ClippedRay {
       }
       const double a = (box.low[axis] - origin[axis]) * inverse[axis];
       const double b = (box.high[axis] - origin[axis]) * inverse[axis];
-      stretch.from = std::max(stretch.from, std::min(a, b));
-      stretch.to = std::min(stretch.to, std::max(a, b));
+      interval.from = std::max(interval.from, std::min(a, b));
+      interval.to = std::min(interval.to, std::max(a, b));
     }
-    return stretch;
+    return interval;
   }
 };
 

@@ -21,28 +21,28 @@ class Bsp {
             .building_bytes = tree_.building_bytes};
   }
 
-  void show(const VisitNode& visit) const { show(0, tree_.box, 0, visit); }
+  void visit_nodes(const VisitNode& visit) const { visit_nodes(0, tree_.box, 0, visit); }
 
   template <class Search>
   void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(traced);
-    const Stretch stretch = clipped.inside({tree_.box.low - slack_, tree_.box.high + slack_});
-    if (!stretch.empty()) enter(0, stretch, ray, clipped, search);
+    const RayInterval interval = clipped.inside({tree_.box.low - slack_, tree_.box.high + slack_});
+    if (!interval.empty()) enter(0, interval, ray, clipped, search);
   }
 
  private:
-  void show(std::uint32_t number, const Box& box, int level, const VisitNode& visit) const {
+  void visit_nodes(std::uint32_t number, const Box& box, int level, const VisitNode& visit) const {
     const BspNode& node = tree_.nodes[number];
     visit({box, level, node.leaf(), node.count});
     if (node.leaf()) return;
     for (const bool above : {false, true})
-      show(node.first + above, part_of(box, node.axis, node.plane, above), level + 1, visit);
+      visit_nodes(node.first + above, part_of(box, node.axis, node.plane, above), level + 1, visit);
   }
 
-  /// `stretch` is the ray's interval in the node, grown by the slack. Continues in the part that the ray enters first,
-  /// and then in the other. The parts are grown too, so that near the plane the ray is in both.
+  /// `interval` is the part of the ray in the node, grown by the slack. Continues in the child that the ray enters
+  /// first, and then in the other. The children are grown too, so that near the plane the ray is in both.
   template <class Search>
-  void enter(std::uint32_t number, const Stretch& stretch, std::uint32_t ray, const ClippedRay& clipped,
+  void enter(std::uint32_t number, const RayInterval& interval, std::uint32_t ray, const ClippedRay& clipped,
              Search& search) const {
     search.visit(&Counts<std::uint64_t>::nodes);
     const BspNode& node = tree_.nodes[number];
@@ -52,13 +52,14 @@ class Bsp {
     const double end_of_low = node.plane + slack_;
     const double start_of_high = node.plane - slack_;
     if (std::isinf(inverse)) {
-      if (origin <= end_of_low) enter(node.first, stretch, ray, clipped, search);
-      if (origin >= start_of_high) enter(node.first + 1, stretch, ray, clipped, search);
+      if (origin <= end_of_low) enter(node.first, interval, ray, clipped, search);
+      if (origin >= start_of_high) enter(node.first + 1, interval, ray, clipped, search);
       return;
     }
     const bool up = inverse > 0;
-    const Stretch near{stretch.from, std::min(stretch.to, ((up ? end_of_low : start_of_high) - origin) * inverse)};
-    const Stretch far{std::max(stretch.from, ((up ? start_of_high : end_of_low) - origin) * inverse), stretch.to};
+    const RayInterval near{interval.from,
+                           std::min(interval.to, ((up ? end_of_low : start_of_high) - origin) * inverse)};
+    const RayInterval far{std::max(interval.from, ((up ? start_of_high : end_of_low) - origin) * inverse), interval.to};
     if (!near.empty()) enter(up ? node.first : node.first + 1, near, ray, clipped, search);
     if (!far.empty()) enter(up ? node.first + 1 : node.first, far, ray, clipped, search);
   }
@@ -73,7 +74,7 @@ IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, c
                       const std::stop_token& stop) {
   check({Technique::bsp, parameters});
   const Bsp tree(problem, parameters, stop);
-  tree.show(visit);
+  tree.visit_nodes(visit);
   return tree.size();
 }
 

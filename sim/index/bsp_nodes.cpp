@@ -62,7 +62,7 @@ class Builder {
     require_room(discs.size());
     const Split split = halving(box);
     if (level == parameters_.depth || discs.size() <= static_cast<std::size_t>(parameters_.leaf) ||
-        !pays(split, box, discs))
+        !is_worthwhile(split, box, discs))
       return make_leaf(number, discs);
     const std::array<Box, 2> boxes{part_of(box, split.axis, split.plane, false),
                                    part_of(box, split.axis, split.plane, true)};
@@ -79,7 +79,7 @@ class Builder {
   }
 
   /// Whether searching the halves is expected to be cheaper than testing all discs.
-  [[nodiscard]] bool pays(const Split& split, const Box& box, const Discs& discs) {
+  [[nodiscard]] bool is_worthwhile(const Split& split, const Box& box, const Discs& discs) {
     double in_parts = 0;
     for_each_checked(std::span(discs), check_, [&](std::uint32_t disc) {
       in_parts += bounds_[disc].low[split.axis] <= split.plane ? 1 : 0;

@@ -20,16 +20,16 @@ namespace {
 /// Several times the rounding error of single precision, in own units: sim/geometry/proofs.md, "The culls".
 constexpr double margin = 0x1p-18;
 /// More than the distance from S₀'s centre to the end of S₀ and the slack, in own units.
-constexpr double half_stretch = 1.5;
+constexpr double half_length = 1.5;
 
 /// Peak memory of Embree's build, in pages used; 60 to 84 were measured for 2·10⁵ discs.
 constexpr double bytes_per_disc = 95;
 
 /// Coordinates in which S₀, grown by the slack, has a radius of 0.5 … 1 around the origin. Embree uses them in single
 /// precision. The unit is a power of two, so that scaling is exact.
-class OwnFrame {
+class EmbreeFrame {
  public:
-  explicit OwnFrame(const Problem& problem)
+  explicit EmbreeFrame(const Problem& problem)
       : centre_(problem.enclosing.centre),
         unit_(std::exp2(std::ilogb(problem.enclosing.radius + problem.slack) + 1)),
         growth_(problem.slack / unit_ + margin) {}
@@ -42,13 +42,13 @@ class OwnFrame {
 
   /// The part of the ray near S₀; nullopt if there is none. Its origin, computed in double precision, is near S₀ even
   /// if the ray's is far away. It is slightly longer than the part, so that no end is lost.
-  [[nodiscard]] std::optional<RTCRay> stretch(const Ray& ray) const {
+  [[nodiscard]] std::optional<RTCRay> clipped_ray(const Ray& ray) const {
     const glm::dvec3 origin = (ray.origin - centre_) / unit_;
     const double abreast = -glm::dot(origin, ray.direction);
     const glm::dvec3 nearest = origin + abreast * ray.direction;
     if (!(glm::dot(nearest, nearest) <= 1)) return std::nullopt;
-    double from = -half_stretch;
-    double to = half_stretch;
+    double from = -half_length;
+    double to = half_length;
     if (!ray.is_line()) {
       from = std::max(from, -abreast);
       to = std::min(to, ray.length / unit_ - abreast);
@@ -98,7 +98,7 @@ class Bvh {
     rtcSetGeometryBuildQuality(geometry.get(), effort);
     rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(problem.discs.size()));
     rtcSetGeometryUserData(geometry.get(), this);
-    rtcSetGeometryBoundsFunction(geometry.get(), tell_bounds, nullptr);
+    rtcSetGeometryBoundsFunction(geometry.get(), report_bounds, nullptr);
     rtcSetGeometryOccludedFunction(geometry.get(), show_disc);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene_.get(), geometry.get());
@@ -108,11 +108,12 @@ class Bvh {
 
   /// Passes every disc whose box the ray meets to the query.
   void trace(const Ray& ray, Query& query) const {
-    if (std::optional<RTCRay> stretch = frame_.stretch(ray)) rtcOccluded1(scene_.get(), &query.context, &*stretch);
+    if (std::optional<RTCRay> clipped_ray = frame_.clipped_ray(ray))
+      rtcOccluded1(scene_.get(), &query.context, &*clipped_ray);
   }
 
  private:
-  static void tell_bounds(const RTCBoundsFunctionArguments* arguments) {
+  static void report_bounds(const RTCBoundsFunctionArguments* arguments) {
     const Bvh& bvh = *static_cast<const Bvh*>(arguments->geometryUserPtr);
     const Box box = bvh.frame_.box(bvh.discs_[arguments->primID]);
     const glm::vec3 low(box.low);
@@ -127,7 +128,7 @@ class Bvh {
   }
 
   std::span<const Disc> discs_;
-  OwnFrame frame_;
+  EmbreeFrame frame_;
   embree::Owned<RTCDevice> device_{rtcNewDevice(nullptr)};
   embree::Owned<RTCScene> scene_;
 };
@@ -200,7 +201,7 @@ class BvhIndex final : public Index {
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    need_memory("the BVH", built_.bytes + found_bytes(problem, options), problem, outcome);
+    add_checked_bytes("the BVH", built_.bytes + found_bytes(problem, options), problem, outcome);
     options.count ? search_all<true>(problem, options, outcome) : search_all<false>(problem, options, outcome);
   }
 

@@ -39,7 +39,7 @@ class Grid {
             .building_bytes = building_bytes(references_.size())};
   }
 
-  void show(const VisitNode& visit) const {
+  void visit_nodes(const VisitNode& visit) const {
     for (Cell cell{}; cell[2] < along_[2]; ++cell[2])
       for (cell[1] = 0; cell[1] < along_[1]; ++cell[1])
         for (cell[0] = 0; cell[0] < along_[0]; ++cell[0]) {
@@ -54,20 +54,20 @@ class Grid {
   void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(traced);
     const Box grown{box_.low - slack_, box_.high + slack_};
-    const Stretch stretch = clipped.inside(grown);
-    if (stretch.empty()) return;
-    Cell cell = cell_of(clipped.origin + stretch.from * traced.direction);
+    const RayInterval interval = clipped.inside(grown);
+    if (interval.empty()) return;
+    Cell cell = cell_of(clipped.origin + interval.from * traced.direction);
     for (;;) {
       search.visit(&Counts<std::uint64_t>::steps);
       search.test(ray, references_in(index(cell)));
       int next = 0;
       double leave = unbounded;
       for (int axis = 0; axis < 3; ++axis)
-        if (const double t = leaving(clipped, cell, axis); t < leave) {
+        if (const double t = exit_distance(clipped, cell, axis); t < leave) {
           leave = t;
           next = axis;
         }
-      if (!(leave < stretch.to)) return;
+      if (!(leave < interval.to)) return;
       cell[next] += clipped.inverse[next] > 0 ? 1 : -1;
       if (cell[next] < 0 || cell[next] >= along_[next]) return;
     }
@@ -75,7 +75,7 @@ class Grid {
 
  private:
   /// Distance along the ray at which it leaves the cell across an axis.
-  double leaving(const ClippedRay& ray, const Cell& cell, int axis) const {
+  double exit_distance(const ClippedRay& ray, const Cell& cell, int axis) const {
     if (std::isinf(ray.inverse[axis])) return unbounded;
     const auto plane = static_cast<double>(cell[axis] + (ray.inverse[axis] > 0 ? 1 : 0));
     return (box_.low[axis] + plane * side_ - ray.origin[axis]) * ray.inverse[axis];
@@ -164,7 +164,7 @@ IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters,
                        const VisitNode& visit, const std::stop_token& stop) {
   check({Technique::grid, parameters});
   const Grid grid(problem, parameters.cells, variant.insertion, stop);
-  grid.show(visit);
+  grid.visit_nodes(visit);
   return grid.size();
 }
 

@@ -85,7 +85,7 @@ class TracedIndex final : public Index {
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    need_memory(what_, searching_bytes(problem, options), problem, outcome);
+    add_checked_bytes(what_, searching_bytes(problem, options), problem, outcome);
     if (mailboxing_)
       options.count ? trace_all<true, true>(problem, options, outcome)
                     : trace_all<false, true>(problem, options, outcome);

@@ -28,36 +28,38 @@ class Octree {
             .building_bytes = linking_bytes()};
   }
 
-  void show(const VisitNode& visit) const { show(0, tree_.cube, 0, visit); }
+  void visit_nodes(const VisitNode& visit) const { visit_nodes(0, tree_.cube, 0, visit); }
 
   template <class Search>
   void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(traced);
-    const Stretch stretch = clipped.inside({tree_.cube.low - slack_, tree_.cube.high + slack_});
-    if (stretch.empty()) return;
+    const RayInterval interval = clipped.inside({tree_.cube.low - slack_, tree_.cube.high + slack_});
+    if (interval.empty()) return;
     const OctreeDescent descent(tree_, clipped, slack_);
     switch (traversal_) {
       case Traversal::top_down:
-        return descent.all(ray, search);
+        return descent.visit_all(ray, search);
       case Traversal::front_to_back:
-        return descent.in_order(ray, search);
+        return descent.visit_in_order(ray, search);
       case Traversal::restart:
-        return walk_.go(traced, clipped, stretch,
-                        [&](const Leaf& place, int) { return from_root(place, ray, search); });
+        return walk_.for_each_leaf(traced, clipped, interval,
+                                   [&](const Leaf& place, int) { return search_from_root(place, ray, search); });
       case Traversal::neighbour_links: {
         std::uint32_t number = 0;
-        return walk_.go(traced, clipped, stretch,
-                        [&](const Leaf& place, int face) { return along_link(number, place, face, ray, search); });
+        return walk_.for_each_leaf(traced, clipped, interval, [&](const Leaf& place, int face) {
+          return search_along_link(number, place, face, ray, search);
+        });
       }
     }
   }
 
  private:
-  void show(std::uint32_t number, const Box& box, int level, const VisitNode& visit) const {
+  void visit_nodes(std::uint32_t number, const Box& box, int level, const VisitNode& visit) const {
     const OctreeNode& node = tree_.nodes[number];
     visit({box, level, level == tree_.depth, node.count});
     if (level < tree_.depth)
-      for_each_child(node, box, [&](std::uint32_t child, const Box& part) { show(child, part, level + 1, visit); });
+      for_each_child(node, box,
+                     [&](std::uint32_t child, const Box& part) { visit_nodes(child, part, level + 1, visit); });
   }
 
   /// Peak bytes while the tree is built, or while its nodes are linked, each with the number of the node from which it
@@ -74,7 +76,7 @@ class Octree {
 
   /// Descends from the root towards that leaf place. Tests the discs of the leaf there, or finds the omitted octant.
   template <class Search>
-  LeafCube from_root(const Leaf& place, std::uint32_t ray, Search& search) const {
+  LeafCube search_from_root(const Leaf& place, std::uint32_t ray, Search& search) const {
     std::uint32_t number = 0;
     int below = tree_.depth;
     search.visit(&Counts<std::uint64_t>::nodes);
@@ -92,7 +94,8 @@ class Octree {
   /// Moves from a leaf or empty octant (at first the root) across `face`, and down to the leaf or empty octant at
   /// `place`. Sets `number` to that node.
   template <class Search>
-  LeafCube along_link(std::uint32_t& number, const Leaf& place, int face, std::uint32_t ray, Search& search) const {
+  LeafCube search_along_link(std::uint32_t& number, const Leaf& place, int face, std::uint32_t ray,
+                             Search& search) const {
     if (face >= 0) number = linked_[number].links[static_cast<std::size_t>(face)];
     search.visit(&Counts<std::uint64_t>::nodes);
     while (linked_[number].inner) {
@@ -117,7 +120,7 @@ IndexSize inspect_octree(const Problem& problem, const OctreeParameters& paramet
                          const VisitNode& visit, const std::stop_token& stop) {
   check({Technique::octree, parameters});
   const Octree octree(problem, parameters, variant, stop);
-  octree.show(visit);
+  octree.visit_nodes(visit);
   return octree.size();
 }
 

@@ -23,15 +23,15 @@ class OctreeDescent {
 
   /// Visits children in the order of their octants.
   template <class Search>
-  void all(std::uint32_t ray, Search& search) const {
-    all(0, tree_.cube, 0, ray, search);
+  void visit_all(std::uint32_t ray, Search& search) const {
+    visit_all(0, tree_.cube, 0, ray, search);
   }
 
   /// Visits the same nodes. Of each node's children, the one that the ray enters first comes first; of children entered
   /// together, the lower octant.
   template <class Search>
-  void in_order(std::uint32_t ray, Search& search) const {
-    in_order(0, tree_.cube, 0, ray, search);
+  void visit_in_order(std::uint32_t ray, Search& search) const {
+    visit_in_order(0, tree_.cube, 0, ray, search);
   }
 
  private:
@@ -41,33 +41,35 @@ class OctreeDescent {
     Box box;
   };
 
-  [[nodiscard]] Stretch inside(const Box& box) const { return clipped_.inside({box.low - slack_, box.high + slack_}); }
+  [[nodiscard]] RayInterval inside(const Box& box) const {
+    return clipped_.inside({box.low - slack_, box.high + slack_});
+  }
 
   template <class Search>
-  void all(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
+  void visit_all(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
     search.visit(&Counts<std::uint64_t>::nodes);
     const OctreeNode& node = tree_.nodes[number];
     if (level == tree_.depth) return search.test(ray, tree_.references_in(node));
     for_each_child(node, box, [&](std::uint32_t child, const Box& part) {
-      if (!inside(part).empty()) all(child, part, level + 1, ray, search);
+      if (!inside(part).empty()) visit_all(child, part, level + 1, ray, search);
     });
   }
 
   template <class Search>
-  void in_order(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
+  void visit_in_order(std::uint32_t number, const Box& box, int level, std::uint32_t ray, Search& search) const {
     search.visit(&Counts<std::uint64_t>::nodes);
     const OctreeNode& node = tree_.nodes[number];
     if (level == tree_.depth) return search.test(ray, tree_.references_in(node));
     std::array<CrossedChild, 8> crossed;
     std::size_t count = 0;
     for_each_child(node, box, [&](std::uint32_t child, const Box& part) {
-      const Stretch stretch = inside(part);
-      if (stretch.empty()) return;
+      const RayInterval interval = inside(part);
+      if (interval.empty()) return;
       std::size_t place = count++;
-      for (; place > 0 && crossed[place - 1].from > stretch.from; --place) crossed[place] = crossed[place - 1];
-      crossed[place] = {stretch.from, child, part};
+      for (; place > 0 && crossed[place - 1].from > interval.from; --place) crossed[place] = crossed[place - 1];
+      crossed[place] = {interval.from, child, part};
     });
-    for (std::size_t i = 0; i < count; ++i) in_order(crossed[i].number, crossed[i].box, level + 1, ray, search);
+    for (std::size_t i = 0; i < count; ++i) visit_in_order(crossed[i].number, crossed[i].box, level + 1, ray, search);
   }
 
   const OctreeNodes& tree_;

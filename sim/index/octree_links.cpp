@@ -9,7 +9,7 @@ namespace detp::sim {
 namespace {
 
 /// Lays out the nodes, without links.
-std::vector<LinkedNode> lay_out(const OctreeNodes& tree, StopCheck& check) {
+std::vector<LinkedNode> nodes_without_links(const OctreeNodes& tree, StopCheck& check) {
   const auto inner = static_cast<std::size_t>(
       std::count_if(tree.nodes.begin(), tree.nodes.end(), [](const OctreeNode& node) { return node.octants != 0; }));
   const std::size_t total = 1 + 8 * inner;
@@ -57,7 +57,7 @@ void link_children(std::vector<LinkedNode>& nodes, const LinkedNode& node) {
 
 std::vector<LinkedNode> link_neighbours(const OctreeNodes& tree, const std::stop_token& stop) {
   StopCheck check(stop, "linking the octree");
-  std::vector<LinkedNode> nodes = lay_out(tree, check);
+  std::vector<LinkedNode> nodes = nodes_without_links(tree, check);
   for (std::uint32_t i = 0; i < nodes.size(); ++i) {
     if (nodes[i].inner) link_children(nodes, nodes[i]);
     check.after(6);

@@ -39,12 +39,12 @@ class LeafWalk {
         leaves_(std::int64_t{1} << depth),
         side_(cube.size().x / static_cast<double>(std::int64_t{1} << depth)) {}
 
-  /// Walks along a ray; `stretch` is its interval in the cube. `enter(leaf, face)` processes the leaf, and returns the
+  /// Walks along a ray; `interval` is its part in the cube. `enter(leaf, face)` processes the leaf, and returns the
   /// cube that the ray may skip: that of a leaf or of an omitted octant. `face` is the face of the previous cube
   /// through which the ray left it, 2 axis + (1 for the upper); -1 for the first.
   template <class Enter>
-  void go(const Ray& ray, const ClippedRay& clipped, const Stretch& stretch, const Enter& enter) const {
-    Leaf place = leaf_at(clipped.origin + stretch.from * ray.direction, {{}, leaves_});
+  void for_each_leaf(const Ray& ray, const ClippedRay& clipped, const RayInterval& interval, const Enter& enter) const {
+    Leaf place = leaf_at(clipped.origin + interval.from * ray.direction, {{}, leaves_});
     for (int face = -1;;) {
       const LeafCube cube = enter(place, face);
       int next = 0;
@@ -58,7 +58,7 @@ class LeafWalk {
           next = axis;
         }
       }
-      if (!(leave < stretch.to)) return;
+      if (!(leave < interval.to)) return;
       const bool up = clipped.inverse[next] > 0;
       place = leaf_at(clipped.origin + leave * ray.direction, cube);
       place[next] = cube.low[next] + (up ? cube.side : -1);

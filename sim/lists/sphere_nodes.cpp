@@ -15,29 +15,29 @@ struct Node {
 };
 
 /// The farthest distance of a child's sphere from a point, and the direction to it.
-struct Reach {
+struct FarthestSphere {
   double distance = 0;
   glm::dvec3 towards{0};  ///< unit length, or zero if the point is the child's centre
 };
 
-Reach farthest_reach(std::span<const Node> children, const glm::dvec3& from, StopCheck& check) {
-  double farthest = -1;
+FarthestSphere farthest_sphere(std::span<const Node> children, const glm::dvec3& from, StopCheck& check) {
+  double largest = -1;
   glm::dvec3 offset{0};
   for (const Node& child : children) {
     const glm::dvec3 away = child.sphere.centre - from;
     const double distance = glm::length(away) + child.sphere.radius;
-    if (distance > farthest) {
-      farthest = distance;
+    if (distance > largest) {
+      largest = distance;
       offset = away;
     }
     check.add(1);
   }
   check.after(0);
   const double length = glm::length(offset);
-  return {farthest, length > 0 ? offset / length : glm::dvec3{0}};
+  return {largest, length > 0 ? offset / length : glm::dvec3{0}};
 }
 
-Node around(std::span<const Node> children, StopCheck& check) {
+Node bounding_node(std::span<const Node> children, StopCheck& check) {
   constexpr int steps = 6;
   constexpr double first_step = 0.1;  // as a share of the distance
   constexpr double shrink = 0.7;
@@ -50,9 +50,9 @@ Node around(std::span<const Node> children, StopCheck& check) {
   glm::dvec3 centre = node.box.centre();
   double step = first_step;
   for (int i = 0; i <= steps; ++i, step *= shrink) {
-    const Reach reach = farthest_reach(children, centre, check);
-    if (reach.distance < node.sphere.radius) node.sphere = {centre, reach.distance};
-    centre += step * reach.distance * reach.towards;
+    const FarthestSphere farthest = farthest_sphere(children, centre, check);
+    if (farthest.distance < node.sphere.radius) node.sphere = {centre, farthest.distance};
+    centre += step * farthest.distance * farthest.towards;
   }
   return node;
 }
@@ -62,7 +62,7 @@ std::vector<Node> level_above(const std::vector<Node>& below, std::size_t run, S
   std::vector<Node> level;
   level.reserve((below.size() - 1) / run + 1);
   for (std::size_t first = 0; first < below.size(); first += run) {
-    level.push_back(around(std::span(below).subspan(first, std::min(run, below.size() - first)), check));
+    level.push_back(bounding_node(std::span(below).subspan(first, std::min(run, below.size() - first)), check));
     check.after(1);
   }
   return level;

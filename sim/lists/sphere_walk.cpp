@@ -25,7 +25,7 @@ double SphereWalk::levels(const Problem& problem, const SphereCacheParameters& p
   return std::min(static_cast<double>(parameters.spheres), std::floor(steps) + 1);  // one more, for rounding
 }
 
-SphereWalk::SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, Serving serving)
+SphereWalk::SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, ServingSpheres serving)
     : serving_(serving) {
   const double smallest = smallest_radius(problem.discs);
   require_memory("the spheres", levels(problem, parameters) * sizeof(Sphere));
@@ -38,9 +38,9 @@ SphereWalk::SphereWalk(const Problem& problem, const SphereCacheParameters& para
   }
 }
 
-int SphereWalk::serving(const Disc& disc) const {
+int SphereWalk::serving_level(const Disc& disc) const {
   int level = 0;
-  if (serving_ == Serving::all_that_hold) {
+  if (serving_ == ServingSpheres::all_that_hold) {
     while (level + 1 < built_ && holds(sphere(level + 1), disc)) ++level;
   } else {
     level = built_ - 1;
@@ -50,7 +50,7 @@ int SphereWalk::serving(const Disc& disc) const {
 }
 
 int SphereWalk::enter(const Disc& disc) {
-  const int first = serving(disc) + 1;
+  const int first = serving_level(disc) + 1;
   built_ = first;
   while (built_ <= deepest() && disc.radius <= sphere(built_).radius)
     spheres_[static_cast<std::size_t>(built_++)].centre = disc.centre;

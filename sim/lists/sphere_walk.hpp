@@ -13,7 +13,7 @@ namespace detp::sim {
 class SphereWalk : public ListWalk {
  public:
   /// Which spheres serve a disc.
-  enum class Serving {
+  enum class ServingSpheres {
     all_that_hold,  ///< those that contain it, from the outermost inwards without a gap: exact
     /// the paper's rule (section 2.2): the innermost that contains it, even if a larger one does not; its list may lack
     /// rays
@@ -21,7 +21,7 @@ class SphereWalk : public ListWalk {
   };
 
   /// Omits spheres smaller than the smallest disc, which would never be built.
-  SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, Serving serving);
+  SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, ServingSpheres serving);
 
   /// A copy in that memory.
   SphereWalk(const SphereWalk& other, std::pmr::memory_resource& memory)
@@ -36,9 +36,9 @@ class SphereWalk : public ListWalk {
   [[nodiscard]] const Sphere& sphere(int level) const override { return spheres_[static_cast<std::size_t>(level)]; }
 
  private:
-  [[nodiscard]] int serving(const Disc& disc) const;
+  [[nodiscard]] int serving_level(const Disc& disc) const;
 
-  Serving serving_;
+  ServingSpheres serving_;
   std::pmr::vector<Sphere> spheres_;
   int built_ = 1;  ///< S₀ … S_built-1 are where they were last built
 };

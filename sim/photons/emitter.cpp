@@ -32,7 +32,7 @@ glm::dvec3 checked_normal(const AreaLight& light) {
 Emitter::Emitter(const Light& light)
     : light_(light), normal_(std::visit([](const auto& kind) { return checked_normal(kind); }, light)) {}
 
-Departure Emitter::photon(const std::array<double, 4>& random) const {
+PhotonStart Emitter::photon(const std::array<double, 4>& random) const {
   if (const auto* point = std::get_if<PointLight>(&light_))
     return {point->position, uniform_direction(random[2], random[3])};
   const auto& area = std::get<AreaLight>(light_);

@@ -7,7 +7,7 @@
 namespace detp::sim {
 
 /// Origin and direction of a photon.
-struct Departure {
+struct PhotonStart {
   glm::dvec3 origin{0.0};
   glm::dvec3 direction{0.0, 0.0, 1.0};  ///< unit length
 };
@@ -19,7 +19,7 @@ class Emitter {
   explicit Emitter(const Light& light);
 
   /// The photon that four uniform numbers in [0, 1) determine.
-  [[nodiscard]] Departure photon(const std::array<double, 4>& random) const;
+  [[nodiscard]] PhotonStart photon(const std::array<double, 4>& random) const;
 
  private:
   Light light_;

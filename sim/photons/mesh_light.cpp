@@ -7,7 +7,7 @@
 namespace detp::sim {
 namespace {
 
-constexpr int drops_along_edge = 5;
+constexpr int lines_along_edge = 5;
 constexpr double step = 0.01;   // distance between the heights tried, as a share of the box's height
 constexpr int most_steps = 20;  // of `step`, below the top
 
@@ -29,60 +29,64 @@ AreaLight level_light(const Box& box) {
 }
 
 /// A vertical line below the light, and the depths below the box's top at which it meets the mesh.
-struct Drop {
+struct VerticalLine {
   double x, z;
   std::vector<double> depths;
 
   /// Distance from a depth down to the next surface; 0 if there is none.
-  [[nodiscard]] double fall(double depth) const {
+  [[nodiscard]] double distance_down(double depth) const {
     const auto floor = std::upper_bound(depths.begin(), depths.end(), depth);
     return floor == depths.end() ? 0 : *floor - depth;
   }
 };
 
-/// Adds the depth at which the drop meets the triangle. Corners are relative to the centre of the box's top. Upright
+/// Adds the depth at which the line meets the triangle. Corners are relative to the centre of the box's top. Upright
 /// triangles are ignored.
-void meet(Drop& drop, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
-  if (drop.x < std::min({a.x, b.x, c.x}) || drop.x > std::max({a.x, b.x, c.x})) return;
-  if (drop.z < std::min({a.z, b.z, c.z}) || drop.z > std::max({a.z, b.z, c.z})) return;
+void add_intersection(VerticalLine& line, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
+  if (line.x < std::min({a.x, b.x, c.x}) || line.x > std::max({a.x, b.x, c.x})) return;
+  if (line.z < std::min({a.z, b.z, c.z}) || line.z > std::max({a.z, b.z, c.z})) return;
   const auto cross = [](const glm::dvec3& first, const glm::dvec3& second) {
     return first.x * second.z - first.z * second.x;
   };
-  const glm::dvec3 to{drop.x - a.x, 0, drop.z - a.z};
+  const glm::dvec3 to{line.x - a.x, 0, line.z - a.z};
   const double area = cross(b - a, c - a);
   const double u = cross(to, c - a) / area;
   const double v = cross(b - a, to) / area;
-  if (u >= 0 && v >= 0 && u + v <= 1) drop.depths.push_back(-(a.y + u * (b.y - a.y) + v * (c.y - a.y)));
+  if (u >= 0 && v >= 0 && u + v <= 1) line.depths.push_back(-(a.y + u * (b.y - a.y) + v * (c.y - a.y)));
 }
 
 /// All coordinates are in units of the box's longest side.
-std::vector<Drop> drops(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
+std::vector<VerticalLine> vertical_lines(const Mesh& mesh, const Box& box, const AreaLight& light,
+                                         const std::stop_token& stop) {
   const double unit = longest_side(box);
   const glm::dvec3 top{box.centre().x, box.high.y, box.centre().z};
-  std::vector<Drop> all;
-  for (int i = 0; i < drops_along_edge; ++i)
-    for (int j = 0; j < drops_along_edge; ++j)
-      all.push_back({.x = ((i + 0.5) / drops_along_edge - 0.5) * light.edge_u.x / unit,
-                     .z = ((j + 0.5) / drops_along_edge - 0.5) * light.edge_v.z / unit,
+  std::vector<VerticalLine> all;
+  for (int i = 0; i < lines_along_edge; ++i)
+    for (int j = 0; j < lines_along_edge; ++j)
+      all.push_back({.x = ((i + 0.5) / lines_along_edge - 0.5) * light.edge_u.x / unit,
+                     .z = ((j + 0.5) / lines_along_edge - 0.5) * light.edge_v.z / unit,
                      .depths = {}});
   StopCheck check(stop, "placing the light");
   for (const auto& [a, b, c] : mesh.triangles) {
-    for (Drop& drop : all)
-      meet(drop, (mesh.positions[a] - top) / unit, (mesh.positions[b] - top) / unit, (mesh.positions[c] - top) / unit);
+    for (VerticalLine& line : all)
+      add_intersection(line, (mesh.positions[a] - top) / unit, (mesh.positions[b] - top) / unit,
+                       (mesh.positions[c] - top) / unit);
     check.after(all.size());
   }
-  for (Drop& drop : all) std::sort(drop.depths.begin(), drop.depths.end());
+  for (VerticalLine& line : all) std::sort(line.depths.begin(), line.depths.end());
   return all;
 }
 
 /// Depth of the light below the box's top, as a share of the box's height.
 double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
   const double height = box.size().y / longest_side(box);
-  const std::vector<Drop> all = drops(mesh, box, light, stop);
+  const std::vector<VerticalLine> all = vertical_lines(mesh, box, light, stop);
   for (int i = 1; i <= most_steps; ++i) {
-    // The fall starts half a step higher, so that the light cannot lie in the ceiling.
-    const auto falls_far = [&](const Drop& drop) { return drop.fall((i - 0.5) * step * height) >= 0.5 * height; };
-    if (2 * std::count_if(all.begin(), all.end(), falls_far) > std::ssize(all)) return i * step;
+    // The distance starts half a step higher, so that the light cannot lie in the ceiling.
+    const auto is_far_above = [&](const VerticalLine& line) {
+      return line.distance_down((i - 0.5) * step * height) >= 0.5 * height;
+    };
+    if (2 * std::count_if(all.begin(), all.end(), is_far_above) > std::ssize(all)) return i * step;
   }
   return step;
 }

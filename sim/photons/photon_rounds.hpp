@@ -24,7 +24,7 @@ class PhotonRounds {
       throw std::invalid_argument("the light of " + scene_ + " hardly meets its surfaces: " + std::to_string(traced_) +
                                   " photons gave " + std::to_string(found) + " pieces of path (" +
                                   std::to_string(pieces_) + " asked for)");
-    const std::uint64_t photons = std::min(wanted(found), limit_ - traced_);
+    const std::uint64_t photons = std::min(photons_needed(found), limit_ - traced_);
     traced_ += photons;
     return photons;
   }
@@ -36,7 +36,7 @@ class PhotonRounds {
   static constexpr std::uint64_t least_in_a_round = 256;
   static constexpr std::uint64_t most_in_a_round = 1ULL << 20;
 
-  [[nodiscard]] std::uint64_t wanted(std::uint64_t found) const {
+  [[nodiscard]] std::uint64_t photons_needed(std::uint64_t found) const {
     const std::uint64_t missing = pieces_ - found;
     if (traced_ == 0) return std::clamp<std::uint64_t>(missing / 4, least_in_a_round, most_in_a_round);
     const double each = static_cast<double>(found) / static_cast<double>(traced_);

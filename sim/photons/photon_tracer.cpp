@@ -54,30 +54,31 @@ PhotonPieces PhotonTracer::trace(std::uint64_t first, std::uint64_t last, const 
 }
 
 void PhotonTracer::add_path(std::uint64_t photon, std::vector<Ray>& rays) const {
-  Departure from = emitter_.photon(uniform4(seed_, Stream::photons, photon));
-  from.origin = caster_.to_own(from.origin);
+  PhotonStart from = emitter_.photon(uniform4(seed_, Stream::photons, photon));
+  from.origin = caster_.to_caster(from.origin);
   std::optional<std::uint32_t> triangle;
   for (std::uint64_t bounce = 1; bounce <= most_pieces; ++bounce) {
-    const auto meeting = caster_.first_meeting(from.origin, from.direction, triangle);
-    if (!meeting) return add_last_piece(from, rays);
-    rays.push_back(piece(from, meeting->distance, gap_));
+    const auto intersection = caster_.first_intersection(from.origin, from.direction, triangle);
+    if (!intersection) return add_last_piece(from, rays);
+    rays.push_back(piece(from, intersection->distance, gap_));
     const auto random = uniform4(seed_, Stream::photons, photon, bounce);
     if (!(random[0] < albedo_)) return;
-    const glm::dvec3 normal = glm::dot(meeting->normal, from.direction) < 0 ? meeting->normal : -meeting->normal;
-    from.origin += meeting->distance * from.direction;
+    const glm::dvec3 normal =
+        glm::dot(intersection->normal, from.direction) < 0 ? intersection->normal : -intersection->normal;
+    from.origin += intersection->distance * from.direction;
     from.direction = cosine_direction(normal, random[1], random[2]);
-    triangle = meeting->triangle;
+    triangle = intersection->triangle;
   }
 }
 
 /// Adds the last piece of a photon that leaves the scene.
-void PhotonTracer::add_last_piece(const Departure& from, std::vector<Ray>& rays) const {
+void PhotonTracer::add_last_piece(const PhotonStart& from, std::vector<Ray>& rays) const {
   const double along = glm::dot(from.origin, from.direction);
   const double inside = reach_ * reach_ - glm::dot(from.origin, from.origin);
   if (inside > 0) rays.push_back(piece(from, std::sqrt(along * along + inside) - along, 0));
 }
 
-Ray PhotonTracer::piece(const Departure& from, double distance, double beyond) const {
+Ray PhotonTracer::piece(const PhotonStart& from, double distance, double beyond) const {
   const double start = std::min(gap_, 0.5 * distance);
   return {.origin = caster_.to_scene(from.origin + start * from.direction),
           .direction = from.direction,

@@ -27,8 +27,8 @@ class PhotonTracer {
 
  private:
   void add_path(std::uint64_t photon, std::vector<Ray>& rays) const;
-  void add_last_piece(const Departure& from, std::vector<Ray>& rays) const;
-  [[nodiscard]] Ray piece(const Departure& from, double distance, double beyond) const;
+  void add_last_piece(const PhotonStart& from, std::vector<Ray>& rays) const;
+  [[nodiscard]] Ray piece(const PhotonStart& from, double distance, double beyond) const;
 
   RayCaster caster_;
   Emitter emitter_;

@@ -42,7 +42,7 @@ void bound(const RTCBoundsFunctionArguments* arguments) {
   bounds.upper_z = static_cast<float>(box.high.z) + box_slack;
 }
 
-void meet(const RTCIntersectFunctionNArguments* arguments) {
+void intersect_facet(const RTCIntersectFunctionNArguments* arguments) {
   if (arguments->valid[0] == 0) return;
   Query& query = *reinterpret_cast<Query*>(arguments->context);
   const std::uint32_t facet = arguments->primID;
@@ -69,7 +69,7 @@ double entry(const glm::dvec3& origin, const glm::dvec3& direction) {
 }
 
 /// The smallest power of two above half the box's diagonal: scaling by it is exact.
-double own_unit(const Box& box) {
+double caster_unit(const Box& box) {
   const glm::dvec3 half = 0.5 * box.size();
   return std::exp2(std::ilogb(std::hypot(half.x, half.y, half.z)) + 1);
 }
@@ -90,7 +90,7 @@ struct RayCaster::Embree {
     rtcSetGeometryUserData(geometry.get(), distinct.facets.data());
     rtcSetGeometryBoundsFunction(
         geometry.get(), [](const auto* arguments) { bound(arguments); }, nullptr);
-    rtcSetGeometryIntersectFunction(geometry.get(), meet);
+    rtcSetGeometryIntersectFunction(geometry.get(), intersect_facet);
     rtcCommitGeometry(geometry.get());
     rtcAttachGeometry(scene.get(), geometry.get());
     embree::commit(device.get(), scene.get(), stop, "building a tree over the scene's triangles");
@@ -98,21 +98,23 @@ struct RayCaster::Embree {
 };
 
 RayCaster::RayCaster(const Mesh& mesh, const Box& box, const std::stop_token& stop)
-    : centre_(box.centre()), scale_(own_unit(box)) {
+    : centre_(box.centre()), scale_(caster_unit(box)) {
   std::vector<Facet> facets;
   facets.reserve(mesh.triangles.size());
   StopCheck check(stop, "copying triangles");
   for_each_checked(std::span(mesh.triangles), check, [&](const auto& corners) {
     const auto& [a, b, c] = corners;
-    facets.push_back(make_facet(to_own(mesh.positions[a]), to_own(mesh.positions[b]), to_own(mesh.positions[c])));
+    facets.push_back(
+        make_facet(to_caster(mesh.positions[a]), to_caster(mesh.positions[b]), to_caster(mesh.positions[c])));
   });
   embree_ = std::make_unique<Embree>(std::move(facets), stop);
 }
 
 RayCaster::~RayCaster() = default;
 
-std::optional<RayCaster::Meeting> RayCaster::first_meeting(const glm::dvec3& origin, const glm::dvec3& direction,
-                                                           std::optional<std::uint32_t> from) const {
+std::optional<RayCaster::Intersection> RayCaster::first_intersection(const glm::dvec3& origin,
+                                                                     const glm::dvec3& direction,
+                                                                     std::optional<std::uint32_t> from) const {
   const double skipped = entry(origin, direction);
   if (skipped < 0) return std::nullopt;
   Query query{.context = {},
@@ -128,8 +130,8 @@ std::optional<RayCaster::Meeting> RayCaster::first_meeting(const glm::dvec3& ori
   ray.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(embree_->scene.get(), &query.context, &ray);
   if (query.nearest == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-  return Meeting{query.distance, embree_->distinct.facets[query.nearest].normal,
-                 embree_->distinct.triangles[query.nearest]};
+  return Intersection{query.distance, embree_->distinct.facets[query.nearest].normal,
+                      embree_->distinct.triangles[query.nearest]};
 }
 
 }  // namespace detp::sim

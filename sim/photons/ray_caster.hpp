@@ -24,12 +24,12 @@ class RayCaster {
   RayCaster& operator=(const RayCaster&) = delete;
 
   /// Conversion from scene coordinates to the caster's own, and back.
-  [[nodiscard]] glm::dvec3 to_own(const glm::dvec3& point) const { return (point - centre_) / scale_; }
+  [[nodiscard]] glm::dvec3 to_caster(const glm::dvec3& point) const { return (point - centre_) / scale_; }
   [[nodiscard]] glm::dvec3 to_scene(const glm::dvec3& point) const { return centre_ + scale_ * point; }
   /// One of the caster's own units, in scene units; a power of two.
   [[nodiscard]] double scale() const { return scale_; }
 
-  struct Meeting {
+  struct Intersection {
     double distance;    ///< > 0, in the caster's own units
     glm::dvec3 normal;  ///< of the triangle, unit length
     std::uint32_t triangle;
@@ -37,8 +37,8 @@ class RayCaster {
 
   /// The first triangle that the ray meets, except the one it starts from. If two are met at the same distance, the one
   /// with the lower number. Origin and unit direction are in the caster's own coordinates.
-  [[nodiscard]] std::optional<Meeting> first_meeting(const glm::dvec3& origin, const glm::dvec3& direction,
-                                                     std::optional<std::uint32_t> from = std::nullopt) const;
+  [[nodiscard]] std::optional<Intersection> first_intersection(const glm::dvec3& origin, const glm::dvec3& direction,
+                                                               std::optional<std::uint32_t> from = std::nullopt) const;
 
  private:
   struct Embree;

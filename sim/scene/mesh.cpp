@@ -52,7 +52,7 @@ glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
 }
 
 /// The area vectors of the triangles around a vertex.
-struct Fan {
+struct AreaVectorSum {
   glm::dvec3 sum{0.0};
   glm::dvec3 largest{0.0};
   double area = 0;
@@ -70,17 +70,17 @@ struct Fan {
 };
 
 std::vector<glm::dvec3> normals_by_area(const Mesh& mesh, StopCheck& check) {
-  std::vector<Fan> fans(mesh.positions.size());
+  std::vector<AreaVectorSum> sums(mesh.positions.size());
   const int exponent = scale_exponent(mesh);
   for_each_checked(std::span(mesh.triangles), check, [&](const auto& corners) {
     const auto& [a, b, c] = corners;
     const glm::dvec3 vector = area_vector({scaled(mesh.positions[a], exponent), scaled(mesh.positions[b], exponent),
                                            scaled(mesh.positions[c], exponent)});
-    for (const std::uint32_t corner : {a, b, c}) fans[corner].add(vector);
+    for (const std::uint32_t corner : {a, b, c}) sums[corner].add(vector);
   });
   std::vector<glm::dvec3> normals;
-  normals.reserve(fans.size());
-  for_each_checked(std::span(fans), check, [&](const Fan& fan) { normals.push_back(fan.normal()); });
+  normals.reserve(sums.size());
+  for_each_checked(std::span(sums), check, [&](const AreaVectorSum& sum) { normals.push_back(sum.normal()); });
   return normals;
 }
 

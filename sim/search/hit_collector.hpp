@@ -40,9 +40,9 @@ class HitCollector {
     if (totals().empty()) totals().resize(problem.discs.size());
   }
 
-  [[nodiscard]] bool decide(const Ray& ray, const Disc& disc) const { return counts_as_hit(problem_, ray, disc); }
+  [[nodiscard]] bool is_hit(const Ray& ray, const Disc& disc) const { return counts_as_hit(problem_, ray, disc); }
 
-  void keep(std::uint32_t ray, std::uint32_t disc) {
+  void add_hit(std::uint32_t ray, std::uint32_t disc) {
     const Ray& kept = problem_.rays[ray];
     DiscTotals& sums = totals()[disc];
     ++sums.hits;
@@ -55,7 +55,7 @@ class HitCollector {
 
   /// Moves the results into the outcome. Powers become irradiance, unless the totals are the caller's. `rays` is the
   /// number of first rays that have been searched; it is less than all if the search was stopped.
-  void give(std::uint64_t rays) {
+  void store_results(std::uint64_t rays) {
     outcome_.progress = {rays, problem_.rays.size()};
     outcome_.stopped = rays < problem_.rays.size() || !sort_pairs(outcome_.pairs, options_.stop);
     outcome_.bytes += grown_bytes(outcome_.pairs.size(), sizeof(Pair));
@@ -66,14 +66,14 @@ class HitCollector {
     if (options_.totals == nullptr) finish(own_, problem_.discs, outcome_);
   }
 
-  /// For a search that processes one disc after another. Must be called before give_discs.
-  void take_discs() {
+  /// For a search that processes one disc after another. Must be called before store_partial_results.
+  void save_totals() {
     if (options_.totals != nullptr) before_.emplace(*options_.totals, options_.memory);
   }
 
   /// Moves the results of a stopped search into the outcome, when all rays had been tested against the discs in `done`.
   /// The caller's totals are restored, because they cannot show that some discs are missing.
-  void give_discs(std::span<const std::uint32_t> done) {
+  void store_partial_results(std::span<const std::uint32_t> done) {
     outcome_.stopped = true;
     outcome_.pairs.clear();
     if (options_.totals != nullptr) {

@@ -42,7 +42,7 @@ void search_with_error(const Index& index, const Problem& problem, RunOptions op
 
 }  // namespace
 
-Outcome nothing_found(const Problem& problem, const RunOptions& options) {
+Outcome unsearched_outcome(const Problem& problem, const RunOptions& options) {
   Outcome outcome;
   outcome.stopped = true;
   outcome.progress.of = problem.rays.size();
@@ -66,7 +66,7 @@ void search(const Index& index, const Problem& problem, const RunOptions& option
                            : index.search(problem, options, outcome);
   } catch (const Stopped&) {  // stopped before the search
     const double bytes = outcome.bytes;
-    outcome = nothing_found(problem, options);
+    outcome = unsearched_outcome(problem, options);
     outcome.bytes = bytes;
   }
   outcome.seconds.search = watch.lap() - outcome.seconds.build;

@@ -36,7 +36,7 @@ class Index {
 void check_options(const RunOptions& options, const Problem& problem);
 
 /// The outcome of a run that was stopped before its search.
-[[nodiscard]] Outcome nothing_found(const Problem& problem, const RunOptions& options);
+[[nodiscard]] Outcome unsearched_outcome(const Problem& problem, const RunOptions& options);
 
 /// Searches an index for the hits of the problem's rays. Throws as Index::search does, and std::invalid_argument for
 /// options out of range. If a search is stopped before it found anything, the outcome has no hits.

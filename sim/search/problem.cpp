@@ -79,7 +79,7 @@ Sphere sphere_around(std::span<const Disc> discs, StopCheck& check) {
 }
 
 /// Checks the discs and stores them in the problem. Returns their radii.
-Radii take_discs(Problem& problem, std::span<const Disc> discs, bool front_facing, const std::stop_token& stop) {
+Radii store_discs(Problem& problem, std::span<const Disc> discs, bool front_facing, const std::stop_token& stop) {
   require_number("disc", discs.size());
   StopCheck check(stop, checking);
   problem.own_discs = normalised_if_needed(discs, check);
@@ -92,8 +92,8 @@ Radii take_discs(Problem& problem, std::span<const Disc> discs, bool front_facin
 }
 
 /// Checks the rays and stores them in the problem. Returns the distance of the farthest origin.
-double take_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uint64_t first,
-                 const std::stop_token& stop) {
+double store_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uint64_t first,
+                  const std::stop_token& stop) {
   require_number("ray", rays.size());
   require_count("number of threads", threads, 0, most_threads);
   CheckedRays checked;
@@ -118,28 +118,28 @@ Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop
 Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing, int threads,
                      const std::stop_token& stop) {
   Problem problem;
-  const Radii radii = take_discs(problem, discs, front_facing, stop);
-  set_farthest(problem, take_rays(problem, rays, threads, 0, stop), radii.largest);
+  const Radii radii = store_discs(problem, discs, front_facing, stop);
+  set_farthest(problem, store_rays(problem, rays, threads, 0, stop), radii.largest);
   return problem;
 }
 
 Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, bool front_facing,
                                   const std::stop_token& stop) {
   Problem problem;
-  const Radii radii = take_discs(problem, discs, front_facing, stop);
+  const Radii radii = store_discs(problem, discs, front_facing, stop);
   require_non_negative("distance of the farthest ray's origin", farthest);
   set_farthest(problem, farthest, radii.largest);
   return problem;
 }
 
 void set_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uint64_t first) {
-  Problem taken = problem;
-  const double farthest = take_rays(taken, rays, threads, first, {});
+  Problem changed = problem;
+  const double farthest = store_rays(changed, rays, threads, first, {});
   if (farthest > problem.farthest)
     throw std::invalid_argument(
         fmt::format("a ray starts {} from the centre of the discs, but the problem was made for at most {}", farthest,
                     problem.farthest));
-  problem = std::move(taken);
+  problem = std::move(changed);
 }
 
 }  // namespace detp::sim

@@ -46,12 +46,12 @@ class Chunks {
 };
 
 /// Adds up the hits, chunk by chunk.
-class Sum {
+class HitSum {
  public:
-  explicit Sum(HitCollector& collector) : collector_(collector) {}
+  explicit HitSum(HitCollector& collector) : collector_(collector) {}
 
   void add(const Chunk& chunk) {
-    for (const Pair& hit : *chunk.hits) collector_.keep(hit.ray, hit.disc);
+    for (const Pair& hit : *chunk.hits) collector_.add_hit(hit.ray, hit.disc);
     batches_.add(chunk.last - chunk.first, chunk.hits->size());
   }
 
@@ -62,7 +62,7 @@ class Sum {
   HitBatches batches_;
 };
 
-Counts<std::uint64_t> search_alone(Chunks& chunks, MakeRaySearch make, Sum& sum) {
+Counts<std::uint64_t> search_alone(Chunks& chunks, MakeRaySearch make, HitSum& sum) {
   const OwnedIn<RaySearch> search = make();
   try {
     for (Chunk chunk; chunks.next(chunk);) {
@@ -75,7 +75,7 @@ Counts<std::uint64_t> search_alone(Chunks& chunks, MakeRaySearch make, Sum& sum)
 }
 
 /// A chunk leaves the pipeline after all earlier ones, so its buffer is free when its turn comes again.
-Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, MakeRaySearch make, Sum& total) {
+Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, MakeRaySearch make, HitSum& total) {
   using namespace oneapi::tbb;
   enumerable_thread_specific<OwnedIn<RaySearch>> searches([&] { return make(); });
   const auto cut = make_filter<void, Chunk>(filter_mode::serial_in_order, [&](flow_control& flow) {
@@ -105,13 +105,13 @@ void search_rays(const Problem& problem, const RunOptions& options, MakeRaySearc
   const std::size_t under_way = threads == 1 ? 1 : chunks_a_thread * static_cast<std::size_t>(threads);
   HitCollector collector(problem, options, outcome);
   Chunks chunks(problem.rays.size(), under_way, options);
-  Sum sum(collector);
+  HitSum sum(collector);
   if (threads == 1)
     outcome.counts = search_alone(chunks, make, sum);
   else
     on_threads(threads, [&] { outcome.counts = search_together(chunks, under_way, make, sum); });
   outcome.batches = sum.batches();
-  collector.give(outcome.batches.rays);
+  collector.store_results(outcome.batches.rays);
 }
 
 }  // namespace detp::sim

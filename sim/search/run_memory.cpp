@@ -33,7 +33,7 @@ double checked_bytes(std::string_view what, double bytes, const Problem& problem
   return bytes;
 }
 
-void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome) {
+void add_checked_bytes(std::string_view what, double bytes, const Problem& problem, Outcome& outcome) {
   outcome.bytes = std::max(outcome.bytes, checked_bytes(what, bytes, problem));
 }
 

@@ -18,7 +18,7 @@ void require_memory_for(std::string_view what, double bytes, const Problem& prob
 double checked_bytes(std::string_view what, double bytes, const Problem& problem);
 
 /// Checks the memory as checked_bytes does, and adds the bytes to the outcome.
-void need_memory(std::string_view what, double bytes, const Problem& problem, Outcome& outcome);
+void add_checked_bytes(std::string_view what, double bytes, const Problem& problem, Outcome& outcome);
 
 /// Bytes of a run's own totals, hits and irradiance; 0 if the totals are the caller's.
 [[nodiscard]] double found_bytes(const Problem& problem, const RunOptions& options);

@@ -73,7 +73,7 @@ void refuse_unsound(const Disc& disc, std::uint64_t number) {
 }
 
 /// Properties of some rays, found by the fast tests.
-struct Glance {
+struct RaySummary {
   double farthest2 = 0;  ///< squared distance of the farthest origin
   double least_power = unbounded;
   double most_power = 0;
@@ -81,26 +81,27 @@ struct Glance {
   bool sound = true;
 };
 
-Glance look_at(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, const StopCheck& stop) {
+RaySummary summarise_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power,
+                          const StopCheck& stop) {
   return tbb::parallel_reduce(
-      Range(0, rays.size(), rays_at_once), Glance{},
-      [&](const Range& range, Glance glance) {
+      Range(0, rays.size(), rays_at_once), RaySummary{},
+      [&](const Range& range, RaySummary summary) {
         StopCheck check = stop;
         for_each_checked(rays.subspan(range.begin(), range.size()), check, [&](const Ray& ray) {
-          glance.sound = glance.sound && surely_sound(ray, most_power);
+          summary.sound = summary.sound && surely_sound(ray, most_power);
           const glm::dvec3 away = ray.origin - centre;
-          glance.farthest2 = std::max(glance.farthest2, glm::dot(away, away));
-          glance.least_power = std::min(glance.least_power, ray.power);
-          glance.most_power = std::max(glance.most_power, ray.power);
-          glance.least_length = std::min(glance.least_length, ray.length);
+          summary.farthest2 = std::max(summary.farthest2, glm::dot(away, away));
+          summary.least_power = std::min(summary.least_power, ray.power);
+          summary.most_power = std::max(summary.most_power, ray.power);
+          summary.least_length = std::min(summary.least_length, ray.length);
         });
         check.now();
-        return glance;
+        return summary;
       },
-      [](const Glance& a, const Glance& b) {
-        return Glance{std::max(a.farthest2, b.farthest2), std::min(a.least_power, b.least_power),
-                      std::max(a.most_power, b.most_power), std::min(a.least_length, b.least_length),
-                      a.sound && b.sound};
+      [](const RaySummary& a, const RaySummary& b) {
+        return RaySummary{std::max(a.farthest2, b.farthest2), std::min(a.least_power, b.least_power),
+                          std::max(a.most_power, b.most_power), std::min(a.least_length, b.least_length),
+                          a.sound && b.sound};
       });
 }
 
@@ -154,9 +155,10 @@ std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Di
 
 CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, std::uint64_t first,
                        const StopCheck& check) {
-  const Glance seen = look_at(rays, centre, most_power, check);
-  CheckedRays checked{std::sqrt(seen.farthest2), seen.least_power == seen.most_power, seen.least_length < unbounded};
-  if (!seen.sound) checked.unit = normalised_if_needed(rays, most_power, first, check);
+  const RaySummary summary = summarise_rays(rays, centre, most_power, check);
+  CheckedRays checked{std::sqrt(summary.farthest2), summary.least_power == summary.most_power,
+                      summary.least_length < unbounded};
+  if (!summary.sound) checked.unit = normalised_if_needed(rays, most_power, first, check);
   return checked;
 }
 

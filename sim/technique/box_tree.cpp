@@ -39,26 +39,26 @@ void cull(const RayList& around, const Box& box, RayList& inside, StopCheck& che
 template <bool counting>
 class PlainSearch {
  public:
-  PlainSearch(const stream::Searched& searched, const RunOptions& options, Outcome& outcome)
-      : searched_(searched),
+  PlainSearch(const stream::SearchInput& input, const RunOptions& options, Outcome& outcome)
+      : input_(input),
         check_(options.stop, "searching"),
         outcome_(outcome),
-        collector_(searched.problem, options, outcome),
+        collector_(input.problem, options, outcome),
         lists_(options.memory) {}
 
   void run() {
-    const std::vector<std::uint32_t>& order = searched_.tree.order;
-    collector_.take_discs();
+    const std::vector<std::uint32_t>& order = input_.tree.order;
+    collector_.save_totals();
     try {
-      visit(searched_.tree.nodes.front(), 0, list_of(searched_.problem.rays, lists_.get_allocator().resource()));
+      visit(input_.tree.nodes.front(), 0, list_of(input_.problem.rays, lists_.get_allocator().resource()));
       done_ = order.size();
     } catch (const Stopped&) {  // the unfinished disc or node is left out
     }
     outcome_.counts = tally_.counts();
     if (done_ < order.size())
-      collector_.give_discs(std::span(order).first(done_));
+      collector_.store_partial_results(std::span(order).first(done_));
     else
-      collector_.give(searched_.problem.rays.size());
+      collector_.store_results(input_.problem.rays.size());
   }
 
  private:
@@ -67,9 +67,9 @@ class PlainSearch {
     if (lists_.size() == level) lists_.emplace_back();
     RayList& inside = lists_[level];
     for (std::uint32_t child = node.first; child < node.first + node.count; ++child) {
-      const TreeNode& next = searched_.tree.nodes[child];
+      const TreeNode& next = input_.tree.nodes[child];
       check_.after(1);
-      cull(rays, grown_box(next, searched_.frame), inside, check_);
+      cull(rays, grown_box(next, input_.frame), inside, check_);
       tally_.add(&Counts<std::uint64_t>::cull_tests, rays.size());
       tally_.add(&Counts<std::uint64_t>::culls);
       tally_.add(&Counts<std::uint64_t>::listed, inside.size());
@@ -82,19 +82,19 @@ class PlainSearch {
 
   /// One past the last of the discs below a node.
   [[nodiscard]] std::size_t end_of(const TreeNode& node) const {
-    const stream::DiscRun run = discs_below(searched_.tree, node);
+    const stream::DiscRun run = discs_below(input_.tree, node);
     return std::size_t{run.first} + run.count;
   }
 
   void test_discs(const TreeNode& leaf, const RayList& rays) {
     tally_.add(&Counts<std::uint64_t>::visits, leaf.count);
     for (done_ = leaf.first; done_ < leaf.first + leaf.count; ++done_) {
-      const std::uint32_t disc = searched_.tree.order[done_];
-      test_disc(rays, searched_.problem.discs[disc], disc, collector_, tally_, check_);
+      const std::uint32_t disc = input_.tree.order[done_];
+      test_disc(rays, input_.problem.discs[disc], disc, collector_, tally_, check_);
     }
   }
 
-  const stream::Searched& searched_;
+  const stream::SearchInput& input_;
   StopCheck check_;
   Outcome& outcome_;
   HitCollector collector_;
@@ -120,13 +120,13 @@ class BoxTreeIndex final : public Index {
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    const stream::Searched searched{problem, frame_, tree_};
-    if (simd_) return search_boxes(searched, parameters_.fan_out, options, outcome);
+    const stream::SearchInput input{problem, frame_, tree_};
+    if (simd_) return search_boxes(input, parameters_.fan_out, options, outcome);
     const double tree = sizeof(stream::FloatDisc) * static_cast<double>(tree_.discs.size()) +
                         sizeof(TreeNode) * static_cast<double>(tree_.nodes.size());
-    need_memory(what, tree + listing_bytes(problem, options, tree_.lists.all), problem, outcome);
-    options.count ? PlainSearch<true>(searched, options, outcome).run()
-                  : PlainSearch<false>(searched, options, outcome).run();
+    add_checked_bytes(what, tree + listing_bytes(problem, options, tree_.lists.all), problem, outcome);
+    options.count ? PlainSearch<true>(input, options, outcome).run()
+                  : PlainSearch<false>(input, options, outcome).run();
   }
 
  private:

@@ -44,7 +44,7 @@ void search_all(const Problem& problem, const RunOptions& options, Outcome& outc
 class PlainBruteForce final : public Index {
  public:
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    need_memory("their sums", found_bytes(problem, options), problem, outcome);
+    add_checked_bytes("their sums", found_bytes(problem, options), problem, outcome);
     options.count ? search_all<true>(problem, options, outcome) : search_all<false>(problem, options, outcome);
     if (options.count) outcome.counts.visits = problem.discs.size();  // one list of all rays
   }

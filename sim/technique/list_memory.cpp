@@ -57,7 +57,7 @@ NestedLists lists_of(const Problem& problem, const CellSpheresParameters& parame
 
 double walk_bytes(const Problem& problem, const RunOptions& options, const NestedLists& lists, bool plain) {
   const double levels = bytes_a_level * lists.levels;
-  if (!plain) return levels + stream::walk_bytes(stream::size_of(problem, options), lists.room());
+  if (!plain) return levels + stream::walk_bytes(stream::size_of(problem, options), lists.capacity());
   return levels + std::max(sorting_bytes(problem.discs.size()), listing_bytes(problem, options, lists.rays));
 }
 

@@ -18,7 +18,7 @@ struct NestedLists {
   double first = 0;  ///< rays in the first list inside the outermost, as a share of the outermost list
   double last = 0;   ///< rays in the innermost list, as a share of the outermost list
 
-  [[nodiscard]] stream::ListRoom room() const { return {first, first + rays - last}; }
+  [[nodiscard]] stream::ListCapacity capacity() const { return {first, first + rays - last}; }
 };
 
 /// The lists of a sphere cache.

@@ -36,7 +36,7 @@ std::vector<Photon> photons_of(std::span<const Ray> rays, StopCheck& check) {
 
 /// The photons in the form that nanoflann requires. Building a tree calls these functions for every photon, so they
 /// also check for a stop request, and throw Stopped.
-struct Cloud {
+struct PhotonCloud {
   std::vector<Photon> photons;
   StopCheck* building;  ///< null once the tree is built
 
@@ -50,14 +50,15 @@ struct Cloud {
     return false;
   }
 };
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Cloud>, Cloud, 3, std::uint32_t>;
+using PhotonTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PhotonCloud>, PhotonCloud,
+                                                       3, std::uint32_t>;
 
 /// Collects the nearest photons to a disc's centre for nanoflann; with front_facing only those that arrive in front.
-class Nearest {
+class NearestPhotons {
  public:
   using DistanceType = double;
 
-  Nearest(const Problem& problem, const Cloud& cloud, std::size_t wanted)
+  NearestPhotons(const Problem& problem, const PhotonCloud& cloud, std::size_t wanted)
       : problem_(problem), cloud_(cloud), indices_(wanted), squares_(wanted), found_(wanted) {}
 
   void start(const Disc& disc) {
@@ -85,7 +86,7 @@ class Nearest {
 
  private:
   const Problem& problem_;
-  const Cloud& cloud_;
+  const PhotonCloud& cloud_;
   const Disc* disc_ = nullptr;
   std::vector<std::uint32_t> indices_;
   std::vector<double> squares_;
@@ -101,16 +102,17 @@ class PhotonMap {
         wanted_(static_cast<std::size_t>(nearest)) {
     cloud_.building = nullptr;
     if (cloud_.photons.empty())
-      throw std::invalid_argument("no ray is a segment, so that there is no photon; give the rays lengths");
-    if (cloud_.photons.size() < wanted_)
       throw std::invalid_argument(
-          fmt::format("there are {} photons, fewer than the {} nearest asked for", cloud_.photons.size(), wanted_));
+          "photon-map needs photons, the end points of rays, but all rays are lines: give rays with a finite length");
+    if (cloud_.photons.size() < wanted_)
+      throw std::invalid_argument(fmt::format("photon-map needs the {} nearest photons, but the rays have only {}",
+                                              wanted_, cloud_.photons.size()));
   }
 
   void estimate(const RunOptions& options, Outcome& outcome) const {
     outcome.hits.resize(problem_.discs.size());
     outcome.irradiance.resize(problem_.discs.size());
-    Nearest nearest(problem_, cloud_, wanted_);
+    NearestPhotons nearest(problem_, cloud_, wanted_);
     std::uint32_t disc = 0;
     for (; disc < problem_.discs.size() && !options.stop.stop_requested(); ++disc) {
       find(problem_.discs[disc], nearest);
@@ -142,7 +144,7 @@ class PhotonMap {
     keep_done_discs(outcome);
   }
 
-  void find(const Disc& disc, Nearest& nearest) const {
+  void find(const Disc& disc, NearestPhotons& nearest) const {
     nearest.start(disc);
     const double centre[3]{disc.centre.x, disc.centre.y, disc.centre.z};
     tree_.findNeighbors(nearest, centre, nanoflann::SearchParams());
@@ -150,16 +152,18 @@ class PhotonMap {
 
   double density(double power, double square, std::uint32_t disc) const {
     if (!(square >= 1e-200))
-      throw std::invalid_argument(fmt::format(
-          "{} photons lie at the centre of disc {}, where their density has no bound; ask for more", wanted_, disc));
+      throw std::invalid_argument(
+          fmt::format("{} photons lie at the centre of disc {}, so the density there is infinite: increase the number "
+                      "of nearest photons",
+                      wanted_, disc));
     return power / (std::numbers::pi * square);
   }
 
   const Problem& problem_;
   StopCheck check_;
-  Cloud cloud_;
+  PhotonCloud cloud_;
   std::size_t wanted_;
-  Tree tree_{3, cloud_};
+  PhotonTree tree_{3, cloud_};
 };
 
 /// Bytes of the photons, of their numbers in the order of nanoflann's tree, of its nodes, and of the outcome. Leaves
@@ -167,7 +171,7 @@ class PhotonMap {
 /// are concentrated.
 double map_bytes(const Problem& problem) {
   constexpr double in_a_leaf = 5.5;
-  constexpr double node = sizeof(Tree::Node);
+  constexpr double node = sizeof(PhotonTree::Node);
   const auto photons = static_cast<double>(
       std::count_if(problem.rays.begin(), problem.rays.end(), [](const Ray& ray) { return !ray.is_line(); }));
   return photons * (sizeof(Photon) + sizeof(std::uint32_t) + 2 * node / in_a_leaf) +
@@ -193,11 +197,12 @@ class PhotonMapIndex final : public Index {
   /// exactly at a disc's centre, and for totals to continue, which this estimator does not have.
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     if (options.totals != nullptr)
-      throw std::invalid_argument("photon-map needs all rays at once: the nearest of each block are not those of all");
+      throw std::invalid_argument(
+          "photon-map needs all rays at once: the nearest photons of a block of rays are not the nearest of all rays");
     if (options.standard_error)
       throw std::invalid_argument(
-          "photon-map has no standard error: its photons are not independent samples of a disc");
-    need_memory("the photon map", map_bytes(problem), problem, outcome);
+          "photon-map has no standard error, because the photons near a disc are not independent samples");
+    add_checked_bytes("the photon map", map_bytes(problem), problem, outcome);
     Stopwatch watch;
     const PhotonMap map(problem, nearest_, options.stop);
     outcome.seconds.build = watch.lap();

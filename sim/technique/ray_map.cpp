@@ -51,7 +51,7 @@ class RayMap {
   /// The rays that hit the disc, in rising order of their numbers.
   const Rays& find(std::uint32_t disc) {
     found_.clear();
-    look_into(0, disc, bounds(problem_.discs[disc], 2 * problem_.slack));
+    search_node(0, disc, bounds(problem_.discs[disc], 2 * problem_.slack));
     std::sort(found_.begin(), found_.end());
     return found_;
   }
@@ -59,13 +59,13 @@ class RayMap {
   [[nodiscard]] const Counts<std::uint64_t>& counts() const { return tally_.counts(); }
 
  private:
-  void look_into(std::uint32_t number, std::uint32_t disc, const Box& reach) {
+  void search_node(std::uint32_t number, std::uint32_t disc, const Box& reach) {
     tally_.add(&Counts<std::uint64_t>::nodes);
     check_.after(1);
     if (!cells_[number].is_split() && should_split(cells_[number])) split(number);
     if (!cells_[number].is_split()) return test(cells_[number].rays, disc);
     for (const std::uint32_t half : {cells_[number].first, cells_[number].first + 1})
-      if (overlap(cells_[half].box, reach)) look_into(half, disc, reach);
+      if (overlap(cells_[half].box, reach)) search_node(half, disc, reach);
   }
 
   [[nodiscard]] static bool overlap(const Box& a, const Box& b) {
@@ -141,27 +141,27 @@ class RayMapIndex final : public Index {
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     const double rays = 3.0 * sizeof(std::uint32_t) * static_cast<double>(problem.rays.size());
-    need_memory("the ray map", rays + 2 * found_bytes(problem, options), problem, outcome);
-    options.count ? look_up<true>(problem, options, outcome) : look_up<false>(problem, options, outcome);
+    add_checked_bytes("the ray map", rays + 2 * found_bytes(problem, options), problem, outcome);
+    options.count ? search_discs<true>(problem, options, outcome) : search_discs<false>(problem, options, outcome);
   }
 
  private:
   template <bool counting>
-  void look_up(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
+  void search_discs(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
     RayMap<counting> map(problem, options, leaf_);
     HitCollector collector(problem, options, outcome);
-    collector.take_discs();
+    collector.save_totals();
     std::uint32_t done = 0;
     try {
       for (; done < problem.discs.size(); ++done)
-        for (const std::uint32_t ray : map.find(done)) collector.keep(ray, done);
+        for (const std::uint32_t ray : map.find(done)) collector.add_hit(ray, done);
     } catch (const Stopped&) {  // the unfinished disc is left out
     }
     outcome.counts = map.counts();
-    if (done == problem.discs.size()) return collector.give(problem.rays.size());
+    if (done == problem.discs.size()) return collector.store_results(problem.rays.size());
     std::vector<std::uint32_t> first(done);
     std::iota(first.begin(), first.end(), 0U);
-    collector.give_discs(first);
+    collector.store_partial_results(first);
   }
 
   int leaf_;

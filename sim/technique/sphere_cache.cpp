@@ -7,7 +7,8 @@
 namespace detp::sim {
 namespace {
 
-WalkedSpheres spheres_of(const Problem& problem, const SphereCacheParameters& parameters, SphereWalk::Serving serving) {
+WalkedSpheres spheres_of(const Problem& problem, const SphereCacheParameters& parameters,
+                         SphereWalk::ServingSpheres serving) {
   const SphereWalk walk(problem, parameters, serving);
   return {.order = parameters.order,
           .make_walk =
@@ -26,7 +27,7 @@ WalkedSpheres spheres_of(const Problem& problem, const SphereCacheParameters& pa
 std::unique_ptr<Index> prepare_sphere_cache(const Problem& problem, const Parameters& parameters,
                                             const RunOptions& options) {
   const auto& own = std::get<SphereCacheParameters>(parameters);
-  return prepare_walk(problem, spheres_of(problem, own, SphereWalk::Serving::all_that_hold), options);
+  return prepare_walk(problem, spheres_of(problem, own, SphereWalk::ServingSpheres::all_that_hold), options);
 }
 
 /// The paper's walk (section 2.2), kept for study: searches from the innermost sphere outwards for the first that
@@ -39,7 +40,7 @@ std::unique_ptr<Index> prepare_sphere_cache_published(const Problem& problem, co
   const auto& own = std::get<SphereCacheParameters>(parameters);
   RunOptions plain = options;
   plain.engine = Engine::plain;
-  return prepare_walk(problem, spheres_of(problem, own, SphereWalk::Serving::innermost_that_holds), plain);
+  return prepare_walk(problem, spheres_of(problem, own, SphereWalk::ServingSpheres::innermost_that_holds), plain);
 }
 
 }  // namespace detp::sim

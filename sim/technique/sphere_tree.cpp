@@ -26,7 +26,7 @@ class Search {
         lists_(tree.levels.size(), options.memory) {}
 
   void run() {
-    collector_.take_discs();
+    collector_.save_totals();
     try {
       visit(tree_.levels.size() - 1, 0, list_of(problem_.rays, lists_.get_allocator().resource()));
       place_ = order_.size();
@@ -34,9 +34,9 @@ class Search {
     }
     outcome_.counts = tally_.counts();
     if (place_ < order_.size())
-      collector_.give_discs(std::span(order_).first(place_));
+      collector_.store_partial_results(std::span(order_).first(place_));
     else
-      collector_.give(problem_.rays.size());
+      collector_.store_results(problem_.rays.size());
   }
 
  private:
@@ -104,7 +104,8 @@ class SphereTreeIndex final : public Index {
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    need_memory("a tree of spheres and lists of rays", searching_bytes(problem, options, tree_), problem, outcome);
+    add_checked_bytes("a tree of spheres and lists of rays", searching_bytes(problem, options, tree_), problem,
+                      outcome);
     options.count ? Search<true>(problem, parameters_, tree_, order_, options, outcome).run()
                   : Search<false>(problem, parameters_, tree_, order_, options, outcome).run();
   }

@@ -18,10 +18,10 @@
 namespace detp::sim {
 namespace {
 
-class Stream {
+class StreamedSearch {
  public:
-  Stream(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
-         const StreamOptions& options)
+  StreamedSearch(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
+                 const StreamOptions& options)
       : source_(source), candidate_(candidate), options_(options), run_(options.run) {
     require_few_enough();
     Stopwatch watch;
@@ -47,7 +47,7 @@ class Stream {
     run_.standard_error = false;  // of a block
   }
 
-  Streamed go() && {
+  StreamedOutcome run_all() && {
     Outcome& outcome = streamed_.outcome;
     outcome.progress.of = source_.size();
     try {
@@ -140,7 +140,7 @@ class Stream {
   Scratch scratch_;
   Outcome part_;  ///< of one block
   double own_bytes_ = 0;
-  Streamed streamed_;
+  StreamedOutcome streamed_;
 };
 
 }  // namespace
@@ -151,9 +151,9 @@ std::size_t default_block(std::size_t discs) {
   return std::bit_ceil(std::clamp(discs, least, most));
 }
 
-Streamed run_streamed(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
-                      const StreamOptions& options) {
-  return Stream(discs, source, candidate, options).go();
+StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
+                             const StreamOptions& options) {
+  return StreamedSearch(discs, source, candidate, options).run_all();
 }
 
 }  // namespace detp::sim

@@ -15,7 +15,7 @@ struct StreamOptions {
   std::function<void(double done)> progress = {};  ///< called before each block, 0 <= done < 1
 };
 
-struct Streamed {
+struct StreamedOutcome {
   Outcome outcome;           ///< over all rays; pairs have the rays' numbers in the source
   double read_seconds = 0;   ///< time for making or reading the rays, not in outcome.seconds
   double check_seconds = 0;  ///< time for checking rays and discs and for S₀; not in outcome.seconds either
@@ -36,7 +36,7 @@ struct Streamed {
 /// A stop request also ends the making of rays; the result is then that of the first rays. Throws as make_problem and
 /// run do (but there may be more than 2³² rays, unless pairs are requested), and std::length_error, naming the bytes,
 /// before it would exceed the memory budget. Pairs (8 bytes each) are checked as they grow.
-[[nodiscard]] Streamed run_streamed(std::span<const Disc> discs, const RaySource& source,
-                                    const Valid<Candidate>& candidate, const StreamOptions& options = {});
+[[nodiscard]] StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& source,
+                                           const Valid<Candidate>& candidate, const StreamOptions& options = {});
 
 }  // namespace detp::sim

@@ -17,7 +17,7 @@ Outcome run(const Problem& problem, const Valid<Candidate>& candidate, const Run
     StopCheck(options.stop, "beginning").now();
     index = prepare(problem, candidate, options);
   } catch (const Stopped&) {
-    Outcome outcome = nothing_found(problem, options);
+    Outcome outcome = unsearched_outcome(problem, options);
     outcome.seconds.build = watch.lap();
     return outcome;
   }

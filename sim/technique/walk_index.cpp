@@ -25,7 +25,7 @@ class PlainWalk final : public Index {
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    need_memory(spheres_.what, walk_bytes(problem, options, spheres_.lists, true), problem, outcome);
+    add_checked_bytes(spheres_.what, walk_bytes(problem, options, spheres_.lists, true), problem, outcome);
     search_along(*spheres_.make_walk(*options.memory), problem, order_, options, outcome);
   }
 
@@ -48,8 +48,8 @@ class FloatWalk final : public Index {
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    need_memory(spheres_.what, walk_bytes(problem, options, spheres_.lists, false), problem, outcome);
-    stream::search_walk({problem, frame_, discs_}, spheres_.make_walk, spheres_.lists.room(), options, outcome);
+    add_checked_bytes(spheres_.what, walk_bytes(problem, options, spheres_.lists, false), problem, outcome);
+    stream::search_walk({problem, frame_, discs_}, spheres_.make_walk, spheres_.lists.capacity(), options, outcome);
   }
 
  private:

@@ -67,9 +67,9 @@ void compare(const HardScene& scene, bool front, Tried& tried) {
   for (const Candidate& candidate : float_candidates()) tried.add_without_pairs(run(problem, candidate), expected);
 }
 
-void give_powers(std::vector<Ray>& rays) {
-  Dice dice(600, rays.size());
-  for (Ray& ray : rays) ray.power = std::pow(10, 10 * dice.uniform());
+void set_powers(std::vector<Ray>& rays) {
+  RandomSequence random(600, rays.size());
+  for (Ray& ray : rays) ray.power = std::pow(10, 10 * random.uniform());
 }
 
 Tried hard_pairs(std::size_t family) {
@@ -77,7 +77,7 @@ Tried hard_pairs(std::size_t family) {
   for (std::uint64_t i = 0; i < 10; ++i) {
     const bool corners = family == families.size();
     HardScene scene = corners ? scene_at_corners(i, 2000, 5000) : hard_scene(family, 1000 + i, 2000, 5000);
-    if (i % 2 == 1) give_powers(scene.rays);
+    if (i % 2 == 1) set_powers(scene.rays);
     compare(scene, i % 5 == 4, tried);
   }
   return tried;
@@ -87,9 +87,9 @@ Tried hard_pairs(std::size_t family) {
 Tried isotropic_pairs(Body body) {
   HardScene scene{uniform_discs(body, 2, 1500, 0.04, 5), {}};
   scene.rays = LineField(enclosing_sphere(scene.discs), 6).lines(0, 160'000);
-  Dice dice(601, 0);
-  for (std::size_t i = 0; i < scene.rays.size(); i += 2) scene.rays[i].length = dice.magnitude(-2, 0.5);
-  give_powers(scene.rays);
+  RandomSequence random(601, 0);
+  for (std::size_t i = 0; i < scene.rays.size(); i += 2) scene.rays[i].length = random.magnitude(-2, 0.5);
+  set_powers(scene.rays);
   Tried tried;
   compare(scene, false, tried);
   return tried;

@@ -15,7 +15,7 @@ using namespace detp::support;
 namespace {
 
 /// Totals over the cases of a family.
-struct Tried {
+struct TrialResult {
   std::uint64_t cases = 0;
   std::uint64_t hits = 0;     ///< exact hits
   std::uint64_t wrong = 0;    ///< wrong decisions
@@ -33,7 +33,7 @@ struct Tried {
 };
 
 /// Distance, in bands, from the nearest boundary at which a wrong decision is possible.
-double bands_off(const DiscBand& band, const ExactDisc& exact, bool line) {
+double distance_in_bands(const DiscBand& band, const ExactDisc& exact, bool line) {
   const double rim = std::abs(exact.beyond_rim()) / band.rim;
   if (line) return rim;
   return std::min(rim, std::min(std::abs(exact.ahead()), std::abs(exact.beyond_end())) / band.ends);
@@ -41,53 +41,53 @@ double bands_off(const DiscBand& band, const ExactDisc& exact, bool line) {
 
 /// `judge` makes the decision.
 template <class Judge>
-Tried try_discs(std::size_t family, std::uint64_t cases, const Judge& judge) {
-  Tried tried;
+TrialResult try_discs(std::size_t family, std::uint64_t cases, const Judge& judge) {
+  TrialResult result;
   for (std::uint64_t i = 0; i < cases; ++i) {
     const auto [ray, disc] = hard_disc(families[family], family, i);
     const ExactDisc exact(ray, disc);
     const bool truth = exact.hit();
     const bool decided = judge(ray, disc);
-    tried.add(truth, decided, truth == decided ? 0 : bands_off(error_band(ray, disc), exact, ray.is_line()));
+    result.add(truth, decided, truth == decided ? 0 : distance_in_bands(error_band(ray, disc), exact, ray.is_line()));
   }
-  return tried;
+  return result;
 }
 
 template <class Judge>
-Tried try_spheres(std::size_t family, std::uint64_t cases, const Judge& judge) {
-  Tried tried;
+TrialResult try_spheres(std::size_t family, std::uint64_t cases, const Judge& judge) {
+  TrialResult result;
   for (std::uint64_t i = 0; i < cases; ++i) {
     const auto [ray, sphere] = hard_sphere(families[family], family, i);
     const ExactSphere exact(ray, sphere);
     const bool truth = exact.hit();
     const bool decided = judge(ray, sphere);
-    tried.add(truth, decided, truth == decided ? 0 : std::abs(exact.beyond()) / error_band(ray, sphere));
+    result.add(truth, decided, truth == decided ? 0 : std::abs(exact.beyond()) / error_band(ray, sphere));
   }
-  return tried;
+  return result;
 }
 
 const auto disc_predicate = [](const Ray& ray, const Disc& disc) { return hits(ray, disc); };
 const auto sphere_predicate = [](const Ray& ray, const Sphere& sphere) { return hits(ray, sphere); };
 
-void report(std::string_view shape, std::size_t family, const Tried& tried) {
+void report(std::string_view shape, std::size_t family, const TrialResult& result) {
   MESSAGE(fmt::format("{} {:12} {:8} cases {:8} hits {:7} wrong {} outside the band, widest {:.3f}", shape,
-                      families[family].name, tried.cases, tried.hits, tried.wrong, tried.outside, tried.widest));
+                      families[family].name, result.cases, result.hits, result.wrong, result.outside, result.widest));
 }
 
-void check_all_families(std::uint64_t cases, bool told) {
+void check_all_families(std::uint64_t cases, bool print) {
   double widest_disc = 0;
   double widest_sphere = 0;
   for (std::size_t family = 0; family < families.size(); ++family) {
     INFO(families[family].name);
-    const Tried discs = try_discs(family, cases, disc_predicate);
+    const TrialResult discs = try_discs(family, cases, disc_predicate);
     CHECK(discs.outside == 0);
     CHECK(std::min(discs.hits, discs.cases - discs.hits) > cases / 20);  // both answers are frequent
     widest_disc = std::max(widest_disc, discs.widest);
-    const Tried spheres = try_spheres(family, cases, sphere_predicate);
+    const TrialResult spheres = try_spheres(family, cases, sphere_predicate);
     CHECK(spheres.outside == 0);
     CHECK(std::min(spheres.hits, spheres.cases - spheres.hits) > cases / 20);
     widest_sphere = std::max(widest_sphere, spheres.widest);
-    if (told) report("disc", family, discs), report("sphere", family, spheres);
+    if (print) report("disc", family, discs), report("sphere", family, spheres);
   }
   CHECK(widest_disc > 0.1);  // the bands are not much wider than necessary
   CHECK(widest_sphere > 0.1);
@@ -141,10 +141,10 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("a segment in a disc's plane that ends before the disc does not hit") {
     for (std::uint64_t i = 0; i < 20'000; ++i) {
-      Dice dice(50, i);
-      const Disc disc{{dice.uniform(), dice.uniform(), dice.uniform()}, dice.normal(), 1};
-      const glm::dvec3 direction = slanting(dice, disc.normal, 0);
-      const glm::dvec3 sideways = dice.between(-1, 1) * glm::cross(disc.normal, direction);
+      RandomSequence random(50, i);
+      const Disc disc{{random.uniform(), random.uniform(), random.uniform()}, random.normal(), 1};
+      const glm::dvec3 direction = slanting(random, disc.normal, 0);
+      const glm::dvec3 sideways = random.between(-1, 1) * glm::cross(disc.normal, direction);
       CHECK_FALSE(hits({disc.centre + sideways - 2.5 * direction, direction, 1.4}, disc));
       CHECK_FALSE(hits({disc.centre + sideways + 1.1 * direction, direction, 1.4}, disc));
     }

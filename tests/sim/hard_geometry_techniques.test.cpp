@@ -62,7 +62,7 @@ std::size_t differences(const Outcome& outcome, const Outcome& expected) {
 }
 
 /// Runs `scenes` scenes of every family; each ray is hard for one disc.
-void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, bool told) {
+void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, bool print) {
   for (std::size_t family = 0; family < families.size(); ++family) {
     std::uint64_t hits = 0;
     std::size_t all_different = 0;
@@ -81,7 +81,7 @@ void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, 
         }
     }
     CHECK(hits > scenes * rays / 10);
-    if (told)
+    if (print)
       MESSAGE(fmt::format("{:12} {:8} hard rays {:8} hits {} differences", families[family].name, scenes * rays, hits,
                           all_different));
   }
@@ -89,13 +89,13 @@ void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, 
 
 /// Discs that touch the faces x = ±1 of their common box, and rays that touch the discs there, some from outside.
 HardScene scene_at_faces(std::uint64_t index) {
-  Dice dice(300, index);
+  RandomSequence random(300, index);
   HardScene scene;
   for (const double side : {-0.875, 0.875}) {
     scene.discs.push_back({glm::dvec3{side}, {0, 0, 1}, 0.125});
     for (int i = 0; i < 4; ++i) {
-      const double angle = dice.between(0, 2 * std::numbers::pi);
-      scene.discs.push_back({{side, dice.between(-0.8, 0.8), dice.between(-0.8, 0.8)},
+      const double angle = random.between(0, 2 * std::numbers::pi);
+      scene.discs.push_back({{side, random.between(-0.8, 0.8), random.between(-0.8, 0.8)},
                              glm::normalize(glm::dvec3{0, std::cos(angle), std::sin(angle)}),
                              0.125});
     }
@@ -103,12 +103,12 @@ HardScene scene_at_faces(std::uint64_t index) {
   for (std::size_t i = 0; i < 300; ++i) {
     const Disc& disc = scene.discs[i % 10];
     const double out = disc.centre.x > 0 ? 1 : -1;
-    const double cosine = dice.magnitude(-10, -3);
-    glm::dvec3 direction = cosine * disc.normal + dice.sign() * glm::cross(disc.normal, glm::dvec3{1, 0, 0});
-    direction.x = dice.one_in(4) ? 0 : out * dice.magnitude(-17, -5);
+    const double cosine = random.magnitude(-10, -3);
+    glm::dvec3 direction = cosine * disc.normal + random.sign() * glm::cross(disc.normal, glm::dvec3{1, 0, 0});
+    direction.x = random.one_in(4) ? 0 : out * random.magnitude(-17, -5);
     direction = glm::normalize(direction);
-    const glm::dvec3 touch = disc.centre + glm::dvec3{out * disc.radius * (1 + dice.whisker()), 0, 0};
-    scene.rays.push_back({.origin = touch - dice.between(0.3, 2) * direction, .direction = direction});
+    const glm::dvec3 touch = disc.centre + glm::dvec3{out * disc.radius * (1 + random.rounding_offset()), 0, 0};
+    scene.rays.push_back({.origin = touch - random.between(0.3, 2) * direction, .direction = direction});
   }
   return scene;
 }

@@ -17,7 +17,7 @@ struct Floats {
     std::vector<std::uint32_t> order(problem.discs.size());
     std::iota(order.begin(), order.end(), 0U);
     discs = sim::stream::discs_in_order(problem, frame, std::move(order));
-    for (sim::stream::RayList& list : lists) list = arena.take(problem.rays.size(), true);
+    for (sim::stream::RayList& list : lists) list = arena.allocate(problem.rays.size(), true);
     traits = load_rays(problem.rays, frame, lists);
   }
 
@@ -82,7 +82,7 @@ inline std::vector<std::uint64_t> hits_in_spheres(const Floats& floats, float ti
       for (int k = 0; k < sim::stream::classes; ++k) {
         const sim::stream::RayList& around = floats.lists[static_cast<std::size_t>(k)];
         const sim::stream::ArenaScope scope(worker.lists);
-        sim::stream::RayList inside = worker.lists.take(around.size, true);
+        sim::stream::RayList inside = worker.lists.allocate(around.size, true);
         cull_sphere(block, k, sphere, around, inside, worker);
         test_discs(block, k, place, 1, inside, worker);
       }

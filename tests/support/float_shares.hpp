@@ -27,8 +27,8 @@ struct Shares {
 };
 
 /// A ray and a disc in long double, which is practically exact compared with a float kernel.
-inline KernelCase<long double> truly(const sim::stream::Frame& frame, const sim::Ray& ray, const sim::Disc& disc,
-                                     int k) {
+inline KernelCase<long double> exact_case(const sim::stream::Frame& frame, const sim::Ray& ray, const sim::Disc& disc,
+                                          int k) {
   const auto axes = sim::stream::axes_of_class(k);
   const auto place = [&](const glm::dvec3& point, int i) {
     const int axis = axes[static_cast<std::size_t>(i)];
@@ -96,7 +96,7 @@ class Measure {
     const sim::Disc& disc = floats_.problem.discs[number];
     const KernelCase<float> listed = as_listed(list, i, floats_.discs.discs[number], k);
     const Kernel<float, fused> kernel(listed);
-    const Kernel<long double, false> truth(truly(floats_.frame, ray, disc, k));
+    const Kernel<long double, false> truth(exact_case(floats_.frame, ray, disc, k));
     const bool hit = sim::hits(ray, disc);
     decision(kernel.disc(), truth.disc(), truth.ray.radius, floats_.discs.discs[number].band, ray.is_line(), hit);
     sphere(kernel, truth);
@@ -108,10 +108,11 @@ class Measure {
 
   void decision(const InFloats& floats, const InTruth& truth, long double radius, double band, bool line, bool hit) {
     const bool near = truth.beside <= 4 * radius;
-    if (near) shares_.rim = std::max(shares_.rim, off(floats.rim, truth.rim) / band);
+    if (near) shares_.rim = std::max(shares_.rim, difference(floats.rim, truth.rim) / band);
     if (near && !line && truth.highest <= 2 * radius)
-      shares_.ends = std::max(shares_.ends,
-                              std::max(off(floats.after, truth.after), off(floats.before, truth.before)) / (band / 2));
+      shares_.ends = std::max(
+          shares_.ends,
+          std::max(difference(floats.after, truth.after), difference(floats.before, truth.before)) / (band / 2));
     const double rim = std::abs(floats.rim) / band;
     const double end = line ? 0 : -std::min(floats.after, floats.before) / (band / 2);
     const bool decided = floats.rim <= 0 && end <= 0;
@@ -146,7 +147,7 @@ class Measure {
     shares_.box = std::max(shares_.box, beyond / floats_.frame.margin);
   }
 
-  static double off(float floats, long double truth) { return static_cast<double>(std::abs(floats - truth)); }
+  static double difference(float floats, long double truth) { return static_cast<double>(std::abs(floats - truth)); }
 
   const Floats& floats_;
   std::vector<sim::stream::TreeNode> boxes_;

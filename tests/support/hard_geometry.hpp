@@ -16,9 +16,9 @@
 namespace detp::support {
 
 /// A sequence of random numbers for one case.
-class Dice {
+class RandomSequence {
  public:
-  Dice(std::uint64_t family, std::uint64_t index) : family_(family), index_(index) {}
+  RandomSequence(std::uint64_t family, std::uint64_t index) : family_(family), index_(index) {}
   double uniform() {
     if (used_ % 4 == 0) four_ = sim::uniform4(900 + family_, sim::Stream::tests, index_, used_ / 4);
     return four_[used_++ % 4];
@@ -29,7 +29,7 @@ class Dice {
   double magnitude(double low, double high) { return std::pow(10.0, between(low, high)); }
   bool one_in(double n) { return uniform() * n < 1; }
   /// 0, or log-uniform from 1e-17 to 1e-12 with either sign: offsets about as small as rounding errors.
-  double whisker() {
+  double rounding_offset() {
     const double side = one_in(4) ? 0 : sign();
     return side * magnitude(-17, -12);
   }
@@ -81,11 +81,11 @@ inline const std::array families{
 };
 
 /// A direction with |n·D| = cosine; if that is less than 1e-17, parallel to the plane within rounding.
-inline glm::dvec3 slanting(Dice& dice, const glm::dvec3& normal, double cosine) {
+inline glm::dvec3 slanting(RandomSequence& random, const glm::dvec3& normal, double cosine) {
   const auto [u, v] = sim::basis_around(normal);
-  const double angle = dice.between(0, 2 * std::numbers::pi);
+  const double angle = random.between(0, 2 * std::numbers::pi);
   const glm::dvec3 along = std::cos(angle) * u + std::sin(angle) * v;
-  return glm::normalize(std::sqrt(1 - cosine * cosine) * along + dice.sign() * cosine * normal);
+  return glm::normalize(std::sqrt(1 - cosine * cosine) * along + random.sign() * cosine * normal);
 }
 
 struct DiscCase {
@@ -95,45 +95,46 @@ struct DiscCase {
 
 /// A ray towards the rim of the disc (one in four: anywhere on it). If it is a segment, it ends near the disc's plane,
 /// near the disc, or far from it.
-inline sim::Ray hard_ray(const Family& family, Dice& dice, const sim::Disc& disc) {
-  const double cosine = std::min(1.0, dice.magnitude(family.cosine_low, family.cosine_high));
-  const glm::dvec3 direction = slanting(dice, disc.normal, cosine);
+inline sim::Ray hard_ray(const Family& family, RandomSequence& random, const sim::Disc& disc) {
+  const double cosine = std::min(1.0, random.magnitude(family.cosine_low, family.cosine_high));
+  const glm::dvec3 direction = slanting(random, disc.normal, cosine);
   // The crossing is near the rim. For grazing rays it is often where the rim is parallel to them.
   const glm::dvec3 sideways = glm::normalize(glm::cross(disc.normal, direction));
   const glm::dvec3 forwards = glm::cross(sideways, disc.normal);
-  const double angle = dice.one_in(2) ? dice.whisker() * 1e7 : dice.between(0, 2 * std::numbers::pi);
-  const double place = dice.one_in(4) ? dice.uniform() : 1 + dice.whisker();
+  const double angle = random.one_in(2) ? random.rounding_offset() * 1e7 : random.between(0, 2 * std::numbers::pi);
+  const double place = random.one_in(4) ? random.uniform() : 1 + random.rounding_offset();
   const glm::dvec3 crossing =
-      disc.centre + place * disc.radius * (dice.sign() * std::cos(angle) * sideways + std::sin(angle) * forwards);
-  const double from = disc.radius * dice.magnitude(family.from_low, family.from_high);
-  sim::Ray ray{.origin = crossing - from * direction, .direction = direction * (1 + family.unit * dice.between(-1, 1))};
-  const double kind = dice.uniform();
-  if (kind < 0.15) ray.length = disc.radius * dice.magnitude(family.length_low, family.length_high);
-  if (kind >= 0.15 && kind < 0.3) ray.length = from * (1 + dice.whisker());
-  if (kind >= 0.3 && kind < 0.4) ray.length = from + dice.between(-1.5, 1.5) * disc.radius;
-  if (kind >= 0.4 && kind < 0.5) ray.origin = crossing + dice.whisker() * direction, ray.length = from;
+      disc.centre + place * disc.radius * (random.sign() * std::cos(angle) * sideways + std::sin(angle) * forwards);
+  const double from = disc.radius * random.magnitude(family.from_low, family.from_high);
+  sim::Ray ray{.origin = crossing - from * direction,
+               .direction = direction * (1 + family.unit * random.between(-1, 1))};
+  const double kind = random.uniform();
+  if (kind < 0.15) ray.length = disc.radius * random.magnitude(family.length_low, family.length_high);
+  if (kind >= 0.15 && kind < 0.3) ray.length = from * (1 + random.rounding_offset());
+  if (kind >= 0.3 && kind < 0.4) ray.length = from + random.between(-1.5, 1.5) * disc.radius;
+  if (kind >= 0.4 && kind < 0.5) ray.origin = crossing + random.rounding_offset() * direction, ray.length = from;
   if (!(ray.length > 0)) ray.length = std::numeric_limits<double>::min();
   return ray;
 }
 
 inline DiscCase hard_disc(const Family& family, std::uint64_t number, std::uint64_t index) {
-  Dice dice(number, index);
+  RandomSequence random(number, index);
   sim::Disc disc;
-  disc.radius = family.scale * dice.magnitude(family.radius_low, family.radius_high);
+  disc.radius = family.scale * random.magnitude(family.radius_low, family.radius_high);
   const glm::dvec3 offset{family.offset, -0.3 * family.offset, 0.7 * family.offset};
-  disc.centre = family.scale * (offset + glm::dvec3{dice.uniform(), dice.uniform(), dice.uniform()});
-  disc.normal = dice.normal();
-  if (dice.one_in(8)) {  // numbers with few bits, so that exact ties occur
+  disc.centre = family.scale * (offset + glm::dvec3{random.uniform(), random.uniform(), random.uniform()});
+  disc.normal = random.normal();
+  if (random.one_in(8)) {  // numbers with few bits, so that exact ties occur
     disc.centre = family.scale * glm::floor(8.0 * disc.centre / family.scale) / 8.0;
     disc.radius = family.scale / 4;
   }
-  sim::Ray ray = hard_ray(family, dice, disc);
-  if (!ray.is_line() && dice.one_in(20)) ray.length = 0;
+  sim::Ray ray = hard_ray(family, random, disc);
+  if (!ray.is_line() && random.one_in(20)) ray.length = 0;
   // Far from the coordinates' origin rounding moves the ray. So set the radius to where the ray now crosses.
   const glm::dvec3 moment = glm::cross(ray.origin - disc.centre, ray.direction);
   const double crossed = glm::length(glm::cross(disc.normal, moment)) / std::abs(glm::dot(disc.normal, ray.direction));
-  if (dice.one_in(2) && std::abs(crossed - disc.radius) < 0.1 * disc.radius)
-    disc.radius = crossed * (1 + dice.whisker());
+  if (random.one_in(2) && std::abs(crossed - disc.radius) < 0.1 * disc.radius)
+    disc.radius = crossed * (1 + random.rounding_offset());
   return {ray, disc};
 }
 
@@ -145,22 +146,22 @@ struct SphereCase {
 /// A ray that passes a sphere at about its radius, beside the centre or with an end near that point. Or a sphere whose
 /// radius is set to its distance from the ray.
 inline SphereCase hard_sphere(const Family& family, std::uint64_t number, std::uint64_t index) {
-  Dice dice(100 + number, index);
+  RandomSequence random(100 + number, index);
   const sim::Disc disc = hard_disc(family, number, index).disc;
   sim::Sphere sphere{disc.centre, disc.radius};
-  const glm::dvec3 outwards = dice.normal();
-  const glm::dvec3 direction = dice.one_in(3) ? -outwards : slanting(dice, outwards, dice.magnitude(-18, -1));
-  const glm::dvec3 touch = sphere.centre + (1 + dice.whisker()) * sphere.radius * outwards;
-  const double from = sphere.radius * dice.magnitude(family.from_low, family.from_high);
-  sim::Ray ray{.origin = touch - from * direction, .direction = direction * (1 + family.unit * dice.between(-1, 1))};
-  const double kind = dice.uniform();
-  if (kind < 0.2) ray.length = sphere.radius * dice.magnitude(family.length_low, family.length_high);
-  if (kind >= 0.2 && kind < 0.4) ray.length = from * (1 + dice.whisker());
-  if (kind >= 0.4 && kind < 0.5) ray.origin = touch, ray.length = dice.one_in(5) ? 0 : from;
-  if (dice.one_in(2)) {
+  const glm::dvec3 outwards = random.normal();
+  const glm::dvec3 direction = random.one_in(3) ? -outwards : slanting(random, outwards, random.magnitude(-18, -1));
+  const glm::dvec3 touch = sphere.centre + (1 + random.rounding_offset()) * sphere.radius * outwards;
+  const double from = sphere.radius * random.magnitude(family.from_low, family.from_high);
+  sim::Ray ray{.origin = touch - from * direction, .direction = direction * (1 + family.unit * random.between(-1, 1))};
+  const double kind = random.uniform();
+  if (kind < 0.2) ray.length = sphere.radius * random.magnitude(family.length_low, family.length_high);
+  if (kind >= 0.2 && kind < 0.4) ray.length = from * (1 + random.rounding_offset());
+  if (kind >= 0.4 && kind < 0.5) ray.origin = touch, ray.length = random.one_in(5) ? 0 : from;
+  if (random.one_in(2)) {
     const glm::dvec3 f = sphere.centre - ray.origin;
     const double along = ray.is_line() ? glm::dot(f, direction) : std::clamp(glm::dot(f, direction), 0.0, ray.length);
-    sphere.radius = glm::length(f - along * direction) * (1 + dice.whisker());
+    sphere.radius = glm::length(f - along * direction) * (1 + random.rounding_offset());
   }
   return {ray, sphere};
 }

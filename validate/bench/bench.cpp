@@ -37,7 +37,7 @@ class Benchmark {
     for (const int threads : options.threads) peers_.try_emplace(threads, std::make_unique<EmbreePeer>(threads));
   }
 
-  BenchResult go() {
+  BenchResult run_all() {
     for (std::size_t i = 0; i < workloads_.size() && !options_.stop.stop_requested(); ++i) {
       if (i == 0 || !same_but_rays(workloads_[i - 1], workloads_[i])) hits_per_ray_ = 0;
       progress_ = progress_of(i);
@@ -110,14 +110,14 @@ class Benchmark {
     for (const int threads : options_.threads) {
       const double after = before + 1.0 / static_cast<double>(options_.threads.size());
       const RaceOptions how{.repeats = options_.repeats,
-                            .enough = options_.enough,
+                            .most_seconds = options_.most_seconds,
                             .threads = threads,
                             .stop = options_.stop,
                             .progress = sim::part_of(races, before, after)};
       before = after;
       Race found = race(job, *right, *peers_.at(threads), competitors, how);
       const bool complete = found.complete;
-      if (!found.finishes.empty())
+      if (!found.results.empty())
         result_.entries.push_back(
             {workload, job.workload.samples, job.workload.disc_radius, threads, right->judge, std::move(found)});
       if (!complete) return false;
@@ -137,24 +137,24 @@ class Benchmark {
 
 }  // namespace
 
-const Finish* BenchEntry::best(bool ours) const {
-  const Finish* fastest = nullptr;
-  for (const Finish& finish : race.finishes)
-    if (is_ours(finish.competitor) == ours &&
-        (fastest == nullptr || finish.median_seconds() < fastest->median_seconds()))
-      fastest = &finish;
+const CompetitorResult* BenchEntry::best(bool ours) const {
+  const CompetitorResult* fastest = nullptr;
+  for (const CompetitorResult& competitor_result : race.results)
+    if (is_own_technique(competitor_result.competitor) == ours &&
+        (fastest == nullptr || competitor_result.median_seconds() < fastest->median_seconds()))
+      fastest = &competitor_result;
   return fastest;
 }
 
 double BenchEntry::ratio() const {
-  const Finish* ours = best(true);
-  const Finish* peer = best(false);
+  const CompetitorResult* ours = best(true);
+  const CompetitorResult* peer = best(false);
   if (!race.complete || ours == nullptr || peer == nullptr) return 0;
   return peer->median_seconds() / ours->median_seconds();
 }
 
 BenchResult run_bench(std::span<const BenchWorkload> workloads, const BenchOptions& options) {
-  return Benchmark(workloads, options).go();
+  return Benchmark(workloads, options).run_all();
 }
 
 std::vector<EmbreeMode> best_embree_modes() {

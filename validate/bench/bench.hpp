@@ -17,8 +17,8 @@ struct BenchOptions {
   std::vector<EmbreeMode> embree_modes;  ///< at least one
   std::vector<int> threads = {1};        ///< each workload is run with each of these numbers of threads
   int repeats = 5;
-  double enough = 2;       ///< seconds after which a race starts no further round, once it has had three
-  double most_hits = 5e6;  ///< a workload is skipped if more hits are expected
+  double most_seconds = 2;  ///< seconds after which a race starts no further round, once it has had three
+  double most_hits = 5e6;   ///< a workload is skipped if more hits are expected
   /// a technique of ours is left out if its predicted time exceeds this many times our fastest prediction
   double hopeless = 30;
   double checkable = 2e7;  ///< largest rays x discs at which brute force decides which hits are right
@@ -37,7 +37,7 @@ struct BenchEntry {
   Race race;
 
   /// The fastest competitor of a side (ours or Embree); null if none of it has run.
-  [[nodiscard]] const Finish* best(bool ours) const;
+  [[nodiscard]] const CompetitorResult* best(bool ours) const;
 
   /// Embree's best time divided by our best time; 0 if either is unknown.
   [[nodiscard]] double ratio() const;

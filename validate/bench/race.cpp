@@ -15,37 +15,37 @@ namespace {
 /// The smallest number of rounds for a meaningful median.
 constexpr int least_rounds = 3;
 
-class Runner {
+class RaceRunner {
  public:
-  Runner(const Job& job, const RightHits& right, const EmbreePeer& embree, const RaceOptions& options)
+  RaceRunner(const Job& job, const RightHits& right, const EmbreePeer& embree, const RaceOptions& options)
       : job_(job), right_(right), embree_(embree), options_(options) {}
 
-  Race go(const std::vector<Competitor>& competitors) {
-    for (const Competitor& competitor : competitors) race_.finishes.push_back({competitor});
+  Race run_all(const std::vector<Competitor>& competitors) {
+    for (const Competitor& competitor : competitors) race_.results.push_back({competitor});
     double ours = 0;
     double peers = 0;
     in_turns(competitors.size(), options_.repeats, [&](std::size_t i, int round) {
-      Finish& finish = race_.finishes[i];
-      if (round == 0) return run(finish);
-      if (i == 0 && round >= least_rounds && watch_.seconds() >= options_.enough) return false;
+      CompetitorResult& result = race_.results[i];
+      if (round == 0) return run(result);
+      if (i == 0 && round >= least_rounds && watch_.seconds() >= options_.most_seconds) return false;
       if (i == 0 && round == 1) {
         ours = slowest_finalist(true);
         peers = slowest_finalist(false);
       }
-      return finish.seconds.front() > (is_ours(finish.competitor) ? ours : peers) || run(finish);
+      return result.seconds.front() > (is_own_technique(result.competitor) ? ours : peers) || run(result);
     });
-    std::erase_if(race_.finishes, [](const Finish& finish) { return finish.seconds.empty(); });
-    race_.complete = race_.finishes.size() == competitors.size();
+    std::erase_if(race_.results, [](const CompetitorResult& result) { return result.seconds.empty(); });
+    race_.complete = race_.results.size() == competitors.size();
     return std::move(race_);
   }
 
  private:
   /// Reports the next run. A run without earlier measurements is expected to take as long as those before it.
-  void report(const Finish& next) {
+  void report(const CompetitorResult& next) {
     if (!options_.progress) return;
     constexpr double first_round = 0.8;  // share of the time; afterwards only the fastest continue
     const bool first = next.seconds.empty();
-    const double step = first ? first_round / static_cast<double>(race_.finishes.size())
+    const double step = first ? first_round / static_cast<double>(race_.results.size())
                               : (1 - first_round) / (2.0 * options_.finalists * std::max(1, options_.repeats - 1));
     const double before = std::exchange(share_, std::min(1.0, share_ + step));
     options_.progress({technique_of(next.competitor), before, share_, 0,
@@ -53,33 +53,34 @@ class Runner {
   }
 
   /// One run. Returns whether it was completed.
-  bool run(Finish& finish) {
-    report(finish);
+  bool run(CompetitorResult& result) {
+    report(result);
     const sim::Stopwatch watch;
-    if (const auto* mode = std::get_if<EmbreeMode>(&finish.competitor)) {
+    if (const auto* mode = std::get_if<EmbreeMode>(&result.competitor)) {
       const PeerOutcome outcome = embree_.run(job_.rays, job_.discs, *mode, options_.stop);
-      return note(finish, outcome, watch.seconds());
+      return record_run(result, outcome, watch.seconds());
     }
     const sim::Outcome outcome =
-        sim::run(job_.problem(options_.threads, options_.stop), std::get<Candidate>(finish.competitor),
+        sim::run(job_.problem(options_.threads, options_.stop), std::get<Candidate>(result.competitor),
                  {.count = false, .stop = options_.stop, .threads = options_.threads});
-    return note(finish, outcome, watch.seconds());
+    return record_run(result, outcome, watch.seconds());
   }
 
   template <class Outcome>
-  bool note(Finish& finish, const Outcome& outcome, double seconds) const {
+  bool record_run(CompetitorResult& result, const Outcome& outcome, double seconds) const {
     if (outcome.stopped) return false;
-    finish.seconds.push_back(seconds);
-    finish.hits = std::accumulate(outcome.hits.begin(), outcome.hits.end(), std::uint64_t{0});
-    finish.wrong_hits = std::max(finish.wrong_hits, right_.wrong(outcome.hits));
+    result.seconds.push_back(seconds);
+    result.hits = std::accumulate(outcome.hits.begin(), outcome.hits.end(), std::uint64_t{0});
+    result.wrong_hits = std::max(result.wrong_hits, right_.wrong_hits(outcome.hits));
     return true;
   }
 
   /// The first-round time of the slowest finalist of a side.
   [[nodiscard]] double slowest_finalist(bool ours) const {
     std::vector<double> first;
-    for (const Finish& finish : race_.finishes)
-      if (is_ours(finish.competitor) == ours && !finish.seconds.empty()) first.push_back(finish.seconds.front());
+    for (const CompetitorResult& result : race_.results)
+      if (is_own_technique(result.competitor) == ours && !result.seconds.empty())
+        first.push_back(result.seconds.front());
     if (first.empty()) return 0;
     std::sort(first.begin(), first.end());
     return first[std::min(first.size(), static_cast<std::size_t>(options_.finalists)) - 1];
@@ -106,11 +107,11 @@ std::string parameters_of(const Competitor& competitor) {
   return ours != nullptr ? describe(*ours) : describe(std::get<EmbreeMode>(competitor));
 }
 
-double Finish::median_seconds() const { return median(seconds); }
+double CompetitorResult::median_seconds() const { return median(seconds); }
 
 Race race(const Job& job, const RightHits& right, const EmbreePeer& embree, const std::vector<Competitor>& competitors,
           const RaceOptions& options) {
-  return Runner(job, right, embree, options).go(competitors);
+  return RaceRunner(job, right, embree, options).run_all(competitors);
 }
 
 }  // namespace detp::validate

@@ -16,7 +16,7 @@ namespace detp::validate {
 /// One of ours, or Embree in one of its modes.
 using Competitor = std::variant<Candidate, EmbreeMode>;
 
-[[nodiscard]] inline bool is_ours(const Competitor& competitor) {
+[[nodiscard]] inline bool is_own_technique(const Competitor& competitor) {
   return std::holds_alternative<Candidate>(competitor);
 }
 
@@ -27,7 +27,7 @@ using Competitor = std::variant<Candidate, EmbreeMode>;
 [[nodiscard]] std::string parameters_of(const Competitor& competitor);
 
 /// The results of one competitor.
-struct Finish {
+struct CompetitorResult {
   Competitor competitor;
   std::vector<double> seconds = {};  ///< of each run, from discs and rays in memory to irradiance in memory
   std::uint64_t hits = 0;            ///< over all discs
@@ -37,17 +37,17 @@ struct Finish {
 };
 
 struct RaceOptions {
-  int repeats = 5;    ///< maximum number of rounds
-  double enough = 2;  ///< seconds after which no round starts, once there have been three
-  int finalists = 2;  ///< number of competitors of each side that run after the first round
+  int repeats = 5;          ///< maximum number of rounds
+  double most_seconds = 2;  ///< seconds after which no round starts, once there have been three
+  int finalists = 2;        ///< number of competitors of each side that run after the first round
   int threads = 1;
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
 };
 
 struct Race {
-  std::vector<Finish> finishes;  ///< of all competitors that ran at least once, in the order of the input
-  bool complete = false;         ///< all ran at least once
+  std::vector<CompetitorResult> results;  ///< of all competitors that ran at least once, in the order of the input
+  bool complete = false;                  ///< all ran at least once
 };
 
 /// Runs all competitors in turn, round after round, so that a disturbance of the machine affects all alike. After the

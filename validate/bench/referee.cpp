@@ -2,7 +2,7 @@
 
 namespace detp::validate {
 
-std::uint64_t RightHits::wrong(std::span<const std::uint64_t> others) const {
+std::uint64_t RightHits::wrong_hits(std::span<const std::uint64_t> others) const {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < hits.size(); ++i) sum += hits[i] > others[i] ? hits[i] - others[i] : others[i] - hits[i];
   return sum;

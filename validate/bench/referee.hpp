@@ -17,7 +17,7 @@ struct RightHits {
   std::vector<std::uint64_t> hits;
 
   /// Sum over the discs of |hits - right hits|.
-  [[nodiscard]] std::uint64_t wrong(std::span<const std::uint64_t> others) const;
+  [[nodiscard]] std::uint64_t wrong_hits(std::span<const std::uint64_t> others) const;
 };
 
 /// The hits of brute force; if rays x discs exceeds `checkable`, those of the exact candidate. Nothing if stopped.

@@ -23,20 +23,21 @@ std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries,
   return summary;
 }
 
-bool ours_agree(std::span<const BenchEntry> entries) {
+bool do_own_hits_agree(std::span<const BenchEntry> entries) {
   return std::all_of(entries.begin(), entries.end(), [](const BenchEntry& entry) {
-    return std::all_of(entry.race.finishes.begin(), entry.race.finishes.end(),
-                       [](const Finish& finish) { return !is_ours(finish.competitor) || finish.wrong_hits == 0; });
+    return std::all_of(entry.race.results.begin(), entry.race.results.end(), [](const CompetitorResult& result) {
+      return !is_own_technique(result.competitor) || result.wrong_hits == 0;
+    });
   });
 }
 
 WrongHits embree_wrong_hits(std::span<const BenchEntry> entries) {
   WrongHits sum;
   for (const BenchEntry& entry : entries)
-    for (const Finish& finish : entry.race.finishes)
-      if (!is_ours(finish.competitor)) {
-        sum.wrong += finish.wrong_hits;
-        sum.hits += finish.hits;
+    for (const CompetitorResult& result : entry.race.results)
+      if (!is_own_technique(result.competitor)) {
+        sum.wrong += result.wrong_hits;
+        sum.hits += result.hits;
       }
   return sum;
 }

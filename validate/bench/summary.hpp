@@ -20,7 +20,7 @@ struct AgainstEmbree {
 [[nodiscard]] std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries, int threads);
 
 /// Whether all our techniques found the right hits in all races.
-[[nodiscard]] bool ours_agree(std::span<const BenchEntry> entries);
+[[nodiscard]] bool do_own_hits_agree(std::span<const BenchEntry> entries);
 
 /// Number of wrong hits, and of all hits, in all of Embree's runs.
 struct WrongHits {

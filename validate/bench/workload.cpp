@@ -13,7 +13,7 @@ constexpr std::array meshes{"stanford_bunny.obj", "stanford_dragon.ply", "sponza
 
 /// A million rays are run at these radii only, because otherwise they would take most of the time.
 constexpr double most_rays = 1e6;
-bool of_most_rays(const Length& radius) { return radius.value == 0.005 || radius.value == 0.02; }
+bool is_used_with_most_rays(const Length& radius) { return radius.value == 0.005 || radius.value == 0.02; }
 
 std::vector<Length> default_radii(BenchEffort effort) {
   if (effort == BenchEffort::quick) return {{0.01, true}, {0.04, true}};
@@ -48,7 +48,8 @@ void add_scene(BenchEffort effort, const BenchAxes& axes, const std::string& sce
       for (const Length& radius : radii)
         for (const double count : rays) {
           const bool thinned = axes.rays.empty() && axes.disc_radii.empty() && count == most_rays;
-          if (!thinned || of_most_rays(radius)) set.workloads.push_back({scene, path, field, samples, radius, count});
+          if (!thinned || is_used_with_most_rays(radius))
+            set.workloads.push_back({scene, path, field, samples, radius, count});
         }
 }
 

@@ -50,7 +50,7 @@ double mean_path_length(const sim::Problem& problem, const sim::Box& box, double
   bool segments = false;
   sim::for_each_checked(problem.rays, check, [&](const sim::Ray& ray) {
     segments = segments || !ray.is_line();
-    const sim::Stretch inside = sim::ClippedRay(ray).inside(grown);
+    const sim::RayInterval inside = sim::ClippedRay(ray).inside(grown);
     if (!inside.empty()) sum += inside.to - inside.from;
   });
   return segments ? sum / static_cast<double>(problem.rays.size()) : 0;

@@ -19,11 +19,11 @@ constexpr double heavy_radii = 4;
 constexpr double heavy_mean = 1.1;
 constexpr double far_radii = 100;
 
-std::vector<sim::Disc> taken_evenly(std::span<const sim::Disc> discs) {
+std::vector<sim::Disc> evenly_spaced(std::span<const sim::Disc> discs) {
   const std::size_t count = std::min<std::size_t>(4096, discs.size());
-  std::vector<sim::Disc> taken;
-  for (std::size_t i = 0; i < count; ++i) taken.push_back(discs[i * discs.size() / count]);
-  return taken;
+  std::vector<sim::Disc> sampled;
+  for (std::size_t i = 0; i < count; ++i) sampled.push_back(discs[i * discs.size() / count]);
+  return sampled;
 }
 
 double longest(const sim::Box& box) {
@@ -53,15 +53,15 @@ double median_radius(const std::vector<sim::Disc>& discs) {
 }
 
 /// "1 of 10000 discs is" or "20 of 10000 discs are".
-std::string some_of(std::size_t some, std::size_t all, const char* what, const char* one, const char* many) {
+std::string count_text(std::size_t some, std::size_t all, const char* what, const char* one, const char* many) {
   return fmt::format("{} of {} {} {}", some, all, what, some == 1 ? one : many);
 }
 
-void warn_of_far_discs(std::span<const sim::Disc> discs, const std::vector<sim::Disc>& taken, double radius,
+void warn_of_far_discs(std::span<const sim::Disc> discs, const std::vector<sim::Disc>& sampled, double radius,
                        sim::StopCheck& check, std::vector<std::string>& warnings) {
   sim::Box whole;
   sim::for_each_checked(discs, check, [&](const sim::Disc& disc) { whole.include(disc.centre); });
-  const sim::Box centre = central_box(taken);
+  const sim::Box centre = central_box(sampled);
   const double reach = std::max(longest(centre), 2 * radius);  // if all discs are in one place, their own size
   if (!(longest(whole) > far_boxes * reach)) return;
   std::size_t far = 0;
@@ -73,7 +73,7 @@ void warn_of_far_discs(std::span<const sim::Disc> discs, const std::vector<sim::
   warnings.push_back(fmt::format(
       "{} far from the others: the box of all is {:.3g} long, {:.3g} times that of the central 90 % ({:.3g}); "
       "predictions, S0 and percentages take the box of all, as if discs were spread over it",
-      some_of(far, discs.size(), "discs", "lies", "lie"), longest(whole), longest(whole) / reach, reach));
+      count_text(far, discs.size(), "discs", "lies", "lie"), longest(whole), longest(whole) / reach, reach));
 }
 
 void warn_of_large_discs(std::span<const sim::Disc> discs, double median, sim::StopCheck& check,
@@ -89,10 +89,11 @@ void warn_of_large_discs(std::span<const sim::Disc> discs, double median, sim::S
   const double rms = std::sqrt(squares / static_cast<double>(discs.size()));
   if (!(largest > large_radii * median || (largest > heavy_radii * median && rms > heavy_mean))) return;
   const std::string radius = large == 1 ? "a radius of" : "radii up to";
-  warnings.push_back(fmt::format(
-      "{} {} {:.4g}, {:.3g} times the median {:.4g}: predictions use the root mean square "
-      "{:.4g} for all, and S0 is made to hold the largest",
-      some_of(large, discs.size(), "discs", "has", "have"), radius, largest, largest / median, median, rms * median));
+  warnings.push_back(
+      fmt::format("{} {} {:.4g}, {:.3g} times the median {:.4g}: predictions use the root mean square "
+                  "{:.4g} for all, and S0 is made to hold the largest",
+                  count_text(large, discs.size(), "discs", "has", "have"), radius, largest, largest / median, median,
+                  rms * median));
 }
 
 void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::vector<std::string>& warnings) {
@@ -108,7 +109,7 @@ void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::v
   warnings.push_back(fmt::format(
       "{} far outside: up to {:.3g} from the centre of the scene, {:.3g} times the radius {:.4g} of S0; every cull is "
       "widened by {:.2g} for rounding over this distance",
-      some_of(far, problem.rays.size(), "rays", "starts", "start"), farthest, farthest / radius, radius,
+      count_text(far, problem.rays.size(), "rays", "starts", "start"), farthest, farthest / radius, radius,
       problem.slack));
 }
 
@@ -116,10 +117,10 @@ void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::v
 
 std::vector<std::string> outlier_warnings(const sim::Problem& problem, const std::stop_token& stop) {
   sim::StopCheck check(stop, "looking for outliers");
-  const std::vector<sim::Disc> taken = taken_evenly(problem.discs);
-  const double usual = median_radius(taken);
+  const std::vector<sim::Disc> sampled = evenly_spaced(problem.discs);
+  const double usual = median_radius(sampled);
   std::vector<std::string> warnings;
-  warn_of_far_discs(problem.discs, taken, usual, check, warnings);
+  warn_of_far_discs(problem.discs, sampled, usual, check, warnings);
   warn_of_large_discs(problem.discs, usual, check, warnings);
   warn_of_far_rays(problem, check, warnings);
   return warnings;

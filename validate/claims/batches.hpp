@@ -24,7 +24,7 @@ inline constexpr int batch_count = 32;
 
 /// Lines per batch, for claims that do not depend on the number of rays: `most` for a million rays or more,
 /// proportionally fewer for fewer rays, so that small workloads finish soon.
-[[nodiscard]] inline std::size_t lines_a_batch(const Experiment& experiment, std::size_t most) {
+[[nodiscard]] inline std::size_t lines_per_batch(const Experiment& experiment, std::size_t most) {
   const double share = std::min(1.0, experiment.workload.rays / 1e6);
   return std::max<std::size_t>(100, static_cast<std::size_t>(share * static_cast<double>(most)));
 }

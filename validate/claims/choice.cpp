@@ -28,12 +28,12 @@ std::size_t batches_of(std::size_t rays) { return std::min<std::size_t>(batch_co
 
 /// Distributes all rays over the batches in short runs: neighbours (pieces of one photon's path) stay together, and
 /// each batch has rays from all over a sorted file.
-std::vector<std::vector<sim::Ray>> deal(const std::vector<sim::Ray>& rays) {
+std::vector<std::vector<sim::Ray>> distribute_over_batches(const std::vector<sim::Ray>& rays) {
   const std::size_t batches = batches_of(rays.size());
   const std::size_t run = std::clamp<std::size_t>(rays.size() / batches, 1, 64);
-  std::vector<std::vector<sim::Ray>> dealt(batches);
-  for (std::size_t i = 0; i < rays.size(); ++i) dealt[i / run % batches].push_back(rays[i]);
-  return dealt;
+  std::vector<std::vector<sim::Ray>> parts(batches);
+  for (std::size_t i = 0; i < rays.size(); ++i) parts[i / run % batches].push_back(rays[i]);
+  return parts;
 }
 
 /// Whether the technique processes each ray separately, so that a sample of the rays needs that share of the tests.
@@ -72,7 +72,7 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
     return Batch{static_cast<double>(some.size()), as_expected(outcome.counts)};
   };
   Counted counted{.all = counts_of(rays)};
-  for (const std::vector<sim::Ray>& batch : deal(rays)) counted.batches.push_back(counts_of(batch));
+  for (const std::vector<sim::Ray>& batch : distribute_over_batches(rays)) counted.batches.push_back(counts_of(batch));
   if (stopped) return std::nullopt;
   return counted;
 }

@@ -76,7 +76,7 @@ Estimate ratio(const std::vector<Batch>& batches, double Batch::*above, double B
 /// Two small discs in opposite corners of a cube, so that almost only cells are counted.
 Finding cells_finding(const Experiment& experiment) {
   const sim::Stopwatch clock;
-  const std::size_t lines = lines_a_batch(experiment, lines_through_cells);
+  const std::size_t lines = lines_per_batch(experiment, lines_through_cells);
   const int depth = tested_depth(experiment.workload);
   const std::vector<sim::Disc> corners{{.centre = glm::dvec3{-1}, .radius = 1e-3},
                                        {.centre = glm::dvec3{1}, .radius = 1e-3}};
@@ -183,7 +183,7 @@ std::vector<Finding> disc_index_findings(const Experiment& experiment) {
 double disc_index_work(const Experiment& experiment) {
   const int depth = tested_depth(experiment.workload);
   const double cells = model::published::cells_per_line(depth) *
-                       static_cast<double>(lines_a_batch(experiment, lines_through_cells) * batch_count);
+                       static_cast<double>(lines_per_batch(experiment, lines_through_cells) * batch_count);
   const Counts<double> counts = model::octree_counts(experiment.workload, {depth});
   return cells + test_work(counts) + batch_count * build_work(counts);
 }

@@ -140,7 +140,7 @@ Finding rays_finding(const std::vector<Shares>& batches, double all_rays, int i)
 
 std::vector<Finding> line_hit_findings(const Experiment& experiment) {
   const sim::Stopwatch clock;
-  const std::size_t lines = lines_a_batch(experiment, lines_of_each_batch);
+  const std::size_t lines = lines_per_batch(experiment, lines_of_each_batch);
   const std::vector<Shares> batches = shares_of_batches(experiment, bodies_inside(experiment), lines);
   if (experiment.stop.stop_requested()) return {};
   std::vector<Finding> findings{sphere_finding(batches), disc_finding(batches)};
@@ -155,7 +155,7 @@ std::vector<Finding> line_hit_findings(const Experiment& experiment) {
 }
 
 double line_hit_work(const Experiment& experiment) {
-  return static_cast<double>(lines_a_batch(experiment, lines_of_each_batch) * batch_count * positions *
+  return static_cast<double>(lines_per_batch(experiment, lines_of_each_batch) * batch_count * positions *
                              (2 + most_levels));
 }
 

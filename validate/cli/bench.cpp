@@ -80,7 +80,7 @@ validate::BenchOptions options_of(const BenchCommand& command, const CommonOptio
           .embree_modes = command.embree_modes == "all" ? validate::all_embree_modes() : validate::best_embree_modes(),
           .threads = threads_of(common),
           .repeats = command.repeat,
-          .enough = thorough ? 2.0 : 0.5,
+          .most_seconds = thorough ? 2.0 : 0.5,
           .most_hits = command.most_hits.value_or(thorough ? 5e6 : 1e6),
           .seed = common.seed,
           .stop = std::move(stop),
@@ -91,7 +91,7 @@ Json inputs_json(const BenchCommand& command, const validate::BenchSet& set, con
   Json json{{"effort", command.effort},          {"scenes", Json::array()},
             {"workloads", set.workloads.size()}, {"techniques", Json::array()},
             {"embree_modes", Json::array()},     {"threads", options.threads},
-            {"repeat", options.repeats},         {"seconds_after_which_no_fourth_round_begins", options.enough},
+            {"repeat", options.repeats},         {"seconds_after_which_no_fourth_round_begins", options.most_seconds},
             {"most_hits", options.most_hits}};
   for (const validate::BenchWorkload& workload : set.workloads)
     if (json["scenes"].empty() || json["scenes"].back() != workload.path) json["scenes"].push_back(workload.path);

@@ -14,7 +14,7 @@ using validate::AgainstEmbree;
 using validate::BenchEntry;
 using validate::BenchResult;
 using validate::BenchWorkload;
-using validate::Finish;
+using validate::CompetitorResult;
 
 std::string radius_text(const BenchWorkload& workload) {
   const validate::Length& radius = workload.disc_radius;
@@ -38,22 +38,22 @@ Json parameters_json(const validate::Competitor& competitor) {
   return {{"call", call_of(mode)}, {"quality", validate::name(mode.quality)}, {"coherent", mode.coherent}};
 }
 
-Json row_json(const BenchEntry& entry, const Finish& finish) {
+Json row_json(const BenchEntry& entry, const CompetitorResult& competitor_result) {
   Json json = workload_json(entry);
-  json.update({{"technique", technique_of(finish.competitor)},
-               {"parameters", parameters_json(finish.competitor)},
-               {"seconds", finish.median_seconds()},
-               {"runs", finish.seconds.size()},
-               {"hits", finish.hits},
-               {"wrong_hits", finish.wrong_hits},
+  json.update({{"technique", technique_of(competitor_result.competitor)},
+               {"parameters", parameters_json(competitor_result.competitor)},
+               {"seconds", competitor_result.median_seconds()},
+               {"runs", competitor_result.seconds.size()},
+               {"hits", competitor_result.hits},
+               {"wrong_hits", competitor_result.wrong_hits},
                {"right_hits_by", name(entry.judge)}});
   return json;
 }
 
-Json side_json(const Finish& finish) {
-  return {{"technique", technique_of(finish.competitor)},
-          {"parameters", parameters_json(finish.competitor)},
-          {"seconds", finish.median_seconds()}};
+Json side_json(const CompetitorResult& competitor_result) {
+  return {{"technique", technique_of(competitor_result.competitor)},
+          {"parameters", parameters_json(competitor_result.competitor)},
+          {"seconds", competitor_result.median_seconds()}};
 }
 
 Json worst_json(const BenchEntry& entry) {
@@ -84,19 +84,19 @@ Json summary_json(const BenchResult& bench, const validate::BenchOptions& option
     json["against_embree"] = all.front();
     json["against_embree"]["by_threads"] = all;
   }
-  json["ours_agree"] = validate::ours_agree(bench.entries);
+  json["ours_agree"] = validate::do_own_hits_agree(bench.entries);
   json["embree_hits"] = wrong.hits;
   json["embree_wrong_hits"] = wrong.wrong;
   return json;
 }
 
 /// A contestant and its seconds.
-std::vector<TextCell> side_cells(const Finish* finish, Style style) {
-  if (finish == nullptr) return {{}, {}};
-  std::string name = parameters_of(finish->competitor);
-  if (validate::is_ours(finish->competitor))
-    name = fmt::format("{}{}{}", technique_of(finish->competitor), name.empty() ? "" : ", ", name);
-  return {{std::move(name), style}, {fmt::format("{:.3g}", finish->median_seconds()), style}};
+std::vector<TextCell> side_cells(const CompetitorResult* competitor_result, Style style) {
+  if (competitor_result == nullptr) return {{}, {}};
+  std::string name = parameters_of(competitor_result->competitor);
+  if (validate::is_own_technique(competitor_result->competitor))
+    name = fmt::format("{}{}{}", technique_of(competitor_result->competitor), name.empty() ? "" : ", ", name);
+  return {{std::move(name), style}, {fmt::format("{:.3g}", competitor_result->median_seconds()), style}};
 }
 
 std::vector<TextCell> row_of(const BenchEntry& entry) {
@@ -147,7 +147,7 @@ std::string summary_text(const BenchResult& bench, const validate::BenchOptions&
                       parameters_of(worst.best(false)->competitor), worst.best(false)->median_seconds()));
     }
   const validate::WrongHits wrong = validate::embree_wrong_hits(bench.entries);
-  const bool agree = validate::ours_agree(bench.entries);
+  const bool agree = validate::do_own_hits_agree(bench.entries);
   text += fmt::format("\nhits: ours {}; Embree, in single precision, is wrong about {} of {}\n",
                       styled(screen, agree ? Style::good : Style::bad, agree ? "all agree" : "DO NOT AGREE"),
                       wrong.wrong, wrong.hits);
@@ -173,13 +173,13 @@ std::string to_csv(const BenchResult& bench) {
   Table table(Columns{"scene", "field", "rays", "samples", "disc_radius", "threads"} + candidate_columns() +
               Columns{"call", "coherent", "seconds", "runs", "hits", "wrong_hits", "right_hits_by", "best"});
   for (const BenchEntry& entry : bench.entries)
-    for (const Finish& finish : entry.race.finishes) {
-      Json row = row_json(entry, finish);
+    for (const CompetitorResult& competitor_result : entry.race.results) {
+      Json row = row_json(entry, competitor_result);
       const Json parameters = row["parameters"];
-      row["parameters"] = parameters_of(finish.competitor);
+      row["parameters"] = parameters_of(competitor_result.competitor);
       row.update(parameters);
-      if (&finish == entry.best(true)) row["best"] = "ours";
-      if (&finish == entry.best(false)) row["best"] = "embree";
+      if (&competitor_result == entry.best(true)) row["best"] = "ours";
+      if (&competitor_result == entry.best(false)) row["best"] = "embree";
       table.add(row);
     }
   return table.csv();
@@ -192,7 +192,8 @@ Result report_bench(const BenchResult& bench, const validate::BenchOptions& opti
   Result result;
   Json rows = Json::array();
   for (const BenchEntry& entry : bench.entries)
-    for (const Finish& finish : entry.race.finishes) rows.push_back(row_json(entry, finish));
+    for (const CompetitorResult& competitor_result : entry.race.results)
+      rows.push_back(row_json(entry, competitor_result));
   Json skipped = Json::array();
   for (const validate::BenchSkip& skip : bench.skipped)
     skipped.push_back({{"workload", title_of(skip.workload)}, {"why", skip.why}});
@@ -202,7 +203,7 @@ Result report_bench(const BenchResult& bench, const validate::BenchOptions& opti
                  {"left_out", missing}};
   result.text = to_text(bench, options, missing, screen);
   result.csv = to_csv(bench);
-  if (!validate::ours_agree(bench.entries)) result.code = ExitCode::refuted;
+  if (!validate::do_own_hits_agree(bench.entries)) result.code = ExitCode::refuted;
   if (bench.stopped) result.stopped = {bench.done, bench.workloads, "workloads"};
   return result;
 }

@@ -34,7 +34,7 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs
     throw std::invalid_argument(fmt::format(
         "with these unit costs {} takes no time, so that nothing can be compared: {} cost 0; give every operation its "
         "cost in seconds, as --help explains",
-        name(answer.ranking.front().candidate.technique), free_of_charge(costs)));
+        name(answer.ranking.front().candidate.technique), zero_costs(costs)));
   if (!std::isfinite(answer.ranking.back().time.total()))
     throw std::invalid_argument(
         fmt::format("with these unit costs the time of {} exceeds 1.8e308 s and cannot be compared; give smaller costs",

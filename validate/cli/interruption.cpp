@@ -18,7 +18,7 @@ constexpr int wake_up = SIGURG;
 
 constexpr double longest = 1e9;  // seconds: can be added to a clock's time without overflow
 
-bool ignored(int signal) {
+bool is_ignored(int signal) {
   struct sigaction action {};
   return sigaction(signal, nullptr, &action) == 0 && (action.sa_flags & SA_SIGINFO) == 0 &&
          action.sa_handler == SIG_IGN;
@@ -28,7 +28,7 @@ sigset_t watched_signals() {
   sigset_t set;
   sigemptyset(&set);
   for (const int signal : {SIGINT, SIGTERM, wake_up}) sigaddset(&set, signal);
-  if (!ignored(SIGHUP)) sigaddset(&set, SIGHUP);
+  if (!is_ignored(SIGHUP)) sigaddset(&set, SIGHUP);
   return set;
 }
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::size_t longest_message = 500;
 
-[[noreturn]] void throw_not_written() {
+[[noreturn]] void throw_write_error() {
   throw sim::FileError("standard output", std::string("cannot be written: ") + std::strerror(errno));
 }
 
@@ -40,12 +40,12 @@ void prepare_streams() {
 }
 
 void write_result(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) throw_not_written();
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) throw_write_error();
 }
 
 void check_written() {
   errno = EIO;  // for a stream that does not report a reason
-  if (!std::cout.flush() || std::fflush(stdout) != 0) throw_not_written();
+  if (!std::cout.flush() || std::fflush(stdout) != 0) throw_write_error();
 }
 
 void write_error(std::string_view text) {

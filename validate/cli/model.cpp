@@ -153,7 +153,7 @@ Measured measure(const ModelOptions& options, const CommonOptions& common, const
 AnswerRow answer_row(const ModelOptions& options, const Measured& measured, const UnitCosts& costs,
                      std::int64_t levels) {
   const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
-  (void)options.candidate.wish(technique);  // refuses foreign parameters
+  (void)options.candidate.fixed_parameters(technique);  // refuses foreign parameters
   const Form form = choice_named<Form>(options.form).value();
   AnswerRow row{measured.inputs, {{"technique", name(technique)}}, {}};
   row.inputs["form"] = options.form;

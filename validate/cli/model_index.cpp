@@ -47,7 +47,7 @@ Json corrected_index(const ModelQuestion& question, double parts, const Counts<d
 ModelAnswer octree_answer(const ModelQuestion& question) {
   Candidate candidate{Technique::octree, OctreeParameters{model::published::octree_depth(
                                              {question.workload.disc_radius}, scene_side(question.workload))}};
-  for (const auto& [name, value] : question.options.wish(Technique::octree).given)
+  for (const auto& [name, value] : question.options.fixed_parameters(Technique::octree).values)
     set_parameter(candidate, name, value);
   const auto parameters = std::get<OctreeParameters>(candidate.parameters);
   const int depth = parameters.depth;

@@ -125,8 +125,8 @@ ModelAnswer sphere_cache_answer(const ModelQuestion& question) {
 
 ModelAnswer technique_answer(const ModelQuestion& question) {
   refuse_published(question);
-  const auto candidate =
-      model::complete(question.technique, question.options.wish(question.technique), question.workload, question.costs);
+  const auto candidate = model::complete(question.technique, question.options.fixed_parameters(question.technique),
+                                         question.workload, question.costs);
   if (!candidate)
     throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(question.technique)));
   return with_spheres(question, candidate->parameters, Json::array());

@@ -43,7 +43,7 @@ class ProgressLine::Display {
  public:
   Display() {
     sim::work_log = &log_;
-    drawing_ = std::jthread([this](const std::stop_token& end) { draw_until(end); });
+    drawing_ = std::jthread([this](const std::stop_token& end) { draw_repeatedly(end); });
   }
   ~Display() {
     drawing_.request_stop();
@@ -67,7 +67,7 @@ class ProgressLine::Display {
     double share;
   };
 
-  void draw_until(const std::stop_token& end) {
+  void draw_repeatedly(const std::stop_token& end) {
     std::unique_lock lock(mutex_);
     std::condition_variable_any never;
     while (!never.wait_for(lock, end, between_drawings, [&] { return end.stop_requested(); })) draw();

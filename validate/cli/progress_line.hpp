@@ -6,17 +6,17 @@
 #include "command.hpp"
 #include "detp/sim/base/phase.hpp"
 
-/// Progress on a terminal.
+/// The progress line on a terminal.
 namespace detp::cli {
 
-/// Seconds as a reader takes them in: "12 s", "3 min", "1 h 10 min".
+/// Formats a duration with one or two units: "12 s", "3 min", "1 h 10 min".
 [[nodiscard]] std::string duration_text(double seconds);
 
-/// Shows on the last line of a terminal what is being done, how much of the work is done and how long the rest will
-/// take; nothing elsewhere, or if quiet. Wiped when it goes out of scope. May be used from several threads.
+/// Shows the current phase, the share of the work done and the time left on the last line of a terminal. Shows nothing
+/// if stderr is not a terminal, or with --quiet. The destructor erases the line. Several threads may use one object.
 ///
-/// Between the reports of phases it moves with the work that StopCheck counts. The time left is that of the speed since
-/// half of the time: phases that were predicted badly in relation to each other are soon forgotten.
+/// Between phase reports, the share advances with the work that StopCheck counts. The time left is computed from the
+/// speed in the second half of the elapsed time. So errors in the predicted work of earlier phases soon have no effect.
 class ProgressLine {
  public:
   explicit ProgressLine(const CommonOptions& common);
@@ -26,12 +26,12 @@ class ProgressLine {
 
   void show(const sim::Phase& phase) const;
 
-  /// A report for library calls; empty where nothing is shown. It must not outlive this object.
+  /// Returns the callback for library calls; empty if nothing is shown. The callback must not outlive this object.
   [[nodiscard]] sim::ReportPhase report() const;
 
  private:
   class Display;
-  std::unique_ptr<Display> display_;  ///< null where nothing is shown
+  std::unique_ptr<Display> display_;  ///< null if nothing is shown
 };
 
 }  // namespace detp::cli

@@ -29,14 +29,14 @@ struct RunOptions {
   std::optional<std::string> pairs;
 };
 
-/// The requested technique, or the one that the closed forms choose. Parameters that are not set are the best by the
-/// closed forms.
+/// Returns the requested technique, or the one that the closed forms predict to be fastest. The closed forms also
+/// choose the parameters that the options leave open.
 Candidate complete(const CandidateOptions& options, const Workload& workload) {
   const UnitCosts costs = validate::built_in_unit_costs();
   const Technique technique = options.technique ? options.technique_or(Technique::brute_force)
                                                 : model::rank(workload, costs).front().candidate.technique;
-  const model::Wish wish = options.wish(technique);
-  auto candidate = model::complete(technique, wish, workload, costs);
+  const model::FixedParameters fixed = options.fixed_parameters(technique);
+  auto candidate = model::complete(technique, fixed, workload, costs);
   if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
   if (auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
       cache != nullptr && options.stop == SphereStop::max)
@@ -68,7 +68,8 @@ void write_per_disc(const std::string& path, const sim::Outcome& outcome, const 
   file.commit();
 }
 
-/// Throws before the work if the hits of one row would overwrite those of another.
+/// Checks the options for output files before the run. Throws if several rows would write their hits to the same file,
+/// if --standard-error is set without --per-disc, or if two options name the same file.
 void check_files(const RunOptions& options, const CommonOptions& common, std::size_t rows) {
   if (rows > 1 && (options.per_disc || options.pairs))
     throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
@@ -77,13 +78,13 @@ void check_files(const RunOptions& options, const CommonOptions& common, std::si
   check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
 }
 
-/// Writes the files of hits. Returns the progress if a stop request ended the run or the writing. A file is written
-/// completely or not at all.
+/// Writes the files of --per-disc and --pairs. Each file is written completely or not at all. Returns the progress if a
+/// stop request ended the run or the writing, and nothing otherwise.
 std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnswer& answer, const CommonOptions& common,
                                         const std::stop_token& stop) {
   const sim::Outcome& outcome = answer.run.outcome;
   if (outcome.stopped && (options.per_disc || options.pairs))
-    note(common, "stopped before the end: --per-disc and --pairs are not written, for they would be partial");
+    note(common, "stopped before the end: --per-disc and --pairs are not written, because they would be partial");
   if (outcome.stopped) return outcome.progress;
   try {
     if (options.per_disc) write_per_disc(*options.per_disc, outcome, stop);
@@ -98,7 +99,8 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnsw
   return std::nullopt;
 }
 
-/// A photon map accesses rays in any order and needs all of them in memory.
+/// Whether all rows can read their rays in blocks. The photon map cannot: it accesses rays in any order, so it needs
+/// all of them in memory.
 bool can_stream(CandidateOptions& options, std::size_t rows) {
   for (std::size_t row = 0; row < rows; ++row) {
     options.lists.choose_row(row);
@@ -124,7 +126,8 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Com
   return answer;
 }
 
-/// Shares of the time that the rows take. A row's time grows with its rays, but not the time for scene and indexes.
+/// Divides the progress among the rows of a table. The expected time of a problem is a constant (for the scene and the
+/// index) plus a term proportional to its number of rays.
 class RowProgress {
  public:
   RowProgress(RunOptions& options, const CommonOptions& common) : candidates_(options.candidate.lists.rows()) {
@@ -135,7 +138,7 @@ class RowProgress {
     }
   }
 
-  /// The making of the next problem.
+  /// The progress callback for making the next problem.
   sim::ReportPhase job(sim::ReportPhase whole) {
     const double begin = row_ < candidates_ ? 0 : ends_[row_ / candidates_ - 1];
     const double length = ends_[row_ / candidates_] - begin;
@@ -143,7 +146,7 @@ class RowProgress {
     return sim::part_of(std::move(whole), begin / ends_.back(), after_job_ / ends_.back());
   }
 
-  /// The next row of the problem.
+  /// The progress callback for the next row of the problem.
   sim::ReportPhase next(sim::ReportPhase whole) {
     const double each = (ends_[row_ / candidates_] - after_job_) / static_cast<double>(candidates_);
     const double begin = after_job_ + each * static_cast<double>(row_++ % candidates_);
@@ -154,7 +157,7 @@ class RowProgress {
   static constexpr double share_of_job = 0.3;
 
   std::size_t candidates_;
-  std::vector<double> ends_;  ///< of each problem's time
+  std::vector<double> ends_;  ///< summed expected times up to the end of each problem
   std::size_t row_ = 0;
   double after_job_ = 0;
 };

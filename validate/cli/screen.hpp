@@ -4,43 +4,47 @@
 #include <string>
 #include <string_view>
 
-/// The place where text is shown: its width, and whether it shows colours.
+/// The output stream's properties: its width in columns, and whether it shows colours. Text is formatted for them.
 namespace detp::cli {
 
-/// When text is coloured: --color.
+/// The values of --color: when text is coloured.
 enum class Colour { automatic, always, never };
 
 struct Screen {
-  std::size_t width = 0;  ///< columns; 0: as many as the text needs
+  std::size_t width = 0;  ///< in columns; 0 means unlimited
   bool colour = false;
 
-  /// Columns for sentences: at most 120, however wide the screen.
+  /// The width for sentences, in columns: that of the screen, but at most 120.
   [[nodiscard]] std::size_t text_width() const;
 };
 
-/// What a stream (STDOUT_FILENO, say) shows.
+/// The properties of a stream, for instance STDOUT_FILENO.
 ///
-/// The width is that of the terminal; elsewhere the environment variable COLUMNS, if it is a whole number from 1 on; else
-/// there is no limit, so that files and pipes lose no column of a table. Colours are shown on a terminal alone, and
-/// there unless NO_COLOR is set and not empty or TERM is "dumb"; `always` and `never` decide for any stream.
+/// If the stream is a terminal, the width is the terminal's. Otherwise it is the value of the environment variable
+/// COLUMNS, if that is a whole number of at least 1. Otherwise the width is unlimited, so tables in files and pipes
+/// keep all their columns.
+///
+/// With Colour::automatic, only a terminal shows colours. It shows none if NO_COLOR is set and not empty, or if TERM is
+/// "dumb". Colour::always and Colour::never apply to any stream.
 [[nodiscard]] Screen screen_of(int stream, Colour colour);
 
 enum class Style { plain, strong, good, bad, doubtful, faint };
 
-/// The text with the colour of a style, if the screen shows colours; else the text alone.
+/// Returns the text in the colour of the style. Returns it unchanged if the screen shows no colours.
 [[nodiscard]] std::string styled(const Screen& screen, Style style, std::string_view text);
 
-/// The text with control characters escaped, except ends of lines and, where colours are shown, what styled() adds.
+/// Returns the text with control characters escaped, except line feeds. If `colour` is true, the escape sequences of
+/// styled() are kept too.
 [[nodiscard]] std::string safe_text(std::string_view text, bool colour = false);
 
-/// Columns that a text takes: its characters in UTF-8, those of colours not counted.
+/// The width of a text in columns: the number of its UTF-8 characters, without the escape sequences of colours.
 [[nodiscard]] std::size_t columns_of(std::string_view text);
 
-/// Each line of a text in lines of at most `width` columns where words allow it, all but its first indented. Ends with
-/// \n.
+/// Breaks each line of a text between words into lines of at most `width` columns; a longer word stays whole. Indents
+/// all of these lines but the first. The result ends with a line feed.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
 
-/// An explanation under a table: wrapped, and faint.
+/// Returns the explanation under a table: wrapped, in the faint style.
 [[nodiscard]] std::string legend(const Screen& screen, std::string_view text);
 
 }  // namespace detp::cli

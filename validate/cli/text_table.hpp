@@ -6,7 +6,7 @@
 
 #include "screen.hpp"
 
-/// Tables for a reader: columns that line up and fit the screen.
+/// Text tables with aligned columns, not wider than the screen.
 namespace detp::cli {
 
 enum class Align { left, right };
@@ -15,8 +15,8 @@ enum class Align { left, right };
 struct TextColumn {
   std::string head = {};
   Align align = Align::right;
-  int spare = 0;           ///< 0: always shown; else the columns with the largest number are left out first
-  std::string group = {};  ///< stands above neighbouring columns that share it
+  int spare = 0;           ///< 0: the column is always shown; otherwise columns with larger values are left out first
+  std::string group = {};  ///< heading above neighbouring columns of the same group
 };
 
 struct TextCell {
@@ -28,11 +28,11 @@ class TextTable {
  public:
   explicit TextTable(std::vector<TextColumn> columns) : columns_(std::move(columns)) {}
 
-  /// Appends a row: a cell for each column; those that are missing at its end are empty.
+  /// Appends a row with one cell per column. Missing cells at the end of the row are empty.
   void add(std::vector<TextCell> cells);
 
-  /// The lines. Where they would be wider than the screen, columns are left out, and a last line names them. A column
-  /// without any text is not shown.
+  /// Returns the table as text. If the table is wider than the screen, it leaves columns out and names them in a last
+  /// line. Columns whose cells are all empty are not shown.
   [[nodiscard]] std::string text(const Screen& screen) const;
 
  private:

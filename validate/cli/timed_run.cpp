@@ -36,8 +36,8 @@ TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim
   };
   show(0);
   if (job.stream) {
-    sim::Streamed streamed = sim::run_streamed(job.discs, *job.stream, candidate,
-                                               {.run = options, .front_facing = job.front_facing, .progress = show});
+    sim::StreamedOutcome streamed = sim::run_streamed(
+        job.discs, *job.stream, candidate, {.run = options, .front_facing = job.front_facing, .progress = show});
     return {std::move(streamed.outcome), streamed.check_seconds, streamed.read_seconds, streamed.block};
   }
   const sim::Stopwatch watch;

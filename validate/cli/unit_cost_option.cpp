@@ -61,7 +61,7 @@ nlohmann::ordered_json to_json(const UnitCosts& costs) {
   return json;
 }
 
-std::string free_of_charge(const UnitCosts& costs) {
+std::string zero_costs(const UnitCosts& costs) {
   std::string list;
   for (const UnitCostTerm& one : unit_cost_terms)
     if (costs.*one.cost == 0) list += fmt::format("{}{}", list.empty() ? "" : ", ", one.symbol);

@@ -19,6 +19,6 @@ namespace detp::cli {
 [[nodiscard]] nlohmann::ordered_json to_json(const UnitCosts& costs);
 
 /// The names of the costs that are 0: "t, u".
-[[nodiscard]] std::string free_of_charge(const UnitCosts& costs);
+[[nodiscard]] std::string zero_costs(const UnitCosts& costs);
 
 }  // namespace detp::cli

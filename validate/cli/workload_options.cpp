@@ -166,18 +166,18 @@ Technique CandidateOptions::technique_or(Technique otherwise) const {
   return *found;
 }
 
-model::Wish CandidateOptions::wish(Technique chosen) const {
+model::FixedParameters CandidateOptions::fixed_parameters(Technique chosen) const {
   const auto require_known = [&](std::string_view parameter) {
     if (find_parameter(chosen, parameter) == nullptr)
       throw std::invalid_argument(fmt::format("--{} is no parameter of {}", parameter, detp::name(chosen)));
   };
-  model::Wish wish;
+  model::FixedParameters fixed;
   for (const auto& [parameter, value] : given_) {
     require_known(parameter);
-    wish.given.emplace_back(parameter, value);
+    fixed.values.emplace_back(parameter, value);
   }
   if (stop) require_known(spheres_option);
-  return wish;
+  return fixed;
 }
 
 Json to_json(const Candidate& candidate) {

@@ -55,7 +55,7 @@ class CandidateOptions {
   [[nodiscard]] Technique technique_or(Technique otherwise) const;
 
   /// The technique's parameters that are set. Throws std::invalid_argument for a parameter that it does not have.
-  [[nodiscard]] model::Wish wish(Technique technique) const;
+  [[nodiscard]] model::FixedParameters fixed_parameters(Technique technique) const;
 
   /// The value of a parameter of that type, if it is set.
   template <class T>

@@ -28,7 +28,7 @@ VectorXd joint_fit(const MatrixXd& a, const VectorXd& b, const std::vector<Index
 
 /// Moves from x towards the joint fit of the free unknowns. An unknown that becomes 0 on the way stays 0 and is no
 /// longer free.
-void go_to_joint_fit(const MatrixXd& a, const VectorXd& b, Fit& fit) {
+void move_to_joint_fit(const MatrixXd& a, const VectorXd& b, Fit& fit) {
   for (;;) {
     const VectorXd goal = joint_fit(a, b, fit.free);
     auto first = fit.free.end();  // the first to become 0
@@ -62,7 +62,7 @@ VectorXd fit_unit_columns(const MatrixXd& a, const VectorXd& b) {
     if (!(gain.maxCoeff(&entering) > tolerance)) return best.x;
     Fit next = best;
     next.free.push_back(entering);
-    go_to_joint_fit(a, b, next);
+    move_to_joint_fit(a, b, next);
     const double next_error = (b - a * next.x).norm();
     if (!(next_error < error)) return best.x;  // each step lowers the error, except for rounding
     error = next_error;

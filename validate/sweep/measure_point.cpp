@@ -52,7 +52,7 @@ class Rows {
     rows_.push_back(row_);
   }
 
-  [[nodiscard]] std::vector<Deviation> give() && { return std::move(rows_); }
+  [[nodiscard]] std::vector<Deviation> deviations() && { return std::move(rows_); }
 
  private:
   Deviation row_;
@@ -139,7 +139,7 @@ std::vector<Deviation> compare(const SweepPoint& point, const Workload& workload
   compare_counts(rows, Form::corrected, model::predict(workload, candidate, Engine::plain), observed.counts);
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters))
     compare_spheres(rows, workload, *cache, observed);
-  return std::move(rows).give();
+  return std::move(rows).deviations();
 }
 
 /// Runs all candidates on one set. Returns false if a stop was requested.

@@ -51,9 +51,9 @@ std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, cons
 }
 
 /// Collects the measurements of all threads.
-class Collector {
+class MeasurementCollector {
  public:
-  Collector(std::span<const SweepPoint> points, const SweepOptions& options)
+  MeasurementCollector(std::span<const SweepPoint> points, const SweepOptions& options)
       : points_(points), options_(options), checkpoint_(checkpoint_of(points, options, {})) {
     double work = 0;
     for (const SweepPoint& point : points) {
@@ -67,13 +67,13 @@ class Collector {
   }
 
   /// The next point to measure, largest first; null if none is left or a stop was requested.
-  [[nodiscard]] const SweepPoint* take() {
+  [[nodiscard]] const SweepPoint* next_point() {
     const std::scoped_lock lock(mutex_);
     while (next_ < points_.size() && measured_.contains(points_[next_].name())) ++next_;
     return next_ < points_.size() && !options_.stop.stop_requested() ? &points_[next_++] : nullptr;
   }
 
-  void put(const SweepPoint& point, std::vector<Deviation> deviations) {
+  void add(const SweepPoint& point, std::vector<Deviation> deviations) {
     const std::scoped_lock lock(mutex_);
     if (checkpoint_) checkpoint_->add(point.name(), deviations);
     measured_[point.name()] = std::move(deviations);
@@ -103,11 +103,11 @@ void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& op
 }
 
 SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options) {
-  Collector collector(points, options);
+  MeasurementCollector collector(points, options);
   tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
-    while (const SweepPoint* point = collector.take()) {
+    while (const SweepPoint* point = collector.next_point()) {
       auto deviations = measure_point(*point, options.seed, options.stop);
-      if (!deviations.empty()) collector.put(*point, std::move(deviations));
+      if (!deviations.empty()) collector.add(*point, std::move(deviations));
     }
   });
   return std::move(collector).finish();

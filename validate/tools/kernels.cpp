@@ -57,14 +57,14 @@ class Scene {
         frame_(problem_),
         tree_(stream::make_disc_tree(problem_, frame_, {8, 4})),
         hits_(discs_.size()) {
-    lists_ = {room(rays_.size()), room(rays_.size()), room(rays_.size())};
+    lists_ = {make_list(rays_.size()), make_list(rays_.size()), make_list(rays_.size())};
     load_rays(rays_, frame_, lists_);
   }
 
   /// A list of `size` rays of class 0 in the order in which they were loaded; starts again from the first if there are
   /// too few.
   stream::RayList list(std::size_t size, bool segments) {
-    stream::RayList list = memory_.take(size, segments);
+    stream::RayList list = memory_.allocate(size, segments);
     list.size = size;
     for (std::size_t i = 0; i < size; ++i) {
       const std::size_t j = i % lists_[0].size;
@@ -80,7 +80,7 @@ class Scene {
     return list;
   }
 
-  stream::RayList room(std::size_t size) { return memory_.take(size, true); }
+  stream::RayList make_list(std::size_t size) { return memory_.allocate(size, true); }
 
   stream::BlockSearch search(bool segments) {
     return {.problem = problem_,
@@ -187,7 +187,7 @@ double best_packing(int count, std::size_t size, double share) {
 void add_cull(const std::string& name, bool segments, const Level& level, double share, double flops, Scene& scene,
               const Cull& cull) {
   const stream::RayList list = scene.list(level.rays, segments);
-  stream::RayList inside = scene.room(level.rays);
+  stream::RayList inside = scene.make_list(level.rays);
   // Shares are measured on a list of medium length; any part of the rays would do.
   stream::RayList sample = list;
   sample.size = std::min<std::size_t>(list.size, 12'288);
@@ -260,7 +260,7 @@ void add_disc_tests(Scene& scene, bool segments, const Level& level, std::uint32
 }
 
 void add_loading(Scene& scene, bool segments, std::size_t size) {
-  const stream::RayLists lists{scene.room(size), scene.room(size), scene.room(size)};
+  const stream::RayLists lists{scene.make_list(size), scene.make_list(size), scene.make_list(size)};
   const auto rays = static_cast<double>(size);
   const Work work{.tests = rays,
                   .flops = load_flops * rays,

@@ -30,10 +30,10 @@ class ListedShare {
   /// Counts over about `builds` builds of the walk, with `lines` lines each.
   void walk(const Points& samples, double builds, int lines) {
     const double share = std::min(1.0, builds / moves(samples, balls_).back());
-    Nest nest(balls_);
+    NestedBalls nest(balls_);
     for (std::size_t n = 0; n < samples.size(); ++n) {
       if (nest.visit(samples[n]) == balls_.size()) continue;
-      if (sim::uniform4(1, sim::Stream::tests, n)[0] < share) lay_lines(nest, lines);
+      if (sim::uniform4(1, sim::Stream::tests, n)[0] < share) place_lines(nest, lines);
     }
   }
 
@@ -46,7 +46,7 @@ class ListedShare {
     return glm::dot(w, w) - along * along <= radius * radius;
   }
 
-  void lay_lines(const Nest& nest, int lines) {
+  void place_lines(const NestedBalls& nest, int lines) {
     static const std::vector<sim::Ray> pool = sim::LineField({}, 1).lines(0, 65536);
     for (int n = 0; n < lines; ++n) {
       const sim::Ray& line = pool[next_++ % pool.size()];

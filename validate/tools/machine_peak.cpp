@@ -115,7 +115,7 @@ HWY_EXPORT(Instructions);
 namespace {
 
 /// About the number of floats that a loop processes in one measurement, which takes a few milliseconds.
-constexpr std::size_t enough = std::size_t{1} << 24;
+constexpr std::size_t floats_moved = std::size_t{1} << 24;
 
 /// Multiply-adds in one iteration of MultiplyAndAdd.
 constexpr std::size_t chains = 14;
@@ -154,14 +154,15 @@ double load_bandwidth(std::size_t bytes) {
   const std::size_t size = bytes / sizeof(float);
   const auto from = ones(size);
   volatile float kept = 0;
-  const double seconds = least_time(1 + enough / size, [&] { kept = HWY_DYNAMIC_DISPATCH(LoadAll)(from.get(), size); });
+  const double seconds =
+      least_time(1 + floats_moved / size, [&] { kept = HWY_DYNAMIC_DISPATCH(LoadAll)(from.get(), size); });
   return static_cast<double>(bytes) / seconds;
 }
 
 double store_bandwidth(std::size_t bytes) {
   const std::size_t size = bytes / sizeof(float);
   const auto to = ones(size);
-  const double seconds = least_time(1 + enough / size, [&] { HWY_DYNAMIC_DISPATCH(StoreAll)(to.get(), size); });
+  const double seconds = least_time(1 + floats_moved / size, [&] { HWY_DYNAMIC_DISPATCH(StoreAll)(to.get(), size); });
   return static_cast<double>(bytes) / seconds;
 }
 
@@ -176,7 +177,7 @@ double packing_time(Packing packing, int arrays, std::size_t size, double share)
     if (static_cast<double>(draw()) < share * 0x1p32)
       bits[lane / vector_length() * 8 + lane % vector_length() / 8] |= static_cast<std::uint8_t>(1U << lane % 8);
   volatile std::size_t kept = 0;
-  const double seconds = least_time(1 + enough / 8 / size, [&] {
+  const double seconds = least_time(1 + floats_moved / 8 / size, [&] {
     kept = HWY_DYNAMIC_DISPATCH(Pack)(packing, arrays, from.get(), to.get(), size, stride, bits.data());
   });
   return seconds / static_cast<double>(vectors);

@@ -64,7 +64,7 @@ std::vector<Points> sets_of(int dimension, std::size_t samples, std::size_t in_a
 
 /// ln(m/n) of a ball alone. The ball is at most 1/8 of the cube's side, so that the cube's faces matter little, and
 /// there are at least 2²⁰ samples.
-class Single {
+class SingleBall {
  public:
   double log_share(int dimension, int row, int phase) {
     const double halvings_to_row = std::log2(std::pow(side, dimension) / extent_of(dimension));
@@ -83,7 +83,7 @@ class Single {
 };
 
 void print_single() {
-  Single single;
+  SingleBall single;
   for (const int dimension : {2, 3})
     for (int row = -9; row <= 13; ++row) {
       for (int phase = 0; phase < phases; ++phase) fmt::print("{:.4f},", single.log_share(dimension, row, phase));

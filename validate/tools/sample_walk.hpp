@@ -30,9 +30,9 @@ inline Points sorted_samples(int dimension, std::size_t count, std::uint64_t see
 
 /// Balls nested around the samples, the outermost first. Each keeps its place while it and all balls around it contain
 /// the next samples.
-class Nest {
+class NestedBalls {
  public:
-  explicit Nest(const std::vector<double>& radii) : centres_(radii.size()) {
+  explicit NestedBalls(const std::vector<double>& radii) : centres_(radii.size()) {
     for (const double radius : radii) squares_.push_back(radius * radius);
   }
 
@@ -61,7 +61,7 @@ class Nest {
 
 /// Number of moves of each ball of a nest.
 inline std::vector<double> moves(const Points& walk, const std::vector<double>& radii) {
-  Nest nest(radii);
+  NestedBalls nest(radii);
   std::vector<double> first(radii.size() + 1);
   for (const glm::dvec3& sample : walk) ++first[nest.visit(sample)];
   for (std::size_t i = 1; i < radii.size(); ++i) first[i] += first[i - 1];

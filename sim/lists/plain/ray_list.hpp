@@ -47,7 +47,7 @@ template <bool counting>
 void test_disc(const RayList& rays, const Disc& disc, std::uint32_t index, HitCollector& collector,
                Tally<counting>& tally, StopCheck& check) {
   for_each_checked(std::span(rays), check, [&](const ListedRay& listed) {
-    if (collector.decide(listed.ray, disc)) collector.keep(listed.index, index);
+    if (collector.is_hit(listed.ray, disc)) collector.add_hit(listed.index, index);
   });
   tally.add(&Counts<std::uint64_t>::disc_tests, rays.size());
 }

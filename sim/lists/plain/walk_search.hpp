@@ -28,9 +28,9 @@ void search_along_counting(ListWalk& walk, const Problem& problem, std::span<con
   std::vector<SphereCounts>& events = outcome.spheres;
   if constexpr (counting) events.assign(lists.size() - 1, {});
   lists[0] = list_of(problem.rays, options.memory);
-  collector.take_discs();
+  collector.save_totals();
   std::size_t done = 0;
-  const auto take = [&](std::uint32_t d) {
+  const auto process_disc = [&](std::uint32_t d) {
     const Disc disc = problem.discs[d];
     for (int level = walk.enter(disc); level <= walk.innermost(); ++level) {
       const auto i = static_cast<std::size_t>(level);
@@ -47,7 +47,7 @@ void search_along_counting(ListWalk& walk, const Problem& problem, std::span<con
     test_disc(lists[static_cast<std::size_t>(walk.innermost())], disc, d, collector, tally, check);
   };
   try {
-    for (; done < order.size(); ++done) take(order[done]);
+    for (; done < order.size(); ++done) process_disc(order[done]);
   } catch (const Stopped&) {  // the unfinished disc is left out
   }
   outcome.counts = tally.counts();
@@ -55,9 +55,9 @@ void search_along_counting(ListWalk& walk, const Problem& problem, std::span<con
     add_spheres(events, outcome.counts);
   }
   if (done < order.size())
-    collector.give_discs(order.first(done));
+    collector.store_partial_results(order.first(done));
   else
-    collector.give(problem.rays.size());
+    collector.store_results(problem.rays.size());
 }
 
 inline void search_along(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,

@@ -7,7 +7,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/run_memory.hpp"
-#include "gathering.hpp"
+#include "disc_results.hpp"
 #include "list_search.hpp"
 #include "ray_blocks.hpp"
 #include "search.hpp"
@@ -49,15 +49,15 @@ class FloatBruteForce final : public Index {
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    need_memory(what, all_bytes(size_of(problem, options)), problem, outcome);
+    add_checked_bytes(what, all_bytes(size_of(problem, options)), problem, outcome);
     on_threads(thread_count(options.threads), [&] {
       tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(options.memory, options.stop); });
-      Gathering gathering(problem, discs_, options, outcome);
+      DiscResults results(problem, discs_, options, outcome);
       for_each_block(problem, frame_, options, [&](const Block& rays) {
-        test_block(gathering.begin(frame_, rays.first(), rays.traits()), rays, workers);
-        gathering.end(rays, workers);
+        test_block(results.begin(frame_, rays.first(), rays.traits()), rays, workers);
+        results.end(rays, workers);
       });
-      gathering.give(workers);
+      results.store_results(workers);
     });
   }
 

@@ -251,17 +251,18 @@ DiscRun discs_below(const DiscTree& tree, const TreeNode& node) {
 namespace {
 
 /// Runs on the threads of the caller's arena.
-DiscTree put_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
-                      const std::stop_token& stop) {
+DiscTree tree_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
+                       const std::stop_token& stop) {
   constexpr std::size_t grain = 4096;
-  constexpr std::size_t ahead = 32;  // number of discs to prefetch
+  constexpr std::size_t prefetch_distance = 32;  // number of discs to prefetch
   DiscTree tree;
   tree.order = std::move(order);
   tree.discs.resize(tree.order.size());
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.order.size(), grain), [&](const auto& range) {
     StopCheck check(stop, "putting discs in order");
     for_each_checked(range.begin(), range.end(), check, [&](std::size_t place) {
-      if (place + ahead < tree.order.size()) hwy::Prefetch(&problem.discs[tree.order[place + ahead]]);
+      if (place + prefetch_distance < tree.order.size())
+        hwy::Prefetch(&problem.discs[tree.order[place + prefetch_distance]]);
       tree.discs[place] = to_float(problem.discs[tree.order[place]], frame);
     });
     check.now();
@@ -275,7 +276,7 @@ DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<
                         const RunOptions& options) {
   DiscTree tree;
   on_threads(thread_count(options.threads),
-             [&] { tree = put_in_order(problem, frame, std::move(order), options.stop); });
+             [&] { tree = tree_in_order(problem, frame, std::move(order), options.stop); });
   return tree;
 }
 
@@ -295,7 +296,7 @@ DiscTree make_disc_tree(const Problem& problem, const Frame& frame, const BoxTre
     std::vector<std::uint32_t> order;
     order.reserve(places.size());
     for (const CurvePlace place : places) order.push_back(place_index(place));
-    tree = put_in_order(problem, frame, std::move(order), options.stop);
+    tree = tree_in_order(problem, frame, std::move(order), options.stop);
     Builder(problem, frame, places, tree, parameters, options.stop).build();
   });
   return tree;

@@ -34,7 +34,7 @@ struct DiscTree {
   std::vector<std::uint32_t> order;  ///< their numbers in the problem
   std::size_t binary_nodes = 0;      ///< number of nodes of the binary tree from which it was made
   /// expected sizes of the lists: a line meets a box with a probability of the box's surface over that of S₀
-  ListRoom lists;
+  ListCapacity lists;
 };
 
 inline constexpr double binary_node_bytes = 40;

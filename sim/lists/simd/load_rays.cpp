@@ -119,17 +119,17 @@ HWY_INLINE void load_fields(const Ray* rays, Doubles* fields) {
 }
 #endif
 
-constexpr std::size_t ahead = 64;  ///< number of rays to prefetch
+constexpr std::size_t prefetch_distance = 64;  ///< number of rays to prefetch
 
 /// Properties that all rays so far have in common.
-struct Seen {
+struct RayProperties {
   Mask bounded;
   Mask other_power;
 };
 
 /// Loads one vector of rays, of which the first `count` are valid.
 HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t number, const Frame& frame, Doubles power,
-                          RayLists& lists, Seen& seen) {
+                          RayLists& lists, RayProperties& properties) {
   const DoubleLanes lanes;
   const WordLanes words;
   Doubles fields[doubles_in_ray];
@@ -182,8 +182,8 @@ HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t numb
   lines.append(second, lists[1]);
   lines.append(hn::Not(hn::Or(first, second)), lists[2]);
 
-  seen.bounded = hn::Or(seen.bounded, hn::And(there, bounded));
-  seen.other_power = hn::Or(seen.other_power, hn::And(there, hn::Ne(fields[power_at], power)));
+  properties.bounded = hn::Or(properties.bounded, hn::And(there, bounded));
+  properties.other_power = hn::Or(properties.other_power, hn::And(there, hn::Ne(fields[power_at], power)));
 }
 
 RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& filled) {
@@ -194,21 +194,22 @@ RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& fill
   const DoubleLanes lanes;
   const std::size_t step = hn::Lanes(lanes);
   const Doubles power = hn::Set(lanes, rays.front().power);
-  Seen seen{hn::FirstN(lanes, 0), hn::FirstN(lanes, 0)};
+  RayProperties properties{hn::FirstN(lanes, 0), hn::FirstN(lanes, 0)};
   std::size_t i = 0;
   for (; i + step <= rays.size(); i += step) {
     // Prefetches for blocks that come from memory. (Prefetching did not help if they are in the third-level cache.)
-    for (std::size_t j = i + ahead; j < HWY_MIN(i + ahead + step, rays.size()); ++j) hwy::Prefetch(&rays[j]);
-    load_some(&rays[i], step, static_cast<std::uint32_t>(i), frame, power, lists, seen);
+    for (std::size_t j = i + prefetch_distance; j < HWY_MIN(i + prefetch_distance + step, rays.size()); ++j)
+      hwy::Prefetch(&rays[j]);
+    load_some(&rays[i], step, static_cast<std::uint32_t>(i), frame, power, lists, properties);
   }
   if (i < rays.size()) {
     Ray last[8];
     std::copy(rays.begin() + static_cast<std::ptrdiff_t>(i), rays.end(), last);
-    load_some(last, rays.size() - i, static_cast<std::uint32_t>(i), frame, power, lists, seen);
+    load_some(last, rays.size() - i, static_cast<std::uint32_t>(i), frame, power, lists, properties);
   }
   filled = lists;
-  const bool same = hn::AllFalse(lanes, seen.other_power);
-  return {!hn::AllFalse(lanes, seen.bounded), same ? std::optional(rays.front().power) : std::nullopt};
+  const bool same = hn::AllFalse(lanes, properties.other_power);
+  return {!hn::AllFalse(lanes, properties.bounded), same ? std::optional(rays.front().power) : std::nullopt};
 }
 
 }  // namespace HWY_NAMESPACE

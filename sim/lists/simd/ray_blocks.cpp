@@ -11,7 +11,7 @@ void Block::load(const Problem& problem, const Frame& frame, std::size_t first, 
   const auto rays = problem.rays.subspan(first, std::min(size, problem.rays.size() - first));
   arena_.release({});
   capacity_ = std::max(capacity_, rays.size());
-  for (RayList& list : lists_) list = arena_.take(capacity_, true);
+  for (RayList& list : lists_) list = arena_.allocate(capacity_, true);
   size_ = rays.size();
   traits_ = load_rays(rays, frame, lists_);
 }

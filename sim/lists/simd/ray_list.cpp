@@ -17,9 +17,9 @@ std::size_t stride_for(std::size_t capacity) {
 
 }  // namespace
 
-RayList ListArena::take(std::size_t capacity, bool segments) {
+RayList ListArena::allocate(std::size_t capacity, bool segments) {
   const std::size_t stride = stride_for(capacity);
-  float* const start = take_floats(stride * (segments ? 7 : 5));
+  float* const start = allocate_floats(stride * (segments ? 7 : 5));
   RayList list{.a = start, .b = start + stride, .p = start + 2 * stride, .q = start + 3 * stride};
   list.id = reinterpret_cast<std::uint32_t*>(start + 4 * stride);
   if (segments) {
@@ -29,7 +29,7 @@ RayList ListArena::take(std::size_t capacity, bool segments) {
   return list;
 }
 
-float* ListArena::take_floats(std::size_t count) {
+float* ListArena::allocate_floats(std::size_t count) {
   constexpr std::size_t least = std::size_t{1} << 14;
   while (chunk_ < chunks_.size() && used_ + count > chunks_[chunk_].size) {
     ++chunk_;
@@ -41,7 +41,7 @@ float* ListArena::take_floats(std::size_t count) {
     require_memory("a thread's lists of rays", bytes_);
     std::pmr::memory_resource* const memory = chunks_.get_allocator().resource();
     void* const start = memory->allocate(size * sizeof(float), alignment);
-    chunks_.push_back({{static_cast<float*>(start), Return{memory, size}}, size});
+    chunks_.push_back({{static_cast<float*>(start), Deallocate{memory, size}}, size});
   }
   float* const taken = chunks_[chunk_].start.get() + used_;
   used_ += count;

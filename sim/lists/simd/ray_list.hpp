@@ -37,7 +37,7 @@ inline constexpr std::uint32_t falling = 1U << 31;
 
 /// Expected sizes of nested lists, relative to the list of all rays. Each list has room for all rays of the one around
 /// it.
-struct ListRoom {
+struct ListCapacity {
   double first = 0;  ///< the outermost list, touched only as far as it is filled
   double all = 0;    ///< the outermost list, and the whole of the others
 };
@@ -56,11 +56,11 @@ class ListArena {
       : expected_(expected), chunks_(memory) {}
 
   /// A list with room for `capacity` rays.
-  [[nodiscard]] RayList take(std::size_t capacity, bool segments);
+  [[nodiscard]] RayList allocate(std::size_t capacity, bool segments);
 
   /// Lists with room for as many rays as `lists` has.
-  [[nodiscard]] RayLists take_like(const RayLists& lists, bool segments) {
-    return {take(lists[0].size, segments), take(lists[1].size, segments), take(lists[2].size, segments)};
+  [[nodiscard]] RayLists allocate_like(const RayLists& lists, bool segments) {
+    return {allocate(lists[0].size, segments), allocate(lists[1].size, segments), allocate(lists[2].size, segments)};
   }
 
   struct Mark {
@@ -76,10 +76,10 @@ class ListArena {
   }
 
  private:
-  float* take_floats(std::size_t count);
+  float* allocate_floats(std::size_t count);
 
   /// Returns floats to the memory that they come from.
-  struct Return {
+  struct Deallocate {
     std::pmr::memory_resource* memory;
     std::size_t count;
     void operator()(float* start) const { memory->deallocate(start, count * sizeof(float), alignment); }
@@ -87,7 +87,7 @@ class ListArena {
   static constexpr std::size_t alignment = 64;  ///< bytes in a cache line
 
   struct Chunk {
-    std::unique_ptr<float, Return> start;
+    std::unique_ptr<float, Deallocate> start;
     std::size_t size;
   };
   std::size_t expected_;

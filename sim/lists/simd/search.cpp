@@ -7,7 +7,7 @@
 
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/run_memory.hpp"
-#include "gathering.hpp"
+#include "disc_results.hpp"
 #include "ray_blocks.hpp"
 #include "tree_search.hpp"
 
@@ -30,7 +30,7 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
       if (worker.check.requested_after(test_work(size(lists))))
         return worker.skipped.push_back(discs_below(block.tree, next));
       const ArenaScope scope(worker.lists);
-      RayLists inside = worker.lists.take_like(lists, block.segments);
+      RayLists inside = worker.lists.allocate_like(lists, block.segments);
       cull_node(block, next, lists, inside, worker);
       if (size(inside) > 0) divide(block, next, inside, workers);
     });
@@ -41,21 +41,21 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
 
 bool can_search(const Problem& problem) { return Frame(problem).slack <= 0.01; }
 
-void search_boxes(const Searched& searched, int fan_out, const RunOptions& options, Outcome& outcome) {
-  const Problem& problem = searched.problem;
-  const Frame& frame = searched.frame;
-  const DiscTree& tree = searched.tree;
+void search_boxes(const SearchInput& input, int fan_out, const RunOptions& options, Outcome& outcome) {
+  const Problem& problem = input.problem;
+  const Frame& frame = input.frame;
+  const DiscTree& tree = input.tree;
   const SearchSize size = size_of(problem, options);
   const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
-  need_memory("the tree of boxes and its lists of rays", boxes_bytes(size, fan_out, made), problem, outcome);
+  add_checked_bytes("the tree of boxes and its lists of rays", boxes_bytes(size, fan_out, made), problem, outcome);
   on_threads(thread_count(options.threads), [&] {
     Workers workers([&] { return Worker(options.memory, options.stop, list_floats(size, tree.lists)); });
-    Gathering gathering(problem, tree, options, outcome);
+    DiscResults results(problem, tree, options, outcome);
     for_each_block(problem, frame, options, [&](const Block& block) {
-      divide(gathering.begin(frame, block.first(), block.traits()), tree.nodes.front(), block.lists(), workers);
-      gathering.end(block, workers);
+      divide(results.begin(frame, block.first(), block.traits()), tree.nodes.front(), block.lists(), workers);
+      results.end(block, workers);
     });
-    gathering.give(workers);
+    results.store_results(workers);
   });
 }
 

@@ -29,7 +29,7 @@ struct SearchSize {
 struct TreeSize {
   double binary_nodes = 0;
   double nodes = 0;
-  ListRoom lists = {};
+  ListCapacity lists = {};
 };
 
 /// The expected tree for `discs` discs: leaves are half full, and their parents halve the cells that they are in. If
@@ -50,13 +50,13 @@ struct TreeSize {
 [[nodiscard]] double all_bytes(const SearchSize& size);
 
 /// Predicted peak bytes of search_walk, in addition to rays, discs and pairs, and including sorting before it.
-[[nodiscard]] double walk_bytes(const SearchSize& size, const ListRoom& lists);
+[[nodiscard]] double walk_bytes(const SearchSize& size, const ListCapacity& lists);
 
 /// Floats in the nested lists of one thread, touched or not.
-[[nodiscard]] std::size_t list_floats(const SearchSize& size, const ListRoom& lists);
+[[nodiscard]] std::size_t list_floats(const SearchSize& size, const ListCapacity& lists);
 
 /// The input of a search: a problem's rays, and its discs in an order or in a tree.
-struct Searched {
+struct SearchInput {
   const Problem& problem;
   const Frame& frame;
   const DiscTree& tree;
@@ -66,6 +66,6 @@ struct Searched {
 [[nodiscard]] std::unique_ptr<Index> prepare_all(const Problem& problem, const RunOptions& options);
 
 /// Finds the hits of all rays, by culling lists down a tree of boxes. Same bytes for any number of threads.
-void search_boxes(const Searched& searched, int fan_out, const RunOptions& options, Outcome& outcome);
+void search_boxes(const SearchInput& input, int fan_out, const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim::stream

@@ -21,16 +21,16 @@ double block_bytes(const SearchSize& size) {
 }
 
 /// Floats of a ray in a list inside the block's.
-double floats_a_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
+double floats_per_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
 
 /// Bytes of the nested lists of one thread. If the last block is smaller, its lists use pages that earlier lists left
 /// untouched.
-double list_bytes(const SearchSize& size, const ListRoom& lists) {
+double list_bytes(const SearchSize& size, const ListCapacity& lists) {
   const auto last = static_cast<double>(size.rays % rays_in_block(size.discs));
   const double rays = rays_at_once(size);
   const double unfilled = std::max(0.0, 1 - lists.first) * rays;
   const double beside = last < rays ? std::min(unfilled, (1 + lists.all) * last) : 0;
-  return sizeof(float) * floats_a_ray(size) * (rays * lists.all + beside);
+  return sizeof(float) * floats_per_ray(size) * (rays * lists.all + beside);
 }
 
 /// The larger of two peaks: during the search, and after it, when blocks have been freed for the outcome.
@@ -53,13 +53,13 @@ SearchSize size_of(const Problem& problem, const RunOptions& options) {
           .own_totals = options.totals == nullptr};
 }
 
-std::size_t list_floats(const SearchSize& size, const ListRoom& lists) {
-  return static_cast<std::size_t>(floats_a_ray(size) * rays_at_once(size) * (1 + lists.all));
+std::size_t list_floats(const SearchSize& size, const ListCapacity& lists) {
+  return static_cast<std::size_t>(floats_per_ray(size) * rays_at_once(size) * (1 + lists.all));
 }
 
 double all_bytes(const SearchSize& size) { return searching_bytes(size, 0, 0); }
 
-double walk_bytes(const SearchSize& size, const ListRoom& lists) {
+double walk_bytes(const SearchSize& size, const ListCapacity& lists) {
   return std::max(sorting_bytes(size.discs), searching_bytes(size, 0, list_bytes(size, lists)));
 }
 

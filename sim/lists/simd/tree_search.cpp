@@ -44,7 +44,7 @@ template <bool segments, bool counting_only>
 void visit(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker) {
   if (node.leaf) return visit_leaf<segments, counting_only>(block, node, lists, worker);
   const ArenaScope scope(worker.lists);
-  RayLists inside = worker.lists.take_like(lists, segments);
+  RayLists inside = worker.lists.allocate_like(lists, segments);
   for (std::uint32_t child = node.first; child < node.first + node.count; ++child) {
     const TreeNode& next = block.tree.nodes[child];
     if (worker.check.requested_after(test_work(size(lists)))) {

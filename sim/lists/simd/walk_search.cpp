@@ -5,7 +5,7 @@
 #include <array>
 
 #include "detp/sim/base/threads.hpp"
-#include "gathering.hpp"
+#include "disc_results.hpp"
 #include "list_search.hpp"
 #include "ray_blocks.hpp"
 #include "search.hpp"
@@ -60,7 +60,7 @@ class ClassWalk {
     built_ = level + 1;
     marks_[level] = worker_.lists.mark();
     const RayList& around = lists_[level - 1];
-    lists_[level] = worker_.lists.take(around.size, block_.segments);
+    lists_[level] = worker_.lists.allocate(around.size, block_.segments);
     cull_sphere(block_, k_, block_.frame(walk_.sphere(static_cast<int>(level))), around, lists_[level], worker_);
     worker_.counts.culls += k_ == 0 ? 1 : 0;
     worker_.counts.cull_tests += around.size;
@@ -92,28 +92,28 @@ void add(std::span<const SphereCounts> events, std::vector<SphereCounts>& sum) {
 
 }  // namespace
 
-void search_walk(const Searched& searched, const MakeWalk& make_walk, const ListRoom& room, const RunOptions& options,
-                 Outcome& outcome) {
-  const Problem& problem = searched.problem;
-  const Frame& frame = searched.frame;
-  const DiscTree& discs = searched.tree;
+void search_walk(const SearchInput& input, const MakeWalk& make_walk, const ListCapacity& room,
+                 const RunOptions& options, Outcome& outcome) {
+  const Problem& problem = input.problem;
+  const Frame& frame = input.frame;
+  const DiscTree& discs = input.tree;
   const std::size_t floats = list_floats(size_of(problem, options), room);
   const auto worker = [&] { return Worker(options.memory, options.stop, floats); };
   std::array workers{worker(), worker(), worker()};
   using Events = std::pmr::vector<SphereCounts>;
   std::array events{Events(options.memory), Events(options.memory), Events(options.memory)};
   on_threads(thread_count(options.threads), [&] {
-    Gathering gathering(problem, discs, options, outcome);
+    DiscResults results(problem, discs, options, outcome);
     for_each_block(problem, frame, options, [&](const Block& rays) {
-      const BlockSearch block = gathering.begin(frame, rays.first(), rays.traits());
+      const BlockSearch block = results.begin(frame, rays.first(), rays.traits());
       tbb::parallel_for(0, classes, [&](int k) {
         const auto i = static_cast<std::size_t>(k);
         const OwnedIn<ListWalk> walk = make_walk(*options.memory);
         ClassWalk(block, k, rays.lists()[i], *walk, workers[i], events[i]).run();
       });
-      gathering.end(rays, workers);
+      results.end(rays, workers);
     });
-    gathering.give(workers);
+    results.store_results(workers);
   });
   if (!options.count) return;
   for (const Events& of_class : events) add(of_class, outcome.spheres);

@@ -11,7 +11,7 @@ namespace detp::sim::stream {
 /// Each class of rays is a separate walk, block after block, so at most as many threads as classes are used. Counts are
 /// those of one walk over all rays, except for rays that pass a sphere by less than the margin, and segments that end
 /// before they reach a sphere (kernels-inl.hpp). `room` is the expected size of their lists.
-void search_walk(const Searched& searched, const MakeWalk& make_walk, const ListRoom& room, const RunOptions& options,
-                 Outcome& outcome);
+void search_walk(const SearchInput& input, const MakeWalk& make_walk, const ListCapacity& room,
+                 const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim::stream

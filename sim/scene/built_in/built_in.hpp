@@ -11,25 +11,25 @@
 namespace detp::sim::built_in {
 
 /// A mesh and its light.
-struct Setting {
+struct LitMesh {
   Mesh mesh;
   Light light;
 };
 
 /// A broad tree on uneven ground: 72 500 triangles, edges 1 % of the scene's length on the tree, 2 % on the ground, as
 /// in the paper's first scene. An area light as wide as the ground hangs over the tree.
-[[nodiscard]] Setting tree();
+[[nodiscard]] LitMesh tree();
 
 /// A conifer on hilly ground: 18 000 triangles, with edges about twice as long as those of tree(). Lit like tree().
-[[nodiscard]] Setting tree_coarse();
+[[nodiscard]] LitMesh tree_coarse();
 
 /// Two storeys of rooms behind arcades around an open court: about 120 000 triangles, mean edge 0.0133 of the scene's
 /// length, as in the paper's third scene. The sky is an area light as wide as the court, at the height of the roof's
 /// ridge.
-[[nodiscard]] Setting courtyard();
+[[nodiscard]] LitMesh courtyard();
 
 /// A box of side 1, open in front (+Z), with two blocks in it. An area light just under the ceiling shines down.
-[[nodiscard]] Setting cornell();
+[[nodiscard]] LitMesh cornell();
 
 /// `count` points uniform in the cube [-1, 1]³ with isotropic normals. Each is a function of the seed and its number.
 /// Throws Stopped if a stop was requested.

@@ -40,13 +40,13 @@ void add_room(Mesh& mesh) {
 
 }  // namespace
 
-Setting cornell() {
-  Setting setting;
-  add_room(setting.mesh);
-  add_block(setting.mesh, {.x = 0.34, .z = 0.36, .height = 0.6, .turn = 0.3});
-  add_block(setting.mesh, {.x = 0.66, .z = 0.68, .height = 0.3, .turn = -0.3});
-  setting.light = AreaLight{.corner = {0.38, 0.999, 0.4}, .edge_u = {0.24, 0, 0}, .edge_v = {0, 0, 0.2}};
-  return setting;
+LitMesh cornell() {
+  LitMesh lit_mesh;
+  add_room(lit_mesh.mesh);
+  add_block(lit_mesh.mesh, {.x = 0.34, .z = 0.36, .height = 0.6, .turn = 0.3});
+  add_block(lit_mesh.mesh, {.x = 0.66, .z = 0.68, .height = 0.3, .turn = -0.3});
+  lit_mesh.light = AreaLight{.corner = {0.38, 0.999, 0.4}, .edge_u = {0.24, 0, 0}, .edge_v = {0, 0, 0.2}};
+  return lit_mesh;
 }
 
 }  // namespace detp::sim::built_in

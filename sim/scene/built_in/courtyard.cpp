@@ -90,18 +90,18 @@ void add_roof(Mesh& mesh) {
 
 }  // namespace
 
-Setting courtyard() {
-  Setting setting;
-  Mesh& mesh = setting.mesh;
+LitMesh courtyard() {
+  LitMesh lit_mesh;
+  Mesh& mesh = lit_mesh.mesh;
   add_quad(mesh, {{{-court, 0, -court}, {-court, 0, court}, {court, 0, court}, {court, 0, -court}}}, cell_side);
   for (int level = 0; level < 2; ++level) {
     add_storey_slabs(mesh, level);
     for (const Side& side : sides) add_storey(mesh, side, level);
   }
   add_roof(mesh);
-  setting.light =
+  lit_mesh.light =
       AreaLight{.corner = {-court, ridge, -court}, .edge_u = {2 * court, 0, 0}, .edge_v = {0, 0, 2 * court}};
-  return setting;
+  return lit_mesh;
 }
 
 }  // namespace detp::sim::built_in

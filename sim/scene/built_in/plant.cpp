@@ -5,8 +5,8 @@
 #include <numbers>
 
 #include "detp/sim/geometry/directions.hpp"
-#include "dice.hpp"
 #include "mesh_pieces.hpp"
+#include "random_sequence.hpp"
 
 namespace detp::sim::built_in {
 namespace {
@@ -21,9 +21,9 @@ struct Shoot {
   double radius;
 };
 
-glm::dvec3 any_direction(Dice& dice) {
-  const double u = dice.between(0, 1);
-  return uniform_direction(u, dice.between(0, 1));
+glm::dvec3 any_direction(RandomSequence& random) {
+  const double u = random.between(0, 1);
+  return uniform_direction(u, random.between(0, 1));
 }
 
 /// Length L of the pieces of a tube whose edges have the mean length `edge`, if an edge around the tube has length a.
@@ -36,7 +36,7 @@ double piece_length(double edge, double around) {
 /// A limb's radius, relative to its foot; it decreases to 0.35 at the end.
 double taper(double share) { return 1 - 0.65 * share; }
 
-Limb grow_limb(const Shoot& shoot, double lift, double wobble, double edge, Dice& dice) {
+Limb grow_limb(const Shoot& shoot, double lift, double wobble, double edge, RandomSequence& random) {
   Limb limb;
   const double radius = shoot.radius * taper(0.5);
   limb.sides = std::max(3, static_cast<int>(std::lround(2 * std::numbers::pi * radius / edge)));
@@ -47,7 +47,7 @@ Limb grow_limb(const Shoot& shoot, double lift, double wobble, double edge, Dice
   for (int i = 0; i <= pieces; ++i) {
     limb.path.push_back(point);
     limb.radii.push_back(shoot.radius * taper(static_cast<double>(i) / pieces));
-    direction = glm::normalize(direction + lift / pieces * up + wobble * any_direction(dice));
+    direction = glm::normalize(direction + lift / pieces * up + wobble * any_direction(random));
     point += shoot.length / pieces * direction;
   }
   return limb;
@@ -58,7 +58,7 @@ double length_of(const Limb& limb) {
 }
 
 /// Shoot number i on a limb. Each shoot is turned from the previous one by the golden angle, as on most plants.
-Shoot shoot_of(const Limb& limb, const Generation& generation, int i, double first_turn, Dice& dice) {
+Shoot shoot_of(const Limb& limb, const Generation& generation, int i, double first_turn, RandomSequence& random) {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   const double order = generation.limbs == 1 ? 1.0 : static_cast<double>(i) / (generation.limbs - 1);
   const double share = generation.from + order * (generation.to - generation.from);
@@ -68,24 +68,25 @@ Shoot shoot_of(const Limb& limb, const Generation& generation, int i, double fir
   const glm::dvec3 piece = limb.path[before + 1] - limb.path[before];
   const glm::dvec3 axis = glm::normalize(piece);
   const auto [first, second] = basis_around(axis);
-  const double turn = first_turn + golden_angle * i + dice.between(-0.3, 0.3);
-  const double angle = generation.angle * dice.between(0.85, 1.15);
-  return {.foot = limb.path[before] + (place - static_cast<double>(before)) * piece,
-          .direction = std::cos(angle) * axis + std::sin(angle) * (std::cos(turn) * first + std::sin(turn) * second),
-          .length = length_of(limb) * generation.length * (1 - generation.shortening * order) * dice.between(0.8, 1.2),
-          .radius = limb.radii[before] * generation.thickness};
+  const double turn = first_turn + golden_angle * i + random.between(-0.3, 0.3);
+  const double angle = generation.angle * random.between(0.85, 1.15);
+  return {
+      .foot = limb.path[before] + (place - static_cast<double>(before)) * piece,
+      .direction = std::cos(angle) * axis + std::sin(angle) * (std::cos(turn) * first + std::sin(turn) * second),
+      .length = length_of(limb) * generation.length * (1 - generation.shortening * order) * random.between(0.8, 1.2),
+      .radius = limb.radii[before] * generation.thickness};
 }
 
 /// Adds a leaf on a twig: chooses its base, its direction and a tilted upward direction.
-void add_leaf(Mesh& mesh, const Limb& twig, const Foliage& foliage, Dice& dice) {
+void add_leaf(Mesh& mesh, const Limb& twig, const Foliage& foliage, RandomSequence& random) {
   const std::size_t last = twig.path.size() - 1;
-  const double place = dice.between(0.15, 1) * static_cast<double>(last);
+  const double place = random.between(0.15, 1) * static_cast<double>(last);
   const std::size_t before = std::min(static_cast<std::size_t>(place), last - 1);
   const glm::dvec3 piece = twig.path[before + 1] - twig.path[before];
   const glm::dvec3 base = twig.path[before] + (place - static_cast<double>(before)) * piece;
-  const glm::dvec3 along = glm::normalize(0.5 * glm::normalize(piece) + any_direction(dice) * glm::dvec3{1, 0.5, 1});
-  const glm::dvec3 across = glm::normalize(glm::cross(up + 0.6 * any_direction(dice), along));
-  const double size = dice.between(0.8, 1.2);
+  const glm::dvec3 along = glm::normalize(0.5 * glm::normalize(piece) + any_direction(random) * glm::dvec3{1, 0.5, 1});
+  const glm::dvec3 across = glm::normalize(glm::cross(up + 0.6 * any_direction(random), along));
+  const double size = random.between(0.8, 1.2);
   add_patch(mesh, {2, 1}, [&](double u, double v) {
     return base +
            size * (foliage.length * (u * along - foliage.droop * u * u * up) + foliage.width * (v - 0.5) * across);
@@ -95,16 +96,16 @@ void add_leaf(Mesh& mesh, const Limb& twig, const Foliage& foliage, Dice& dice) 
 }  // namespace
 
 std::vector<std::vector<Limb>> grow(const Plant& plant) {
-  Dice dice(plant.seed);
+  RandomSequence random(plant.seed);
   const Shoot trunk{.foot = plant.foot, .direction = up, .length = plant.height, .radius = plant.radius};
-  std::vector<std::vector<Limb>> limbs{{grow_limb(trunk, 0, 0.02, plant.edge, dice)}};
+  std::vector<std::vector<Limb>> limbs{{grow_limb(trunk, 0, 0.02, plant.edge, random)}};
   for (const Generation& generation : plant.generations) {
     std::vector<Limb> next;
     for (const Limb& limb : limbs.back()) {
-      const double first_turn = dice.between(0, 2 * std::numbers::pi);
+      const double first_turn = random.between(0, 2 * std::numbers::pi);
       for (int i = 0; i < generation.limbs; ++i)
-        next.push_back(grow_limb(shoot_of(limb, generation, i, first_turn, dice), generation.lift, generation.wobble,
-                                 plant.edge, dice));
+        next.push_back(grow_limb(shoot_of(limb, generation, i, first_turn, random), generation.lift, generation.wobble,
+                                 plant.edge, random));
     }
     limbs.push_back(std::move(next));
   }
@@ -117,8 +118,8 @@ void add_limbs(Mesh& mesh, const std::vector<Limb>& limbs) {
 }
 
 void add_foliage(Mesh& mesh, const std::vector<Limb>& twigs, const Foliage& foliage) {
-  Dice dice(foliage.seed);
-  for (std::size_t i = 0; i < foliage.leaves; ++i) add_leaf(mesh, twigs[i % twigs.size()], foliage, dice);
+  RandomSequence random(foliage.seed);
+  for (std::size_t i = 0; i < foliage.leaves; ++i) add_leaf(mesh, twigs[i % twigs.size()], foliage, random);
 }
 
 }  // namespace detp::sim::built_in

@@ -24,7 +24,7 @@ Mesh landscape(const Ground& ground, const Plant& plant, Foliage foliage, std::s
 
 }  // namespace
 
-Setting tree() {
+LitMesh tree() {
   const Ground ground{.side = 12, .cells = 57, .relief = 1, .hill_size = 3, .seed = 11};
   const Plant plant{.foot = {0, ground.height(0, 0) - 0.1, 0},
                     .height = 4,
@@ -62,7 +62,7 @@ Setting tree() {
   return {.mesh = landscape(ground, plant, foliage, 72'500), .light = light_over(ground, 9)};
 }
 
-Setting tree_coarse() {
+LitMesh tree_coarse() {
   const Ground ground{.side = 24, .cells = 28, .relief = 4, .hill_size = 7, .seed = 21};
   const Plant plant{.foot = {0, ground.height(0, 0) - 0.3, 0},
                     .height = 18,

@@ -16,7 +16,7 @@ constexpr std::size_t default_uniform_samples = 100'000;
 
 struct BuiltIn {
   std::string name;
-  built_in::Setting (*make)();  ///< null for samples without a mesh
+  built_in::LitMesh (*make)();  ///< null for samples without a mesh
 };
 
 const std::vector<BuiltIn>& built_ins() {
@@ -49,12 +49,12 @@ Box box_of(const Scene& scene) {
 }
 
 /// Adds the samples to a scene that already has its mesh and name.
-void put_samples(Scene& scene, const SceneRequest& request, const std::stop_token& stop) {
+void add_samples(Scene& scene, const SceneRequest& request, const std::stop_token& stop) {
   scene.samples = samples_at_vertices(scene.mesh, scene.notices, stop);
   if (scene.samples.empty())
     throw FileError(request.name, "no vertex has a normal; irradiance needs triangles with an area");
   const std::size_t wanted = request.samples.value_or(scene.samples.size());
-  if (wanted < scene.samples.size()) scene.samples = thinned(scene.samples, wanted, request.seed, stop);
+  if (wanted < scene.samples.size()) scene.samples = random_subset(scene.samples, wanted, request.seed, stop);
   if (wanted > scene.samples.size())
     add_by_area(scene.samples, scene.mesh, wanted - scene.samples.size(), request.seed, stop);
   if (scene.samples.size() < wanted)
@@ -78,10 +78,10 @@ Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
   if (known.make == nullptr) return uniform_scene(request, stop);
   Scene scene;
   scene.name = request.name;
-  built_in::Setting setting = known.make();
-  scene.mesh = std::move(setting.mesh);
-  scene.light = setting.light;
-  put_samples(scene, request, stop);
+  built_in::LitMesh lit_mesh = known.make();
+  scene.mesh = std::move(lit_mesh.mesh);
+  scene.light = lit_mesh.light;
+  add_samples(scene, request, stop);
   scene.box = box_of(scene);
   return scene;
 }
@@ -90,7 +90,7 @@ Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
   Scene scene;
   scene.name = request.name;
   scene.mesh = read_mesh(request.name, scene.notices, stop);
-  put_samples(scene, request, stop);
+  add_samples(scene, request, stop);
   scene.box = box_of(scene);
   if (scene.box.low != scene.box.high) scene.light = light_for(scene.mesh, scene.box, stop);
   return scene;

@@ -45,8 +45,8 @@ Sample sample_in(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle,
 
 }  // namespace
 
-std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t count, std::uint64_t seed,
-                            const std::stop_token& stop) {
+std::vector<Sample> random_subset(const std::vector<Sample>& samples, std::size_t count, std::uint64_t seed,
+                                  const std::stop_token& stop) {
   StopCheck check(stop, "thinning samples");
   // Selection sampling: Knuth, The Art of Computer Programming 2, 3.4.2, algorithm S.
   std::vector<Sample> kept;

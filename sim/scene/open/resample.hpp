@@ -8,8 +8,8 @@ namespace detp::sim {
 
 /// A random subset of `count` <= samples.size(), in the same order. All subsets are equally likely. Throws Stopped if a
 /// stop was requested.
-[[nodiscard]] std::vector<Sample> thinned(const std::vector<Sample>& samples, std::size_t count, std::uint64_t seed,
-                                          const std::stop_token& stop = {});
+[[nodiscard]] std::vector<Sample> random_subset(const std::vector<Sample>& samples, std::size_t count,
+                                                std::uint64_t seed, const std::stop_token& stop = {});
 
 /// Adds `count` samples distributed by area over the triangles, with the triangles' normals. Adds none to a mesh whose
 /// triangles have no area. Throws Stopped if a stop was requested.

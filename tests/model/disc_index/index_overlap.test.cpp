@@ -34,7 +34,7 @@ double sum_of_slabs(const SlabRuns& slabs, Centres centres) {
   double all = 0;
   for (std::size_t i = 0; i < slabs.size; ++i) {
     const auto place = static_cast<std::size_t>(centres);
-    all += slabs.runs[i].count * (slabs.runs[i].centred[place] + slabs.runs[i].reached[place].one);
+    all += slabs.runs[i].count * (slabs.runs[i].centred[place] + slabs.runs[i].reached[place].planes);
   }
   return all;
 }
@@ -51,29 +51,29 @@ TEST_SUITE("reference value") {
 TEST_SUITE("identity") {
   TEST_CASE("weights of planes, integrated over a disc's reach, equal those of uniform centres") {
     for (const auto insertion : {Insertion::exact, Insertion::bounding_box}) {
-      Crossings sum;
+      PlaneCrossings sum;
       constexpr int planes = 20'000;
       for (int i = 0; i < planes; ++i)  // one plane at d (1 + u)
         sum += 1.0 / planes * crossings({2, 1 + (i + 0.5) / planes, 0, 1}, Centres::low_face, insertion);
-      const Crossings expected = uniform_crossings(pi / 4, insertion);
-      CHECK(sum.one == Approx(expected.one).epsilon(1e-6));
-      CHECK(sum.two == Approx(expected.two).epsilon(1e-6));
-      CHECK(sum.three == Approx(expected.three).epsilon(1e-6));
+      const PlaneCrossings expected = uniform_crossings(pi / 4, insertion);
+      CHECK(sum.planes == Approx(expected.planes).epsilon(1e-6));
+      CHECK(sum.line_weight == Approx(expected.line_weight).epsilon(1e-6));
+      CHECK(sum.corner_weight == Approx(expected.corner_weight).epsilon(1e-6));
     }
   }
 
   TEST_CASE("a long axis is crossed as endless cells are, for any disc") {
     for (const double x : {0.01, 0.3, 1.0, 7.0, 60.0, 70.0, 500.0}) {
-      const Crossings found = crossings({1e6, 1, 1e6 - 2 * x, x}, Centres::uniform, Insertion::exact);
-      CHECK(found.one == Approx(pi / 2 * x).epsilon(2e-3));
-      CHECK(found.two == Approx(x).epsilon(2e-3));
-      CHECK(found.three == 0);
+      const PlaneCrossings found = crossings({1e6, 1, 1e6 - 2 * x, x}, Centres::uniform, Insertion::exact);
+      CHECK(found.planes == Approx(pi / 2 * x).epsilon(2e-3));
+      CHECK(found.line_weight == Approx(x).epsilon(2e-3));
+      CHECK(found.corner_weight == 0);
     }
   }
 
   TEST_CASE("a single cell is crossed by no plane, and contains the disc") {
     for (const auto centres : {Centres::uniform, Centres::low_face, Centres::high_face}) {
-      CHECK(crossings({1, 3, 1, 1}, centres, Insertion::exact).one == 0);
+      CHECK(crossings({1, 3, 1, 1}, centres, Insertion::exact).planes == 0);
       CHECK(sum_of_slabs(slab_runs({1, 3, 1, 1}, Insertion::exact), centres) == Approx(1).epsilon(1e-14));
     }
   }
@@ -82,10 +82,10 @@ TEST_SUITE("identity") {
     for (const double x : {0.1, 0.7, 2.3}) {
       const IndexAxis axis{16, 1, 16 - 2 * x, x};
       for (const auto insertion : {Insertion::exact, Insertion::bounding_box}) {
-        const Crossings low = crossings(axis, Centres::low_face, insertion);
-        const Crossings high = crossings(axis, Centres::high_face, insertion);
-        CHECK(low.one == Approx(high.one).epsilon(1e-12));
-        CHECK(low.two == Approx(high.two).epsilon(1e-12));
+        const PlaneCrossings low = crossings(axis, Centres::low_face, insertion);
+        const PlaneCrossings high = crossings(axis, Centres::high_face, insertion);
+        CHECK(low.planes == Approx(high.planes).epsilon(1e-12));
+        CHECK(low.line_weight == Approx(high.line_weight).epsilon(1e-12));
       }
     }
   }
@@ -99,7 +99,7 @@ TEST_SUITE("identity") {
         CAPTURE(x);
         for (const auto centres : {Centres::uniform, Centres::low_face, Centres::high_face})
           CHECK(sum_of_slabs(slab_runs(axis, Insertion::exact), centres) ==
-                Approx(1 + crossings(axis, centres, Insertion::exact).one).epsilon(1e-9));
+                Approx(1 + crossings(axis, centres, Insertion::exact).planes).epsilon(1e-9));
       }
   }
 }

@@ -89,15 +89,17 @@ struct Case {
 };
 
 template <class Reference>
-void see(const char* formula, const Case& it, const Reference& reference, Ledger& ledger) {
-  ledger.see(formula, model::both_hit_share(it.a, it.b, it.c), reference(it.a, it.b, it.c),
-             [&] { return fmt::format("a {:a}, b {:a}, c {:a}", it.a, it.b, it.c); });
+void compare(const char* formula, const Case& it, const Reference& reference, Ledger& ledger) {
+  ledger.compare(formula, model::both_hit_share(it.a, it.b, it.c), reference(it.a, it.b, it.c),
+                 [&] { return fmt::format("a {:a}, b {:a}, c {:a}", it.a, it.b, it.c); });
 }
 
-void see_by_lenses(const Case& it, Ledger& ledger) { see("share of both, by lenses", it, share_by_lenses, ledger); }
+void compare_by_lenses(const Case& it, Ledger& ledger) {
+  compare("share of both, by lenses", it, share_by_lenses, ledger);
+}
 
-void see_by_chords(const Case& it, Ledger& ledger) {
-  see(
+void compare_by_chords(const Case& it, Ledger& ledger) {
+  compare(
       "share of both, by chords (113 bits)", it,
       [](double a, double b, double c) { return Exact{share_by_chords(a, b, c)}; }, ledger);
 }
@@ -130,13 +132,13 @@ std::vector<Case> edges(const std::vector<double>& radii) {
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of the share of both spheres: near containment and tangency, equal radii, far away") {
     Ledger ledger =
-        on_random_inputs(5, few / 4, [](Draw& draw, Ledger& l) { see_by_chords(random_case(draw, 1e200), l); });
-    for (const Case& it : edges({1e-12, 1e-3, 0.5, 1 - 0x1p-53, 1, 1 + 0x1p-52, 3, 1e6})) see_by_chords(it, ledger);
+        on_random_inputs(5, few / 4, [](Draw& draw, Ledger& l) { compare_by_chords(random_case(draw, 1e200), l); });
+    for (const Case& it : edges({1e-12, 1e-3, 0.5, 1 - 0x1p-53, 1, 1 + 0x1p-52, 3, 1e6})) compare_by_chords(it, ledger);
     for (const Case& it : {Case{1e300, 1e300, 1e-300}, Case{1e-300, 1e-300, 1e300}, Case{1e300, 1e-300, 1e300},
                            Case{1e-300, 1e300, 1e300}, Case{1e-100, 1, 1}, Case{5e-324, 5e-324, 5e-324}})
-      see_by_chords(it, ledger);
+      compare_by_chords(it, ledger);
     for (const Case& it : {Case{1, 0.7, 0.31}, Case{1, 1, 1e-3}, Case{0.2, 1, 1.2}, Case{2, 1, 40}})
-      see_by_lenses(it, ledger);
+      compare_by_lenses(it, ledger);
     require_right(ledger);
   }
 }
@@ -144,9 +146,10 @@ TEST_SUITE("reference value") {
 TEST_SUITE("hard-cases") {
   TEST_CASE("share of both spheres") {
     Ledger ledger =
-        on_random_inputs(5, many / 50, [](Draw& draw, Ledger& l) { see_by_chords(random_case(draw, 1e200), l); });
-    ledger.merge(on_random_inputs(6, 200, [](Draw& draw, Ledger& l) { see_by_lenses(random_case(draw, 1e12), l); }));
-    for (const Case& it : edges({1e-9, 0.5, 1, 3})) see_by_lenses(it, ledger);
+        on_random_inputs(5, many / 50, [](Draw& draw, Ledger& l) { compare_by_chords(random_case(draw, 1e200), l); });
+    ledger.merge(
+        on_random_inputs(6, 200, [](Draw& draw, Ledger& l) { compare_by_lenses(random_case(draw, 1e12), l); }));
+    for (const Case& it : edges({1e-9, 0.5, 1, 3})) compare_by_lenses(it, ledger);
     require_right_and_print(ledger);
   }
 }

@@ -19,39 +19,39 @@ Exact exact_occupied(double samples, int level) {
   return filled / share;
 }
 
-void see_occupied(double samples, int level, Ledger& ledger) {
-  ledger.see("occupied cells", model::occupied_cell_spheres(samples, level), exact_occupied(samples, level),
-             [&] { return fmt::format("n_P {:g}, level {}", samples, level); });
+void compare_occupied(double samples, int level, Ledger& ledger) {
+  ledger.compare("occupied cells", model::occupied_cell_spheres(samples, level), exact_occupied(samples, level),
+                 [&] { return fmt::format("n_P {:g}, level {}", samples, level); });
 }
 
-void see_radius(const Workload& w, int level, Ledger& ledger) {
+void compare_radius(const Workload& w, int level, Ledger& ledger) {
   static const Exact half_root_of_3 = sqrt(Exact{3}) / 2;
   const Exact half_diagonal = ldexp(Exact{scene_side(w)}, -level) * half_root_of_3;
-  ledger.see("radius of a cell's sphere", model::cell_sphere_radius(w, level), half_diagonal + w.disc_radius,
-             [&] { return fmt::format("side {:a}, d {:a}, level {}", scene_side(w), w.disc_radius, level); });
+  ledger.compare("radius of a cell's sphere", model::cell_sphere_radius(w, level), half_diagonal + w.disc_radius,
+                 [&] { return fmt::format("side {:a}, d {:a}, level {}", scene_side(w), w.disc_radius, level); });
 }
 
-void see_random(Draw& draw, Ledger& ledger) {
+void compare_random(Draw& draw, Ledger& ledger) {
   const int level = static_cast<int>(draw.whole(0, 2) == 0 ? draw.whole(0, 300) : draw.whole(0, 25));
-  see_occupied(draw.rays_or_samples(), level, ledger);
-  see_radius(draw.workload(), level, ledger);
+  compare_occupied(draw.rays_or_samples(), level, ledger);
+  compare_radius(draw.workload(), level, ledger);
 }
 
-void see_edges(Ledger& ledger) {
+void compare_edges(Ledger& ledger) {
   for (const int level : {0, 1, 2, 17, 18, 20, 110, 300})
-    for (const double samples : {1.0, 2.0, 7.0, 8.0, 1e9, 1e18}) see_occupied(samples, level, ledger);
+    for (const double samples : {1.0, 2.0, 7.0, 8.0, 1e9, 1e18}) compare_occupied(samples, level, ledger);
 }
 
 }  // namespace
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of cells: few samples in many cells and many in few") {
-    Ledger ledger = on_random_inputs(9, few, see_random);
-    see_edges(ledger);
+    Ledger ledger = on_random_inputs(9, few, compare_random);
+    compare_edges(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("cells") { require_right_and_print(on_random_inputs(9, many, see_random)); }
+  TEST_CASE("cells") { require_right_and_print(on_random_inputs(9, many, compare_random)); }
 }

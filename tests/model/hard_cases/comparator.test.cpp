@@ -18,7 +18,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 Ledger of_square_times(double factor) {
   return on_random_inputs(99, 100, [&](Draw& draw, Ledger& ledger) {
     const double x = draw.log_uniform(1e-100, 1e100);
-    ledger.see("square", x * x * factor, Exact{x} * x, [&] { return fmt::format("x {:a}", x); });
+    ledger.compare("square", x * x * factor, Exact{x} * x, [&] { return fmt::format("x {:a}", x); });
   });
 }
 
@@ -37,7 +37,7 @@ TEST_SUITE("negative control") {
 
   TEST_CASE("a wrong whole number is refused") {
     Ledger ledger;
-    ledger.see_whole("k", 7, false, [] { return "here"; });
+    ledger.compare_whole("k", 7, false, [] { return "here"; });
     CHECK(ledger.failures() == 1);
     CHECK(ledger.report().find("k off by 1 at here: got 7") != std::string::npos);
   }

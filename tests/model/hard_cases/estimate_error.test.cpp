@@ -12,18 +12,18 @@ namespace {
 
 Exact pi() { return boost::math::constants::pi<Exact>(); }
 
-void see_uniform(double rays, double deviation, double disc, double outer, Ledger& ledger) {
+void compare_uniform(double rays, double deviation, double disc, double outer, Ledger& ledger) {
   const auto inputs = [&] {
     return fmt::format("n_R {:g}, deviation {:a}, d {:a}, r0 {:a}", rays, deviation, disc, outer);
   };
   const Exact p = Exact{disc} / outer * (Exact{disc} / outer) / 2;
-  ledger.see("deviation, uniform field", model::uniform_field_deviation(rays, {disc}, {outer}),
-             support::root_of((1 - p) / (rays * p)), inputs);
-  ledger.see("rays for a deviation", model::rays_for_deviation(deviation, {disc}, {outer}),
-             (1 - p) / (p * deviation * deviation), inputs);
+  ledger.compare("deviation, uniform field", model::uniform_field_deviation(rays, {disc}, {outer}),
+                 support::root_of((1 - p) / (rays * p)), inputs);
+  ledger.compare("rays for a deviation", model::rays_for_deviation(deviation, {disc}, {outer}),
+                 (1 - p) / (p * deviation * deviation), inputs);
 }
 
-void see_smooth(double f, double laplacian, double photons, double radius, double error, Ledger& ledger) {
+void compare_smooth(double f, double laplacian, double photons, double radius, double error, Ledger& ledger) {
   const auto inputs = [&] {
     return fmt::format("f {:a}, Laplacian {:a}, n {:a}, h {:a}, error {:a}", f, laplacian, photons, radius, error);
   };
@@ -32,49 +32,49 @@ void see_smooth(double f, double laplacian, double photons, double radius, doubl
   const Exact square = Exact{radius} * radius;
   const Exact variance = f / (photons * pi() * square);
   const Exact bias = square * laplacian / 8;
-  ledger.see("variance", found.variance, variance, inputs);
-  ledger.see("bias", found.bias, bias, inputs);
-  ledger.see("mean square error", found.mean_square(), variance + bias * bias, inputs);
+  ledger.compare("variance", found.variance, variance, inputs);
+  ledger.compare("bias", found.bias, bias, inputs);
+  ledger.compare("mean square error", found.mean_square(), variance + bias * bias, inputs);
   const Exact curvature = abs(Exact{laplacian});
-  ledger.see("best radius", model::best_density_radius(density, photons),
-             support::cube_root(support::root_of(Exact{32} * f / (photons * pi())) / curvature), inputs);
+  ledger.compare("best radius", model::best_density_radius(density, photons),
+                 support::cube_root(support::root_of(Exact{32} * f / (photons * pi())) / curvature), inputs);
   static const Exact scale = sqrt(pow(Exact{3} / 2, 3) / 32) / pi();
-  ledger.see("photons for an error", model::photons_for_error(density, error),
-             scale * curvature / (Exact{f} * f * error * error * error), inputs);
+  ledger.compare("photons for an error", model::photons_for_error(density, error),
+                 scale * curvature / (Exact{f} * f * error * error * error), inputs);
 }
 
-void see_random(Draw& draw, Ledger& ledger) {
+void compare_random(Draw& draw, Ledger& ledger) {
   const double outer = draw.anywhere();
   const double disc = std::max(outer * draw.log_uniform(1e-300, 1), 5e-324);
-  see_uniform(draw.rays_or_samples(), draw.factor(), std::min(disc, outer), outer, ledger);
+  compare_uniform(draw.rays_or_samples(), draw.factor(), std::min(disc, outer), outer, ledger);
   const double sign = draw.whole(0, 1) == 0 ? -1 : 1;
-  see_smooth(draw.factor(), sign * draw.factor(), draw.factor(), draw.factor(), draw.factor(), ledger);
+  compare_smooth(draw.factor(), sign * draw.factor(), draw.factor(), draw.factor(), draw.factor(), ledger);
 }
 
-void see_edges(Ledger& ledger) {
+void compare_edges(Ledger& ledger) {
   for (const double outer : {1e-300, 1.0, 1.79e308})
     for (const double share : {5e-324, 1e-300, 1e-160, 0.5, 1 - 0x1p-53, 1.0})
       for (const double deviation : {5e-324, 1e-3, 1.79e308})
         for (const double rays : {1.0, 1e18})
-          see_uniform(rays, deviation, std::max(share * outer, 5e-324), outer, ledger);
+          compare_uniform(rays, deviation, std::max(share * outer, 5e-324), outer, ledger);
   const auto extremes = {5e-324, 1.0, 1.79e308};
   for (const double f : extremes)
     for (const double laplacian : {-1.79e308, -5e-324, 5e-324, 1.0, 1.79e308})
       for (const double photons : extremes)
         for (const double radius : extremes)
-          for (const double error : extremes) see_smooth(f, laplacian, photons, radius, error, ledger);
+          for (const double error : extremes) compare_smooth(f, laplacian, photons, radius, error, ledger);
 }
 
 }  // namespace
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of the estimate's error: every argument up to both limits of the doubles") {
-    Ledger ledger = on_random_inputs(7, few, see_random);
-    see_edges(ledger);
+    Ledger ledger = on_random_inputs(7, few, compare_random);
+    compare_edges(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("the estimate's error") { require_right_and_print(on_random_inputs(7, many, see_random)); }
+  TEST_CASE("the estimate's error") { require_right_and_print(on_random_inputs(7, many, compare_random)); }
 }

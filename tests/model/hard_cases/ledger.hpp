@@ -30,16 +30,16 @@ struct Entry {
 class Ledger {
  public:
   template <class Describe>
-  void see(const char* formula, double value, const Exact& exact, const Describe& describe) {
-    enter(formula, support::relative_error(value, exact), [&] {
+  void compare(const char* formula, double value, const Exact& exact, const Describe& describe) {
+    record(formula, support::relative_error(value, exact), [&] {
       return fmt::format("{}: expected {}, got {:.17g}", describe(), exact.str(25, std::ios_base::scientific), value);
     });
   }
 
   /// Records a whole number, which is right (error 0) or wrong (error 1).
   template <class Describe>
-  void see_whole(const char* formula, std::int64_t value, bool right, const Describe& describe) {
-    enter(formula, right ? 0 : 1, [&] { return fmt::format("{}: got {}", describe(), value); });
+  void compare_whole(const char* formula, std::int64_t value, bool right, const Describe& describe) {
+    record(formula, right ? 0 : 1, [&] { return fmt::format("{}: got {}", describe(), value); });
   }
 
   void merge(const Ledger& other) {
@@ -79,7 +79,7 @@ class Ledger {
   static constexpr std::size_t most_shown = 12;
 
   template <class Where>
-  void enter(const char* formula, double error, const Where& where) {
+  void record(const char* formula, double error, const Where& where) {
     Entry& entry = entries_[formula];
     ++entry.inputs;
     if (error > entry.worst) {

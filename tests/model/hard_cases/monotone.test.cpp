@@ -23,13 +23,13 @@ double larger(double x, double most, Draw& draw) {
 
 /// Records whether low <= high. `rounding` is the relative violation that the formula's documentation allows.
 template <class Describe>
-void see_order(const char* claim, double low, double high, Ledger& ledger, const Describe& inputs,
-               double rounding = 0) {
-  ledger.see_whole(claim, low > high ? 1 : 0, low <= high * (1 + rounding),
-                   [&] { return fmt::format("{}: {:a} before {:a}", inputs(), low, high); });
+void compare_order(const char* claim, double low, double high, Ledger& ledger, const Describe& inputs,
+                   double rounding = 0) {
+  ledger.compare_whole(claim, low > high ? 1 : 0, low <= high * (1 + rounding),
+                       [&] { return fmt::format("{}: {:a} before {:a}", inputs(), low, high); });
 }
 
-void see_cache(Draw& draw, Ledger& ledger) {
+void compare_cache(Draw& draw, Ledger& ledger) {
   using namespace model;
   const double q = draw.ratio();
   const double more_q = larger(q, 1 - 0x1p-53, draw);
@@ -42,7 +42,9 @@ void see_cache(Draw& draw, Ledger& ledger) {
     return fmt::format("Q {:a} {:a}, i {} {}, n_R {:g}, n_P {:.17g} {:.17g}, d {:a}, r0 {:a}", q, more_q, i, more_i,
                        w.rays, w.samples, more_w.samples, w.disc_radius, w.sphere_radius);
   };
-  const auto order = [&](const char* claim, double low, double high) { see_order(claim, low, high, ledger, inputs); };
+  const auto order = [&](const char* claim, double low, double high) {
+    compare_order(claim, low, high, ledger, inputs);
+  };
   order("n_i falls with i", published::rays_in_sphere(w.rays, {q}, more_i), published::rays_in_sphere(w.rays, {q}, i));
   order("n_i grows with Q", published::rays_in_sphere(w.rays, {q}, i), published::rays_in_sphere(w.rays, {more_q}, i));
   order("m_i grows with i", published::rebuilds({q}, i), published::rebuilds({q}, more_i));
@@ -58,7 +60,7 @@ void see_cache(Draw& draw, Ledger& ledger) {
   order("hits grow with n_P", expected_hits(w), expected_hits(more_w));
 }
 
-void see_count(Draw& draw, Ledger& ledger) {
+void compare_count(Draw& draw, Ledger& ledger) {
   using namespace model;
   const double q = std::min(draw.ratio(), 0.99);  // k <= 9e18
   const double more_q = larger(q, 0.995, draw);
@@ -70,12 +72,12 @@ void see_count(Draw& draw, Ledger& ledger) {
     const std::int64_t k = sphere_count(form, {q}, {d}, {r0});
     const std::int64_t with_more_q = sphere_count(form, {more_q}, {d}, {r0});
     const std::int64_t with_more_d = sphere_count(form, {q}, {more_d}, {r0});
-    ledger.see_whole("k grows with Q", with_more_q, with_more_q >= k, inputs);
-    ledger.see_whole("k falls with d", with_more_d, with_more_d <= k, inputs);
+    ledger.compare_whole("k grows with Q", with_more_q, with_more_q >= k, inputs);
+    ledger.compare_whole("k falls with d", with_more_d, with_more_d <= k, inputs);
   }
 }
 
-void see_others(Draw& draw, Ledger& ledger) {
+void compare_others(Draw& draw, Ledger& ledger) {
   using namespace model;
   const double dimension = draw.uniform(1, 3);
   const double more_dimension = larger(dimension, 3, draw);
@@ -91,7 +93,9 @@ void see_others(Draw& draw, Ledger& ledger) {
     return fmt::format("D {:a} {:a}, c/t {:a} {:a}, d {:a} {:a}, r0 {:a}, n {:.17g} {:.17g}, level {}", dimension,
                        more_dimension, copy, more_copy, d, more_d, r0, rays, more_rays, level);
   };
-  const auto order = [&](const char* claim, double low, double high) { see_order(claim, low, high, ledger, inputs); };
+  const auto order = [&](const char* claim, double low, double high) {
+    compare_order(claim, low, high, ledger, inputs);
+  };
   order("Q* grows with D", optimal_ratio(dimension), optimal_ratio(more_dimension));
   order("Q* falls with copies", optimal_ratio_with_copies(more_copy), optimal_ratio_with_copies(copy));
   order("P(disc) grows with d", disc_hit_probability({d}, {r0}), disc_hit_probability({more_d}, {r0}));
@@ -100,12 +104,12 @@ void see_others(Draw& draw, Ledger& ledger) {
   order("deviation falls with n_R", uniform_field_deviation(more_rays, {d}, {r0}),
         uniform_field_deviation(rays, {d}, {r0}));
   order("occupied cells grow with n_P", occupied_cell_spheres(rays, level), occupied_cell_spheres(more_rays, level));
-  see_order("occupied cells grow with the level", occupied_cell_spheres(rays, level),
-            occupied_cell_spheres(rays, std::min(300, level + 1)), ledger, inputs, 4 * 0x1p-52);
+  compare_order("occupied cells grow with the level", occupied_cell_spheres(rays, level),
+                occupied_cell_spheres(rays, std::min(300, level + 1)), ledger, inputs, 4 * 0x1p-52);
   const double b = d / r0;
   const double c = draw.log_uniform(1e-3, 1e3);
   const double more_c = larger(c, 1e5, draw);
-  see_order(
+  compare_order(
       "share of both falls with c", both_hit_share(1, b, more_c), both_hit_share(1, b, c), ledger,
       [&] { return fmt::format("a 1, b {:a}, c {:a} {:a}", b, c, more_c); }, 1e-15);
 }
@@ -114,18 +118,18 @@ void see_others(Draw& draw, Ledger& ledger) {
 
 TEST_SUITE("identity") {
   TEST_CASE("monotone formulas are monotone in doubles: over steps of one ulp, and of up to a factor of 10") {
-    Ledger ledger = on_random_inputs(11, few, see_cache);
-    ledger.merge(on_random_inputs(12, few, see_count));
-    ledger.merge(on_random_inputs(13, few, see_others));
+    Ledger ledger = on_random_inputs(11, few, compare_cache);
+    ledger.merge(on_random_inputs(12, few, compare_count));
+    ledger.merge(on_random_inputs(13, few, compare_others));
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
   TEST_CASE("monotonicity") {
-    Ledger ledger = on_random_inputs(11, many / 4, see_cache);
-    ledger.merge(on_random_inputs(12, many / 4, see_count));
-    ledger.merge(on_random_inputs(13, many / 4, see_others));
+    Ledger ledger = on_random_inputs(11, many / 4, compare_cache);
+    ledger.merge(on_random_inputs(12, many / 4, compare_count));
+    ledger.merge(on_random_inputs(13, many / 4, compare_others));
     require_right_and_print(ledger);
   }
 }

@@ -53,7 +53,7 @@ struct Case {
   double time;
 };
 
-void see(const Case& c, Ledger& ledger) {
+void compare(const Case& c, Ledger& ledger) {
   using namespace model;
   const auto& [w, ratio, i, k, time] = c;
   const auto inputs = [&c = c] {
@@ -63,36 +63,36 @@ void see(const Case& c, Ledger& ledger) {
   const Exact q = ratio;
   const Exact before = power(q, i - 1);
   const Exact radius = before * q;
-  ledger.see("n_i, published", published::rays_in_sphere(w.rays, {ratio}, i), w.rays * radius * radius, inputs);
-  ledger.see("m_i, published", published::rebuilds({ratio}, i), 1 / (radius * radius * radius), inputs);
-  ledger.see("t_i, published", published::rebuild_cost(w.rays, {ratio}, i, time), time * (w.rays * before * before),
-             inputs);
+  ledger.compare("n_i, published", published::rays_in_sphere(w.rays, {ratio}, i), w.rays * radius * radius, inputs);
+  ledger.compare("m_i, published", published::rebuilds({ratio}, i), 1 / (radius * radius * radius), inputs);
+  ledger.compare("t_i, published", published::rebuild_cost(w.rays, {ratio}, i, time), time * (w.rays * before * before),
+                 inputs);
 
   const Sums sums = closed_sums(w.samples, ratio, k);
   const Exact disc_tests = Exact{w.rays} * w.samples * sums.innermost * sums.innermost;
-  ledger.see("T_R, published", published::rebuild_time(w, {ratio}, k, time), time * w.rays * sums.tests_per_ray,
-             inputs);
-  ledger.see("T_I, published", published::intersect_time(w, {ratio}, k, time), time * disc_tests, inputs);
+  ledger.compare("T_R, published", published::rebuild_time(w, {ratio}, k, time), time * w.rays * sums.tests_per_ray,
+                 inputs);
+  ledger.compare("T_I, published", published::intersect_time(w, {ratio}, k, time), time * disc_tests, inputs);
   const Counts<double> counts = published::counts(w, {ratio}, k);
-  ledger.see("sphere tests, published", counts.cull_tests, w.rays * sums.tests_per_ray, inputs);
-  ledger.see("disc tests, published", counts.disc_tests, disc_tests, inputs);
-  ledger.see("rebuilds, published", counts.culls, sums.rebuilds, inputs);
-  ledger.see("T_R for few samples, published", published::rebuild_time_few_samples(w, {ratio}, time),
-             Exact{time} * w.rays * (support::cube_root(w.samples) - 1) / (q * q * (1 - q)), inputs);
-  ledger.see("T unsorted, published", published::unsorted_time(w, time), Exact{time} * w.rays * w.samples, inputs);
+  ledger.compare("sphere tests, published", counts.cull_tests, w.rays * sums.tests_per_ray, inputs);
+  ledger.compare("disc tests, published", counts.disc_tests, disc_tests, inputs);
+  ledger.compare("rebuilds, published", counts.culls, sums.rebuilds, inputs);
+  ledger.compare("T_R for few samples, published", published::rebuild_time_few_samples(w, {ratio}, time),
+                 Exact{time} * w.rays * (support::cube_root(w.samples) - 1) / (q * q * (1 - q)), inputs);
+  ledger.compare("T unsorted, published", published::unsorted_time(w, time), Exact{time} * w.rays * w.samples, inputs);
 }
 
-void see_random(Draw& draw, Ledger& ledger) {
+void compare_random(Draw& draw, Ledger& ledger) {
   const double ratio = draw.ratio();
-  see({.workload = draw.workload(),
-       .ratio = ratio,
-       .i = draw.index(ratio),
-       .k = draw.index(ratio),
-       .time = draw.factor()},
-      ledger);
+  compare({.workload = draw.workload(),
+           .ratio = ratio,
+           .i = draw.index(ratio),
+           .k = draw.index(ratio),
+           .time = draw.factor()},
+          ledger);
 }
 
-void see_edges(Ledger& ledger) {
+void compare_edges(Ledger& ledger) {
   constexpr double largest = std::numeric_limits<double>::max();
   std::vector<double> ratios{std::numeric_limits<double>::denorm_min(), 0.65, 2.0 / 3, std::nextafter(1.0 / 3, 1)};
   for (const int n : {1, 2, 3, 10, 20, 30, 40, 50, 52, 53}) {
@@ -106,9 +106,9 @@ void see_edges(Ledger& ledger) {
       for (const double samples : {1.0, 2.0, 8.0, 262144.0, 1e18}) {  // 8, 262144: exactly Q^{-3i} for Q = 1/2
         w.samples = samples;
         w.rays = samples == 8 ? 1 : 1e18;
-        see({w, ratio, k, k, samples == 1 ? largest : samples == 2 ? 5e-324 : 1}, ledger);
+        compare({w, ratio, k, k, samples == 1 ? largest : samples == 2 ? 5e-324 : 1}, ledger);
       }
-  see({w, 0.5, 1, 0, 0}, ledger);
+  compare({w, 0.5, 1, 0, 0}, ledger);
 }
 
 }  // namespace
@@ -131,12 +131,12 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of the published cache: Q next to 0 and 1, k up to 9e18, powers that under- and overflow") {
-    Ledger ledger = on_random_inputs(2, few, see_random);
-    see_edges(ledger);
+    Ledger ledger = on_random_inputs(2, few, compare_random);
+    compare_edges(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("published cache") { require_right_and_print(on_random_inputs(2, many, see_random)); }
+  TEST_CASE("published cache") { require_right_and_print(on_random_inputs(2, many, compare_random)); }
 }

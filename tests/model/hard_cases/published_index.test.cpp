@@ -10,48 +10,48 @@ namespace published = detp::model::published;
 namespace {
 
 /// The largest k >= 0 with 2^{k+1} d <= s.
-void see_depth(double d, double side, Ledger& ledger) {
+void compare_depth(double d, double side, Ledger& ledger) {
   const int depth = published::octree_depth({d}, side);
   const bool narrow_enough = depth == 0 || ldexp(Exact{d}, depth + 1) <= side;
-  ledger.see_whole("octree depth, published", depth, narrow_enough && ldexp(Exact{d}, depth + 2) > side,
-                   [&] { return fmt::format("d {:a}, s {:a}", d, side); });
+  ledger.compare_whole("octree depth, published", depth, narrow_enough && ldexp(Exact{d}, depth + 2) > side,
+                       [&] { return fmt::format("d {:a}, s {:a}", d, side); });
 }
 
-void see_depths_around(double d, double side, Ledger& ledger) {
+void compare_depths_around(double d, double side, Ledger& ledger) {
   for (const double disc : {std::nextafter(d, 0.0), d, std::nextafter(d, 1e308)})
-    if (disc > 0 && std::isfinite(disc)) see_depth(disc, side, ledger);
+    if (disc > 0 && std::isfinite(disc)) compare_depth(disc, side, ledger);
 }
 
-void see_costs(const Workload& w, int depth, double disc_test, Ledger& ledger) {
+void compare_costs(const Workload& w, int depth, double disc_test, Ledger& ledger) {
   const auto inputs = [&] {
     return fmt::format("depth {}, n_R {:g}, n_P {:g}, u {:a}", depth, w.rays, w.samples, disc_test);
   };
   const Exact tests = ldexp(Exact{w.samples}, -2 * depth);
   const Exact time = disc_test * (w.rays * tests);
-  ledger.see("cells of a line, published", published::cells_per_line(depth), ldexp(Exact{1}, depth), inputs);
-  ledger.see("discs in a cell, published", published::discs_per_cell(w.samples, depth),
-             ldexp(Exact{w.samples}, -3 * depth), inputs);
-  ledger.see("tests of a line, published", published::tests_per_line(w.samples, depth), tests, inputs);
-  ledger.see("T of an octree, published", published::octree_time(w, depth, disc_test), depth * time, inputs);
-  ledger.see("T balanced, published", published::balanced_octree_time(w, depth, disc_test), time, inputs);
+  ledger.compare("cells of a line, published", published::cells_per_line(depth), ldexp(Exact{1}, depth), inputs);
+  ledger.compare("discs in a cell, published", published::discs_per_cell(w.samples, depth),
+                 ldexp(Exact{w.samples}, -3 * depth), inputs);
+  ledger.compare("tests of a line, published", published::tests_per_line(w.samples, depth), tests, inputs);
+  ledger.compare("T of an octree, published", published::octree_time(w, depth, disc_test), depth * time, inputs);
+  ledger.compare("T balanced, published", published::balanced_octree_time(w, depth, disc_test), time, inputs);
 }
 
-void see_random(Draw& draw, Ledger& ledger) {
+void compare_random(Draw& draw, Ledger& ledger) {
   const double side = draw.anywhere();
-  see_depth(draw.log_uniform(5e-324, side), side, ledger);
-  see_depths_around(std::ldexp(side, -static_cast<int>(draw.whole(0, 1000))), side, ledger);
-  see_costs(draw.workload(), static_cast<int>(draw.count(1, 2097)) - 1, draw.factor(), ledger);
+  compare_depth(draw.log_uniform(5e-324, side), side, ledger);
+  compare_depths_around(std::ldexp(side, -static_cast<int>(draw.whole(0, 1000))), side, ledger);
+  compare_costs(draw.workload(), static_cast<int>(draw.count(1, 2097)) - 1, draw.factor(), ledger);
 }
 
-void see_edges(Ledger& ledger) {
+void compare_edges(Ledger& ledger) {
   for (const double side : {5e-324, 0x1p-1022, 1e-300, 1.0, 2.0, 0x1.fffffffffffffp+0, 1.79e308})
-    for (int n = -3; n <= 2100; n += n < 70 ? 1 : 37) see_depths_around(std::ldexp(side, -n), side, ledger);
+    for (int n = -3; n <= 2100; n += n < 70 ? 1 : 37) compare_depths_around(std::ldexp(side, -n), side, ledger);
   Workload w{.disc_radius = 1, .sphere_radius = 1, .box = {1, 1, 1}};
   for (const int depth : {0, 1, 30, 340, 500, 1023, 1024, 2096})
     for (const double count : {1.0, 1e18})
       for (const double disc_test : {0.0, 5e-324, 1e-9, 1.79e308}) {
         w.rays = w.samples = count;
-        see_costs(w, depth, disc_test, ledger);
+        compare_costs(w, depth, disc_test, ledger);
       }
 }
 
@@ -59,12 +59,12 @@ void see_edges(Ledger& ledger) {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of the published octree: powers of two and their neighbours, all possible depths") {
-    Ledger ledger = on_random_inputs(8, few, see_random);
-    see_edges(ledger);
+    Ledger ledger = on_random_inputs(8, few, compare_random);
+    compare_edges(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("published octree") { require_right_and_print(on_random_inputs(8, many, see_random)); }
+  TEST_CASE("published octree") { require_right_and_print(on_random_inputs(8, many, compare_random)); }
 }

@@ -22,7 +22,7 @@ struct Case {
 };
 
 /// Corrected: r_k >= d > r_{k+1}. Published: the same if r_k = d, else one more.
-void see_count(const Case& c, Ledger& ledger) {
+void compare_count(const Case& c, Ledger& ledger) {
   const auto [q, d, r0] = c;
   const auto inputs = [&] { return fmt::format("Q {:a}, d {:a}, r0 {:a}", c.ratio, c.disc, c.outer); };
   try {
@@ -30,56 +30,56 @@ void see_count(const Case& c, Ledger& ledger) {
     const std::int64_t published = sphere_count(Form::published, {q}, {d}, {r0});
     const Exact radius = r0 * power(q, corrected);
     const bool right = d < r0 ? radius >= d && radius * q < d : corrected == 0;
-    ledger.see_whole("k, corrected", corrected, right, inputs);
+    ledger.compare_whole("k, corrected", corrected, right, inputs);
     const std::int64_t one_more = d < r0 && radius > d ? 1 : 0;
-    ledger.see_whole("k, published", published, right && published == corrected + one_more, inputs);
+    ledger.compare_whole("k, published", published, right && published == corrected + one_more, inputs);
   } catch (const std::overflow_error&) {
-    ledger.see_whole("k beyond 9e18, refused", -1, r0 * power(q, 8'999'999'999'999'999'000) > d, inputs);
+    ledger.compare_whole("k beyond 9e18, refused", -1, r0 * power(q, 8'999'999'999'999'999'000) > d, inputs);
   }
 }
 
 /// d, and the doubles next to it.
 std::array<double, 3> around(double d) { return {std::nextafter(d, 0.0), d, std::nextafter(d, 2 * d)}; }
 
-void see_count_around(const Case& c, Ledger& ledger) {
+void compare_count_around(const Case& c, Ledger& ledger) {
   for (const double d : around(c.disc))
-    if (d > 0) see_count({c.ratio, d, c.outer}, ledger);
+    if (d > 0) compare_count({c.ratio, d, c.outer}, ledger);
 }
 
-void see_random(Draw& draw, Ledger& ledger) {
+void compare_random(Draw& draw, Ledger& ledger) {
   const double q = draw.ratio();
   const double r0 = draw.anywhere();
   const double log_radii = -std::log(q) * static_cast<double>(draw.index(q));
   const double tie = r0 * std::exp(-log_radii);
   const bool near_tie = draw.whole(0, 1) == 0 && tie > 1e-323;
   const double d = near_tie ? around(tie)[static_cast<std::size_t>(draw.whole(0, 2))] : draw.log_uniform(5e-324, r0);
-  see_count({q, d, r0}, ledger);
+  compare_count({q, d, r0}, ledger);
 }
 
-void see_edges(Ledger& ledger) {
+void compare_edges(Ledger& ledger) {
   constexpr double least = std::numeric_limits<double>::denorm_min();
-  const auto see_next_to = [&](double q) {
+  const auto compare_next_to = [&](double q) {
     for (const double ratio : {std::nextafter(q, 0.0), q, std::nextafter(q, 1.0)}) {
       if (ratio <= 0 || ratio >= 1) continue;
-      see_count_around({ratio, ratio, 1}, ledger);  // exactly r_1 = d
-      for (const double d : {1 - 0x1p-53, 0.3, 1e-300, least}) see_count({ratio, d, 1}, ledger);
+      compare_count_around({ratio, ratio, 1}, ledger);  // exactly r_1 = d
+      for (const double d : {1 - 0x1p-53, 0.3, 1e-300, least}) compare_count({ratio, d, 1}, ledger);
     }
   };
-  for (int n = 1; n <= 53; ++n) see_next_to(1 - std::ldexp(1.0, -n));
-  for (int n = 2; n <= 1074; ++n) see_next_to(std::ldexp(1.0, -n));
+  for (int n = 1; n <= 53; ++n) compare_next_to(1 - std::ldexp(1.0, -n));
+  for (int n = 2; n <= 1074; ++n) compare_next_to(std::ldexp(1.0, -n));
   for (const double q : {0.5, 0.25, 0x1p-10, 0.65, 2.0 / 3, 0.99, 1 - 0x1p-20})
     for (const double r0 : {1.0, 0x1p-40, 0x1p+900, 3.7e-5})
-      for (int j = 1; j < 60; ++j) see_count_around({q, r0 * std::pow(q, j), r0}, ledger);
+      for (int j = 1; j < 60; ++j) compare_count_around({q, r0 * std::pow(q, j), r0}, ledger);
   for (const double q : {least, 0.5, 1 - 0x1p-53})
-    for (const double d : {1.0, 1 + 0x1p-52, 2.0, 1e308}) see_count({q, d, 1}, ledger);
+    for (const double d : {1.0, 1 + 0x1p-52, 2.0, 1e308}) compare_count({q, d, 1}, ledger);
 }
 
 }  // namespace
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of k: Q next to 0 and to 1, d next to r0 Q^j, d next to and beyond r0") {
-    Ledger ledger = on_random_inputs(1, few, see_random);
-    see_edges(ledger);
+    Ledger ledger = on_random_inputs(1, few, compare_random);
+    compare_edges(ledger);
     require_right(ledger);
   }
 }
@@ -97,5 +97,5 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("k") { require_right_and_print(on_random_inputs(1, many, see_random)); }
+  TEST_CASE("k") { require_right_and_print(on_random_inputs(1, many, compare_random)); }
 }

@@ -47,11 +47,11 @@ double best_time(Technique technique, const Workload& at) {
   return best_of(technique, at, costs, unlimited).value().time.total();
 }
 
-void check_growth(const GrowthCase& asked, const std::function<double(const Workload&)>& time) {
-  const Growth said = growth(asked);
-  INFO(std::string(name(asked.technique)), ", D = ", asked.dimension,
-       std::string(asked.disc == DiscRule::fixed ? ", d fixed" : ", d shrinks"));
-  const double power = fitted_power(asked, said.logarithms, time);
+void check_growth(const GrowthCase& growth_case, const std::function<double(const Workload&)>& time) {
+  const Growth said = growth(growth_case);
+  INFO(std::string(name(growth_case.technique)), ", D = ", growth_case.dimension,
+       std::string(growth_case.disc == DiscRule::fixed ? ", d fixed" : ", d shrinks"));
+  const double power = fitted_power(growth_case, said.logarithms, time);
   CAPTURE(power);
   CHECK(std::abs(power - said.power) < 0.02);
 }
@@ -75,14 +75,14 @@ TEST_SUITE("reference value") {
   TEST_CASE("the published formulas grow over four decades as the paper says") {
     const auto depth = [](const Workload& at) { return published::octree_depth({at.disc_radius}, scene_side(at)); };
     for (const double dimension : {2.0, 3.0}) {
-      const auto asked = [&](Technique technique) {
+      const auto growth_case = [&](Technique technique) {
         return GrowthCase{.technique = technique, .dimension = dimension, .form = Form::published};
       };
-      check_growth(asked(Technique::sphere_cache),
+      check_growth(growth_case(Technique::sphere_cache),
                    [](const Workload& at) { return published::best_ratio(at, costs).time; });
-      check_growth(asked(Technique::octree),
+      check_growth(growth_case(Technique::octree),
                    [&](const Workload& at) { return published::octree_time(at, depth(at), 1); });
-      check_growth(asked(Technique::grid),
+      check_growth(growth_case(Technique::grid),
                    [&](const Workload& at) { return published::balanced_octree_time(at, depth(at), 1); });
     }
   }

@@ -23,7 +23,9 @@ Workload spaced(double x) {
   return w;
 }
 
-Technique advised(double x, const ProcessorCache& cache = {}) { return paper_rule(spaced(x), cache).technique; }
+Technique advised_technique(double x, const ProcessorCache& cache = {}) {
+  return paper_rule(spaced(x), cache).technique;
+}
 
 }  // namespace
 
@@ -33,7 +35,7 @@ TEST_SUITE("known answer") {
       const Candidate candidate = paper_rule(spaced(x));
       REQUIRE(candidate.technique == Technique::octree);
       CHECK(std::get<OctreeParameters>(candidate.parameters).depth == 6);
-      CHECK(advised(x, {.bytes = 1e30}) == Technique::octree);
+      CHECK(advised_technique(x, {.bytes = 1e30}) == Technique::octree);
     }
   }
 
@@ -47,7 +49,7 @@ TEST_SUITE("known answer") {
       CHECK(parameters.order == SampleOrder::lebesgue);
       const Workload w = spaced(x);
       CHECK(parameters.spheres == sphere_count(Form::corrected, {0.65}, {w.disc_radius}, {w.sphere_radius}));
-      CHECK(advised(x, {.bytes = 1}) == Technique::sphere_cache);
+      CHECK(advised_technique(x, {.bytes = 1}) == Technique::sphere_cache);
     }
   }
 
@@ -56,10 +58,10 @@ TEST_SUITE("known answer") {
     const std::int64_t k = sphere_count(Form::corrected, {0.65}, {w.disc_radius}, {w.sphere_radius});
     const double bytes = 64 * published::rays_in_sphere(w.rays, {0.65}, k);
     for (const double x : {2.001, 4.0, 5.999}) {
-      CHECK(advised(x, {.bytes = bytes}) == Technique::sphere_cache);
-      CHECK(advised(x, {.bytes = bytes * (1 - 1e-12)}) == Technique::octree);
-      CHECK(advised(x, {.bytes = bytes, .bytes_per_ray = 65}) == Technique::octree);
-      CHECK(advised(x, {.bytes = bytes, .bytes_per_ray = 63}) == Technique::sphere_cache);
+      CHECK(advised_technique(x, {.bytes = bytes}) == Technique::sphere_cache);
+      CHECK(advised_technique(x, {.bytes = bytes * (1 - 1e-12)}) == Technique::octree);
+      CHECK(advised_technique(x, {.bytes = bytes, .bytes_per_ray = 65}) == Technique::octree);
+      CHECK(advised_technique(x, {.bytes = bytes, .bytes_per_ray = 63}) == Technique::sphere_cache);
     }
   }
 

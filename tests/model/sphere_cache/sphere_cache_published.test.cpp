@@ -24,7 +24,7 @@ namespace {
 /// The largest relative error of one quantity so far.
 struct Worst {
   double error = 0;
-  void see(double value, const Exact& exact) { error = std::max(error, relative_error(value, exact)); }
+  void compare(double value, const Exact& exact) { error = std::max(error, relative_error(value, exact)); }
 };
 
 /// The sums of the paper, term by term.
@@ -76,21 +76,21 @@ TEST_SUITE("reference value") {
       const std::int64_t i = random.whole(1, std::max<std::int64_t>(1, k));
       const Exact shrunk = support::power(q, i - 1);
       const Exact outer_rays = w.rays * shrunk * shrunk;
-      n.see(published::rays_in_sphere(w.rays, {ratio}, i), outer_rays * q * q);
-      m.see(published::rebuilds({ratio}, i), 1 / (shrunk * shrunk * shrunk * q * q * q));
-      t.see(published::rebuild_cost(w.rays, {ratio}, i, sphere_test), outer_rays * sphere_test);
+      n.compare(published::rays_in_sphere(w.rays, {ratio}, i), outer_rays * q * q);
+      m.compare(published::rebuilds({ratio}, i), 1 / (shrunk * shrunk * shrunk * q * q * q));
+      t.compare(published::rebuild_cost(w.rays, {ratio}, i, sphere_test), outer_rays * sphere_test);
 
       const Sums sums = add_up(w, ratio, k, sphere_test);
       const Exact intersecting = sums.rays * w.samples * disc_test;
       const double t_rebuild = published::rebuild_time(w, {ratio}, k, sphere_test);
       const double t_intersect = published::intersect_time(w, {ratio}, k, disc_test);
-      rebuild.see(t_rebuild, sums.rebuild_time);
-      intersect.see(t_intersect, intersecting);
-      total.see(t_rebuild + t_intersect, sums.rebuild_time + intersecting);
-      rebuilds.see(published::counts(w, {ratio}, k).culls, sums.rebuilds);
+      rebuild.compare(t_rebuild, sums.rebuild_time);
+      intersect.compare(t_intersect, intersecting);
+      total.compare(t_rebuild + t_intersect, sums.rebuild_time + intersecting);
+      rebuilds.compare(published::counts(w, {ratio}, k).culls, sums.rebuilds);
       const Exact root = support::cube_root(w.samples);
-      few.see(published::rebuild_time_few_samples(w, {ratio}, sphere_test),
-              sphere_test * w.rays * (root - 1) / (q * q * (1 - q)));
+      few.compare(published::rebuild_time_few_samples(w, {ratio}, sphere_test),
+                  sphere_test * w.rays * (root - 1) / (q * q * (1 - q)));
     }
     CAPTURE(n.error);
     CAPTURE(m.error);

@@ -114,28 +114,28 @@ TEST_SUITE("valid") {
     const auto each = [](const auto& workload) {
       const UnitCosts costs;
       int formulas = 0;
-      const auto see = [&](const auto& formula) {
+      const auto run_formula = [&](const auto& formula) {
         count([&] { return formula(workload); });
         CAPTURE(formulas);
         CHECK(workload_checks == (std::is_same_v<decltype(workload), const Workload&> ? 1 : 0));
         ++formulas;
       };
-      see([](const auto& w) { return crossing_probability(w, 0.01, 0.3); });
-      see([](const auto& w) { return expected_hits(w); });
-      see([](const auto& w) { return octree_bytes(w, {5}); });
-      see([](const auto& w) { return grid_bytes(w, {20}); });
-      see([](const auto& w) { return cell_sphere_radius(w, 3); });
-      see([](const auto& w) { return rays_in_cell_sphere(w, 3); });
-      see([&](const auto& w) { return published::best_ratio(w, costs).time; });
-      see([&](const auto& w) { return published::best_stop(w, costs, {0.6}); });
-      see([](const auto& w) { return published::counts(w, {0.6}, 4).culls; });
-      see([&](const auto& w) { return best_ratio_and_stop(w, costs).time; });
-      see([&](const auto& w) { return good_ratio_and_stop(w, costs).time; });
-      see([&](const auto& w) { return best_stop(w, costs, {0.6}).time; });
-      see([&](const auto& w) { return best_ratio_for(w, costs, 4).time; });
-      see([&](const auto& w) { return complete(Technique::octree, {}, w, costs); });
-      see([&](const auto& w) { return assess(w, default_candidate(Technique::sphere_tree), costs); });
-      see([](const auto& w) { return paper_rule(w); });
+      run_formula([](const auto& w) { return crossing_probability(w, 0.01, 0.3); });
+      run_formula([](const auto& w) { return expected_hits(w); });
+      run_formula([](const auto& w) { return octree_bytes(w, {5}); });
+      run_formula([](const auto& w) { return grid_bytes(w, {20}); });
+      run_formula([](const auto& w) { return cell_sphere_radius(w, 3); });
+      run_formula([](const auto& w) { return rays_in_cell_sphere(w, 3); });
+      run_formula([&](const auto& w) { return published::best_ratio(w, costs).time; });
+      run_formula([&](const auto& w) { return published::best_stop(w, costs, {0.6}); });
+      run_formula([](const auto& w) { return published::counts(w, {0.6}, 4).culls; });
+      run_formula([&](const auto& w) { return best_ratio_and_stop(w, costs).time; });
+      run_formula([&](const auto& w) { return good_ratio_and_stop(w, costs).time; });
+      run_formula([&](const auto& w) { return best_stop(w, costs, {0.6}).time; });
+      run_formula([&](const auto& w) { return best_ratio_for(w, costs, 4).time; });
+      run_formula([&](const auto& w) { return complete(Technique::octree, {}, w, costs); });
+      run_formula([&](const auto& w) { return assess(w, default_candidate(Technique::sphere_tree), costs); });
+      run_formula([](const auto& w) { return paper_rule(w); });
     };
     each(plain);
     each(Valid<Workload>(plain));

@@ -20,7 +20,7 @@ class Groups {
   Groups(const Groups&) = delete;
   Groups& operator=(const Groups&) = delete;
 
-  void put(const std::filesystem::path& file, const char* content) const {
+  void write(const std::filesystem::path& file, const char* content) const {
     std::filesystem::create_directories((root_ / file).parent_path());
     std::ofstream(root_ / file) << content << "\n";
   }
@@ -46,22 +46,22 @@ TEST_SUITE("known answer") {
   TEST_CASE("for cgroups of version 2 the smallest limit counts, of the group itself and of those around it") {
     const Groups groups;
     CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == unlimited);
-    groups.put("a/b/memory.max", "max");
+    groups.write("a/b/memory.max", "max");
     CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == unlimited);
-    groups.put("a/memory.max", "3000000");
+    groups.write("a/memory.max", "3000000");
     CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == 3e6);
-    groups.put("a/b/memory.max", "2000000");
+    groups.write("a/b/memory.max", "2000000");
     CHECK(cgroup_limit("0::/a/b\n", groups.root().string()) == 2e6);
     CHECK(cgroup_limit("0::/\n", groups.root().string()) == unlimited);
-    groups.put("memory.max", "1000000");  // the root of a container
+    groups.write("memory.max", "1000000");  // the root of a container
     CHECK(cgroup_limit("0::/\n", groups.root().string()) == 1e6);
     CHECK(cgroup_limit("0::/unseen/from/here\n", groups.root().string()) == 1e6);
   }
 
   TEST_CASE("for cgroups of version 1 the memory controller's limit counts") {
     const Groups groups;
-    groups.put("memory/job/memory.limit_in_bytes", "5000000");
-    groups.put("cpu/job/memory.limit_in_bytes", "1");
+    groups.write("memory/job/memory.limit_in_bytes", "5000000");
+    groups.write("cpu/job/memory.limit_in_bytes", "1");
     CHECK(cgroup_limit("4:cpu,cpuacct:/job\n3:memory:/job\n", groups.root().string()) == 5e6);
     CHECK(cgroup_limit("4:cpu,cpuacct:/job\n", groups.root().string()) == unlimited);
     CHECK(cgroup_limit("no such line\n7\n:::\n", groups.root().string()) == unlimited);

@@ -65,10 +65,10 @@ TEST_SUITE("known answer") {
     std::string read;
     for (std::size_t step = 1; file.fetch(step); step = step * 3 % 100'003) {
       CHECK(file.rest() == content.size() - read.size());
-      read += file.ahead().substr(0, step);
+      read += file.buffered().substr(0, step);
       file.skip(step);
     }
-    read += file.ahead();
+    read += file.buffered();
     CHECK(read == content);
     CHECK(read_file(folder.path("f"), content.size()) == content);
     CHECK(support::file_error_of([&] { (void)read_file(folder.path("f"), content.size() - 1); }).find("is larger") !=

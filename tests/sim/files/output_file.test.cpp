@@ -48,7 +48,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("if nameless files are not supported, the writer removes its part file") {
     const ScratchFolder folder;
     for (const bool committed : {false, true}) {
-      OutputFile file(folder.path("out"), OutputFile::Aside::named);
+      OutputFile file(folder.path("out"), OutputFile::Temporary::named);
       file.write(std::string(200'000, 'x'));
       CHECK(folder.entries() == 1);
       CHECK(!std::filesystem::exists(folder.path("out")));
@@ -61,11 +61,11 @@ TEST_SUITE("known answer") {
   TEST_CASE("a program that is killed or must end at once leaves no part file") {
     const ScratchFolder folder;
     const std::string existing = folder.file("existing", "old");
-    const auto end_of = [&](OutputFile::Aside aside, const auto& end) {
+    const auto end_of = [&](OutputFile::Temporary temporary, const auto& end) {
       const pid_t child = ::fork();
       if (child == 0) {
-        OutputFile file(folder.path("out"), aside);
-        OutputFile over(existing, aside);
+        OutputFile file(folder.path("out"), temporary);
+        OutputFile over(existing, temporary);
         for (OutputFile* each : {&file, &over}) each->write(std::string(200'000, 'x'));
         end();
         ::_exit(0);
@@ -73,9 +73,9 @@ TEST_SUITE("known answer") {
       int status = 0;
       REQUIRE(::waitpid(child, &status, 0) == child);
     };
-    end_of(OutputFile::Aside::unnamed, [] { ::raise(SIGKILL); });
+    end_of(OutputFile::Temporary::unnamed, [] { ::raise(SIGKILL); });
     CHECK(folder.entries() == 1);
-    end_of(OutputFile::Aside::named, [] { remove_all_part_files_for_good(); });
+    end_of(OutputFile::Temporary::named, [] { remove_all_part_files_for_good(); });
     CHECK(folder.entries() == 1);
     CHECK(content_of(existing) == "old");
   }

@@ -25,15 +25,15 @@ struct Thing {
 Thing read_thing(const std::string& path, std::stop_token stop = {}) {
   PlyFile file(path, std::move(stop));
   Thing thing;
-  PlyWish wish{.element = "thing", .properties = {}, .take = {}};
+  PlyRequest request{.element = "thing", .properties = {}, .on_row = {}};
   if (const PlyElement* element = file.element("thing"))
-    for (std::size_t i = 0; i < element->properties.size() && i < 9; ++i) wish.properties.push_back(i);
-  wish.take = [&](std::uint64_t, const PlyValues& values) {
+    for (std::size_t i = 0; i < element->properties.size() && i < 9; ++i) request.properties.push_back(i);
+  request.on_row = [&](std::uint64_t, const PlyValues& values) {
     for (std::size_t i = 0; i < values.size(); ++i)
       thing.columns[i].insert(thing.columns[i].end(), values[i].begin(), values[i].end());
     thing.ends.push_back(thing.columns[8].size());
   };
-  file.read({wish});
+  file.read({request});
   return thing;
 }
 

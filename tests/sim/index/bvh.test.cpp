@@ -23,12 +23,12 @@ const Candidate bvh{Technique::bvh, BvhParameters{}};
 std::vector<Ray> rays_from(const std::vector<Disc>& discs, double far) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < 4 * discs.size(); ++i) {
-    const auto dice = uniform4(31, Stream::tests, i);
+    const auto random = uniform4(31, Stream::tests, i);
     const Disc& disc = discs[i % discs.size()];
-    const glm::dvec3 direction = uniform_direction(dice[0], dice[1]);
+    const glm::dvec3 direction = uniform_direction(random[0], random[1]);
     const glm::dvec3 aside = glm::cross(direction, disc.normal);
-    const glm::dvec3 aim = disc.centre + 1.5 * dice[2] * disc.radius * aside;
-    const double length = std::abs(far + (2 * dice[3] - 1) * disc.radius);
+    const glm::dvec3 aim = disc.centre + 1.5 * random[2] * disc.radius * aside;
+    const double length = std::abs(far + (2 * random[3] - 1) * disc.radius);
     rays.push_back({.origin = aim - far * direction, .direction = direction});
     if (i % 2 == 0) rays.back().length = length;
   }

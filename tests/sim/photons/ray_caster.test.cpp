@@ -17,7 +17,7 @@ glm::dvec3 random_point(std::uint64_t index, std::uint64_t sub_index) {
 }
 
 /// Triangles of about that size at random places in [-1, 1]³.
-Mesh soup(std::uint64_t count, double size) {
+Mesh random_triangles(std::uint64_t count, double size) {
   Mesh mesh;
   for (std::uint64_t i = 0; i < count; ++i) {
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
@@ -65,7 +65,7 @@ Found first_by_volumes(const Mesh& mesh, const glm::dvec3& origin, const glm::dv
 
 TEST_SUITE("known answer") {
   TEST_CASE("repeated triangles are met as if each were there once, under the number of the first") {
-    const Mesh once = soup(50, 1.0);
+    const Mesh once = random_triangles(50, 1.0);
     Mesh often;
     often.positions = once.positions;
     for (int copy = 0; copy < 2000; ++copy)
@@ -80,10 +80,10 @@ TEST_SUITE("known answer") {
     const RayCaster truth(once, box_of(once));
     for (std::uint64_t i = 0; i < 500; ++i) {
       const auto random = uniform4(1, Stream::tests, i, 7);
-      const glm::dvec3 origin = caster.to_own(random_point(i, 5));
+      const glm::dvec3 origin = caster.to_caster(random_point(i, 5));
       const glm::dvec3 direction = uniform_direction(random[0], random[1]);
-      const auto expected = truth.first_meeting(origin, direction);
-      const auto met = caster.first_meeting(origin, direction);
+      const auto expected = truth.first_intersection(origin, direction);
+      const auto met = caster.first_intersection(origin, direction);
       REQUIRE(met.has_value() == expected.has_value());
       if (!met) continue;
       CHECK(met->distance == doctest::Approx(expected->distance).epsilon(1e-12));
@@ -95,7 +95,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("it meets the same triangle as a search of all of them, at the same distance, for all sizes") {
     for (const double size : {1.0, 0.1, 1e-3}) {
       CAPTURE(size);
-      const Mesh mesh = soup(2000, size);
+      const Mesh mesh = random_triangles(2000, size);
       const RayCaster caster(mesh, box_of(mesh));
       std::size_t met = 0;
       std::size_t wrong = 0;
@@ -104,11 +104,11 @@ TEST_SUITE("known answer") {
         const glm::dvec3 aim =
             mesh.positions[3 * i] * 0.5 + mesh.positions[3 * i + 1] * 0.3 + mesh.positions[3 * i + 2] * 0.2;
         const glm::dvec3 direction = glm::normalize(aim - origin);
-        const auto meeting = caster.first_meeting(caster.to_own(origin), direction);
+        const auto intersection = caster.first_intersection(caster.to_caster(origin), direction);
         const Found expected = first_by_volumes(mesh, origin, direction);
         if (expected.distance < unbounded) ++met;
-        if (!meeting || meeting->triangle != expected.triangle ||
-            std::abs(meeting->distance * caster.scale() - expected.distance) > 1e-9)
+        if (!intersection || intersection->triangle != expected.triangle ||
+            std::abs(intersection->distance * caster.scale() - expected.distance) > 1e-9)
           ++wrong;
       }
       CHECK(met == 2000);
@@ -120,7 +120,7 @@ TEST_SUITE("known answer") {
     Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {2, 2, 0}}, .normals = {}, .triangles = {{0, 1, 2}}};
     const RayCaster caster(mesh, box_of(mesh));
     const auto meets = [&](const RayCaster& by, const glm::dvec3& origin, const glm::dvec3& direction) {
-      return by.first_meeting(by.to_own(origin), direction).has_value();
+      return by.first_intersection(by.to_caster(origin), direction).has_value();
     };
     CHECK(meets(caster, {0.25, 0.25, 1}, {0, 0, -1}));
     CHECK(meets(caster, {0.25, 0.25, 1e6}, {0, 0, -1}));
@@ -136,9 +136,9 @@ TEST_SUITE("known answer") {
     Mesh mesh{.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 1}}, .normals = {}, .triangles = {}};
     for (int i = 0; i < 100; ++i) mesh.triangles.push_back({0, 1, 2});
     const RayCaster caster(mesh, box_of(mesh));
-    const auto meeting = caster.first_meeting(caster.to_own({0.25, 0.25, 1}), {0, 0, -1});
-    REQUIRE(meeting);
-    CHECK(meeting->triangle == 0);
+    const auto intersection = caster.first_intersection(caster.to_caster({0.25, 0.25, 1}), {0, 0, -1});
+    REQUIRE(intersection);
+    CHECK(intersection->triangle == 0);
   }
 
   TEST_CASE("a ray that starts on a plane hits neither its own triangle nor neighbours in the plane") {
@@ -150,9 +150,9 @@ TEST_SUITE("known answer") {
     std::size_t met = 0;
     for (std::uint64_t i = 0; i < 10'000; ++i) {
       const auto random = uniform4(2, Stream::tests, i);
-      const glm::dvec3 start = caster.to_own(random[0] * u + random[1] * v);
+      const glm::dvec3 start = caster.to_caster(random[0] * u + random[1] * v);
       const std::uint32_t from = random[1] < random[0] ? 0 : 1;
-      if (caster.first_meeting(start, cosine_direction(normal, random[2], random[3]), from)) ++met;
+      if (caster.first_intersection(start, cosine_direction(normal, random[2], random[3]), from)) ++met;
     }
     CHECK(met == 0);
   }

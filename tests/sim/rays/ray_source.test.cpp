@@ -47,9 +47,9 @@ TEST_SUITE("limit") {
       double farthest = 0;
       for (const Ray& line : lines) farthest = std::max(farthest, glm::distance(line.origin, point));
       CHECK(RaysInMemory(lines).farthest_from(point) == farthest);
-      const double told = LinesOfField(sphere, 7, lines.size()).farthest_from(point);
-      CHECK(told >= farthest);
-      CHECK(told < 1.01 * farthest);
+      const double reported = LinesOfField(sphere, 7, lines.size()).farthest_from(point);
+      CHECK(reported >= farthest);
+      CHECK(reported < 1.01 * farthest);
     }
   }
 }

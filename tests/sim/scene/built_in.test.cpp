@@ -38,7 +38,7 @@ Edges edges_of(const Mesh& mesh, std::size_t cells) {
 
 struct Named {
   const char* name;
-  built_in::Setting (*make)();
+  built_in::LitMesh (*make)();
 };
 
 constexpr Named all[]{{"tree", built_in::tree},
@@ -47,7 +47,7 @@ constexpr Named all[]{{"tree", built_in::tree},
                       {"cornell", built_in::cornell}};
 
 /// Twice the area, divided by the square of the longest edge.
-double fatness(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
+double relative_area(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
   const glm::dvec3 u = mesh.positions[triangle[1]] - mesh.positions[triangle[0]];
   const glm::dvec3 v = mesh.positions[triangle[2]] - mesh.positions[triangle[0]];
   const double longest = std::max(std::max(glm::dot(u, u), glm::dot(v, v)), glm::dot(v - u, v - u));
@@ -80,11 +80,11 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("the Cornell box has about 10 000 triangles, all within the unit cube, and its light under the ceiling") {
-    const built_in::Setting setting = built_in::cornell();
-    CHECK(static_cast<double>(setting.mesh.triangles.size()) == doctest::Approx(10'000).epsilon(0.05));
-    for (const glm::dvec3& position : setting.mesh.positions)
+    const built_in::LitMesh lit_mesh = built_in::cornell();
+    CHECK(static_cast<double>(lit_mesh.mesh.triangles.size()) == doctest::Approx(10'000).epsilon(0.05));
+    for (const glm::dvec3& position : lit_mesh.mesh.positions)
       for (int axis = 0; axis < 3; ++axis) CHECK((position[axis] >= 0 && position[axis] <= 1));
-    const auto light = std::get<AreaLight>(setting.light);
+    const auto light = std::get<AreaLight>(lit_mesh.light);
     CHECK(light.corner.y < 1);
     CHECK(light.corner.y > 0.99);
   }
@@ -138,7 +138,7 @@ TEST_SUITE("identity") {
       CAPTURE(name);
       const Mesh mesh = make().mesh;
       double thinnest = 1;
-      for (const auto& triangle : mesh.triangles) thinnest = std::min(thinnest, fatness(mesh, triangle));
+      for (const auto& triangle : mesh.triangles) thinnest = std::min(thinnest, relative_area(mesh, triangle));
       CHECK(thinnest > 0.01);
       Notices notices;
       const std::vector<Sample> samples = samples_at_vertices(mesh, notices);

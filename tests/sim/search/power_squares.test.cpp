@@ -55,7 +55,7 @@ TEST_SUITE("standard error of irradiance") {
       CHECK(without_pairs.standard_error == outcome.standard_error);
       CHECK(without_pairs.irradiance == outcome.irradiance);
       StreamOptions options{.run = {.standard_error = true}, .block = 100};
-      const Streamed streamed = run_streamed(discs, RaysInMemory(rays), box_tree, options);
+      const StreamedOutcome streamed = run_streamed(discs, RaysInMemory(rays), box_tree, options);
       CHECK(streamed.outcome.pairs.empty());
       for (std::size_t d = 0; d < discs.size(); ++d) {
         CHECK(outcome.standard_error[d] == doctest::Approx(expected[d]).epsilon(1e-12));

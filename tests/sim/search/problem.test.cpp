@@ -44,7 +44,7 @@ void check_all_agree(const Problem& problem) {
 glm::dvec3 in_floats(const glm::dvec3& vector) { return glm::dvec3(glm::normalize(glm::vec3(vector))); }
 
 /// Three discs and three rays; tests replace each number in turn.
-struct Given {
+struct SmallInput {
   std::vector<Ray> rays = std::vector<Ray>(3, {.origin = {0.01, 0.02, -1}, .length = 3});
   std::vector<Disc> discs{{.centre = {0, 0, 0}, .radius = 0.1},
                           {.centre = {0, 0, 0.5}, .radius = 0.1},
@@ -53,19 +53,19 @@ struct Given {
 
 struct Field {
   const char* name;
-  std::function<double&(Given&)> number;
+  std::function<double&(SmallInput&)> number;
 };
 
 const std::vector<Field>& fields() {
   static const std::vector<Field> list{
-      {"ray 1: origin", [](Given& given) -> double& { return given.rays[1].origin.x; }},
-      {"ray 1: origin", [](Given& given) -> double& { return given.rays[1].origin.z; }},
-      {"ray 1: direction", [](Given& given) -> double& { return given.rays[1].direction.y; }},
-      {"ray 1: length", [](Given& given) -> double& { return given.rays[1].length; }},
-      {"ray 1: power", [](Given& given) -> double& { return given.rays[1].power; }},
-      {"disc 1: centre", [](Given& given) -> double& { return given.discs[1].centre.y; }},
-      {"disc 1: normal", [](Given& given) -> double& { return given.discs[1].normal.x; }},
-      {"disc 1: radius", [](Given& given) -> double& { return given.discs[1].radius; }}};
+      {"ray 1: origin", [](SmallInput& given) -> double& { return given.rays[1].origin.x; }},
+      {"ray 1: origin", [](SmallInput& given) -> double& { return given.rays[1].origin.z; }},
+      {"ray 1: direction", [](SmallInput& given) -> double& { return given.rays[1].direction.y; }},
+      {"ray 1: length", [](SmallInput& given) -> double& { return given.rays[1].length; }},
+      {"ray 1: power", [](SmallInput& given) -> double& { return given.rays[1].power; }},
+      {"disc 1: centre", [](SmallInput& given) -> double& { return given.discs[1].centre.y; }},
+      {"disc 1: normal", [](SmallInput& given) -> double& { return given.discs[1].normal.x; }},
+      {"disc 1: radius", [](SmallInput& given) -> double& { return given.discs[1].radius; }}};
   return list;
 }
 
@@ -82,7 +82,7 @@ TEST_SUITE("bad input") {
       for (const double number : numbers) {
         CAPTURE(field.name);
         CAPTURE(number);
-        Given given;
+        SmallInput given;
         field.number(given) = number;
         const bool never = std::isnan(number) || number == -infinity || (number == infinity && field.name[7] != 'l');
         try {
@@ -103,7 +103,7 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("a length of minus infinity does not make a line") {
-    Given given;
+    SmallInput given;
     given.rays[2].length = -infinity;
     CHECK_THROWS_WITH_AS((void)make_problem(given.rays, given.discs), "ray 2: length must be > 0 and finite (got -inf)",
                          std::invalid_argument);
@@ -115,20 +115,20 @@ TEST_SUITE("bad input") {
     rays[70'017].direction = glm::dvec3{0};
     rays[99'999].length = -1;
     for (const int threads : {1, 2})
-      CHECK_THROWS_WITH_AS((void)make_problem(rays, Given{}.discs, false, threads),
+      CHECK_THROWS_WITH_AS((void)make_problem(rays, SmallInput{}.discs, false, threads),
                            "ray 70017: direction must be non-zero (got 0 0 0)", std::invalid_argument);
-    Problem problem = make_problem_without_rays(Given{}.discs, 10);
+    Problem problem = make_problem_without_rays(SmallInput{}.discs, 10);
     CHECK_THROWS_WITH_AS(set_rays(problem, rays, 1, 1'000'000), "ray 1070017: direction must be non-zero (got 0 0 0)",
                          std::invalid_argument);
     CHECK(problem.rays.empty());
-    Given given;
+    SmallInput given;
     given.discs[2].normal = {0, -0.0, 0};
     CHECK_THROWS_WITH_AS((void)make_problem(given.rays, given.discs), "disc 2: normal must be non-zero (got 0 -0 0)",
                          std::invalid_argument);
   }
 
   TEST_CASE("powers whose sums or irradiance would overflow are refused") {
-    Given given;
+    SmallInput given;
     given.rays[0].power = 1e300;
     CHECK_THROWS_WITH_AS((void)make_problem(given.rays, given.discs), doctest::Contains("irradiance overflows"),
                          std::invalid_argument);
@@ -139,7 +139,7 @@ TEST_SUITE("bad input") {
   TEST_CASE("no discs, or discs at infinity, have no enclosing sphere") {
     CHECK_THROWS_WITH_AS((void)enclosing_sphere({}), "there must be at least one disc", std::invalid_argument);
     for (const double bad : {not_a_number, infinity, 1e160}) {
-      std::vector<Disc> discs = Given{}.discs;
+      std::vector<Disc> discs = SmallInput{}.discs;
       discs[1].centre.x = bad;
       CHECK_THROWS_WITH_AS((void)enclosing_sphere(discs), doctest::Contains("disc 1: centre must be"),
                            std::invalid_argument);
@@ -147,7 +147,7 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("a problem that was not made by make_problem is refused") {
-    const Given given;
+    const SmallInput given;
     const Problem by_hand{.rays = given.rays, .discs = given.discs};
     CHECK_THROWS_WITH_AS((void)run(by_hand, brute), doctest::Contains("make_problem"), std::invalid_argument);
   }
@@ -185,11 +185,11 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("vectors that have unit length already are not copied, and stay in place") {
-    const Given given;
+    const SmallInput given;
     const Problem problem = make_problem(given.rays, given.discs);
     CHECK(problem.rays.data() == given.rays.data());
     CHECK(problem.discs.data() == given.discs.data());
-    Given off;
+    SmallInput off;
     off.rays[1].direction = {0, 0, 1 + 1e-7};
     const Problem copied = make_problem(off.rays, off.discs);
     CHECK(copied.rays.data() != off.rays.data());

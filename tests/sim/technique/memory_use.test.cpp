@@ -37,26 +37,26 @@ double status(const std::string& name) {
 }
 
 /// Resets the peak; false if the system does not allow it.
-bool forget_peak() {
+bool reset_peak_memory() {
   std::ofstream file("/proc/self/clear_refs");
   file << 5;
   file.flush();
   return file.good();
 }
 
-struct Given {
+struct DiscsAndRays {
   std::vector<Disc> discs;
   std::vector<Ray> rays;
 };
 
-Given lines_through(std::vector<Disc> discs, std::size_t rays) {
-  Given given{std::move(discs), {}};
+DiscsAndRays lines_through(std::vector<Disc> discs, std::size_t rays) {
+  DiscsAndRays given{std::move(discs), {}};
   given.rays = LineField(enclosing_sphere(given.discs), 2).lines(0, rays);
   return given;
 }
 
 /// Cuts the lines to segments with different powers.
-Given cut(Given given, double length) {
+DiscsAndRays cut(DiscsAndRays given, double length) {
   for (std::size_t i = 0; i < given.rays.size(); ++i) {
     given.rays[i].length = length;
     given.rays[i].power = 1.0 + static_cast<double>(i % 2);
@@ -64,16 +64,16 @@ Given cut(Given given, double length) {
   return given;
 }
 
-Given lines() { return lines_through(uniform_discs(Body::cube, 2, 150'000, 0.01, 1), 100'000); }
+DiscsAndRays lines() { return lines_through(uniform_discs(Body::cube, 2, 150'000, 0.01, 1), 100'000); }
 
-Given segments() { return cut(lines(), 0.3); }
+DiscsAndRays segments() { return cut(lines(), 0.3); }
 
 /// For techniques whose memory does not depend on the number of rays.
-Given fewer_lines() { return lines_through(uniform_discs(Body::cube, 2, 150'000, 0.01, 1), 20'000); }
+DiscsAndRays fewer_lines() { return lines_through(uniform_discs(Body::cube, 2, 150'000, 0.01, 1), 20'000); }
 
 /// Discs in 27 clusters. Each cluster is a 64th of the size of 1/27 of the space.
-Given few_rays_on_clusters() {
-  Given given{uniform_discs(Body::cube, 2, 200'000, 0.002, 3), {}};
+DiscsAndRays few_rays_on_clusters() {
+  DiscsAndRays given{uniform_discs(Body::cube, 2, 200'000, 0.002, 3), {}};
   for (Disc& disc : given.discs)
     for (int axis = 0; axis < 3; ++axis) {
       const double cell = std::floor((disc.centre[axis] + 1) * 1.5);
@@ -83,15 +83,17 @@ Given few_rays_on_clusters() {
   return lines_through(std::move(given.discs), 3'000);
 }
 
-Given many_rays_on_few_discs() { return lines_through(uniform_discs(Body::cube_faces, 2, 20'000, 0.01, 4), 300'000); }
+DiscsAndRays many_rays_on_few_discs() {
+  return lines_through(uniform_discs(Body::cube_faces, 2, 20'000, 0.01, 4), 300'000);
+}
 
-Given many_segments() { return cut(many_rays_on_few_discs(), 1.5); }
+DiscsAndRays many_segments() { return cut(many_rays_on_few_discs(), 1.5); }
 
-Given few_lines() { return lines_through(uniform_discs(Body::cube, 2, 4'000, 0.02, 5), 100'000); }
+DiscsAndRays few_lines() { return lines_through(uniform_discs(Body::cube, 2, 4'000, 0.02, 5), 100'000); }
 
 struct Case {
   Candidate candidate;
-  Given (*make)();
+  DiscsAndRays (*make)();
   const char* given;
   RunOptions options = {.count = false, .threads = 2};
 };
@@ -103,17 +105,17 @@ struct Measured {
 
 /// Work of a first call (starting threads, loading code) does not count as memory of a run.
 void warm_up(const Candidate& candidate, const RunOptions& options) {
-  Given given = lines_through(uniform_discs(Body::cube, 2, 500, 0.02, 6), 500);
+  DiscsAndRays given = lines_through(uniform_discs(Body::cube, 2, 500, 0.02, 6), 500);
   for (Ray& ray : given.rays) ray.length = 1;
   (void)run(make_problem(given.rays, given.discs), candidate, options);
 }
 
 Measured measure(const Case& each) {
   warm_up(each.candidate, each.options);
-  const Given given = each.make();
+  const DiscsAndRays given = each.make();
   const Problem problem = make_problem(given.rays, given.discs);
   malloc_trim(0);
-  forget_peak();
+  reset_peak_memory();
   const double before = status("VmRSS");
   const Outcome outcome = run(problem, each.candidate, each.options);
   return {outcome.bytes, 1024 * (status("VmHWM") - before)};
@@ -132,16 +134,16 @@ Measured measure_apart(const Case& each) {
     } catch (const std::exception& error) {
       std::fprintf(stderr, "%s\n", error.what());
     }
-    const bool told = write(ends[1], &measured, sizeof measured) == sizeof measured;
-    _exit(told ? 0 : 1);
+    const bool sent = write(ends[1], &measured, sizeof measured) == sizeof measured;
+    _exit(sent ? 0 : 1);
   }
   Measured measured;
   close(ends[1]);
-  const bool heard = read(ends[0], &measured, sizeof measured) == sizeof measured;
+  const bool received = read(ends[0], &measured, sizeof measured) == sizeof measured;
   close(ends[0]);
   int end = 0;
   waitpid(child, &end, 0);
-  REQUIRE(heard);
+  REQUIRE(received);
   REQUIRE(end == 0);
   return measured;
 }
@@ -193,7 +195,7 @@ std::vector<Case> cases() {
 
 TEST_SUITE("memory") {
   TEST_CASE("no technique uses more memory than predicted, or much less") {
-    if (support::sanitized || !forget_peak() || status("Threads") > 1) {
+    if (support::sanitized || !reset_peak_memory() || status("Threads") > 1) {
       MESSAGE("skipped: the peak cannot be measured here; run this suite alone, without sanitizers");
       return;
     }

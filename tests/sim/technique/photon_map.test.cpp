@@ -101,8 +101,8 @@ TEST_SUITE("bad input") {
       CHECK_THROWS_WITH_AS(static_cast<void>(nearest(problem, k, options)), doctest::Contains(why),
                            std::invalid_argument);
     };
-    refuses({Ray{}, Ray{}, Ray{}}, 3, "no ray is a segment");
-    refuses(even_photons(9), 10, "9 photons, fewer than the 10 nearest");
+    refuses({Ray{}, Ray{}, Ray{}}, 3, "all rays are lines");
+    refuses(even_photons(9), 10, "needs the 10 nearest photons, but the rays have only 9");
     refuses(std::vector<Ray>(9, down_to(0, 0, 1)), 9, "9 photons lie at the centre of disc 0");
     Totals totals;
     refuses(even_photons(9), 3, "all rays at once", {.totals = &totals});

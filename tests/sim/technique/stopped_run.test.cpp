@@ -20,33 +20,35 @@ const std::vector<Disc>& discs() {
 
 std::vector<Ray> lines(std::size_t count) { return LineField(enclosing_sphere(discs()), 5).lines(0, count); }
 
-struct Way {
+struct SearchCase {
   Candidate candidate;
   Engine engine = Engine::simd;
 };
 
-const std::vector<Way>& ways() {
-  static const std::vector<Way> all{{{Technique::brute_force, BruteForceParameters{}}},
-                                    {{Technique::brute_force, BruteForceParameters{}}, Engine::plain},
-                                    {{Technique::sphere_cache, SphereCacheParameters{0.6, 6}}},
-                                    {{Technique::sphere_cache, SphereCacheParameters{0.6, 6}}, Engine::plain},
-                                    {{Technique::cell_spheres, CellSpheresParameters{3}}},
-                                    {{Technique::cell_spheres, CellSpheresParameters{3}}, Engine::plain},
-                                    {{Technique::sphere_tree, SphereTreeParameters{8, 4}}},
-                                    {{Technique::box_tree, BoxTreeParameters{4, 16}}},
-                                    {{Technique::box_tree, BoxTreeParameters{4, 16}}, Engine::plain},
-                                    {{Technique::box_tree, BoxTreeParameters{1 << 20, 1 << 20}}},
-                                    {{Technique::octree, OctreeParameters{3}}},
-                                    {{Technique::octree, OctreeParameters{0}}},
-                                    {{Technique::octree, OctreeParameters{3, Traversal::neighbour_links}}},
-                                    {{Technique::grid, GridParameters{8}}},
-                                    {{Technique::bsp, BspParameters{}}},
-                                    {{Technique::bvh, BvhParameters{}}}};
+const std::vector<SearchCase>& search_cases() {
+  static const std::vector<SearchCase> all{{{Technique::brute_force, BruteForceParameters{}}},
+                                           {{Technique::brute_force, BruteForceParameters{}}, Engine::plain},
+                                           {{Technique::sphere_cache, SphereCacheParameters{0.6, 6}}},
+                                           {{Technique::sphere_cache, SphereCacheParameters{0.6, 6}}, Engine::plain},
+                                           {{Technique::cell_spheres, CellSpheresParameters{3}}},
+                                           {{Technique::cell_spheres, CellSpheresParameters{3}}, Engine::plain},
+                                           {{Technique::sphere_tree, SphereTreeParameters{8, 4}}},
+                                           {{Technique::box_tree, BoxTreeParameters{4, 16}}},
+                                           {{Technique::box_tree, BoxTreeParameters{4, 16}}, Engine::plain},
+                                           {{Technique::box_tree, BoxTreeParameters{1 << 20, 1 << 20}}},
+                                           {{Technique::octree, OctreeParameters{3}}},
+                                           {{Technique::octree, OctreeParameters{0}}},
+                                           {{Technique::octree, OctreeParameters{3, Traversal::neighbour_links}}},
+                                           {{Technique::grid, GridParameters{8}}},
+                                           {{Technique::bsp, BspParameters{}}},
+                                           {{Technique::bvh, BvhParameters{}}}};
   return all;
 }
 
-Outcome run_way(const Way& way, std::span<const Ray> rays, const std::stop_token& stop, bool pairs = false) {
-  return run(make_problem(rays, discs()), way.candidate, {.pairs = pairs, .engine = way.engine, .stop = stop});
+Outcome run_case(const SearchCase& search_case, std::span<const Ray> rays, const std::stop_token& stop,
+                 bool pairs = false) {
+  return run(make_problem(rays, discs()), search_case.candidate,
+             {.pairs = pairs, .engine = search_case.engine, .stop = stop});
 }
 
 Outcome truth(std::span<const Ray> rays) {
@@ -93,15 +95,15 @@ TEST_SUITE("known answer") {
   TEST_CASE("a run stopped at any point is right about the rays or discs that it reports as done") {
     for (const std::size_t count : {6000U, 70'000U}) {  // one block of rays and several
       const std::vector<Ray> rays = lines(count);
-      for (const Way& way : ways()) {
-        if (way.engine == Engine::plain && count > 10'000) continue;
-        CAPTURE(name(way.candidate.technique));
-        CAPTURE(describe(way.candidate));
+      for (const SearchCase& search_case : search_cases()) {
+        if (search_case.engine == Engine::plain && count > 10'000) continue;
+        CAPTURE(name(search_case.candidate.technique));
+        CAPTURE(describe(search_case.candidate));
         CAPTURE(count);
         std::uint64_t total = 0;
         {
           const LoggedWork logged;
-          CHECK_FALSE(run_way(way, rays, {}).stopped);
+          CHECK_FALSE(run_case(search_case, rays, {}).stopped);
           total = logged.total();
         }
         for (const double share : {0.1, 0.6}) {
@@ -109,7 +111,7 @@ TEST_SUITE("known answer") {
           const LoggedWork logged([&](std::uint64_t done) {
             if (static_cast<double>(done) >= share * static_cast<double>(total)) source.request_stop();
           });
-          const Outcome outcome = run_way(way, rays, source.get_token(), true);
+          const Outcome outcome = run_case(search_case, rays, source.get_token(), true);
           if (!outcome.stopped) continue;  // no check came after that
           check_stopped(outcome, rays);
           CHECK(static_cast<double>(logged.total()) < share * static_cast<double>(total) + 10 * StopCheck::most_work);
@@ -122,9 +124,9 @@ TEST_SUITE("known answer") {
     const std::vector<Ray> rays = lines(1000);
     std::stop_source source;
     source.request_stop();
-    for (const Way& way : ways()) {
-      CAPTURE(name(way.candidate.technique));
-      const Outcome outcome = run_way(way, rays, source.get_token(), true);
+    for (const SearchCase& search_case : search_cases()) {
+      CAPTURE(name(search_case.candidate.technique));
+      const Outcome outcome = run_case(search_case, rays, source.get_token(), true);
       check_stopped(outcome, rays);
       CHECK(outcome.total_hits == 0);
       CHECK(outcome.hits.size() == discs().size());
@@ -136,32 +138,32 @@ TEST_SUITE("known answer") {
     std::uint64_t search = 0;
     {
       const LoggedWork logged;
-      static_cast<void>(run_way(ways().front(), rays, {}));
+      static_cast<void>(run_case(search_cases().front(), rays, {}));
       search = logged.total();
     }
     std::stop_source source;
     const LoggedWork logged([&](std::uint64_t done) {
       if (done > search + StopCheck::most_work) source.request_stop();
     });
-    const Outcome outcome = run_way(ways().front(), rays, source.get_token(), true);
+    const Outcome outcome = run_case(search_cases().front(), rays, source.get_token(), true);
     CHECK(outcome.progress.done == rays.size());
     check_stopped(outcome, rays);
   }
 
   TEST_CASE("a stream stopped at any point is right about the rays that it reports as done") {
     const std::vector<Ray> rays = lines(40'000);
-    for (const Way& way : ways()) {
-      if (way.engine == Engine::plain) continue;
-      CAPTURE(name(way.candidate.technique));
-      CAPTURE(describe(way.candidate));
+    for (const SearchCase& search_case : search_cases()) {
+      if (search_case.engine == Engine::plain) continue;
+      CAPTURE(name(search_case.candidate.technique));
+      CAPTURE(describe(search_case.candidate));
       for (const std::uint64_t at : {1, 20, 100}) {
         std::stop_source source;
         const LoggedWork logged([&](std::uint64_t done) {
           if (done >= at * StopCheck::most_work / 2) source.request_stop();
         });
         const LinesOfField source_of_lines(enclosing_sphere(discs()), 5, rays.size());
-        const Streamed streamed = run_streamed(discs(), source_of_lines, way.candidate,
-                                               {.run = {.stop = source.get_token()}, .block = 10'000});
+        const StreamedOutcome streamed = run_streamed(discs(), source_of_lines, search_case.candidate,
+                                                      {.run = {.stop = source.get_token()}, .block = 10'000});
         if (streamed.outcome.stopped) check_stopped(streamed.outcome, rays);
       }
     }
@@ -191,12 +193,12 @@ TEST_SUITE("known answer") {
 TEST_SUITE("identity") {
   TEST_CASE("the work between two checks of a run is bounded, and includes all tests") {
     const std::vector<Ray> rays = lines(70'000);
-    for (const Way& way : ways()) {
-      if (way.engine == Engine::plain) continue;
-      CAPTURE(name(way.candidate.technique));
-      CAPTURE(describe(way.candidate));
+    for (const SearchCase& search_case : search_cases()) {
+      if (search_case.engine == Engine::plain) continue;
+      CAPTURE(name(search_case.candidate.technique));
+      CAPTURE(describe(search_case.candidate));
       const LoggedWork logged;
-      const Outcome outcome = run_way(way, rays, {});
+      const Outcome outcome = run_case(search_case, rays, {});
       CHECK(logged.bounded());
       const std::uint64_t tests = outcome.counts.disc_tests + outcome.counts.cull_tests;
       CHECK(logged.total() + 10 * StopCheck::most_work > tests / 17);  // 16 tests of a list are one unit of work

@@ -45,7 +45,7 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
                                         {Technique::grid, GridParameters{6}}};
 
 /// Reports a smaller distance than that at which its rays start.
-class Understated final : public RaySource {
+class UnderstatedDistance final : public RaySource {
  public:
   std::uint64_t size() const override { return rays().size(); }
   void read(std::uint64_t first, std::span<Ray> block, const std::stop_token&) const override {
@@ -69,7 +69,7 @@ TEST_SUITE("identity") {
         const Outcome whole = run(problem, candidate, {.pairs = true});
         for (const std::size_t block : {1, 7, 1000}) {
           CAPTURE(block);
-          const Streamed streamed = run_streamed(
+          const StreamedOutcome streamed = run_streamed(
               discs(), RaysInMemory(rays()), candidate,
               {.run = {.pairs = true, .threads = block == 7 ? 2 : 1}, .front_facing = front, .block = block});
           CHECK(streamed.outcome.hits == expected.hits);
@@ -88,7 +88,8 @@ TEST_SUITE("identity") {
                                        {Technique::grid, GridParameters{6}},
                                        {Technique::bsp, BspParameters{8, 4}}}) {
       const Outcome whole = run(make_problem(rays(), discs()), candidate);
-      const Streamed streamed = run_streamed(discs(), RaysInMemory(rays()), candidate, {.run = {}, .block = 100});
+      const StreamedOutcome streamed =
+          run_streamed(discs(), RaysInMemory(rays()), candidate, {.run = {}, .block = 100});
       CHECK(streamed.outcome.counts == whole.counts);
       CHECK(whole.counts.references > 0);
     }
@@ -98,7 +99,7 @@ TEST_SUITE("identity") {
     const Sphere sphere = enclosing_sphere(discs());
     const std::vector<Ray> lines = LineField(sphere, 9).lines(0, 3000);
     const Outcome whole = run(make_problem(lines, discs()), candidates.back());
-    const Streamed streamed =
+    const StreamedOutcome streamed =
         run_streamed(discs(), LinesOfField(sphere, 9, lines.size()), candidates.back(), {.run = {}, .block = 512});
     CHECK(streamed.outcome.irradiance == whole.irradiance);
     CHECK(streamed.block == 512);
@@ -113,7 +114,7 @@ TEST_SUITE("known answer") {
       CHECK(done == blocks * 100 / 400.0);
       if (++blocks == 3) source.request_stop();
     };
-    const Streamed streamed =
+    const StreamedOutcome streamed =
         run_streamed(discs(), RaysInMemory(rays()), candidates.back(),
                      {.run = {.stop = source.get_token()}, .block = 100, .progress = stop_before_third});
     const Outcome half = run(make_problem(std::span(rays()).first(200), discs()), candidates.back());
@@ -154,7 +155,8 @@ TEST_SUITE("bad input") {
     bad[250].power = -1;
     CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory(bad), {}),
                          doctest::Contains("ray 250: power must be >= 0 and finite (got -1)"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS(stream(discs(), Understated(), {}), doctest::Contains("a ray starts"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS(stream(discs(), UnderstatedDistance(), {}), doctest::Contains("a ray starts"),
+                         std::invalid_argument);
     Totals totals;
     CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory(rays()), {.totals = &totals}), doctest::Contains("totals"),
                          std::invalid_argument);

@@ -11,7 +11,7 @@ using namespace detp::validate;
 
 namespace {
 
-Finish finish(const Competitor& competitor, std::vector<double> seconds, std::uint64_t wrong = 0) {
+CompetitorResult competitor_result(const Competitor& competitor, std::vector<double> seconds, std::uint64_t wrong = 0) {
   return {.competitor = competitor, .seconds = std::move(seconds), .hits = 100, .wrong_hits = wrong};
 }
 
@@ -20,9 +20,10 @@ BenchEntry entry(double embree, int threads = 1) {
   BenchEntry made;
   made.threads = threads;
   made.race.complete = true;
-  made.race.finishes = {finish(Candidate{}, {9, 1, 1}), finish(Candidate{Technique::grid, GridParameters{}}, {3}),
-                        finish(EmbreeMode{}, {embree, 2 * embree, 0}, 3),
-                        finish(EmbreeMode{.coherent = true}, {2 * embree})};
+  made.race.results = {competitor_result(Candidate{}, {9, 1, 1}),
+                       competitor_result(Candidate{Technique::grid, GridParameters{}}, {3}),
+                       competitor_result(EmbreeMode{}, {embree, 2 * embree, 0}, 3),
+                       competitor_result(EmbreeMode{.coherent = true}, {2 * embree})};
   return made;
 }
 
@@ -64,11 +65,11 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("our wrong hits are a disagreement, those of Embree are added up") {
     std::vector<BenchEntry> entries{entry(8), entry(2)};
-    CHECK(ours_agree(entries));
+    CHECK(do_own_hits_agree(entries));
     CHECK(embree_wrong_hits(entries).wrong == 6);
     CHECK(embree_wrong_hits(entries).hits == 400);
-    entries[1].race.finishes[1].wrong_hits = 1;
-    CHECK_FALSE(ours_agree(entries));
+    entries[1].race.results[1].wrong_hits = 1;
+    CHECK_FALSE(do_own_hits_agree(entries));
   }
 
   TEST_CASE("wrong hits are counted disc by disc: one too many does not cancel one too few") {
@@ -84,18 +85,19 @@ TEST_SUITE("known answer") {
     const std::vector<Competitor> competitors{
         Candidate{},  Candidate{Technique::grid, GridParameters{4}}, Candidate{Technique::octree, OctreeParameters{2}},
         EmbreeMode{}, EmbreeMode{.query = EmbreeQuery::occluded},    EmbreeMode{.rays = EmbreeRays::packet_8}};
-    const RaceOptions options{.repeats = 3, .enough = 60};
+    const RaceOptions options{.repeats = 3, .most_seconds = 60};
     Race found = race(job, *right, EmbreePeer(1), competitors, options);
     CHECK(found.complete);
-    REQUIRE(found.finishes.size() == competitors.size());
+    REQUIRE(found.results.size() == competitors.size());
     for (const bool ours : {true, false})
-      CHECK(std::count_if(found.finishes.begin(), found.finishes.end(), [&](const Finish& one) {
-              return is_ours(one.competitor) == ours && one.seconds.size() == 3;
+      CHECK(std::count_if(found.results.begin(), found.results.end(), [&](const CompetitorResult& one) {
+              return is_own_technique(one.competitor) == ours && one.seconds.size() == 3;
             }) == 2);
-    for (const Finish& one : found.finishes) CHECK(one.wrong_hits <= (is_ours(one.competitor) ? 0U : 2U));
+    for (const CompetitorResult& one : found.results)
+      CHECK(one.wrong_hits <= (is_own_technique(one.competitor) ? 0U : 2U));
     ++right->hits[0];
     found = race(job, *right, EmbreePeer(1), competitors, options);
-    for (const Finish& one : found.finishes) CHECK(one.wrong_hits >= 1);
+    for (const CompetitorResult& one : found.results) CHECK(one.wrong_hits >= 1);
   }
 
   TEST_CASE("the sets: their workloads, and those that are missing without the meshes") {

@@ -35,7 +35,7 @@ TEST_SUITE("identity") {
     CHECK(job.workload.path_length == in_memory.workload.path_length);
     CHECK_THROWS_AS(static_cast<void>(job.problem()), std::invalid_argument);
     const Candidate grid{Technique::grid, GridParameters{2}};
-    const sim::Streamed streamed = sim::run_streamed(job.discs, *job.stream, grid);
+    const sim::StreamedOutcome streamed = sim::run_streamed(job.discs, *job.stream, grid);
     CHECK(streamed.block == 1U << 20);
     CHECK(streamed.outcome.irradiance == sim::run(in_memory.problem(), grid).irradiance);
   }

@@ -109,8 +109,8 @@ TEST_SUITE("bad input") {
     check_refused(each(uniform + "--technique photon-map --nearest", {"2", "1.5"}, "nearest"));
     check_refused({{numbers + "--technique bvh", "no closed form of bvh"},
                    {numbers + "--technique photon-map", "no closed form of photon-map"},
-                   {uniform + "--technique photon-map", "no ray is a segment"},
-                   {"run @cornell --rays 20 --technique photon-map", "fewer than the 50 nearest"}});
+                   {uniform + "--technique photon-map", "all rays are lines"},
+                   {"run @cornell --rays 20 --technique photon-map", "needs the 50 nearest photons"}});
     for (const std::string technique : {"grid", "cell-spheres", "sphere-tree"})
       check_refused({{numbers + "--form published --technique " + technique, "--form corrected"}});
   }

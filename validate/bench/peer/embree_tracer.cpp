@@ -10,7 +10,7 @@ namespace detp::validate {
 namespace {
 
 /// Data that Embree passes to the filter. Embree's own context must come first.
-struct Collecting {
+struct FilterData {
   RTCIntersectContext context;
   const sim::Ray* rays;
   DiscTally* tallies;
@@ -20,13 +20,13 @@ struct Collecting {
     ++tallies[disc].hits;
   }
 };
-static_assert(std::is_standard_layout_v<Collecting>);
+static_assert(std::is_standard_layout_v<FilterData>);
 
 /// Records every hit and rejects it, so that the search continues: Embree's documentation recommends the context's
 /// filter for collecting all hits of a ray. Rays may arrive in other packets and another order than they were sent, so
 /// a ray is identified by its id.
 void collect_and_refuse(const RTCFilterFunctionNArguments* arguments) {
-  const auto& collecting = *reinterpret_cast<const Collecting*>(arguments->context);
+  const auto& collecting = *reinterpret_cast<const FilterData*>(arguments->context);
   if (arguments->N == 1) {
     collecting.add(reinterpret_cast<const RTCRay*>(arguments->ray)->id,
                    reinterpret_cast<const RTCHit*>(arguments->hit)->primID);
@@ -48,22 +48,22 @@ constexpr std::size_t stream = 64;
 /// Writes the rays from `first` on into a packet. Lanes from `count` on are made inactive in the way that streams
 /// require: their rays end before they start.
 template <class Packet>
-void EmbreeTracer::put(std::size_t first, std::size_t count, Packet& packet) const {
+void EmbreeTracer::write_packet(std::size_t first, std::size_t count, Packet& packet) const {
   auto& rays = embree::ray_of(packet);
   for (std::size_t lane = 0; lane < count; ++lane)
-    maker_.put(rays_[first + lane], static_cast<unsigned>(first + lane), rays, lane);
+    maker_.write(rays_[first + lane], static_cast<unsigned>(first + lane), rays, lane);
   for (std::size_t lane = count; lane < embree::width<Packet>; ++lane) {
-    maker_.put(rays_[first], static_cast<unsigned>(first), rays, lane);
+    maker_.write(rays_[first], static_cast<unsigned>(first), rays, lane);
     rays.tfar[lane] = -1;
   }
   embree::clear_hit(packet);
 }
 
 template <class RayHit>
-void EmbreeTracer::ones(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
+void EmbreeTracer::single_rays(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
   RayHit ray{};
   for (; first < last; ++first) {
-    maker_.put(rays_[first], static_cast<unsigned>(first), embree::ray_of(ray));
+    maker_.write(rays_[first], static_cast<unsigned>(first), embree::ray_of(ray));
     embree::clear_hit(ray);
     embree::query(scene_, context, ray);
   }
@@ -75,7 +75,7 @@ void EmbreeTracer::ray_streams(std::size_t first, std::size_t last, RTCIntersect
   while (first < last) {
     const std::size_t count = std::min(stream, last - first);
     for (std::size_t i = 0; i < count; ++i) {
-      maker_.put(rays_[first + i], static_cast<unsigned>(first + i), embree::ray_of(rays[i]));
+      maker_.write(rays_[first + i], static_cast<unsigned>(first + i), embree::ray_of(rays[i]));
       embree::clear_hit(rays[i]);
     }
     embree::query_stream(scene_, context, rays.data(), static_cast<unsigned>(count));
@@ -90,7 +90,7 @@ void EmbreeTracer::packets(std::size_t first, std::size_t last, RTCIntersectCont
   alignas(64) std::array<int, width> valid{};
   for (; first < last; first += width) {
     const std::size_t count = std::min(width, last - first);
-    put(first, count, packet);
+    write_packet(first, count, packet);
     for (std::size_t lane = 0; lane < width; ++lane) valid[lane] = lane < count ? -1 : 0;
     embree::query(valid.data(), scene_, context, packet);
   }
@@ -103,7 +103,7 @@ void EmbreeTracer::packet_streams(std::size_t first, std::size_t last, RTCInters
   while (first < last) {
     unsigned filled = 0;
     for (; filled < sent.size() && first < last; first += width)
-      put(first, std::min(width, last - first), sent[filled++]);
+      write_packet(first, std::min(width, last - first), sent[filled++]);
     embree::query_stream(scene_, context, sent.data(), filled);
   }
 }
@@ -112,7 +112,7 @@ template <class RayHit, class Packet8, class Packet16>
 void EmbreeTracer::trace_as(std::size_t first, std::size_t last, RTCIntersectContext& context) const {
   switch (mode_.rays) {
     case EmbreeRays::one:
-      return ones<RayHit>(first, last, context);
+      return single_rays<RayHit>(first, last, context);
     case EmbreeRays::packet_8:
       return packets<Packet8>(first, last, context);
     case EmbreeRays::packet_16:
@@ -126,7 +126,7 @@ void EmbreeTracer::trace_as(std::size_t first, std::size_t last, RTCIntersectCon
 
 void EmbreeTracer::trace(std::size_t first, std::size_t last, std::vector<DiscTally>& tallies) const {
   const FlushDenormals flush;
-  Collecting collecting{.context = {}, .rays = rays_.data(), .tallies = tallies.data()};
+  FilterData collecting{.context = {}, .rays = rays_.data(), .tallies = tallies.data()};
   rtcInitIntersectContext(&collecting.context);
   collecting.context.filter = collect_and_refuse;
   if (mode_.coherent) collecting.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;

@@ -27,9 +27,9 @@ class EmbreeTracer {
 
  private:
   template <class Packet>
-  void put(std::size_t first, std::size_t count, Packet& packet) const;
+  void write_packet(std::size_t first, std::size_t count, Packet& packet) const;
   template <class RayHit>
-  void ones(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
+  void single_rays(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
   template <class RayHit>
   void ray_streams(std::size_t first, std::size_t last, RTCIntersectContext& context) const;
   template <class Packet>

@@ -54,7 +54,7 @@ Shares measure(const Kind& kind, std::uint64_t scenes, std::size_t discs, std::s
   return shares;
 }
 
-void check_all_kinds(std::uint64_t scenes, std::size_t rays, bool told) {
+void check_all_kinds(std::uint64_t scenes, std::size_t rays, bool print) {
   Shares most;
   for (const Kind& kind : kinds()) {
     CAPTURE(kind.name);
@@ -66,7 +66,7 @@ void check_all_kinds(std::uint64_t scenes, std::size_t rays, bool told) {
       most.*share = std::max(most.*share, shares.*share);
     }
     most.widest = std::max(most.widest, shares.widest);
-    if (told)
+    if (print)
       MESSAGE(
           fmt::format("{:12} {:9} decisions {:8} hits | rim {:.3f} wrong {:7} of the band {:.3f} | ends {:.3f} | "
                       "box {:.3f} | sphere {:.3f}",
@@ -92,7 +92,7 @@ std::uint64_t differences(const std::vector<std::uint64_t>& some, const std::vec
 
 /// Number of wrong hits of the kernels if bands or margins are `times` as wide.
 template <class Find>
-std::uint64_t wrong_if(const std::vector<Kind>& some, const Find& find, float times) {
+std::uint64_t count_wrong(const std::vector<Kind>& some, const Find& find, float times) {
   std::uint64_t sum = 0;
   for (const Kind& kind : some) {
     const HardScene scene = scene_of(kind, 7, 40, 8000);
@@ -115,17 +115,17 @@ TEST_SUITE("reference value") {
   }
 
   TEST_CASE("without bands, or with a fiftieth of them, the kernels decide wrongly; with the whole bands never") {
-    CHECK(wrong_if(near_the_rim, hits_with_band, 0) > 100);
-    CHECK(wrong_if(near_the_rim, hits_with_band, 0.02F) > 5);
-    CHECK(wrong_if(near_the_rim, hits_with_band, 1) == 0);
+    CHECK(count_wrong(near_the_rim, hits_with_band, 0) > 100);
+    CHECK(count_wrong(near_the_rim, hits_with_band, 0.02F) > 5);
+    CHECK(count_wrong(near_the_rim, hits_with_band, 1) == 0);
   }
 
   TEST_CASE("boxes lose hits without margins, spheres with negative margins; with the whole margins neither") {
-    CHECK(wrong_if(at_corners, hits_in_boxes, 0) > 20);
-    CHECK(wrong_if(at_corners, hits_in_spheres, -0.2F) > 0);
+    CHECK(count_wrong(at_corners, hits_in_boxes, 0) > 20);
+    CHECK(count_wrong(at_corners, hits_in_spheres, -0.2F) > 0);
     for (const auto find : {hits_in_boxes, hits_in_spheres}) {
-      CHECK(wrong_if(at_corners, find, -1) > 50);
-      CHECK(wrong_if(at_corners, find, 1) == 0);
+      CHECK(count_wrong(at_corners, find, -1) > 50);
+      CHECK(count_wrong(at_corners, find, 1) == 0);
     }
   }
 }
@@ -135,7 +135,8 @@ TEST_SUITE("statistical") {
     check_all_kinds(100, 1000, true);
     for (const float times : {0.0F, 0.01F, 0.02F, 0.03F, 0.05F, 0.1F, 1.0F})
       MESSAGE(fmt::format("bands and margins times {:4}: wrong {:6} by bands, {:6} in boxes, {:6} in spheres", times,
-                          wrong_if(near_the_rim, hits_with_band, times), wrong_if(at_corners, hits_in_boxes, times),
-                          wrong_if(at_corners, hits_in_spheres, times)));
+                          count_wrong(near_the_rim, hits_with_band, times),
+                          count_wrong(at_corners, hits_in_boxes, times),
+                          count_wrong(at_corners, hits_in_spheres, times)));
   }
 }

@@ -25,10 +25,10 @@ HardScene mixed_scene(bool equal_powers) {
   HardScene scene = hard_scene(0, 0, 60, 1);
   scene.rays.clear();
   for (const std::size_t family : {0, 1, 2, 7, 8}) {
-    Dice dice(500 + family, equal_powers ? 0 : 1);
+    RandomSequence random(500 + family, equal_powers ? 0 : 1);
     for (std::size_t i = 0; i < 600; ++i) {
-      scene.rays.push_back(hard_ray(families[family], dice, scene.discs[i % scene.discs.size()]));
-      if (!equal_powers) scene.rays.back().power = std::pow(10, 10 * dice.uniform());
+      scene.rays.push_back(hard_ray(families[family], random, scene.discs[i % scene.discs.size()]));
+      if (!equal_powers) scene.rays.back().power = std::pow(10, 10 * random.uniform());
     }
   }
   return scene;

@@ -1,4 +1,4 @@
-#include "box_tree_drops.hpp"
+#include "box_tree_sah_leaves.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace detp::model::box_tree {
 namespace {
 
-using Row = Dropped::Row;
+using Row = SahLeaves::Row;
 
 // Constants of sim/lists/simd/disc_tree.cpp. The costs of lists are halved there too, because about one of two splits
 // is joined to a wide node.
@@ -20,9 +20,9 @@ double normal_below(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; 
 /// The distribution of m discs over two halves that are equally likely for each disc.
 const auto& halves() {
   static const auto table = [] {
-    std::array<Row, most_dropped + 1> rows{};
+    std::array<Row, largest_sah_leaf + 1> rows{};
     rows[0][0] = 1;
-    for (int m = 1; m <= most_dropped; ++m)
+    for (int m = 1; m <= largest_sah_leaf; ++m)
       for (int k = 0; k <= m; ++k) rows[m][k] = (rows[m - 1][k] + (k > 0 ? rows[m - 1][k - 1] : 0)) / 2;
     return rows;
   }();
@@ -33,7 +33,7 @@ const auto& halves() {
 const Row& powers() {
   static const auto table = [] {
     Row row;
-    for (int m = 0; m <= most_dropped; ++m) row[m] = std::pow(m, 0.7);
+    for (int m = 0; m <= largest_sah_leaf; ++m) row[m] = std::pow(m, 0.7);
     return row;
   }();
   return table;
@@ -41,15 +41,15 @@ const Row& powers() {
 
 /// Almost no cell has more discs than this.
 int most_discs(double expected) {
-  return static_cast<int>(std::clamp(expected + deviations * std::sqrt(expected) + 10, 28.0, 1.0 * most_dropped));
+  return static_cast<int>(std::clamp(expected + deviations * std::sqrt(expected) + 10, 28.0, 1.0 * largest_sah_leaf));
 }
 
-// Of nodes with 2 … 6 discs: share, box and cost (validate/tools/box_tree_drops_table.cpp).
+// Of nodes with 2 … 6 discs: share, box and cost (validate/tools/box_tree_sah_leaves_table.cpp).
 constexpr int most_in_table = 6;
 constexpr std::size_t small_row = 3 * (most_in_table - 1);
 constexpr std::size_t small_radii = 21;              // d over the cell's longest side, 2⁻⁹, 2^{-8.5} … 2
 constexpr std::size_t small_shapes = 2 + 3 + 3 + 2;  // of cells: on a face, in the volume, at an edge; the last ones
-#include "box_tree_drops.inc"
+#include "box_tree_sah_leaves.inc"
 
 int faces_of(const CellKind& cell) { return cell.touched[0] + cell.touched[1] + cell.touched[2]; }
 
@@ -68,8 +68,8 @@ class SmallNodes {
     weight_ = at - static_cast<double>(row);
   }
 
-  /// Sets which nodes of so many discs are dropped. Returns their expected cost over their mean area.
-  double drop(Dropped& level, int discs) const {
+  /// Sets which nodes of so many discs become leaves. Returns their expected cost over their mean area.
+  double set_leaf_share(SahLeaves& level, int discs) const {
     level.share[discs] = value(discs, 0);
     level.box[discs] = value(discs, 1);
     return value(discs, 2);
@@ -85,14 +85,15 @@ class SmallNodes {
   double weight_;
 };
 
-/// Sets the share of dropped nodes with `discs` discs. Returns the expected cost.
-double drop(Dropped& level, int discs, double area, double children, double deviation, double of_points) {
+/// Sets the share of nodes with `discs` discs that become leaves. Returns the expected cost.
+double set_leaf_share(SahLeaves& level, int discs, double area, double children, double deviation,
+                      double point_box_share) {
   const double less = cull_cost * area + children - discs * area;
   if (std::abs(less) > deviations * deviation) {
     level.share[discs] = less > 0 ? 1 : 0;
     return discs * area + std::min(less, 0.0);
   }
-  deviation *= std::pow(std::min(1.0, of_points), 0.35);
+  deviation *= std::pow(std::min(1.0, point_box_share), 0.35);
   const double z = less / deviation;
   const double share = normal_below(z);
   const double density = normal_density(z);
@@ -103,16 +104,16 @@ double drop(Dropped& level, int discs, double area, double children, double devi
 
 }  // namespace
 
-bool all_more_than(int discs, double expected) { return expected - deviations * std::sqrt(expected) > discs; }
+bool almost_all_exceed(int discs, double expected) { return expected - deviations * std::sqrt(expected) > discs; }
 
-Drops::Drops(int dimension, double samples, double radius, int leaf)
+SahLeafModel::SahLeafModel(int dimension, double samples, double radius, int leaf)
     : radius_(radius),
       leaf_(leaf),
       on_faces_(dimension == 2),
       least_side_(radius / 64),
       // In cells that expect fewer discs than this, almost none has more discs than a leaf.
       least_discs_(std::exp((std::log(1e-4) + std::lgamma(leaf + 2)) / leaf) / (dimension == 2 ? 3 : 1)) {
-  if (leaf >= most_dropped) return;
+  if (leaf >= largest_sah_leaf) return;
   std::vector<const CellKind*> cells;  // by number of halvings
   for (const CellKind& kind : cell_kinds(dimension, samples)) {
     if (on_faces_ && kind.side[2] > 0) continue;
@@ -120,74 +121,75 @@ Drops::Drops(int dimension, double samples, double radius, int leaf)
     cells[kind.halvings] = &kind;
   }
   std::size_t end = 0;
-  while (end + 1 < cells.size() && matters(*cells[end], samples)) ++end;
+  while (end + 1 < cells.size() && is_undecided(*cells[end], samples)) ++end;
   levels_.resize(end + 1);
   Row area{};
   Row cost{};
   for (std::size_t level = end + 1; level-- > 0;) {
     const double expected = samples * cells[level]->share;
-    if (all_more_than(most_dropped, expected)) break;
+    if (almost_all_exceed(largest_sah_leaf, expected)) break;
     const int most = most_discs(on_faces_ ? 3 * expected : expected);  // a corner has parts on three faces
     if (level == end)
-      start(*cells[level], area, cost);
+      start_from_leaves(*cells[level], area, cost);
     else
-      halve(*cells[level], most, area, cost);
+      compute_from_halves(*cells[level], most, area, cost);
   }
 }
 
-const Dropped* Drops::of(const CellKind& cell) {
+const SahLeaves* SahLeafModel::for_cell(const CellKind& cell) {
   if (levels_.empty()) return nullptr;
-  const Dropped& level = levels_[std::min(static_cast<std::size_t>(cell.halvings), levels_.size() - 1)];
+  const SahLeaves& level = levels_[std::min(static_cast<std::size_t>(cell.halvings), levels_.size() - 1)];
   if (faces_of(cell) <= 1) return &level;
   at_edge_ = level;
   for (double& share : at_edge_.share) {
-    const double kept = 1 - share;
-    share *= 1 + 0.75 * kept * kept * kept * kept * kept;
+    const double inner_share = 1 - share;
+    share *= 1 + 0.75 * inner_share * inner_share * inner_share * inner_share * inner_share;
   }
   if (leaf_ > 1) return &at_edge_;
   const SmallNodes small(cell, radius_);
-  for (int discs = 2; discs <= most_in_table; ++discs) small.drop(at_edge_, discs);
+  for (int discs = 2; discs <= most_in_table; ++discs) small.set_leaf_share(at_edge_, discs);
   return &at_edge_;
 }
 
-bool Drops::matters(const CellKind& cell, double samples) const {
+bool SahLeafModel::is_undecided(const CellKind& cell, double samples) const {
   return samples * cell.share > least_discs_ && cell.side[0] > least_side_;
 }
 
-/// Starts with cells so small that all nodes are dropped.
-void Drops::start(const CellKind& cell, Row& area, Row& cost) {
-  Dropped& level = levels_.back();
+/// Starts with cells so small that all nodes become leaves.
+void SahLeafModel::start_from_leaves(const CellKind& cell, Row& area, Row& cost) {
+  SahLeaves& level = levels_.back();
   level.share.fill(1);
   level.box.fill(1);
   const CellBoxes boxes(cell, radius_);
-  for (int m = 1; m <= most_dropped; ++m) {
+  for (int m = 1; m <= largest_sah_leaf; ++m) {
     area[m] = boxes(m).products;
     cost[m] = m * area[m];
   }
 }
 
 /// Fitted: how much the two sides of the heuristic's inequality differ between nodes.
-double Drops::spread(double pairs_dropped) const {
-  return 0.215 * (on_faces_ ? 1.1 : 1) * (leaf_ > 1 ? 1.13 : 1) * (1 + 1.2 * pairs_dropped * (1 - pairs_dropped));
+double SahLeafModel::deviation_factor(double leaf_share_of_pairs) const {
+  return 0.215 * (on_faces_ ? 1.1 : 1) * (leaf_ > 1 ? 1.13 : 1) *
+         (1 + 1.2 * leaf_share_of_pairs * (1 - leaf_share_of_pairs));
 }
 
 /// The area that the mean box would have if the discs were points, as a share of its area.
-double Drops::of_points(const CellKind& cell, int discs, double area) const {
+double SahLeafModel::point_box_share(const CellKind& cell, int discs, double area) const {
   const auto& side = cell.side;
   const double flat = side[0] * side[1] + (on_faces_ ? 0 : side[1] * side[2] + side[2] * side[0]);
   return flat * std::pow((discs - 1.0) / (discs + 1.0), 2) / area;
 }
 
 /// Computes the cell's areas and costs from those of its halves.
-void Drops::halve(const CellKind& cell, int most, Row& area, Row& cost) {
-  Dropped& level = levels_[cell.halvings];
+void SahLeafModel::compute_from_halves(const CellKind& cell, int most, Row& area, Row& cost) {
+  SahLeaves& level = levels_[cell.halvings];
   level.share.fill(1);
   level.box.fill(1);
   const Row half_area = area;
   const Row half_cost = cost;
   Row either;
   for (int m = 1; m <= most; ++m) either[m] = 2 * (list_cost * half_area[m] + half_cost[m]);
-  const double deviation = spread(leaf_ > 1 ? 1 : levels_[cell.halvings + 1].share[2]);
+  const double deviation = deviation_factor(leaf_ > 1 ? 1 : levels_[cell.halvings + 1].share[2]);
   const CellBoxes boxes(cell, radius_);
   const SmallNodes small(cell, radius_);
   double none = 1;  // probability that one half has all discs
@@ -199,7 +201,7 @@ void Drops::halve(const CellKind& cell, int most, Row& area, Row& cost) {
     }
     const double split_area = std::max((area[m] - none * half_area[m]) / (1 - none), 1e-300);
     if (leaf_ == 1 && m <= most_in_table) {
-      cost[m] = none * half_cost[m] + (1 - none) * split_area * small.drop(level, m);
+      cost[m] = none * half_cost[m] + (1 - none) * split_area * small.set_leaf_share(level, m);
       continue;
     }
     const Row& weight = halves()[m];
@@ -207,8 +209,8 @@ void Drops::halve(const CellKind& cell, int most, Row& area, Row& cost) {
     const int off = static_cast<int>(2.5 * std::sqrt(m)) + 1;  // five deviations
     for (int k = std::max(1, m / 2 - off); k <= std::min(m - 1, m / 2 + off); ++k) children += weight[k] * either[k];
     children /= 1 - none;
-    const double least =
-        drop(level, m, split_area, children, deviation * split_area * powers()[m], of_points(cell, m, area[m]));
+    const double least = set_leaf_share(level, m, split_area, children, deviation * split_area * powers()[m],
+                                        point_box_share(cell, m, area[m]));
     cost[m] = none * half_cost[m] + (1 - none) * least;
   }
 }

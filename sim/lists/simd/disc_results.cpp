@@ -1,4 +1,4 @@
-#include "gathering.hpp"
+#include "disc_results.hpp"
 
 #include <hwy/cache_control.h>
 #include <tbb/blocked_range.h>
@@ -41,30 +41,30 @@ double bytes_of(const std::pmr::vector<Element>& array) {
 
 }  // namespace
 
-Gathering::Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome)
+DiscResults::DiscResults(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome)
     : problem_(problem),
       tree_(tree),
       options_(options),
       outcome_(outcome),
       totals_(options.memory),
       hits_(tree.discs.size(), options.memory),
-      kept_(options.memory) {
-  if (options.totals != nullptr) need_totals();
+      snapshot_(options.memory) {
+  if (options.totals != nullptr) ensure_totals();
 }
 
-void Gathering::need_totals() {
+void DiscResults::ensure_totals() {
   if (!totals_.empty()) return;
   totals_.resize(tree_.discs.size());
   if (options_.totals == nullptr || options_.totals->empty()) return;
   for (std::size_t place = 0; place < totals_.size(); ++place) totals_[place] = (*options_.totals)[tree_.order[place]];
 }
 
-BlockSearch Gathering::begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits) {
+BlockSearch DiscResults::begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits) {
   const bool only_count = traits.power && !options_.pairs && !problem_.front_facing;
   const std::optional<double> power = only_count ? traits.power : std::nullopt;
-  if (first_ray > 0 && power != counted_power_) add_up();
+  if (first_ray > 0 && power != counted_power_) add_counted_hits();
   counted_power_ = power;
-  if (!only_count) need_totals();
+  if (!only_count) ensure_totals();
   return {.problem = problem_,
           .frame = frame,
           .tree = tree_,
@@ -76,8 +76,8 @@ BlockSearch Gathering::begin(const Frame& frame, std::size_t first_ray, const Ra
           .totals = only_count ? nullptr : totals_.data()};
 }
 
-void Gathering::add_up() {
-  need_totals();
+void DiscResults::add_counted_hits() {
+  ensure_totals();
   std::optional<RepeatedSums> sums;
   if (counted_power_) sums.emplace(*counted_power_, options_.memory);
   for (std::size_t place = 0; place < totals_.size(); ++place)
@@ -89,58 +89,58 @@ void Gathering::add_up() {
     }
 }
 
-void Gathering::end_wholly(const Block& block, std::uint64_t tests) {
+void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
   // A copy takes a few nanoseconds per disc, a test a sixth of one. So this limits the copies to about a hundredth of
   // the time.
   constexpr std::uint64_t tests_for_each_disc = 4096;
   rays_ = block.first() + block.size();
-  if (rays_ == problem_.rays.size() || tests - tests_when_kept_ < tests_for_each_disc * tree_.discs.size()) return;
-  tests_when_kept_ = tests;
-  if (room_to_keep()) keep();
+  if (rays_ == problem_.rays.size() || tests - tests_at_snapshot_ < tests_for_each_disc * tree_.discs.size()) return;
+  tests_at_snapshot_ = tests;
+  if (has_room_for_snapshot()) take_snapshot();
 }
 
 /// Adds the copy to the memory of the run. If it does not fit, a stopped run has an older result.
-bool Gathering::room_to_keep() {
+bool DiscResults::has_room_for_snapshot() {
   const double copy = bytes_of(hits_) + bytes_of(totals_);
-  const double more = copy - bytes_of(kept_.counts) - bytes_of(kept_.totals);
+  const double more = copy - bytes_of(snapshot_.counts) - bytes_of(snapshot_.totals);
   if (!fits_memory(outcome_.bytes + more, problem_)) return false;
   outcome_.bytes += more;
   return true;
 }
 
-void Gathering::end_partly(const Block& block) {
+void DiscResults::end_partial_block(const Block& block) {
   partial_ = true;
   by_discs_ = block.size() == problem_.rays.size() && options_.totals == nullptr;
 }
 
-std::uint64_t Gathering::hits() const {
+std::uint64_t DiscResults::hits() const {
   std::uint64_t sum = found_;
   for (const ClassCounts& counts : hits_)
     for (const std::uint32_t count : counts) sum += count;
   return sum;
 }
 
-void Gathering::keep() {
+void DiscResults::take_snapshot() {
   const std::uint64_t found = hits();
-  batches_.add(rays_ - kept_.rays, found - kept_.hits);
-  kept_.rays = rays_;
-  kept_.hits = found;
-  kept_.totals = totals_;
-  kept_.counts = hits_;
-  kept_.counted_power = counted_power_;
-  kept_.in_totals = found_;
+  batches_.add(rays_ - snapshot_.rays, found - snapshot_.hits);
+  snapshot_.rays = rays_;
+  snapshot_.hits = found;
+  snapshot_.totals = totals_;
+  snapshot_.counts = hits_;
+  snapshot_.counted_power = counted_power_;
+  snapshot_.in_totals = found_;
 }
 
-void Gathering::go_back() {
-  rays_ = kept_.rays;
-  totals_ = std::move(kept_.totals);
-  hits_ = std::move(kept_.counts);
+void DiscResults::restore_snapshot() {
+  rays_ = snapshot_.rays;
+  totals_ = std::move(snapshot_.totals);
+  hits_ = std::move(snapshot_.counts);
   hits_.resize(tree_.discs.size());
-  counted_power_ = kept_.counted_power;
-  found_ = kept_.in_totals;
+  counted_power_ = snapshot_.counted_power;
+  found_ = snapshot_.in_totals;
 }
 
-void Gathering::mark_done(std::span<const DiscRun> skipped) const {
+void DiscResults::mark_done_discs(std::span<const DiscRun> skipped) const {
   outcome_.done_discs.assign(tree_.order.size(), true);
   for (const DiscRun& run : skipped)
     for (std::uint32_t place = run.first; place < run.first + run.count; ++place)
@@ -148,38 +148,38 @@ void Gathering::mark_done(std::span<const DiscRun> skipped) const {
   keep_done_discs(outcome_);
 }
 
-void Gathering::finish_outcome(std::span<const DiscRun> skipped) {
-  if (partial_ && !by_discs_) go_back();
-  totals_.empty() && counted_power_ ? give_counted() : give_totals();
+void DiscResults::finish_outcome(std::span<const DiscRun> skipped) {
+  if (partial_ && !by_discs_) restore_snapshot();
+  totals_.empty() && counted_power_ ? store_counted() : store_totals();
   if (!options_.count) outcome_.counts = {};
   outcome_.counts.hits = outcome_.total_hits;
   outcome_.progress = {rays_, problem_.rays.size()};
   outcome_.stopped = rays_ < problem_.rays.size() || !sort_pairs(outcome_.pairs, options_.stop);
   if (outcome_.stopped) outcome_.pairs.clear();
-  if (rays_ > kept_.rays) batches_.add(rays_ - kept_.rays, outcome_.total_hits - kept_.hits);
+  if (rays_ > snapshot_.rays) batches_.add(rays_ - snapshot_.rays, outcome_.total_hits - snapshot_.hits);
   outcome_.batches = batches_;
-  if (by_discs_) mark_done(skipped);
+  if (by_discs_) mark_done_discs(skipped);
 }
 
 /// For rays that all have the same power, with no earlier totals: no totals are needed.
-void Gathering::give_counted() const {
+void DiscResults::store_counted() const {
   outcome_.hits.resize(hits_.size());
   outcome_.irradiance.resize(hits_.size());
   std::atomic<std::uint64_t> found = 0;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hits_.size(), 1U << 14),
-                    [&](const auto& range) { found += give_counted(range.begin(), range.end()); });
+                    [&](const auto& range) { found += store_counted(range.begin(), range.end()); });
   outcome_.total_hits = found;
 }
 
 /// Computes hits and irradiance of the discs at places first … last - 1, if hits were only counted. Returns the number
 /// of their hits.
-std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last) const {
-  constexpr std::size_t ahead = 32;  // number of discs to prefetch
+std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) const {
+  constexpr std::size_t prefetch_distance = 32;  // number of discs to prefetch
   RepeatedSums sums(*counted_power_, options_.memory);
   std::uint64_t found = 0;
   for (std::size_t place = first; place < last; ++place) {
-    if (place + ahead < hits_.size()) {
-      const std::uint32_t later = tree_.order[place + ahead];
+    if (place + prefetch_distance < hits_.size()) {
+      const std::uint32_t later = tree_.order[place + prefetch_distance];
       hwy::Prefetch(&problem_.discs[later].radius);
       hwy::Prefetch(&outcome_.hits[later]);
       hwy::Prefetch(&outcome_.irradiance[later]);
@@ -196,8 +196,8 @@ std::uint64_t Gathering::give_counted(std::size_t first, std::size_t last) const
   return found;
 }
 
-void Gathering::give_totals() {
-  add_up();
+void DiscResults::store_totals() {
+  add_counted_hits();
   outcome_.total_hits = found_;
   if (options_.totals != nullptr) {
     options_.totals->resize(totals_.size());

@@ -17,10 +17,10 @@ namespace detp::sim::stream {
 ///
 /// A stop request ends a block when some discs have been searched and others not. The result is then that of an earlier
 /// block, of which a copy is made now and then; or, if there is a single block, the discs that were searched.
-class Gathering {
+class DiscResults {
  public:
   /// Keeps references to all four. Continues the options' totals, if there are any.
-  Gathering(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome);
+  DiscResults(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome);
 
   /// The data for the search of a block of rays with these traits.
   [[nodiscard]] BlockSearch begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits);
@@ -31,29 +31,29 @@ class Gathering {
     const bool skipped =
         options_.stop.stop_requested() &&
         std::any_of(workers.begin(), workers.end(), [](const Worker& w) { return !w.skipped.empty(); });
-    if (skipped) return end_partly(block);
+    if (skipped) return end_partial_block(block);
     std::uint64_t tests = 0;
     for (const Worker& worker : workers) tests += detp::tests(worker.counts);
-    end_wholly(block, tests);
+    end_complete_block(block, tests);
   }
 
   /// Fills in the outcome: hits, irradiance, pairs, and the workers' counts.
   template <class Workers>
-  void give(Workers& workers) {
+  void store_results(Workers& workers) {
     std::pmr::vector<DiscRun> skipped(options_.memory);
     for (Worker& worker : workers) {
       skipped.insert(skipped.end(), worker.skipped.begin(), worker.skipped.end());
       outcome_.counts += worker.counts;
       outcome_.vectors += worker.vectors;
     }
-    if (options_.pairs && rays_ == problem_.rays.size()) take_pairs(workers);
+    if (options_.pairs && rays_ == problem_.rays.size()) store_pairs(workers);
     finish_outcome(skipped);
   }
 
  private:
   /// A copy of the results after the first `rays` rays.
-  struct Found {
-    explicit Found(std::pmr::memory_resource* memory) : totals(memory), counts(memory) {}
+  struct Snapshot {
+    explicit Snapshot(std::pmr::memory_resource* memory) : totals(memory), counts(memory) {}
     std::size_t rays = 0;
     std::uint64_t hits = 0;
     Totals totals;
@@ -64,7 +64,7 @@ class Gathering {
 
   /// Frees each worker's pairs after copying them.
   template <class Workers>
-  void take_pairs(Workers& workers) {
+  void store_pairs(Workers& workers) {
     std::size_t count = 0;
     double bytes = 0;  // peak bytes while they grew
     for (const Worker& worker : workers) {
@@ -80,19 +80,19 @@ class Gathering {
     }
   }
 
-  void end_wholly(const Block& block, std::uint64_t tests);
-  void end_partly(const Block& block);
-  [[nodiscard]] bool room_to_keep();
-  void keep();
+  void end_complete_block(const Block& block, std::uint64_t tests);
+  void end_partial_block(const Block& block);
+  [[nodiscard]] bool has_room_for_snapshot();
+  void take_snapshot();
   [[nodiscard]] std::uint64_t hits() const;
-  void go_back();
-  void mark_done(std::span<const DiscRun> skipped) const;
+  void restore_snapshot();
+  void mark_done_discs(std::span<const DiscRun> skipped) const;
   void finish_outcome(std::span<const DiscRun> skipped);
-  void need_totals();
-  void add_up();
-  void give_counted() const;
-  [[nodiscard]] std::uint64_t give_counted(std::size_t first, std::size_t last) const;
-  void give_totals();
+  void ensure_totals();
+  void add_counted_hits();
+  void store_counted() const;
+  [[nodiscard]] std::uint64_t store_counted(std::size_t first, std::size_t last) const;
+  void store_totals();
 
   const Problem& problem_;
   const DiscTree& tree_;
@@ -105,8 +105,8 @@ class Gathering {
   std::size_t rays_ = 0;                 ///< number of first rays that have been searched for all discs
   bool partial_ = false;                 ///< some discs have been searched for more rays
   bool by_discs_ = false;                ///< … for all rays
-  std::uint64_t tests_when_kept_ = 0;
-  Found kept_;
+  std::uint64_t tests_at_snapshot_ = 0;
+  Snapshot snapshot_;
   HitBatches batches_;
 };
 

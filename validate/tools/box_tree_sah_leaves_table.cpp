@@ -1,7 +1,8 @@
-// Makes model/hierarchy/box_tree_drops.inc: which small nodes of a box tree the builder makes leaves, with one disc per
-// leaf.
+// Makes model/hierarchy/box_tree_sah_leaves.inc: which small nodes of a box tree the builder makes leaves, with one
+// disc per leaf.
 //
-//   cmake --build build --target box_tree_drops_table && build/box_tree_drops_table > model/hierarchy/box_tree_drops.inc
+//   cmake --build build --target box_tree_sah_leaves_table
+//   build/box_tree_sah_leaves_table > model/hierarchy/box_tree_sah_leaves.inc
 //
 // Draws sets of m discs, uniform in a cell and with isotropic normals, and keeps the sets with discs in both halves.
 // Builds their binary tree by the rule of sim/lists/simd/disc_tree.hpp. Prints, for cells on a face of a cube, then in
@@ -177,7 +178,7 @@ void print_shapes(std::size_t axes, bool edge, std::uint64_t& number) {
 }  // namespace
 
 int main() {
-  fmt::print("// Made by validate/tools/box_tree_drops_table.cpp.\n\n");
+  fmt::print("// Made by validate/tools/box_tree_sah_leaves_table.cpp.\n\n");
   fmt::print("constexpr std::array<double, small_shapes * small_radii * small_row> small_table{{{{\n");
   std::uint64_t number = 0;
   print_shapes(2, false, number);

@@ -5,9 +5,9 @@
 namespace detp::sim::built_in {
 
 /// A sequence of uniform random numbers for building a scene. The seed is fixed, so the scene is always the same.
-class Dice {
+class RandomSequence {
  public:
-  explicit Dice(std::uint64_t seed) : seed_(seed) {}
+  explicit RandomSequence(std::uint64_t seed) : seed_(seed) {}
 
   /// Uniform in [low, high).
   [[nodiscard]] double between(double low, double high) {
