@@ -11,7 +11,7 @@ namespace {
 class Bsp {
  public:
   Bsp(const Problem& problem, const BspParameters& parameters, const std::stop_token& stop)
-      : slack_(problem.slack), tree_(build_bsp(problem, parameters, stop)) {}
+      : slack_(problem.slack()), tree_(build_bsp(problem, parameters, stop)) {}
 
   [[nodiscard]] IndexSize size() const {
     return {.nodes = tree_.nodes.size(),

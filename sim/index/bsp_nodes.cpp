@@ -41,11 +41,11 @@ class Builder {
   }
 
   BspNodes build() && {
-    require_memory("the bounds of the discs", static_cast<double>(problem_.discs.size()) * sizeof(Box));
-    bounds_.reserve(problem_.discs.size());
-    for_each_checked(problem_.discs, check_,
-                     [&](const Disc& disc) { bounds_.push_back(bounds(disc, problem_.slack)); });
-    Discs all(problem_.discs.size());
+    require_memory("the bounds of the discs", static_cast<double>(problem_.discs().size()) * sizeof(Box));
+    bounds_.reserve(problem_.discs().size());
+    for_each_checked(problem_.discs(), check_,
+                     [&](const Disc& disc) { bounds_.push_back(bounds(disc, problem_.slack())); });
+    Discs all(problem_.discs().size());
     std::iota(all.begin(), all.end(), 0U);
     listed_ = most_listed_ = all.size();
     tree_.nodes.emplace_back();
@@ -100,7 +100,7 @@ class Builder {
   Discs discs_in(const Box& box, const Discs& discs) {
     Discs inside;
     for_each_checked(std::span(discs), check_, [&](std::uint32_t disc) {
-      if (overlaps(problem_.discs[disc], box, problem_.slack)) inside.push_back(disc);
+      if (overlaps(problem_.discs()[disc], box, problem_.slack())) inside.push_back(disc);
     });
     return inside;
   }

@@ -30,9 +30,9 @@ constexpr double bytes_per_disc = 95;
 class EmbreeFrame {
  public:
   explicit EmbreeFrame(const Problem& problem)
-      : centre_(problem.enclosing.centre),
-        unit_(std::exp2(std::ilogb(problem.enclosing.radius + problem.slack) + 1)),
-        growth_(problem.slack / unit_ + margin) {}
+      : centre_(problem.enclosing().centre),
+        unit_(std::exp2(std::ilogb(problem.enclosing().radius + problem.slack()) + 1)),
+        growth_(problem.slack() / unit_ + margin) {}
 
   /// A box that contains the disc and every point within the slack of it, with a margin for the errors of single
   /// precision.
@@ -87,8 +87,8 @@ static_assert(std::is_standard_layout_v<Query>);
 class Bvh {
  public:
   Bvh(const Problem& problem, BuildQuality quality, int threads, const std::stop_token& stop)
-      : discs_(problem.discs), frame_(problem) {
-    require_memory("the BVH", bytes_per_disc * static_cast<double>(problem.discs.size()));
+      : discs_(problem.discs()), frame_(problem) {
+    require_memory("the BVH", bytes_per_disc * static_cast<double>(problem.discs().size()));
     embree::require_no_error(device_);
     scene_.reset(rtcNewScene(device_.get()));
     rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
@@ -96,7 +96,7 @@ class Bvh {
     rtcSetSceneBuildQuality(scene_.get(), effort);
     const embree::Owned<RTCGeometry> geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
     rtcSetGeometryBuildQuality(geometry.get(), effort);
-    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(problem.discs.size()));
+    rtcSetGeometryUserPrimitiveCount(geometry.get(), static_cast<unsigned>(problem.discs().size()));
     rtcSetGeometryUserData(geometry.get(), this);
     rtcSetGeometryBoundsFunction(geometry.get(), report_bounds, nullptr);
     rtcSetGeometryOccludedFunction(geometry.get(), show_disc);
@@ -144,7 +144,7 @@ class BvhSearch final : public RaySearch, private DiscTest {
     rtcInitIntersectContext(&query.context);
     hits_ = &hits;
     for (ray_ = first; ray_ < last; ++ray_) {
-      bvh_.trace(problem_.rays[ray_], query);
+      bvh_.trace(problem_.rays()[ray_], query);
       if (failure_) std::rethrow_exception(failure_);
       check_.after(1);
     }
@@ -157,7 +157,7 @@ class BvhSearch final : public RaySearch, private DiscTest {
     tally_.add(&Counts<std::uint64_t>::disc_tests);
     try {  // no exception must pass through Embree
       check_.after(1);
-      if (counts_as_hit(problem_, problem_.rays[ray_], problem_.discs[disc])) hits_->push_back({ray_, disc});
+      if (counts_as_hit(problem_, problem_.rays()[ray_], problem_.discs()[disc])) hits_->push_back({ray_, disc});
     } catch (...) {
       failure_ = std::current_exception();
     }
@@ -196,8 +196,8 @@ class BvhIndex final : public Index {
   BvhIndex(const Problem& problem, BuildQuality quality, const RunOptions& options)
       : bvh_(problem, quality, options.threads, options.stop) {
     built_.seconds.build = watch_.lap();
-    built_.counts.references = problem.discs.size();
-    built_.bytes = bytes_per_disc * static_cast<double>(problem.discs.size());
+    built_.counts.references = problem.discs().size();
+    built_.bytes = bytes_per_disc * static_cast<double>(problem.discs().size());
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {

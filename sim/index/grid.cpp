@@ -17,7 +17,7 @@ using Cell = std::array<std::int64_t, 3>;
 class Grid {
  public:
   Grid(const Problem& problem, int cells, Insertion insertion, const std::stop_token& stop)
-      : slack_(problem.slack), insertion_(insertion), box_(index_box(problem)) {
+      : slack_(problem.slack()), insertion_(insertion), box_(index_box(problem)) {
     const glm::dvec3 size = box_.size();
     side_ = std::max({size.x, size.y, size.z}) / cells;
     double total = 1;
@@ -28,7 +28,7 @@ class Grid {
     }
     require_memory("the grid's cells", 2 * (total + 1) * sizeof(std::size_t));
     starts_.assign(static_cast<std::size_t>(total) + 1, 0);
-    fill(problem.discs, stop);
+    fill(problem.discs(), stop);
   }
 
   [[nodiscard]] IndexSize size() const {

@@ -25,11 +25,11 @@ class IndexedSearch final : public RaySearch {
       : index_(index),
         problem_(problem),
         check_(options.stop, "searching"),
-        last_ray_(problem.discs.size(), 0, options.memory) {}
+        last_ray_(problem.discs().size(), 0, options.memory) {}
 
   void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
     hits_ = &hits;
-    for (std::uint32_t ray = first; ray < last; ++ray) index_.trace(problem_.rays[ray], ray, *this);
+    for (std::uint32_t ray = first; ray < last; ++ray) index_.trace(problem_.rays()[ray], ray, *this);
   }
 
   [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
@@ -47,13 +47,13 @@ class IndexedSearch final : public RaySearch {
  private:
   void test_some(std::uint32_t ray, std::span<const std::uint32_t> discs) {
     check_.after(discs.size() + 1);
-    const Ray& tested = problem_.rays[ray];
+    const Ray& tested = problem_.rays()[ray];
     std::uint64_t known = 0;
     for (const std::uint32_t disc : discs) {
       const bool seen = last_ray_[disc] == ray + 1;
       if (mailboxing && seen) ++known;
       if (seen) continue;
-      const bool hit = counts_as_hit(problem_, tested, problem_.discs[disc]);
+      const bool hit = counts_as_hit(problem_, tested, problem_.discs()[disc]);
       if (mailboxing || hit) last_ray_[disc] = ray + 1;
       if (hit) hits_->push_back({ray, disc});
     }
@@ -98,7 +98,7 @@ class TracedIndex final : public Index {
   /// Bytes of the index, the mailboxes of its search, the sums and the outcome.
   [[nodiscard]] double searching_bytes(const Problem& problem, const RunOptions& options) const {
     const double mailboxes = thread_count(options.threads) * static_cast<double>(sizeof(std::uint32_t)) *
-                             static_cast<double>(problem.discs.size());
+                             static_cast<double>(problem.discs().size());
     return static_cast<double>(cells_.size().bytes) + mailboxes + found_bytes(problem, options);
   }
 
@@ -139,8 +139,8 @@ class TracedIndex final : public Index {
 /// decide which cells these discs overlap.
 [[nodiscard]] inline Box index_box(const Problem& problem) {
   constexpr double slacks = 2.618;
-  const Box box = index_box(problem.discs);
-  return {box.low - slacks * problem.slack, box.high + slacks * problem.slack};
+  const Box box = index_box(problem.discs());
+  return {box.low - slacks * problem.slack(), box.high + slacks * problem.slack()};
 }
 
 }  // namespace detp::sim

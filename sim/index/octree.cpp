@@ -13,7 +13,7 @@ class Octree {
  public:
   Octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
          const std::stop_token& stop)
-      : slack_(problem.slack),
+      : slack_(problem.slack()),
         traversal_(parameters.traversal),
         tree_(build_octree(problem, parameters.depth, variant.insertion, stop)),
         walk_(tree_.cube, tree_.depth) {

@@ -22,7 +22,7 @@ class OctreeBuilder {
   }
 
   OctreeNodes build() && {
-    std::vector<std::uint32_t> all(problem_.discs.size());
+    std::vector<std::uint32_t> all(problem_.discs().size());
     for (std::uint32_t i = 0; i < all.size(); ++i) all[i] = i;
     tree_.nodes.emplace_back();
     listed_ = most_listed_ = all.size();
@@ -68,14 +68,14 @@ class OctreeBuilder {
     std::array<std::vector<std::uint32_t>, 8> parts;
     const glm::dvec3 middle = box.centre();
     for (const std::uint32_t i : discs) {
-      const Box reach = bounds(problem_.discs[i], problem_.slack);
+      const Box reach = bounds(problem_.discs()[i], problem_.slack());
       for (unsigned octant = 0; octant < 8; ++octant) {
         bool reached = true;
         for (int axis = 0; axis < 3; ++axis)
           reached =
               reached && (octant >> axis & 1 ? reach.high[axis] >= middle[axis] : reach.low[axis] <= middle[axis]);
         if (reached && (insertion_ == Insertion::bounding_box ||
-                        overlaps(problem_.discs[i], octant_of(box, octant), problem_.slack)))
+                        overlaps(problem_.discs()[i], octant_of(box, octant), problem_.slack())))
           parts[octant].push_back(i);
       }
       check_.after(8);

@@ -21,18 +21,19 @@ double smallest_radius(std::span<const Disc> discs) {
 }  // namespace
 
 double SphereWalk::levels(const Problem& problem, const SphereCacheParameters& parameters) {
-  const double steps = std::log(smallest_radius(problem.discs) / problem.enclosing.radius) / std::log(parameters.ratio);
+  const double steps =
+      std::log(smallest_radius(problem.discs()) / problem.enclosing().radius) / std::log(parameters.ratio);
   return std::min(static_cast<double>(parameters.spheres), std::floor(steps) + 1);  // one more, for rounding
 }
 
 SphereWalk::SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, ServingSpheres serving)
     : serving_(serving) {
-  const double smallest = smallest_radius(problem.discs);
+  const double smallest = smallest_radius(problem.discs());
   require_memory("the spheres", levels(problem, parameters) * sizeof(Sphere));
   spheres_.reserve(static_cast<std::size_t>(levels(problem, parameters)) + 1);
-  spheres_.push_back(problem.enclosing);
+  spheres_.push_back(problem.enclosing());
   for (std::int64_t i = 1; i <= parameters.spheres; ++i) {
-    const double radius = problem.enclosing.radius * std::pow(parameters.ratio, static_cast<double>(i));
+    const double radius = problem.enclosing().radius * std::pow(parameters.ratio, static_cast<double>(i));
     if (!(radius >= smallest)) break;
     spheres_.push_back({{}, radius});
   }

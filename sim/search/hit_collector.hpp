@@ -25,7 +25,7 @@ class Tally {
 
 /// Whether the ray counts as a hit of the disc, by the canonical predicate and the problem's front_facing.
 [[nodiscard]] inline bool counts_as_hit(const Problem& problem, const Ray& ray, const Disc& disc) {
-  return hits(ray, disc) && (!problem.front_facing || arrives_in_front(ray, disc));
+  return hits(ray, disc) && (!problem.front_facing() || arrives_in_front(ray, disc));
 }
 
 /// Decides by the canonical predicate, and collects the hits.
@@ -37,13 +37,13 @@ class HitCollector {
   /// Keeps references to all three and, if set, to the options' totals. Pairs are kept in the outcome.
   HitCollector(const Problem& problem, const RunOptions& options, Outcome& outcome)
       : problem_(problem), options_(options), outcome_(outcome), own_(options.memory) {
-    if (totals().empty()) totals().resize(problem.discs.size());
+    if (totals().empty()) totals().resize(problem.discs().size());
   }
 
   [[nodiscard]] bool is_hit(const Ray& ray, const Disc& disc) const { return counts_as_hit(problem_, ray, disc); }
 
   void add_hit(std::uint32_t ray, std::uint32_t disc) {
-    const Ray& kept = problem_.rays[ray];
+    const Ray& kept = problem_.rays()[ray];
     DiscTotals& sums = totals()[disc];
     ++sums.hits;
     sums.power[dominant_axis(kept.direction)] += kept.power;
@@ -56,14 +56,14 @@ class HitCollector {
   /// Moves the results into the outcome. Powers become irradiance, unless the totals are the caller's. `rays` is the
   /// number of first rays that have been searched; it is less than all if the search was stopped.
   void store_results(std::uint64_t rays) {
-    outcome_.progress = {rays, problem_.rays.size()};
-    outcome_.stopped = rays < problem_.rays.size() || !sort_pairs(outcome_.pairs, options_.stop);
+    outcome_.progress = {rays, problem_.rays().size()};
+    outcome_.stopped = rays < problem_.rays().size() || !sort_pairs(outcome_.pairs, options_.stop);
     outcome_.bytes += grown_bytes(outcome_.pairs.size(), sizeof(Pair));
     if (outcome_.stopped) outcome_.pairs.clear();
     outcome_.total_hits = kept_;
     outcome_.counts.hits = kept_;
     if (outcome_.batches.count == 0 && rays > 0) outcome_.batches.add(rays, kept_);
-    if (options_.totals == nullptr) finish(own_, problem_.discs, outcome_);
+    if (options_.totals == nullptr) finish(own_, problem_.discs(), outcome_);
   }
 
   /// For a search that processes one disc after another. Must be called before store_partial_results.
@@ -78,11 +78,11 @@ class HitCollector {
     outcome_.pairs.clear();
     if (options_.totals != nullptr) {
       *options_.totals = *before_;
-      outcome_.progress = {0, problem_.rays.size()};
+      outcome_.progress = {0, problem_.rays().size()};
       return;
     }
-    finish(own_, problem_.discs, outcome_);
-    outcome_.done_discs.assign(problem_.discs.size(), false);
+    finish(own_, problem_.discs(), outcome_);
+    outcome_.done_discs.assign(problem_.discs().size(), false);
     for (const std::uint32_t disc : done) outcome_.done_discs[disc] = true;
     keep_done_discs(outcome_);
   }

@@ -13,21 +13,19 @@
 namespace detp::sim {
 
 void check_options(const RunOptions& options, const Problem& problem) {
-  if (problem.discs.empty() || !(problem.slack > 0 && problem.slack < unbounded))
-    throw std::invalid_argument("a problem needs discs and a slack > 0; make it by make_problem");
   require_count("number of threads", options.threads, 0, most_threads);
   if (options.standard_error && options.totals != nullptr)
     throw std::invalid_argument("a standard error is not known of some of the rays; ask for it without totals");
-  if (options.totals != nullptr && !options.totals->empty() && options.totals->size() != problem.discs.size())
+  if (options.totals != nullptr && !options.totals->empty() && options.totals->size() != problem.discs().size())
     throw std::invalid_argument(
         fmt::format("totals of {} discs cannot be continued with {} discs; they must be of the same discs",
-                    options.totals->size(), problem.discs.size()));
+                    options.totals->size(), problem.discs().size()));
 }
 
 namespace {
 
 void search_with_error(const Index& index, const Problem& problem, RunOptions options, Outcome& outcome) {
-  const double bytes = error_bytes * static_cast<double>(problem.discs.size());
+  const double bytes = error_bytes * static_cast<double>(problem.discs().size());
   require_memory_for("the standard errors", bytes, problem);
   PowerSquares squares;
   const bool pairs = options.pairs;
@@ -35,7 +33,7 @@ void search_with_error(const Index& index, const Problem& problem, RunOptions op
   index.search(problem, options, outcome);
   if (outcome.stopped) return;
   squares.add(problem, outcome.pairs);
-  squares.finish(problem.discs, problem.rays.size(), outcome);
+  squares.finish(problem.discs(), problem.rays().size(), outcome);
   outcome.bytes += bytes;
   if (!pairs) outcome.pairs.clear();
 }
@@ -45,8 +43,8 @@ void search_with_error(const Index& index, const Problem& problem, RunOptions op
 Outcome unsearched_outcome(const Problem& problem, const RunOptions& options) {
   Outcome outcome;
   outcome.stopped = true;
-  outcome.progress.of = problem.rays.size();
-  if (options.totals == nullptr) finish(Totals(problem.discs.size()), problem.discs, outcome);
+  outcome.progress.of = problem.rays().size();
+  if (options.totals == nullptr) finish(Totals(problem.discs().size()), problem.discs(), outcome);
   return outcome;
 }
 

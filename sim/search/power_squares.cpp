@@ -8,10 +8,10 @@ namespace detp::sim {
 
 bool PowerSquares::needs_pairs(const Problem& problem, const Totals& before) {
   if (by_pairs_) return true;
-  const double power = problem.rays.front().power;
-  by_pairs_ = !problem.one_power || (power_ != 0 && power != power_);
+  const double power = problem.rays().front().power;
+  by_pairs_ = !problem.one_power() || (power_ != 0 && power != power_);
   if (by_pairs_) {
-    squares_.assign(problem.discs.size(), 0.0);
+    squares_.assign(problem.discs().size(), 0.0);
     for (std::size_t disc = 0; disc < before.size(); ++disc)
       squares_[disc] = power_ * power_ * static_cast<double>(before[disc].hits);
   }
@@ -21,7 +21,7 @@ bool PowerSquares::needs_pairs(const Problem& problem, const Totals& before) {
 
 void PowerSquares::add(const Problem& problem, const std::vector<Pair>& pairs) {
   if (!by_pairs_) return;
-  for (const Pair& pair : pairs) squares_[pair.disc] += std::pow(problem.rays[pair.ray].power, 2);
+  for (const Pair& pair : pairs) squares_[pair.disc] += std::pow(problem.rays()[pair.ray].power, 2);
 }
 
 void PowerSquares::finish(std::span<const Disc> discs, std::uint64_t rays, Outcome& outcome) const {

@@ -43,21 +43,14 @@ double most_power_for(double smallest_radius) {
 }
 
 /// The slack as documented at make_problem. sim/geometry/proofs.md proves that it is sufficient for every cull.
-double cull_slack(const Problem& problem, double largest_radius) {
+double cull_slack(const Sphere& enclosing, double farthest, double largest_radius) {
   double offset = 0;
-  for (int axis = 0; axis < 3; ++axis) offset = std::max(offset, std::abs(problem.enclosing.centre[axis]));
-  const double extent = problem.farthest + problem.enclosing.radius;
+  for (int axis = 0; axis < 3; ++axis) offset = std::max(offset, std::abs(enclosing.centre[axis]));
+  const double extent = farthest + enclosing.radius;
   const double rounding = 2e-15;
   // Computed relative to the extent, because the product of three small lengths would underflow.
   const double grazing = std::cbrt(2 * (largest_radius / extent) * rounding * rounding);
   return (16e-12 + grazing) * extent + 1e-15 * offset;
-}
-
-void set_farthest(Problem& problem, double farthest, double largest_radius) {
-  if (!(farthest + problem.enclosing.radius < largest_coordinate))
-    throw std::invalid_argument("rays and discs must lie within 1e100 of each other, or their squares overflow");
-  problem.farthest = farthest;
-  problem.slack = cull_slack(problem, largest_radius);
 }
 
 /// The sphere as documented at enclosing_sphere.
@@ -78,35 +71,6 @@ Sphere sphere_around(std::span<const Disc> discs, StopCheck& check) {
   return {centre, radius};
 }
 
-/// Checks the discs and stores them in the problem. Returns their radii.
-Radii store_discs(Problem& problem, std::span<const Disc> discs, bool front_facing, const std::stop_token& stop) {
-  require_number("disc", discs.size());
-  StopCheck check(stop, checking);
-  problem.own_discs = normalised_if_needed(discs, check);
-  problem.discs = problem.own_discs ? std::span<const Disc>(*problem.own_discs) : discs;
-  problem.enclosing = sphere_around(problem.discs, check);
-  problem.front_facing = front_facing;
-  const Radii radii = radii_of(problem.discs, check);
-  problem.most_power = most_power_for(radii.smallest);
-  return radii;
-}
-
-/// Checks the rays and stores them in the problem. Returns the distance of the farthest origin.
-double store_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uint64_t first,
-                  const std::stop_token& stop) {
-  require_number("ray", rays.size());
-  require_count("number of threads", threads, 0, most_threads);
-  CheckedRays checked;
-  on_threads(thread_count(threads), [&] {
-    checked = check_rays(rays, problem.enclosing.centre, problem.most_power, first, StopCheck(stop, checking));
-  });
-  problem.one_power = checked.one_power;
-  problem.segments = checked.segments;
-  problem.own_rays = std::move(checked.unit);
-  problem.rays = problem.own_rays ? std::span<const Ray>(*problem.own_rays) : rays;
-  return checked.farthest;
-}
-
 }  // namespace
 
 Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop) {
@@ -115,30 +79,60 @@ Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop
   return sphere_around(discs, check);
 }
 
+Problem::Problem(std::span<const Disc> discs, bool front_facing, const std::stop_token& stop)
+    : front_facing_(front_facing) {
+  require_number("disc", discs.size());
+  StopCheck check(stop, checking);
+  own_discs_ = normalised_if_needed(discs, check);
+  discs_ = own_discs_ ? std::span<const Disc>(*own_discs_) : discs;
+  enclosing_ = sphere_around(discs_, check);
+  const Radii radii = radii_of(discs_, check);
+  largest_radius_ = radii.largest;
+  most_power_ = most_power_for(radii.smallest);
+}
+
+double Problem::store_rays(std::span<const Ray> rays, int threads, std::uint64_t first, const std::stop_token& stop) {
+  require_number("ray", rays.size());
+  require_count("number of threads", threads, 0, most_threads);
+  CheckedRays checked;
+  on_threads(thread_count(threads),
+             [&] { checked = check_rays(rays, enclosing_.centre, most_power_, first, StopCheck(stop, checking)); });
+  one_power_ = checked.one_power;
+  segments_ = checked.segments;
+  own_rays_ = std::move(checked.unit);
+  rays_ = own_rays_ ? std::span<const Ray>(*own_rays_) : rays;
+  return checked.farthest;
+}
+
+void Problem::set_farthest(double farthest) {
+  if (!(farthest + enclosing_.radius < largest_coordinate))
+    throw std::invalid_argument("rays and discs must lie within 1e100 of each other, or their squares overflow");
+  farthest_ = farthest;
+  slack_ = cull_slack(enclosing_, farthest, largest_radius_);
+}
+
 Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing, int threads,
                      const std::stop_token& stop) {
-  Problem problem;
-  const Radii radii = store_discs(problem, discs, front_facing, stop);
-  set_farthest(problem, store_rays(problem, rays, threads, 0, stop), radii.largest);
+  Problem problem(discs, front_facing, stop);
+  problem.set_farthest(problem.store_rays(rays, threads, 0, stop));
   return problem;
 }
 
 Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, bool front_facing,
                                   const std::stop_token& stop) {
-  Problem problem;
-  const Radii radii = store_discs(problem, discs, front_facing, stop);
+  Problem problem(discs, front_facing, stop);
   require_non_negative("distance of the farthest ray's origin", farthest);
-  set_farthest(problem, farthest, radii.largest);
+  problem.set_farthest(farthest);
   return problem;
 }
 
 void set_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uint64_t first) {
   Problem changed = problem;
-  const double farthest = store_rays(changed, rays, threads, first, {});
-  if (farthest > problem.farthest)
+  const double farthest = changed.store_rays(rays, threads, first, {});
+  if (farthest > problem.farthest())
     throw std::invalid_argument(
         fmt::format("a ray starts {} from the centre of the discs, but the problem was made for at most {}", farthest,
-                    problem.farthest));
+                    problem.farthest()));
   problem = std::move(changed);
 }
 

@@ -11,20 +11,52 @@
 
 namespace detp::sim {
 
-/// Rays and discs, checked by make_problem. They are not copied, and must outlive every use of the problem.
-struct Problem {
-  std::span<const Ray> rays;
-  std::span<const Disc> discs;
-  Sphere enclosing{};         ///< S₀: contains every disc completely; rays may start or pass outside it
-  bool front_facing = false;  ///< count only rays that arrive at a disc's front
-  double slack = 0;        ///< length by which every cull is enlarged: no hit is farther from its disc (make_problem)
-  double farthest = 0;     ///< upper bound on the distance of a ray's origin from the centre of S₀
-  double most_power = 0;   ///< upper bound on a ray's power, so that no sum and no irradiance overflows
-  bool one_power = false;  ///< all rays carry the same power
-  bool segments = false;   ///< at least one ray is a segment
-  /// The data to which `rays` or `discs` refer if directions or normals had to be normalised; otherwise null.
-  std::shared_ptr<const std::vector<Ray>> own_rays = {};
-  std::shared_ptr<const std::vector<Disc>> own_discs = {};
+/// Rays and discs that have been checked: a problem that exists is valid. They are not copied, and must outlive every
+/// use of the problem, unless directions or normals had to be normalised.
+class Problem {
+ public:
+  [[nodiscard]] std::span<const Ray> rays() const { return rays_; }
+  [[nodiscard]] std::span<const Disc> discs() const { return discs_; }
+  /// S₀: contains every disc completely; rays may start or pass outside it.
+  [[nodiscard]] const Sphere& enclosing() const { return enclosing_; }
+  /// Count only rays that arrive at a disc's front.
+  [[nodiscard]] bool front_facing() const { return front_facing_; }
+  /// Length by which every cull is enlarged: no hit is farther from its disc (make_problem).
+  [[nodiscard]] double slack() const { return slack_; }
+  /// Upper bound on the distance of a ray's origin from the centre of S₀.
+  [[nodiscard]] double farthest() const { return farthest_; }
+  /// Upper bound on a ray's power, so that no sum and no irradiance overflows.
+  [[nodiscard]] double most_power() const { return most_power_; }
+  /// All rays carry the same power.
+  [[nodiscard]] bool one_power() const { return one_power_; }
+  /// At least one ray is a segment.
+  [[nodiscard]] bool segments() const { return segments_; }
+
+ private:
+  friend Problem make_problem(std::span<const Ray>, std::span<const Disc>, bool, int, const std::stop_token&);
+  friend Problem make_problem_without_rays(std::span<const Disc>, double, bool, const std::stop_token&);
+  friend void set_rays(Problem&, std::span<const Ray>, int, std::uint64_t);
+
+  /// Checks and stores the discs. Without rays yet.
+  Problem(std::span<const Disc> discs, bool front_facing, const std::stop_token& stop);
+  /// Checks and stores the rays. Returns the distance of the farthest origin from the centre of S₀.
+  double store_rays(std::span<const Ray> rays, int threads, std::uint64_t first, const std::stop_token& stop);
+  /// Sets that distance, and the slack that follows.
+  void set_farthest(double farthest);
+
+  std::span<const Ray> rays_;
+  std::span<const Disc> discs_;
+  Sphere enclosing_{};
+  bool front_facing_ = false;
+  double largest_radius_ = 0;  ///< of a disc
+  double slack_ = 0;
+  double farthest_ = 0;
+  double most_power_ = 0;
+  bool one_power_ = false;
+  bool segments_ = false;
+  /// The data to which rays_ or discs_ refer if directions or normals had to be normalised; otherwise null.
+  std::shared_ptr<const std::vector<Ray>> own_rays_;
+  std::shared_ptr<const std::vector<Disc>> own_discs_;
 };
 
 /// The smallest sphere around the box of the discs' centres, plus the largest radius. Throws std::invalid_argument if

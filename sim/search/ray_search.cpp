@@ -104,7 +104,7 @@ void search_rays(const Problem& problem, const RunOptions& options, MakeRaySearc
   const int threads = thread_count(options.threads);
   const std::size_t under_way = threads == 1 ? 1 : chunks_a_thread * static_cast<std::size_t>(threads);
   HitCollector collector(problem, options, outcome);
-  Chunks chunks(problem.rays.size(), under_way, options);
+  Chunks chunks(problem.rays().size(), under_way, options);
   HitSum sum(collector);
   if (threads == 1)
     outcome.counts = search_alone(chunks, make, sum);

@@ -13,8 +13,8 @@ namespace {
 constexpr double small_bytes = 0x1p19;
 
 double given_bytes(const Problem& problem) {
-  return static_cast<double>(problem.rays.size()) * sizeof(Ray) +
-         static_cast<double>(problem.discs.size()) * sizeof(Disc);
+  return static_cast<double>(problem.rays().size()) * sizeof(Ray) +
+         static_cast<double>(problem.discs().size()) * sizeof(Disc);
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ bool fits_memory(double bytes, const Problem& problem) { return given_bytes(prob
 
 void require_memory_for(std::string_view what, double bytes, const Problem& problem) {
   if (fits_memory(bytes, problem)) return;
-  require_memory(fmt::format("{} rays, {} discs, and {}", problem.rays.size(), problem.discs.size(), what),
+  require_memory(fmt::format("{} rays, {} discs, and {}", problem.rays().size(), problem.discs().size(), what),
                  given_bytes(problem) + bytes);
 }
 
@@ -39,7 +39,7 @@ void add_checked_bytes(std::string_view what, double bytes, const Problem& probl
 
 double found_bytes(const Problem& problem, const RunOptions& options) {
   constexpr double a_disc = sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double);
-  return options.totals != nullptr ? 0 : a_disc * static_cast<double>(problem.discs.size());
+  return options.totals != nullptr ? 0 : a_disc * static_cast<double>(problem.discs().size());
 }
 
 }  // namespace detp::sim

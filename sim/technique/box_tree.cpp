@@ -50,7 +50,7 @@ class PlainSearch {
     const std::vector<std::uint32_t>& order = input_.tree.order;
     collector_.save_totals();
     try {
-      visit(input_.tree.nodes.front(), 0, list_of(input_.problem.rays, lists_.get_allocator().resource()));
+      visit(input_.tree.nodes.front(), 0, list_of(input_.problem.rays(), lists_.get_allocator().resource()));
       done_ = order.size();
     } catch (const Stopped&) {  // the unfinished disc or node is left out
     }
@@ -58,7 +58,7 @@ class PlainSearch {
     if (done_ < order.size())
       collector_.store_partial_results(std::span(order).first(done_));
     else
-      collector_.store_results(input_.problem.rays.size());
+      collector_.store_results(input_.problem.rays().size());
   }
 
  private:
@@ -90,7 +90,7 @@ class PlainSearch {
     tally_.add(&Counts<std::uint64_t>::visits, leaf.count);
     for (done_ = leaf.first; done_ < leaf.first + leaf.count; ++done_) {
       const std::uint32_t disc = input_.tree.order[done_];
-      test_disc(rays, input_.problem.discs[disc], disc, collector_, tally_, check_);
+      test_disc(rays, input_.problem.discs()[disc], disc, collector_, tally_, check_);
     }
   }
 
@@ -109,14 +109,14 @@ class BoxTreeIndex final : public Index {
   BoxTreeIndex(const Problem& problem, const BoxTreeParameters& parameters, const RunOptions& options)
       : parameters_(parameters), simd_(options.engine == Engine::simd && stream::can_search(problem)), frame_(problem) {
     Stopwatch watch;
-    const stream::TreeSize expected = stream::expected_tree(problem.discs.size(), parameters);
+    const stream::TreeSize expected = stream::expected_tree(problem.discs().size(), parameters);
     checked_bytes(what, stream::boxes_bytes(stream::size_of(problem, options), parameters.fan_out, expected), problem);
     tree_ = stream::make_disc_tree(problem, frame_, parameters, options);
-    const double built = stream::building_bytes(problem.discs.size(), static_cast<double>(tree_.binary_nodes),
+    const double built = stream::building_bytes(problem.discs().size(), static_cast<double>(tree_.binary_nodes),
                                                 static_cast<double>(tree_.nodes.size()));
     built_.bytes = checked_bytes(what, built, problem);
     built_.seconds.build = watch.lap();
-    built_.counts.sorted = built_.counts.placements = built_.counts.references = problem.discs.size();
+    built_.counts.sorted = built_.counts.placements = built_.counts.references = problem.discs().size();
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {

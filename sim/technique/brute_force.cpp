@@ -16,13 +16,13 @@ class BruteForceSearch final : public RaySearch {
       : problem_(problem), check_(stop, "searching") {}
 
   void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
-    for (std::uint32_t d = 0; d < problem_.discs.size(); ++d) {
-      const Disc disc = problem_.discs[d];
+    for (std::uint32_t d = 0; d < problem_.discs().size(); ++d) {
+      const Disc disc = problem_.discs()[d];
       for (std::uint32_t r = first; r < last; ++r)
-        if (counts_as_hit(problem_, problem_.rays[r], disc)) hits.push_back({r, d});
+        if (counts_as_hit(problem_, problem_.rays()[r], disc)) hits.push_back({r, d});
       check_.after(last - first);
     }
-    tally_.add(&Counts<std::uint64_t>::disc_tests, problem_.discs.size() * (last - first));
+    tally_.add(&Counts<std::uint64_t>::disc_tests, problem_.discs().size() * (last - first));
   }
 
   [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
@@ -46,7 +46,7 @@ class PlainBruteForce final : public Index {
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     add_checked_bytes("their sums", found_bytes(problem, options), problem, outcome);
     options.count ? search_all<true>(problem, options, outcome) : search_all<false>(problem, options, outcome);
-    if (options.count) outcome.counts.visits = problem.discs.size();  // one list of all rays
+    if (options.count) outcome.counts.visits = problem.discs().size();  // one list of all rays
   }
 };
 

@@ -9,7 +9,7 @@ namespace detp::sim {
 std::unique_ptr<Index> prepare_cell_spheres(const Problem& problem, const Parameters& parameters,
                                             const RunOptions& options) {
   const auto& own = std::get<CellSpheresParameters>(parameters);
-  const CellWalk walk(problem.discs, own.depth);
+  const CellWalk walk(problem.discs(), own.depth);
   return prepare_walk(
       problem,
       {.make_walk =

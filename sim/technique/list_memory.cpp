@@ -23,10 +23,10 @@ constexpr double bytes_a_level =
 }  // namespace
 
 double listing_bytes(const Problem& problem, const RunOptions& options, double nested) {
-  const auto discs = static_cast<double>(problem.discs.size());
+  const auto discs = static_cast<double>(problem.discs().size());
   const double kept = options.totals == nullptr ? 0 : sizeof(DiscTotals) * discs;
   return sizeof(std::uint32_t) * discs + found_bytes(problem, options) + kept +
-         sizeof(ListedRay) * (1 + nested) * static_cast<double>(problem.rays.size());
+         sizeof(ListedRay) * (1 + nested) * static_cast<double>(problem.rays().size());
 }
 
 NestedLists lists_of(const Problem& problem, const SphereCacheParameters& parameters) {
@@ -39,7 +39,7 @@ NestedLists lists_of(const Problem& problem, const SphereCacheParameters& parame
 NestedLists lists_of(const Problem& problem, const CellSpheresParameters& parameters) {
   Box box;
   double largest = 0;
-  for (const Disc& disc : problem.discs) {
+  for (const Disc& disc : problem.discs()) {
     box.include(disc.centre);
     largest = std::max(largest, disc.radius);
   }
@@ -48,7 +48,7 @@ NestedLists lists_of(const Problem& problem, const CellSpheresParameters& parame
   NestedLists lists{parameters.depth + 1.0};
   for (int level = 1; level <= parameters.depth; ++level) {
     const double radius = std::ldexp(side, -level) * std::sqrt(0.75) + largest;
-    lists.last = std::min(1.0, std::pow(radius / problem.enclosing.radius, 2));
+    lists.last = std::min(1.0, std::pow(radius / problem.enclosing().radius, 2));
     if (level == 1) lists.first = lists.last;
     lists.rays += lists.last;
   }
@@ -58,13 +58,13 @@ NestedLists lists_of(const Problem& problem, const CellSpheresParameters& parame
 double walk_bytes(const Problem& problem, const RunOptions& options, const NestedLists& lists, bool plain) {
   const double levels = bytes_a_level * lists.levels;
   if (!plain) return levels + stream::walk_bytes(stream::size_of(problem, options), lists.capacity());
-  return levels + std::max(sorting_bytes(problem.discs.size()), listing_bytes(problem, options, lists.rays));
+  return levels + std::max(sorting_bytes(problem.discs().size()), listing_bytes(problem, options, lists.rays));
 }
 
 double building_bytes(const Problem& problem, const SphereTreeParameters& parameters) {
   constexpr double node = sizeof(Sphere) + sizeof(Box);
-  const auto discs = static_cast<double>(problem.discs.size());
-  return std::max(sorting_bytes(problem.discs.size()),
+  const auto discs = static_cast<double>(problem.discs().size());
+  return std::max(sorting_bytes(problem.discs().size()),
                   (sizeof(std::uint32_t) + node * (1 + 1.0 / parameters.leaf)) * discs);
 }
 
@@ -73,7 +73,7 @@ double searching_bytes(const Problem& problem, const RunOptions& options, const 
   for (const std::vector<Sphere>& level : tree.levels) {
     double largest = 0;
     for (const Sphere& sphere : level) largest = std::max(largest, sphere.radius);
-    lists += std::min(1.0, std::pow(largest / problem.enclosing.radius, 2));
+    lists += std::min(1.0, std::pow(largest / problem.enclosing().radius, 2));
   }
   return static_cast<double>(tree.nodes()) * sizeof(Sphere) + listing_bytes(problem, options, lists);
 }

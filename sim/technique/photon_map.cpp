@@ -68,7 +68,8 @@ class NearestPhotons {
 
   // nanoflann calls this for each candidate.
   bool addPoint(double square, std::uint32_t photon) {
-    const bool counts = !problem_.front_facing || arrives_in_front(problem_.rays[cloud_.photons[photon].ray], *disc_);
+    const bool counts =
+        !problem_.front_facing() || arrives_in_front(problem_.rays()[cloud_.photons[photon].ray], *disc_);
     return !counts || found_.addPoint(square, photon);
   }
   [[nodiscard]] double worstDist() const { return found_.worstDist(); }
@@ -98,7 +99,7 @@ class PhotonMap {
   PhotonMap(const Problem& problem, int nearest, const std::stop_token& stop)
       : problem_(problem),
         check_(stop, "building the photon map"),
-        cloud_{photons_of(problem.rays, check_), &check_},
+        cloud_{photons_of(problem.rays(), check_), &check_},
         wanted_(static_cast<std::size_t>(nearest)) {
     cloud_.building = nullptr;
     if (cloud_.photons.empty())
@@ -110,16 +111,16 @@ class PhotonMap {
   }
 
   void estimate(const RunOptions& options, Outcome& outcome) const {
-    outcome.hits.resize(problem_.discs.size());
-    outcome.irradiance.resize(problem_.discs.size());
+    outcome.hits.resize(problem_.discs().size());
+    outcome.irradiance.resize(problem_.discs().size());
     NearestPhotons nearest(problem_, cloud_, wanted_);
     std::uint32_t disc = 0;
-    for (; disc < problem_.discs.size() && !options.stop.stop_requested(); ++disc) {
-      find(problem_.discs[disc], nearest);
+    for (; disc < problem_.discs().size() && !options.stop.stop_requested(); ++disc) {
+      find(problem_.discs()[disc], nearest);
       const std::vector<std::uint32_t> rays = nearest.rays();
       double power = 0;
       for (const std::uint32_t ray : rays) {
-        power += problem_.rays[ray].power;
+        power += problem_.rays()[ray].power;
         if (options.pairs) add_pair(outcome.pairs, {ray, disc});
       }
       outcome.hits[disc] = rays.size();
@@ -135,11 +136,11 @@ class PhotonMap {
   void finish(std::uint32_t done, const RunOptions& options, Outcome& outcome) const {
     outcome.counts.hits = outcome.total_hits;
     outcome.bytes += grown_bytes(outcome.pairs.size(), sizeof(Pair));
-    outcome.progress = {problem_.rays.size(), problem_.rays.size()};
-    outcome.stopped = done < problem_.discs.size() || !sort_pairs(outcome.pairs, options.stop);
+    outcome.progress = {problem_.rays().size(), problem_.rays().size()};
+    outcome.stopped = done < problem_.discs().size() || !sort_pairs(outcome.pairs, options.stop);
     if (outcome.stopped) outcome.pairs.clear();
-    if (done == problem_.discs.size()) return;
-    outcome.done_discs.assign(problem_.discs.size(), false);
+    if (done == problem_.discs().size()) return;
+    outcome.done_discs.assign(problem_.discs().size(), false);
     std::fill_n(outcome.done_discs.begin(), done, true);
     keep_done_discs(outcome);
   }
@@ -173,9 +174,9 @@ double map_bytes(const Problem& problem) {
   constexpr double in_a_leaf = 5.5;
   constexpr double node = sizeof(PhotonTree::Node);
   const auto photons = static_cast<double>(
-      std::count_if(problem.rays.begin(), problem.rays.end(), [](const Ray& ray) { return !ray.is_line(); }));
+      std::count_if(problem.rays().begin(), problem.rays().end(), [](const Ray& ray) { return !ray.is_line(); }));
   return photons * (sizeof(Photon) + sizeof(std::uint32_t) + 2 * node / in_a_leaf) +
-         static_cast<double>(problem.discs.size()) * (sizeof(std::uint64_t) + sizeof(double));
+         static_cast<double>(problem.discs().size()) * (sizeof(std::uint64_t) + sizeof(double));
 }
 
 /// Another estimator, for comparison: the irradiance at a disc's centre from the k nearest photons. A photon is the end

@@ -39,11 +39,11 @@ class RayMap {
         leaf_(static_cast<std::size_t>(leaf)),
         check_(options.stop, "searching"),
         cells_(options.memory),
-        tested_for_(problem.rays.size(), 0, options.memory),
+        tested_for_(problem.rays().size(), 0, options.memory),
         found_(options.memory) {
-    narrowest_ = 8 * problem.slack;  // includes the growth of both halves
-    for (const Disc& disc : problem.discs) narrowest_ = std::max(narrowest_, 2 * disc.radius);
-    Rays all(problem.rays.size(), options.memory);
+    narrowest_ = 8 * problem.slack();  // includes the growth of both halves
+    for (const Disc& disc : problem.discs()) narrowest_ = std::max(narrowest_, 2 * disc.radius);
+    Rays all(problem.rays().size(), options.memory);
     std::iota(all.begin(), all.end(), 0U);
     cells_.push_back({index_box(problem), std::move(all)});
   }
@@ -51,7 +51,7 @@ class RayMap {
   /// The rays that hit the disc, in rising order of their numbers.
   const Rays& find(std::uint32_t disc) {
     found_.clear();
-    search_node(0, disc, bounds(problem_.discs[disc], 2 * problem_.slack));
+    search_node(0, disc, bounds(problem_.discs()[disc], 2 * problem_.slack()));
     std::sort(found_.begin(), found_.end());
     return found_;
   }
@@ -81,9 +81,9 @@ class RayMap {
   [[nodiscard]] Cell half_of(const Cell& cell, int axis, bool upper) {
     Cell half{cell.box, Rays(cell.rays.get_allocator())};
     (upper ? half.box.low : half.box.high)[axis] = cell.box.centre()[axis];
-    const Box grown{half.box.low - problem_.slack, half.box.high + problem_.slack};
+    const Box grown{half.box.low - problem_.slack(), half.box.high + problem_.slack()};
     for_each_checked(std::span(cell.rays), check_, [&](std::uint32_t ray) {
-      if (!ClippedRay(problem_.rays[ray]).inside(grown).empty()) half.rays.push_back(ray);
+      if (!ClippedRay(problem_.rays()[ray]).inside(grown).empty()) half.rays.push_back(ray);
     });
     tally_.add(&Counts<std::uint64_t>::culls);
     tally_.add(&Counts<std::uint64_t>::cull_tests, cell.rays.size());
@@ -108,7 +108,7 @@ class RayMap {
     cells_.push_back(std::move(upper));
     require_memory_for("the ray map",
                        grown_bytes(cells_.size(), sizeof(Cell)) +
-                           2 * sizeof(std::uint32_t) * static_cast<double>(listed_ + problem_.rays.size()),
+                           2 * sizeof(std::uint32_t) * static_cast<double>(listed_ + problem_.rays().size()),
                        problem_);
   }
 
@@ -119,7 +119,7 @@ class RayMap {
       if (tested_for_[ray] == disc + 1) return;
       tested_for_[ray] = disc + 1;
       tally_.add(&Counts<std::uint64_t>::disc_tests);
-      if (counts_as_hit(problem_, problem_.rays[ray], problem_.discs[disc])) found_.push_back(ray);
+      if (counts_as_hit(problem_, problem_.rays()[ray], problem_.discs()[disc])) found_.push_back(ray);
     });
   }
 
@@ -140,7 +140,7 @@ class RayMapIndex final : public Index {
   explicit RayMapIndex(int leaf) : leaf_(leaf) {}
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
-    const double rays = 3.0 * sizeof(std::uint32_t) * static_cast<double>(problem.rays.size());
+    const double rays = 3.0 * sizeof(std::uint32_t) * static_cast<double>(problem.rays().size());
     add_checked_bytes("the ray map", rays + 2 * found_bytes(problem, options), problem, outcome);
     options.count ? search_discs<true>(problem, options, outcome) : search_discs<false>(problem, options, outcome);
   }
@@ -153,12 +153,12 @@ class RayMapIndex final : public Index {
     collector.save_totals();
     std::uint32_t done = 0;
     try {
-      for (; done < problem.discs.size(); ++done)
+      for (; done < problem.discs().size(); ++done)
         for (const std::uint32_t ray : map.find(done)) collector.add_hit(ray, done);
     } catch (const Stopped&) {  // the unfinished disc is left out
     }
     outcome.counts = map.counts();
-    if (done == problem.discs.size()) return collector.store_results(problem.rays.size());
+    if (done == problem.discs().size()) return collector.store_results(problem.rays().size());
     std::vector<std::uint32_t> first(done);
     std::iota(first.begin(), first.end(), 0U);
     collector.store_partial_results(first);

@@ -28,7 +28,7 @@ class Search {
   void run() {
     collector_.save_totals();
     try {
-      visit(tree_.levels.size() - 1, 0, list_of(problem_.rays, lists_.get_allocator().resource()));
+      visit(tree_.levels.size() - 1, 0, list_of(problem_.rays(), lists_.get_allocator().resource()));
       place_ = order_.size();
     } catch (const Stopped&) {  // the unfinished disc or node is left out
     }
@@ -36,14 +36,14 @@ class Search {
     if (place_ < order_.size())
       collector_.store_partial_results(std::span(order_).first(place_));
     else
-      collector_.store_results(problem_.rays.size());
+      collector_.store_results(problem_.rays().size());
   }
 
  private:
   void visit(std::size_t level, std::size_t number, const RayList& outer) {
     RayList& inside = lists_[level];
     check_.after(1);
-    cull(outer, tree_.levels[level][number], problem_.slack, inside, check_);
+    cull(outer, tree_.levels[level][number], problem_.slack(), inside, check_);
     tally_.add(&Counts<std::uint64_t>::cull_tests, outer.size());
     tally_.add(&Counts<std::uint64_t>::culls);
     tally_.add(&Counts<std::uint64_t>::listed, inside.size());
@@ -73,7 +73,7 @@ class Search {
     const std::size_t end = std::min((number + 1) * leaf, order_.size());
     tally_.add(&Counts<std::uint64_t>::visits, end - number * leaf);
     for (place_ = number * leaf; place_ < end; ++place_)
-      test_disc(inside, problem_.discs[order_[place_]], order_[place_], collector_, tally_, check_);
+      test_disc(inside, problem_.discs()[order_[place_]], order_[place_], collector_, tally_, check_);
   }
 
   const Problem& problem_;
@@ -96,9 +96,9 @@ class SphereTreeIndex final : public Index {
       : parameters_(parameters) {
     Stopwatch watch;
     built_.bytes = checked_bytes("a tree of spheres", building_bytes(problem, parameters), problem);
-    order_ = along_curve(problem.discs, SampleOrder::lebesgue, options.stop);
+    order_ = along_curve(problem.discs(), SampleOrder::lebesgue, options.stop);
     built_.seconds.order = watch.lap();
-    tree_ = make_sphere_tree(problem.discs, order_, parameters, options.stop);
+    tree_ = make_sphere_tree(problem.discs(), order_, parameters, options.stop);
     built_.seconds.build = watch.lap();
     built_.counts.sorted = order_.size();
   }

@@ -22,12 +22,7 @@ class StreamedSearch {
  public:
   StreamedSearch(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                  const StreamOptions& options)
-      : source_(source), candidate_(candidate), options_(options), run_(options.run) {
-    require_few_enough();
-    Stopwatch watch;
-    problem_ = make_problem_without_rays(discs, source.farthest_from(enclosing_sphere(discs, run_.stop).centre),
-                                         options.front_facing, run_.stop);
-    streamed_.check_seconds = watch.lap();
+      : source_(source), candidate_(candidate), options_(options), run_(options.run), problem_(problem_of(discs)) {
     const std::size_t block = options.block > 0 ? options.block : default_block(discs.size());
     streamed_.block = static_cast<std::size_t>(std::min<std::uint64_t>(block, source.size()));
     predict_bytes();
@@ -60,12 +55,21 @@ class StreamedSearch {
       outcome.stopped = true;
     }
     if (outcome.stopped) outcome.pairs.clear();
-    finish(totals_, problem_.discs, outcome);
-    if (options_.run.standard_error && !outcome.stopped) squares_.finish(problem_.discs, source_.size(), outcome);
+    finish(totals_, problem_.discs(), outcome);
+    if (options_.run.standard_error && !outcome.stopped) squares_.finish(problem_.discs(), source_.size(), outcome);
     return std::move(streamed_);
   }
 
  private:
+  Problem problem_of(std::span<const Disc> discs) {
+    require_few_enough();
+    Stopwatch watch;
+    Problem problem = make_problem_without_rays(discs, source_.farthest_from(enclosing_sphere(discs, run_.stop).centre),
+                                                options_.front_facing, run_.stop);
+    streamed_.check_seconds = watch.lap();
+    return problem;
+  }
+
   void require_few_enough() const {
     if (run_.totals != nullptr) throw std::invalid_argument("a stream has its own totals; options must have none");
     if (source_.size() == 0) throw std::invalid_argument("there must be at least one ray");
@@ -79,9 +83,9 @@ class StreamedSearch {
     const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
                               (options_.run.standard_error ? error_bytes : 0);
     own_bytes_ =
-        static_cast<double>(problem_.discs.size()) * for_a_disc + static_cast<double>(streamed_.block) * sizeof(Ray);
+        static_cast<double>(problem_.discs().size()) * for_a_disc + static_cast<double>(streamed_.block) * sizeof(Ray);
     streamed_.bytes = std::max(streamed_.bytes, own_bytes_);
-    require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs.size(), streamed_.block), own_bytes_);
+    require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs().size(), streamed_.block), own_bytes_);
   }
 
   void search(std::uint64_t first) {
@@ -132,6 +136,7 @@ class StreamedSearch {
   const Valid<Candidate>& candidate_;
   const StreamOptions& options_;
   RunOptions run_;
+  StreamedOutcome streamed_;
   Problem problem_;
   std::unique_ptr<Index> index_;
   Totals totals_;
@@ -140,7 +145,6 @@ class StreamedSearch {
   Scratch scratch_;
   Outcome part_;  ///< of one block
   double own_bytes_ = 0;
-  StreamedOutcome streamed_;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace detp::sim {
 namespace {
 
 std::uint64_t sorted_discs(const WalkedSpheres& spheres, const Problem& problem) {
-  return spheres.order == SampleOrder::none ? 0 : problem.discs.size();
+  return spheres.order == SampleOrder::none ? 0 : problem.discs().size();
 }
 
 class PlainWalk final : public Index {
@@ -19,7 +19,7 @@ class PlainWalk final : public Index {
   PlainWalk(const Problem& problem, WalkedSpheres spheres, const RunOptions& options) : spheres_(std::move(spheres)) {
     Stopwatch watch;
     built_.bytes = checked_bytes(spheres_.what, walk_bytes(problem, options, spheres_.lists, true), problem);
-    order_ = along_curve(problem.discs, spheres_.order, options.stop);
+    order_ = along_curve(problem.discs(), spheres_.order, options.stop);
     built_.seconds.order = watch.lap();
     built_.counts.sorted = sorted_discs(spheres_, problem);
   }
@@ -40,7 +40,7 @@ class FloatWalk final : public Index {
       : spheres_(std::move(spheres)), frame_(problem) {
     Stopwatch watch;
     built_.bytes = checked_bytes(spheres_.what, walk_bytes(problem, options, spheres_.lists, false), problem);
-    std::vector<std::uint32_t> order = along_curve(problem.discs, spheres_.order, options.stop);
+    std::vector<std::uint32_t> order = along_curve(problem.discs(), spheres_.order, options.stop);
     built_.seconds.order = watch.lap();
     discs_ = stream::discs_in_order(problem, frame_, std::move(order), options);
     built_.seconds.build = watch.lap();

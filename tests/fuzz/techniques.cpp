@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdlib>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -77,12 +78,13 @@ void compare_streamed(const fuzz::SmallProblem& small, const Candidate& candidat
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   FuzzedDataProvider bytes(data, size);
   const fuzz::SmallProblem small = fuzz::ProblemMaker(bytes).make();
-  Problem problem;
+  std::optional<Problem> made;
   try {
-    problem = make_problem(small.rays, small.discs, small.front_facing);
+    made = make_problem(small.rays, small.discs, small.front_facing);
   } catch (const std::invalid_argument&) {
     return -1;  // coordinates too large, or sizes too small
   }
+  const Problem& problem = *made;
   const Candidate brute{Technique::brute_force, BruteForceParameters{}};
   const Outcome truth = run(problem, brute, {.pairs = true, .engine = Engine::plain});
   for (const double irradiance : truth.irradiance)

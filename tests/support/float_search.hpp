@@ -14,11 +14,11 @@ namespace detp::support {
 /// A problem's rays and discs in the form that the kernels use.
 struct Floats {
   explicit Floats(const sim::Problem& of) : problem(of), frame(of) {
-    std::vector<std::uint32_t> order(problem.discs.size());
+    std::vector<std::uint32_t> order(problem.discs().size());
     std::iota(order.begin(), order.end(), 0U);
     discs = sim::stream::discs_in_order(problem, frame, std::move(order));
-    for (sim::stream::RayList& list : lists) list = arena.allocate(problem.rays.size(), true);
-    traits = load_rays(problem.rays, frame, lists);
+    for (sim::stream::RayList& list : lists) list = arena.allocate(problem.rays().size(), true);
+    traits = load_rays(problem.rays(), frame, lists);
   }
 
   const sim::Problem& problem;
@@ -76,7 +76,7 @@ inline std::vector<std::uint64_t> hits_in_boxes(const Floats& floats, float time
 inline std::vector<std::uint64_t> hits_in_spheres(const Floats& floats, float times) {
   return count_hits(floats, floats.frame, floats.discs, [&](const auto& block, auto& worker) {
     for (std::uint32_t place = 0; place < floats.discs.discs.size(); ++place) {
-      const sim::Disc& disc = floats.problem.discs[place];
+      const sim::Disc& disc = floats.problem.discs()[place];
       sim::stream::FloatSphere sphere = floats.frame(sim::Sphere{disc.centre, disc.radius});
       sphere.radius += (times - 1) * floats.frame.margin;
       for (int k = 0; k < sim::stream::classes; ++k) {

@@ -92,8 +92,8 @@ class Measure {
  private:
   void one(int k, std::size_t i, std::size_t number) {
     const sim::stream::RayList& list = floats_.lists[static_cast<std::size_t>(k)];
-    const sim::Ray& ray = floats_.problem.rays[list.id[i] & ~sim::stream::falling];
-    const sim::Disc& disc = floats_.problem.discs[number];
+    const sim::Ray& ray = floats_.problem.rays()[list.id[i] & ~sim::stream::falling];
+    const sim::Disc& disc = floats_.problem.discs()[number];
     const KernelCase<float> listed = as_listed(list, i, floats_.discs.discs[number], k);
     const Kernel<float, fused> kernel(listed);
     const Kernel<long double, false> truth(exact_case(floats_.frame, ray, disc, k));

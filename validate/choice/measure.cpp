@@ -48,12 +48,12 @@ double mean_path_length(const sim::Problem& problem, const sim::Box& box, double
   const sim::Box grown{box.low - disc_radius, box.high + disc_radius};
   double sum = 0;
   bool segments = false;
-  sim::for_each_checked(problem.rays, check, [&](const sim::Ray& ray) {
+  sim::for_each_checked(problem.rays(), check, [&](const sim::Ray& ray) {
     segments = segments || !ray.is_line();
     const sim::RayInterval inside = sim::ClippedRay(ray).inside(grown);
     if (!inside.empty()) sum += inside.to - inside.from;
   });
-  return segments ? sum / static_cast<double>(problem.rays.size()) : 0;
+  return segments ? sum / static_cast<double>(problem.rays().size()) : 0;
 }
 
 /// The root mean square of the radii; exactly the discs' radius if all have the same.
@@ -90,18 +90,18 @@ double sample_dimension(std::span<const sim::Disc> discs, const std::stop_token&
 
 Workload measure(const sim::Problem& problem, const SurfaceFacts& surface, const std::stop_token& stop) {
   sim::StopCheck check(stop, "measuring the samples");
-  const sim::Box box = box_of_centres(problem.discs, check);
+  const sim::Box box = box_of_centres(problem.discs(), check);
   const glm::dvec3 size = box.size();
-  const double radius = rms_radius(problem.discs, check);
-  Workload workload{.rays = static_cast<double>(problem.rays.size()),
-                    .samples = static_cast<double>(problem.discs.size()),
+  const double radius = rms_radius(problem.discs(), check);
+  Workload workload{.rays = static_cast<double>(problem.rays().size()),
+                    .samples = static_cast<double>(problem.discs().size()),
                     .disc_radius = radius,
-                    .sphere_radius = problem.enclosing.radius,
+                    .sphere_radius = problem.enclosing().radius,
                     .box = {size.x, size.y, size.z},
-                    .dimension = sample_dimension(problem.discs, stop),
+                    .dimension = sample_dimension(problem.discs(), stop),
                     .sample_distance = surface.edge_length,
                     .path_length = mean_path_length(problem, box, radius, stop),
-                    .front_facing = problem.front_facing};
+                    .front_facing = problem.front_facing()};
   // One sample, or all in one place: the box has no size, so use the discs' diameter.
   if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
   // from the samples' own box: a scene's samples need not fill the scene's box

@@ -97,11 +97,11 @@ void warn_of_large_discs(std::span<const sim::Disc> discs, double median, sim::S
 }
 
 void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::vector<std::string>& warnings) {
-  const double radius = problem.enclosing.radius;
+  const double radius = problem.enclosing().radius;
   double farthest = 0;
   std::size_t far = 0;
-  sim::for_each_checked(problem.rays, check, [&](const sim::Ray& ray) {
-    const double distance = glm::length(ray.origin - problem.enclosing.centre);
+  sim::for_each_checked(problem.rays(), check, [&](const sim::Ray& ray) {
+    const double distance = glm::length(ray.origin - problem.enclosing().centre);
     farthest = std::max(farthest, distance);
     far += distance > far_radii * radius ? 1 : 0;
   });
@@ -109,19 +109,19 @@ void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::v
   warnings.push_back(fmt::format(
       "{} far outside: up to {:.3g} from the centre of the scene, {:.3g} times the radius {:.4g} of S0; every cull is "
       "widened by {:.2g} for rounding over this distance",
-      count_text(far, problem.rays.size(), "rays", "starts", "start"), farthest, farthest / radius, radius,
-      problem.slack));
+      count_text(far, problem.rays().size(), "rays", "starts", "start"), farthest, farthest / radius, radius,
+      problem.slack()));
 }
 
 }  // namespace
 
 std::vector<std::string> outlier_warnings(const sim::Problem& problem, const std::stop_token& stop) {
   sim::StopCheck check(stop, "looking for outliers");
-  const std::vector<sim::Disc> sampled = evenly_spaced(problem.discs);
+  const std::vector<sim::Disc> sampled = evenly_spaced(problem.discs());
   const double usual = median_radius(sampled);
   std::vector<std::string> warnings;
-  warn_of_far_discs(problem.discs, sampled, usual, check, warnings);
-  warn_of_large_discs(problem.discs, usual, check, warnings);
+  warn_of_far_discs(problem.discs(), sampled, usual, check, warnings);
+  warn_of_large_discs(problem.discs(), usual, check, warnings);
   warn_of_far_rays(problem, check, warnings);
   return warnings;
 }

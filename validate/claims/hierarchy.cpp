@@ -113,15 +113,15 @@ void add(Logs& logs, const Subject& subject, bool per_line, const Counts<double>
 /// The workload with the actual S₀ and number of lines of this problem.
 Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
   Workload workload = experiment.workload;
-  workload.rays = static_cast<double>(problem.rays.size());
-  workload.sphere_radius = problem.enclosing.radius;
+  workload.rays = static_cast<double>(problem.rays().size());
+  workload.sphere_radius = problem.enclosing().radius;
   return workload;
 }
 
 /// Counts and predicts all candidates on one problem. False if a stop was requested.
 bool run_lines(const Experiment& experiment, const Subject& subject, const sim::Problem& problem, bool per_line,
                SetResult& result) {
-  const auto lines = static_cast<double>(problem.rays.size());
+  const auto lines = static_cast<double>(problem.rays().size());
   for (const Candidate& candidate : subject.candidates) {
     const sim::Outcome outcome = sim::run(problem, candidate, {.engine = subject.engine, .stop = experiment.stop});
     if (outcome.stopped) return false;

@@ -65,7 +65,7 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
   const sim::Outcome run =
       sim::run(problem, {Technique::sphere_cache, parameters}, {.engine = Engine::plain, .stop = experiment.stop});
   if (run.stopped) return;
-  const auto rays = static_cast<double>(problem.rays.size());
+  const auto rays = static_cast<double>(problem.rays().size());
   const auto levels = model::sphere_levels(workload, parameters, parameters.spheres);
   const auto of_published = [&](std::size_t i) {
     return std::min(workload.samples, model::published::rebuilds({ratios[q]}, static_cast<std::int64_t>(i) + 1));
@@ -86,14 +86,14 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
   const Counts<double> published = model::published::counts(workload, {ratios[q]}, k);
   result.published[q] = {mean_log_rebuilds(levels, of_published), std::log(published.cull_tests / workload.rays),
                          std::log(published.disc_tests / workload.rays)};
-  const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, parameters, experiment.stop);
+  const ExpectedWalk walk = structural_walk(problem.discs(), problem.enclosing(), parameters, experiment.stop);
   result.time_ratio[q] = static_cast<double>(run.counts.cull_tests) / rays / walk.cull_tests;
 }
 
 /// The workload with the actual S₀ of this set of samples.
 Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
   Workload workload = experiment.workload;
-  workload.sphere_radius = problem.enclosing.radius;
+  workload.sphere_radius = problem.enclosing().radius;
   return workload;
 }
 

@@ -10,9 +10,9 @@ namespace detp::validate {
 namespace {
 
 double expected_hits(const sim::Problem& problem, double rays) {
-  const double outer = problem.enclosing.radius;
+  const double outer = problem.enclosing().radius;
   double hits = 0;
-  for (const sim::Disc& disc : problem.discs) hits += 0.5 * (disc.radius / outer) * (disc.radius / outer);
+  for (const sim::Disc& disc : problem.discs()) hits += 0.5 * (disc.radius / outer) * (disc.radius / outer);
   return rays * hits;
 }
 
@@ -20,7 +20,7 @@ double expected_hits(const sim::Problem& problem, double rays) {
 
 Counts<double> structural_brute_force(const sim::Problem& problem, const Lines& lines, const Parameters&,
                                       const std::stop_token&) {
-  const auto discs = static_cast<double>(problem.discs.size());
+  const auto discs = static_cast<double>(problem.discs().size());
   return {.visits = discs * lines.blocks(problem).count(), .disc_tests = lines.rays * discs};
 }
 

@@ -103,8 +103,8 @@ Counts<double> structural_box_tree(const sim::Problem& problem, const Lines& lin
   const sim::stream::Frame frame(problem);
   const sim::stream::DiscTree tree =
       sim::stream::make_disc_tree(problem, frame, std::get<BoxTreeParameters>(parameters), {.stop = stop});
-  const BoxCrossing crossing(problem.enclosing.radius * frame.scale, frame.margin, lines.engine);
-  const auto discs = static_cast<double>(problem.discs.size());
+  const BoxCrossing crossing(problem.enclosing().radius * frame.scale, frame.margin, lines.engine);
+  const auto discs = static_cast<double>(problem.discs().size());
   const RayBlocks blocks = lines.blocks(problem);
   Counts<double> counts{.references = discs, .placements = discs, .sorted = discs};
   sim::StopCheck check(stop, "counting boxes");

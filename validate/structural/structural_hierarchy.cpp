@@ -55,12 +55,12 @@ class Crossing {
 Counts<double> cell_spheres(const sim::Problem& problem, const CellSpheresParameters& parameters,
                             const std::stop_token& stop) {
   sim::StopCheck check(stop, "counting spheres");
-  const Crossing crossing(problem.enclosing);
-  sim::CellWalk walk(problem.discs, parameters.depth);
+  const Crossing crossing(problem.enclosing());
+  sim::CellWalk walk(problem.discs(), parameters.depth);
   std::vector<double> listed(static_cast<std::size_t>(parameters.depth) + 1, 1);  // S₀'s list: every ray
   Counts<double> counts;
-  for (const std::uint32_t d : sim::along_curve(problem.discs, SampleOrder::lebesgue, stop)) {
-    for (int level = std::max(1, walk.enter(problem.discs[d])); level <= parameters.depth; ++level) {
+  for (const std::uint32_t d : sim::along_curve(problem.discs(), SampleOrder::lebesgue, stop)) {
+    for (int level = std::max(1, walk.enter(problem.discs()[d])); level <= parameters.depth; ++level) {
       const auto i = static_cast<std::size_t>(level);
       listed[i] = crossing(walk.sphere(level));
       ++counts.culls;
@@ -97,9 +97,9 @@ OverChildren over_children(const std::vector<double>& crossed, std::size_t child
 Counts<double> sphere_tree(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters,
                            const std::stop_token& stop) {
   sim::StopCheck check(stop, "counting spheres");
-  const Crossing crossing(problem.enclosing);
+  const Crossing crossing(problem.enclosing());
   const sim::SphereTree tree = sim::make_sphere_tree(
-      problem.discs, sim::along_curve(problem.discs, SampleOrder::lebesgue, stop), parameters, stop);
+      problem.discs(), sim::along_curve(problem.discs(), SampleOrder::lebesgue, stop), parameters, stop);
   Counts<double> counts{.cull_tests = 1, .culls = 1};
   for (std::size_t level = 0; level < tree.levels.size(); ++level) {
     std::vector<double> crossed;
@@ -107,7 +107,7 @@ Counts<double> sphere_tree(const sim::Problem& problem, double rays, const Spher
                           [&](const sim::Sphere& sphere) { crossed.push_back(crossing(sphere)); });
     counts.listed += std::accumulate(crossed.begin(), crossed.end(), 0.0);
     const bool leaves = level == 0;
-    const std::size_t children = leaves ? problem.discs.size() : tree.levels[level - 1].size();
+    const std::size_t children = leaves ? problem.discs().size() : tree.levels[level - 1].size();
     const OverChildren sums = over_children(crossed, children, leaves ? parameters.leaf : parameters.fan_out, rays);
     (leaves ? counts.disc_tests : counts.cull_tests) += sums.share;
     (leaves ? counts.visits : counts.culls) += sums.reached;
@@ -119,7 +119,7 @@ Counts<double> of_rays(Counts<double> per_ray, const sim::Problem& problem, doub
   per_ray.cull_tests *= rays;
   per_ray.listed *= rays;
   per_ray.disc_tests *= rays;
-  per_ray.sorted = static_cast<double>(problem.discs.size());
+  per_ray.sorted = static_cast<double>(problem.discs().size());
   return per_ray;
 }
 

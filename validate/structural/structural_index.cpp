@@ -118,7 +118,7 @@ template <class Inspect>
 Counts<double> index_counts(const sim::Problem& problem, double rays, double Counts<double>::*visited,
                             const std::stop_token& stop, const Inspect& inspect) {
   sim::StopCheck check(stop, "counting cells");
-  Crossing crossing(problem.enclosing);
+  Crossing crossing(problem.enclosing());
   double visits = 0;
   double tests = 0;
   const sim::IndexSize size = inspect([&](const sim::IndexNode& node) {

@@ -17,7 +17,7 @@ struct Lines {
   Engine engine = Engine::simd;
 
   [[nodiscard]] RayBlocks blocks(const sim::Problem& problem) const {
-    return ray_blocks(rays, static_cast<double>(problem.discs.size()), engine);
+    return ray_blocks(rays, static_cast<double>(problem.discs().size()), engine);
   }
 };
 

@@ -124,8 +124,8 @@ Counts<double> structural_sphere_cache(const sim::Problem& problem, const Lines&
     throw std::invalid_argument(
         fmt::format("the sphere cache has structural counts along the Morton (lebesgue) curve only (got order {})",
                     name(own.order)));
-  const ExpectedWalk walk = structural_walk(problem.discs, problem.enclosing, own, stop);
-  const auto discs = static_cast<double>(problem.discs.size());
+  const ExpectedWalk walk = structural_walk(problem.discs(), problem.enclosing(), own, stop);
+  const auto discs = static_cast<double>(problem.discs().size());
   const double blocks = lines.blocks(problem).count();
   Counts<double> counts{.cull_tests = lines.rays * walk.cull_tests,
                         .visits = blocks * discs,

@@ -149,7 +149,7 @@ bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidat
   const sim::LineField field(sim::enclosing_sphere(discs), seed * 7919 + static_cast<std::uint64_t>(set));
   const auto lines = field.lines(0, point.lines, stop);
   const sim::Problem problem = sim::make_problem(lines, discs);
-  all.sphere_radius += problem.enclosing.radius / point.sets;
+  all.sphere_radius += problem.enclosing().radius / point.sets;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const sim::Outcome outcome = sim::run(problem, candidates[i], {.engine = Engine::plain, .stop = stop});
     if (outcome.stopped) return false;

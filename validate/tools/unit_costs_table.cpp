@@ -80,7 +80,7 @@ int main(int arguments, char**) {
           const auto lines = sim::LineField(sim::enclosing_sphere(discs), 2).lines(0, rays);
           const sim::Problem problem = sim::make_problem(lines, discs);
           for (const Candidate& candidate :
-               candidates(radius, problem.enclosing.radius, static_cast<double>(samples * rays)))
+               candidates(radius, problem.enclosing().radius, static_cast<double>(samples * rays)))
             if (const auto run = time(problem, candidate); run.search > 0) runs.push_back(run);
         }
   const UnitCosts costs = validate::fit_unit_costs(runs);

@@ -27,15 +27,15 @@ void search_along_counting(ListWalk& walk, const Problem& problem, std::span<con
   std::pmr::vector<RayList> lists(static_cast<std::size_t>(walk.deepest()) + 1, options.memory);
   std::vector<SphereCounts>& events = outcome.spheres;
   if constexpr (counting) events.assign(lists.size() - 1, {});
-  lists[0] = list_of(problem.rays, options.memory);
+  lists[0] = list_of(problem.rays(), options.memory);
   collector.save_totals();
   std::size_t done = 0;
   const auto process_disc = [&](std::uint32_t d) {
-    const Disc disc = problem.discs[d];
+    const Disc disc = problem.discs()[d];
     for (int level = walk.enter(disc); level <= walk.innermost(); ++level) {
       const auto i = static_cast<std::size_t>(level);
       check.after(1);
-      cull(lists[i - 1], walk.sphere(level), problem.slack, lists[i], check);
+      cull(lists[i - 1], walk.sphere(level), problem.slack(), lists[i], check);
       if constexpr (counting) {
         ++events[i - 1].rebuilds;
         events[i - 1].tests += lists[i - 1].size();
@@ -57,7 +57,7 @@ void search_along_counting(ListWalk& walk, const Problem& problem, std::span<con
   if (done < order.size())
     collector.store_partial_results(order.first(done));
   else
-    collector.store_results(problem.rays.size());
+    collector.store_results(problem.rays().size());
 }
 
 inline void search_along(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,

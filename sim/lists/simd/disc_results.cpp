@@ -60,7 +60,7 @@ void DiscResults::ensure_totals() {
 }
 
 BlockSearch DiscResults::begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits) {
-  const bool only_count = traits.power && !options_.pairs && !problem_.front_facing;
+  const bool only_count = traits.power && !options_.pairs && !problem_.front_facing();
   const std::optional<double> power = only_count ? traits.power : std::nullopt;
   if (first_ray > 0 && power != counted_power_) add_counted_hits();
   counted_power_ = power;
@@ -94,7 +94,7 @@ void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
   // the time.
   constexpr std::uint64_t tests_for_each_disc = 4096;
   rays_ = block.first() + block.size();
-  if (rays_ == problem_.rays.size() || tests - tests_at_snapshot_ < tests_for_each_disc * tree_.discs.size()) return;
+  if (rays_ == problem_.rays().size() || tests - tests_at_snapshot_ < tests_for_each_disc * tree_.discs.size()) return;
   tests_at_snapshot_ = tests;
   if (has_room_for_snapshot()) take_snapshot();
 }
@@ -110,7 +110,7 @@ bool DiscResults::has_room_for_snapshot() {
 
 void DiscResults::end_partial_block(const Block& block) {
   partial_ = true;
-  by_discs_ = block.size() == problem_.rays.size() && options_.totals == nullptr;
+  by_discs_ = block.size() == problem_.rays().size() && options_.totals == nullptr;
 }
 
 std::uint64_t DiscResults::hits() const {
@@ -153,8 +153,8 @@ void DiscResults::finish_outcome(std::span<const DiscRun> skipped) {
   totals_.empty() && counted_power_ ? store_counted() : store_totals();
   if (!options_.count) outcome_.counts = {};
   outcome_.counts.hits = outcome_.total_hits;
-  outcome_.progress = {rays_, problem_.rays.size()};
-  outcome_.stopped = rays_ < problem_.rays.size() || !sort_pairs(outcome_.pairs, options_.stop);
+  outcome_.progress = {rays_, problem_.rays().size()};
+  outcome_.stopped = rays_ < problem_.rays().size() || !sort_pairs(outcome_.pairs, options_.stop);
   if (outcome_.stopped) outcome_.pairs.clear();
   if (rays_ > snapshot_.rays) batches_.add(rays_ - snapshot_.rays, outcome_.total_hits - snapshot_.hits);
   outcome_.batches = batches_;
@@ -180,7 +180,7 @@ std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) co
   for (std::size_t place = first; place < last; ++place) {
     if (place + prefetch_distance < hits_.size()) {
       const std::uint32_t later = tree_.order[place + prefetch_distance];
-      hwy::Prefetch(&problem_.discs[later].radius);
+      hwy::Prefetch(&problem_.discs()[later].radius);
       hwy::Prefetch(&outcome_.hits[later]);
       hwy::Prefetch(&outcome_.irradiance[later]);
     }
@@ -190,7 +190,7 @@ std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) co
     const DiscTotals totals{.hits = std::uint64_t{x} + y + z,
                             .power = {sums.add(0, x), sums.add(0, y), sums.add(0, z)}};
     outcome_.hits[disc] = totals.hits;
-    outcome_.irradiance[disc] = irradiance(totals, problem_.discs[disc]);
+    outcome_.irradiance[disc] = irradiance(totals, problem_.discs()[disc]);
     found += totals.hits;
   }
   return found;
@@ -210,7 +210,7 @@ void DiscResults::store_totals() {
   for (std::size_t place = 0; place < totals_.size(); ++place) {
     const std::uint32_t disc = tree_.order[place];
     outcome_.hits[disc] = totals_[place].hits;
-    outcome_.irradiance[disc] = irradiance(totals_[place], problem_.discs[disc]);
+    outcome_.irradiance[disc] = irradiance(totals_[place], problem_.discs()[disc]);
   }
 }
 

@@ -46,7 +46,7 @@ class DiscResults {
       outcome_.counts += worker.counts;
       outcome_.vectors += worker.vectors;
     }
-    if (options_.pairs && rays_ == problem_.rays.size()) store_pairs(workers);
+    if (options_.pairs && rays_ == problem_.rays().size()) store_pairs(workers);
     finish_outcome(skipped);
   }
 

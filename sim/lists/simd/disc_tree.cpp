@@ -78,7 +78,7 @@ class Builder {
           const BoxTreeParameters& parameters, const std::stop_token& stop)
       : problem_(problem),
         places_(places),
-        sphere_area_(2 * std::numbers::pi * std::pow(problem.enclosing.radius * frame.scale, 2)),
+        sphere_area_(2 * std::numbers::pi * std::pow(problem.enclosing().radius * frame.scale, 2)),
         stop_(stop),
         widening_(stop, doing),
         tree_(tree),
@@ -262,8 +262,8 @@ DiscTree tree_in_order(const Problem& problem, const Frame& frame, std::vector<s
     StopCheck check(stop, "putting discs in order");
     for_each_checked(range.begin(), range.end(), check, [&](std::size_t place) {
       if (place + prefetch_distance < tree.order.size())
-        hwy::Prefetch(&problem.discs[tree.order[place + prefetch_distance]]);
-      tree.discs[place] = to_float(problem.discs[tree.order[place]], frame);
+        hwy::Prefetch(&problem.discs()[tree.order[place + prefetch_distance]]);
+      tree.discs[place] = to_float(problem.discs()[tree.order[place]], frame);
     });
     check.now();
   });
@@ -287,12 +287,12 @@ double building_bytes(std::size_t discs, double binary_nodes, double nodes) {
 
 DiscTree make_disc_tree(const Problem& problem, const Frame& frame, const BoxTreeParameters& parameters,
                         const RunOptions& options) {
-  if (problem.discs.size() >= std::size_t{1} << 31)
+  if (problem.discs().size() >= std::size_t{1} << 31)
     throw std::length_error(
-        fmt::format("{} discs are too many for a tree of boxes; the most is 2147483647", problem.discs.size()));
+        fmt::format("{} discs are too many for a tree of boxes; the most is 2147483647", problem.discs().size()));
   DiscTree tree;
   on_threads(thread_count(options.threads), [&] {
-    const std::vector<CurvePlace> places = sort_along_curve(problem.discs, options.stop);
+    const std::vector<CurvePlace> places = sort_along_curve(problem.discs(), options.stop);
     std::vector<std::uint32_t> order;
     order.reserve(places.size());
     for (const CurvePlace place : places) order.push_back(place_index(place));

@@ -25,8 +25,8 @@ HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc
   worker.counts.doubtful += hn::CountTrue(lanes, unsure);
   for (std::size_t i = 0; i < hn::Lanes(lanes); ++i) {
     if ((bytes[i / 8] >> i % 8 & 1) == 0) continue;
-    const Ray& ray = block.problem.rays[block.first_ray + (ids[i] & ~falling)];
-    const bool hit = hits(ray, disc) && (!block.problem.front_facing || arrives_in_front(ray, disc));
+    const Ray& ray = block.problem.rays()[block.first_ray + (ids[i] & ~falling)];
+    const bool hit = hits(ray, disc) && (!block.problem.front_facing() || arrives_in_front(ray, disc));
     if (!hit) bytes[i / 8] = static_cast<std::uint8_t>(bytes[i / 8] & ~(1U << i % 8));
   }
   return hn::LoadMaskBits(lanes, bytes);
@@ -42,7 +42,7 @@ HWY_INLINE Mask test(const BlockSearch& block, const RayVector<segments>& rays, 
   const Mask unsure = hn::And(decision.unsure, there);
   const Mask sure = hn::And(decision.sure, there);
   if (HWY_LIKELY(hn::AllFalse(lanes, unsure))) return sure;
-  return hn::Or(sure, decide_again(block, block.problem.discs[block.tree.order[place]], rays.id, unsure, worker));
+  return hn::Or(sure, decide_again(block, block.problem.discs()[block.tree.order[place]], rays.id, unsure, worker));
 }
 
 /// For rays that all have the same power: it is enough to count hits.
@@ -67,7 +67,7 @@ HWY_INLINE void keep_hits(const BlockSearch& block, Mask hit, const std::uint32_
   HWY_ALIGN std::uint32_t found[padding] = {};
   hn::StoreU(hn::Compress(hn::Load(words, ids), hn::RebindMask(words, hit)), words, found);
   const std::size_t count = hn::CountTrue(lanes, hit);
-  const Ray* const first = block.problem.rays.data() + block.first_ray;
+  const Ray* const first = block.problem.rays().data() + block.first_ray;
   DiscTotals& totals = block.totals[place];
   block.hits[place][static_cast<std::size_t>(k)] += static_cast<std::uint32_t>(count);
   for (std::size_t i = 0; i < count; ++i) totals.power[k] += first[found[i] & ~falling].power;
@@ -92,7 +92,7 @@ template <bool segments, bool counting_only, int k>
 HWY_INLINE void test_class(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
   if constexpr (counting_only)
     count_hits<segments, k>(block, leaf, rays, worker);
-  else if (block.problem.front_facing)
+  else if (block.problem.front_facing())
     gather_hits<segments, true, k>(block, leaf, rays, worker);
   else
     gather_hits<segments, false, k>(block, leaf, rays, worker);

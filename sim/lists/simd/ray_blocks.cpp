@@ -7,8 +7,8 @@ namespace detp::sim::stream {
 void Block::load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size) {
   first_ = first;
   size_ = 0;
-  if (first >= problem.rays.size()) return;
-  const auto rays = problem.rays.subspan(first, std::min(size, problem.rays.size() - first));
+  if (first >= problem.rays().size()) return;
+  const auto rays = problem.rays().subspan(first, std::min(size, problem.rays().size() - first));
   arena_.release({});
   capacity_ = std::max(capacity_, rays.size());
   for (RayList& list : lists_) list = arena_.allocate(capacity_, true);

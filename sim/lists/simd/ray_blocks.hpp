@@ -36,11 +36,11 @@ class Block {
 /// thread, if there is one, loads the next block.
 template <class Search>
 void for_each_block(const Problem& problem, const Frame& frame, const RunOptions& options, const Search& search) {
-  const std::size_t size = rays_in_block(problem.discs.size());
+  const std::size_t size = rays_in_block(problem.discs().size());
   Block now(options.memory);
   Block next(options.memory);
   now.load(problem, frame, 0, size);
-  while (now.first() < problem.rays.size() && !options.stop.stop_requested()) {
+  while (now.first() < problem.rays().size() && !options.stop.stop_requested()) {
     tbb::parallel_invoke([&] { next.load(problem, frame, now.first() + size, size); }, [&] { search(now); });
     std::swap(now, next);
   }

@@ -45,11 +45,11 @@ double searching_bytes(const SearchSize& size, double tree, double lists) {
 }  // namespace
 
 SearchSize size_of(const Problem& problem, const RunOptions& options) {
-  return {.discs = problem.discs.size(),
-          .rays = problem.rays.size(),
+  return {.discs = problem.discs().size(),
+          .rays = problem.rays().size(),
           .threads = options.threads,
-          .segments = problem.segments,
-          .sums = !problem.one_power || options.pairs || problem.front_facing || options.totals != nullptr,
+          .segments = problem.segments(),
+          .sums = !problem.one_power() || options.pairs || problem.front_facing() || options.totals != nullptr,
           .own_totals = options.totals == nullptr};
 }
 

@@ -35,7 +35,7 @@ class ClassWalk {
   void run() {
     const ArenaScope scope(worker_.lists);
     for (std::uint32_t place = 0; place < block_.tree.order.size(); ++place) {
-      const int first = walk_.enter(block_.problem.discs[block_.tree.order[place]]);
+      const int first = walk_.enter(block_.problem.discs()[block_.tree.order[place]]);
       for (int level = first; level <= walk_.innermost(); ++level) {
         if (worker_.check.requested_after(test_work(lists_[static_cast<std::size_t>(level - 1)].size)))
           return skip_from(place);

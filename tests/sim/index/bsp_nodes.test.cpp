@@ -44,7 +44,7 @@ TEST_SUITE("identity") {
       for (std::uint32_t i = 0; i < discs.size(); ++i) {
         const bool listed =
             next < tree.references.size() && node.references > 0 && tree.references[next] == i && next < references;
-        REQUIRE(listed == overlaps(discs[i], node.box, problem.slack));
+        REQUIRE(listed == overlaps(discs[i], node.box, problem.slack()));
         if (listed) ++next;
       }
     });

@@ -88,8 +88,8 @@ TEST_SUITE("bad input") {
         try {
           const Problem problem = make_problem(given.rays, given.discs);
           CHECK_FALSE(never);
-          CHECK(problem.slack > 0);
-          CHECK(problem.slack < 1e100);
+          CHECK(problem.slack() > 0);
+          CHECK(problem.slack() < 1e100);
           check_all_agree(problem);
           for (const double irradiance : truth_of(problem).irradiance) CHECK(std::isfinite(irradiance));
         } catch (const std::invalid_argument& error) {
@@ -120,7 +120,7 @@ TEST_SUITE("bad input") {
     Problem problem = make_problem_without_rays(SmallInput{}.discs, 10);
     CHECK_THROWS_WITH_AS(set_rays(problem, rays, 1, 1'000'000), "ray 1070017: direction must be non-zero (got 0 0 0)",
                          std::invalid_argument);
-    CHECK(problem.rays.empty());
+    CHECK(problem.rays().empty());
     SmallInput given;
     given.discs[2].normal = {0, -0.0, 0};
     CHECK_THROWS_WITH_AS((void)make_problem(given.rays, given.discs), "disc 2: normal must be non-zero (got 0 -0 0)",
@@ -144,12 +144,6 @@ TEST_SUITE("bad input") {
       CHECK_THROWS_WITH_AS((void)enclosing_sphere(discs), doctest::Contains("disc 1: centre must be"),
                            std::invalid_argument);
     }
-  }
-
-  TEST_CASE("a problem that was not made by make_problem is refused") {
-    const SmallInput given;
-    const Problem by_hand{.rays = given.rays, .discs = given.discs};
-    CHECK_THROWS_WITH_AS((void)run(by_hand, brute), doctest::Contains("make_problem"), std::invalid_argument);
   }
 }
 
@@ -187,17 +181,17 @@ TEST_SUITE("identity") {
   TEST_CASE("vectors that have unit length already are not copied, and stay in place") {
     const SmallInput given;
     const Problem problem = make_problem(given.rays, given.discs);
-    CHECK(problem.rays.data() == given.rays.data());
-    CHECK(problem.discs.data() == given.discs.data());
+    CHECK(problem.rays().data() == given.rays.data());
+    CHECK(problem.discs().data() == given.discs.data());
     SmallInput off;
     off.rays[1].direction = {0, 0, 1 + 1e-7};
     const Problem copied = make_problem(off.rays, off.discs);
-    CHECK(copied.rays.data() != off.rays.data());
-    CHECK(copied.rays[1].direction.z == 1);
-    CHECK(copied.rays[1].length == 3);
-    CHECK(copied.discs.data() == off.discs.data());
+    CHECK(copied.rays().data() != off.rays.data());
+    CHECK(copied.rays()[1].direction.z == 1);
+    CHECK(copied.rays()[1].length == 3);
+    CHECK(copied.discs().data() == off.discs.data());
     const Problem again = copied;  // a copy of the problem refers to the same rays
-    CHECK(again.rays.data() == copied.rays.data());
+    CHECK(again.rays().data() == copied.rays().data());
   }
 
   TEST_CASE("the slack of the smallest discs does not underflow") {
@@ -208,7 +202,7 @@ TEST_SUITE("identity") {
     const std::vector<Disc> large_discs{{.centre = {0, 0, 0}, .radius = 1}, {.centre = {1, 0, 0}, .radius = 1}};
     const std::vector<Ray> large_rays{{.origin = {0, 0, -1}}};
     const Problem large = make_problem(large_rays, large_discs);
-    CHECK(tiny.slack == doctest::Approx(1e-100 * large.slack).epsilon(1e-10));
+    CHECK(tiny.slack() == doctest::Approx(1e-100 * large.slack()).epsilon(1e-10));
     check_all_agree(tiny);
   }
 }

@@ -48,7 +48,7 @@ TEST_SUITE("identity") {
     const sim::Ray ray{};
     const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
     Workload workload = cube_workload(1000, 4000, 0.02, 2);
-    workload.sphere_radius = problem.enclosing.radius;
+    workload.sphere_radius = problem.enclosing().radius;
     const Candidate candidate{Technique::cell_spheres, CellSpheresParameters{2}};  // none of 64 cells is empty
     const Counts<double> structural = structural_counts(problem, 1000, candidate);
     const Counts<double> closed = model::predict(workload, candidate);

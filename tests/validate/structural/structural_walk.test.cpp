@@ -25,7 +25,7 @@ Walked walk(sim::Body body, double ratio, std::size_t lines) {
   const auto rays = sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, lines);
   const sim::Problem problem = sim::make_problem(rays, discs);
   const SphereCacheParameters parameters{ratio, 100};
-  return {validate::structural_walk(discs, problem.enclosing, parameters),
+  return {validate::structural_walk(discs, problem.enclosing(), parameters),
           sim::run(problem, {Technique::sphere_cache, parameters})};
 }
 
