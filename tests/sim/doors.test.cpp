@@ -89,7 +89,7 @@ const std::vector<Door>& doors() {
       {"problem without rays", "farthest",
        [](double x) {
          const std::vector<Disc> discs(1);
-         const double slack = make_problem_without_rays(discs, x).slack;
+         const double slack = make_problem_without_rays(discs, x).slack();
          return slack > 0 && slack < infinity;
        }},
       {"photon paths, albedo", "albedo",

@@ -101,7 +101,7 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("the work between two checks is bounded while rays and discs are checked, and a stop request ends it") {
-    std::vector<Ray> rays = LineField(problem().enclosing, 2).lines(0, 400'000);
+    std::vector<Ray> rays = LineField(problem().enclosing(), 2).lines(0, 400'000);
     std::vector<Disc> some = discs();
     check_phase({"enclosing sphere", [&](const auto& stop) { use(enclosing_sphere(some, stop)); }, some.size()});
     const Phase problem_phase{"a problem", [&](const auto& stop) { use(make_problem(rays, some, false, 1, stop)); },

@@ -56,11 +56,12 @@ const std::vector<Case> cases{{3, 20'000, 3, 0.05}, {3, 5'000, 5, 0.5},  {3, 2'0
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("references, nodes and bytes agree with built indices, by exact overlap and by bounding box") {
+  TEST_CASE("references, nodes and bytes agree with built indices, by exact overlap and by bounding box" *
+            doctest::test_suite("long")) {
     for (const Case& chosen : cases)
       for (const Insertion insertion : {Insertion::exact, Insertion::bounding_box}) {
         const Setting setting(chosen);
-        const sim::Problem problem{{}, setting.discs, sim::enclosing_sphere(setting.discs), false, 1e-11};
+        const sim::Problem problem = sim::make_problem_without_rays(setting.discs, 10);
         const IndexVariant variant{.insertion = insertion};
         double leaves = 0;
         const sim::IndexSize size = inspect_octree(problem, {chosen.depth}, variant,

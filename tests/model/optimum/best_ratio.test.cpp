@@ -94,7 +94,7 @@ std::vector<double> above_grids(int many, std::uint64_t seed) {
 }  // namespace
 
 TEST_SUITE("reference value") {
-  TEST_CASE("no ratio and number of spheres on fine grids is faster by 1e-9") {
+  TEST_CASE("no ratio and number of spheres on fine grids is faster by 1e-9" * doctest::test_suite("long")) {
     CHECK(above_grids(4, 33).back() <= 1e-9);
   }
 

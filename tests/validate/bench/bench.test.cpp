@@ -74,8 +74,8 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("wrong hits are counted disc by disc: one too many does not cancel one too few") {
     const RightHits right{Technique::brute_force, {5, 5, 5}};
-    CHECK(right.wrong(std::vector<std::uint64_t>{5, 5, 5}) == 0);
-    CHECK(right.wrong(std::vector<std::uint64_t>{6, 4, 5}) == 2);
+    CHECK(right.wrong_hits(std::vector<std::uint64_t>{5, 5, 5}) == 0);
+    CHECK(right.wrong_hits(std::vector<std::uint64_t>{6, 4, 5}) == 2);
   }
 
   TEST_CASE("all run once, the fastest two of each side for all repeats, and hits are compared") {

@@ -68,7 +68,7 @@ TEST_SUITE("identity") {
     CHECK_FALSE(analysis.stopped);
   }
 
-  TEST_CASE("a candidate that takes several times as long as the fastest is abandoned") {
+  TEST_CASE("a candidate that takes several times as long as the fastest is abandoned" * doctest::test_suite("long")) {
     const Scene scene(50'000, 60'000);  // 3·10⁹ tests by brute force
     auto ranking = scene.wrong_ranking();
     std::reverse(ranking.begin(), ranking.end());

@@ -23,7 +23,8 @@ JobRequest three_discs(const char* scene, double rays) {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("a job whose rays fill more than a block can be a stream, of the same rays and the same workload") {
+  TEST_CASE("a job whose rays fill more than a block can be a stream, of the same rays and the same workload" *
+            doctest::test_suite("long")) {
     JobRequest request = three_discs("@uniform", 0x1p20 + 1);
     const Job in_memory = make_job(request);
     request.stream = true;
@@ -40,7 +41,8 @@ TEST_SUITE("identity") {
     CHECK(streamed.outcome.irradiance == sim::run(in_memory.problem(), grid).irradiance);
   }
 
-  TEST_CASE("the workload alone needs only a block of rays, however many are requested, and is the same") {
+  TEST_CASE("the workload alone needs only a block of rays, however many are requested, and is the same" *
+            doctest::test_suite("long")) {
     JobRequest request = three_discs("@uniform", 0x1p20 + 1);
     request.stream = true;
     const Job stream = make_job(request);

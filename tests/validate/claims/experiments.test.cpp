@@ -19,7 +19,7 @@ Experiment small_experiment() {
 }  // namespace
 
 TEST_SUITE("identity") {
-  TEST_CASE("the findings do not depend on the number of threads") {
+  TEST_CASE("the findings do not depend on the number of threads" * doctest::test_suite("long")) {
     const auto findings_on = [](std::size_t threads) {
       const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, threads);
       std::vector<Finding> findings = sphere_cache_findings(small_experiment());

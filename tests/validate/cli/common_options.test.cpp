@@ -153,7 +153,7 @@ TEST_SUITE("end to end") {
     CHECK(result_of("run @uniform --rays 10 --samples 10 --repeat 2").at("inputs").at("repeat") == 2);
   }
 
-  TEST_CASE("text and CSV are not empty, and CSV rows have equally many fields") {
+  TEST_CASE("text and CSV are not empty, and CSV rows have equally many fields" * doctest::test_suite("long")) {
     for (const Example& example : examples()) {
       CAPTURE(example.line);
       const Finished text = detp(example.line);

@@ -238,7 +238,8 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("more rays than a block are never all in memory; --pairs has their numbers among all rays") {
+  TEST_CASE("more rays than a block are never all in memory; --pairs has their numbers among all rays" *
+            doctest::test_suite("long")) {
     const Written written = run_and_read(words("run --samples 3 --disc-radius 0.3 --scene-side 2 --rays 1200000"),
                                          "--technique grid --cells 2");
     CHECK(written.json.at("rays_in_memory") == 1 << 20);

@@ -123,7 +123,8 @@ TEST_SUITE("end to end") {
     CHECK(std::stoi(rows.front().at("tried")) == tried);
   }
 
-  TEST_CASE("validate: each claim has its technique in JSON and CSV, and none if it is about lines") {
+  TEST_CASE("validate: each claim has its technique in JSON and CSV, and none if it is about lines" *
+            doctest::test_suite("long")) {
     const std::string line = "validate @cornell --samples 100 --rays 320 --disc-radius 4% --format ";
     const Json json = detp(line + "json").json();
     const auto rows = csv_rows(detp(line + "csv").out);
