@@ -1,5 +1,6 @@
-# Checks that pages lead somewhere: relative links of every *.md file, and "folder/page.md" and "folder/page.md, "Heading""
-# in comments of the sources. Called with -D SOURCE=<top of the project>.
+# Checks that links lead to existing files: relative links in every *.md file, and references in comments of sources,
+# written folder/page.md or folder/page.md, "Heading". The page must have that heading. Called with -D SOURCE=<top of
+# the project>.
 
 cmake_policy(VERSION 3.25)
 file(GLOB pages ${SOURCE}/*.md)
@@ -11,7 +12,7 @@ foreach(part model sim validate tests notebooks-data)
   list(APPEND sources ${more})
 endforeach()
 
-# Reads a file without what would upset a list: brackets and semicolons.
+# Reads a file without brackets and semicolons, which would split a CMake list.
 function(read_plain file result)
   file(READ ${file} text)
   string(REPLACE "](" "LINK(" text "${text}")

@@ -49,7 +49,8 @@ class Grid {
   }
 
   /// Steps from cell to cell along the ray. The place of each plane is recomputed from its number, so errors do not
-  /// accumulate. A cell missed by rounding does no harm, because discs near its faces are in the next cell too.
+  /// accumulate. If rounding makes a ray miss a cell, no hit is lost: discs near the cell's faces are in the next cell
+  /// too.
   template <class Search>
   void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(traced);
@@ -74,7 +75,7 @@ class Grid {
   }
 
  private:
-  /// Distance along the ray at which it leaves the cell across an axis.
+  /// Distance along the ray to the plane across the axis through which it leaves the cell; unbounded if there is none.
   double exit_distance(const ClippedRay& ray, const Cell& cell, int axis) const {
     if (std::isinf(ray.inverse[axis])) return unbounded;
     const auto plane = static_cast<double>(cell[axis] + (ray.inverse[axis] > 0 ? 1 : 0));
@@ -122,8 +123,8 @@ class Grid {
     std::uint32_t disc;
   };
 
-  /// Peak bytes: first the cells and the placements; then the cells twice, and the placements with the references made
-  /// from them.
+  /// The larger of two peaks, in bytes: first the cells and the growing placements; then the cells twice, the
+  /// placements and the references.
   [[nodiscard]] double building_bytes(std::size_t placements) const {
     constexpr double each = sizeof(Placement) + sizeof(std::uint32_t);
     const double cells = static_cast<double>(starts_.size()) * sizeof(starts_[0]);
