@@ -11,8 +11,8 @@
 namespace detp::sim {
 
 /// A memory resource that keeps freed blocks and reuses them: a search that is repeated at the same size takes nothing
-/// from the heap. Block sizes are rounded up to four per octave; blocks are aligned to a cache line. The threads of one
-/// search may share a Scratch; simultaneous searches need one each.
+/// from the heap. Sizes are rounded up to one of four sizes per octave; blocks are aligned to a cache line. The threads
+/// of one search may share a Scratch; simultaneous searches need one each.
 class Scratch final : public std::pmr::memory_resource {
  public:
   Scratch() = default;
@@ -20,8 +20,8 @@ class Scratch final : public std::pmr::memory_resource {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
-  /// Call it before each search. Calls release() if the bytes taken from the heap are more than twice the most that
-  /// were in use at once since the last call.
+  /// Call it before each search. Calls release() if the bytes taken from the heap exceed twice the largest number of
+  /// bytes in use at once since the last call.
   void begin();
 
   /// Frees the blocks that are not in use.

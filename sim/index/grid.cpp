@@ -49,8 +49,7 @@ class Grid {
   }
 
   /// Steps from cell to cell along the ray. The place of each plane is recomputed from its number, so errors do not
-  /// accumulate. If rounding makes a ray miss a cell, no hit is lost: discs near the cell's faces are in the next cell
-  /// too.
+  /// accumulate. A cell missed by rounding does no harm: discs near the cell's faces are also in the next cell.
   template <class Search>
   void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(traced);
@@ -75,7 +74,8 @@ class Grid {
   }
 
  private:
-  /// Distance along the ray to the plane across the axis through which it leaves the cell; unbounded if there is none.
+  /// Distance at which the ray leaves the cell through a face across the axis; unbounded if it is parallel to that
+  /// face.
   double exit_distance(const ClippedRay& ray, const Cell& cell, int axis) const {
     if (std::isinf(ray.inverse[axis])) return unbounded;
     const auto plane = static_cast<double>(cell[axis] + (ray.inverse[axis] > 0 ? 1 : 0));

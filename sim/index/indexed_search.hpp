@@ -135,8 +135,8 @@ class TracedIndex final : public Index {
 /// (sim/geometry/proofs.md, "The culls").
 ///
 /// In man-made scenes, discs often lie exactly on the planes that cut the discs' box into N equal parts, with a small
-/// N. The margin moves the plane at j/N by `slacks` (2j/N - 1) slacks. This must not be exactly one slack: rounding
-/// would then decide which cells these discs overlap.
+/// N. The margin moves the plane at j/N by 2.618 (2j/N - 1) slacks. This distance must not be exactly one slack:
+/// rounding would then decide which cells these discs overlap.
 [[nodiscard]] inline Box index_box(const Problem& problem) {
   constexpr double slacks = 2.618;
   const Box box = index_box(problem.discs);
