@@ -47,7 +47,7 @@ IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, c
 [[nodiscard]] std::unique_ptr<Index> index_octree(const Problem& problem, const OctreeParameters& parameters,
                                                   const IndexVariant& variant, const RunOptions& options = {});
 
-/// Prepares a variant of the grid. There is only one way to traverse it.
+/// Prepares a variant of the grid. There is only one way to traverse a grid. Throws as prepare does.
 [[nodiscard]] std::unique_ptr<Index> index_grid(const Problem& problem, const GridParameters& parameters,
                                                 const IndexVariant& variant, const RunOptions& options = {});
 

@@ -35,7 +35,7 @@ struct NestedLists {
 /// the lists. All lists inside the outermost hold `nested` times as many rays as the outermost.
 [[nodiscard]] double listing_bytes(const Problem& problem, const RunOptions& options, double nested);
 
-/// Peak bytes while a sphere tree is built and its discs are sorted before.
+/// Peak bytes while the discs are sorted and the sphere tree is built.
 [[nodiscard]] double building_bytes(const Problem& problem, const SphereTreeParameters& parameters);
 
 /// Bytes while a sphere tree is searched; the search is always plain.

@@ -194,8 +194,7 @@ class PhotonMapIndex final : public Index {
   explicit PhotonMapIndex(int nearest) : nearest_(nearest) {}
 
   /// Throws std::invalid_argument if no ray has a finite length, if there are fewer than k photons, if k of them are
-  /// exactly at a disc's centre, and if totals are to be continued or a standard error is requested: this estimator has
-  /// neither.
+  /// exactly at a disc's centre, and for totals or a standard error, which this estimator does not have.
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     if (options.totals != nullptr)
       throw std::invalid_argument(

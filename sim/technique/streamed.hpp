@@ -9,7 +9,7 @@
 namespace detp::sim {
 
 struct StreamOptions {
-  RunOptions run;                                  ///< its totals must be null
+  RunOptions run;                                  ///< run.totals must be null
   bool front_facing = false;                       ///< count only rays that arrive at a disc's front
   std::size_t block = 0;                           ///< rays in memory at a time; 0: default_block
   std::function<void(double done)> progress = {};  ///< called before each block, 0 <= done < 1

@@ -12,7 +12,7 @@ namespace detp::sim {
 struct WalkedSpheres {
   SampleOrder order = SampleOrder::lebesgue;  ///< in which the discs are visited
   MakeWalk make_walk;                         ///< makes a walk that has not met a disc yet
-  NestedLists lists;                          ///< expected sizes of its lists
+  NestedLists lists;                          ///< expected sizes of the walk's lists
   std::string what;                           ///< in messages: "4 spheres and their lists of rays"
 };
 
