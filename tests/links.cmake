@@ -1,6 +1,5 @@
-# Checks that links lead to existing files: relative links in every *.md file, and references in comments of sources,
-# written folder/page.md or folder/page.md, "Heading". The page must have that heading. Called with -D SOURCE=<top of
-# the project>.
+# Checks that relative links in *.md files, and references in comments (folder/page.md or folder/page.md, "Heading"),
+# lead to existing files and headings. Called with -D SOURCE=<top of the project>.
 
 cmake_policy(VERSION 3.25)
 file(GLOB pages ${SOURCE}/*.md)

@@ -19,8 +19,7 @@ struct Phase {
 /// Called at the beginning of each phase, by any thread. May be empty.
 using ReportPhase = std::function<void(const Phase&)>;
 
-/// Returns a function that passes phases of a part of the work on to `whole`. The part extends from share `from` to
-/// share `to` of the whole work. Empty if `whole` is empty.
+/// Returns a function that passes the phases of part [from, to] of the work to `whole`. Empty if `whole` is empty.
 [[nodiscard]] inline ReportPhase part_of(ReportPhase whole, double from, double to) {
   if (!whole) return {};
   return [whole = std::move(whole), from, to](const Phase& phase) {

@@ -15,8 +15,7 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
-/// Stable sort by the 8-bit digit from bit `shift`. Returns false, and does nothing, if all entries have the same
-/// digit.
+/// Sorts stably by the 8-bit digit from bit `shift`. If all entries have the same digit, only returns false.
 inline bool sort_by_digit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& to, int shift,
                           StopCheck& check) {
   std::array<std::size_t, 256> place{};

@@ -74,8 +74,7 @@ class Grid {
   }
 
  private:
-  /// Distance at which the ray leaves the cell through a face across the axis; unbounded if it is parallel to that
-  /// face.
+  /// Distance at which the ray leaves the cell through a face across the axis; unbounded if parallel to that face.
   double exit_distance(const ClippedRay& ray, const Cell& cell, int axis) const {
     if (std::isinf(ray.inverse[axis])) return unbounded;
     const auto plane = static_cast<double>(cell[axis] + (ray.inverse[axis] > 0 ? 1 : 0));

@@ -74,8 +74,7 @@ class Octree {
     return tree_.nodes.size() * sizeof(OctreeNode) + tree_.references.size() * sizeof(std::uint32_t);
   }
 
-  /// Descends from the root to `place`. Tests the discs of the leaf there. Returns the cube of the leaf or omitted
-  /// octant.
+  /// Descends from the root to `place`, and tests the leaf there. Returns the cube of the leaf or omitted octant.
   template <class Search>
   LeafCube search_from_root(const Leaf& place, std::uint32_t ray, Search& search) const {
     std::uint32_t number = 0;

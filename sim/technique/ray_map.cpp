@@ -77,8 +77,7 @@ class RayMap {
     return !cell.final && cell.rays.size() > leaf_ && std::max({size.x, size.y, size.z}) > narrowest_;
   }
 
-  /// One half of a cell, with the rays that meet the half grown by the slack: both halves list rays near the middle
-  /// plane.
+  /// One half of a cell, with the rays that meet the half grown by the slack. Rays near the middle are in both halves.
   [[nodiscard]] Cell half_of(const Cell& cell, int axis, bool upper) {
     Cell half{cell.box, Rays(cell.rays.get_allocator())};
     (upper ? half.box.low : half.box.high)[axis] = cell.box.centre()[axis];

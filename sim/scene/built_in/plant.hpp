@@ -8,8 +8,7 @@
 /// Trees: limbs that bear limbs. The last generation bears leaves.
 namespace detp::sim::built_in {
 
-/// How the limbs of one generation grow on their parents, the limbs of the generation before. The trunk is the first
-/// generation.
+/// How the limbs of one generation grow on those of the generation before, the parents. The trunk is the first.
 struct Generation {
   int limbs;          ///< on each parent
   double from, to;    ///< shares of the parent's length between which the limbs sit

@@ -143,9 +143,8 @@ TEST_SUITE("known answer") {
     (void)inspect_octree(problem, {3}, {}, [&](const IndexNode& node) { ++by_level[node.level]; });
     CHECK(by_level == std::vector<int>{1, 2, 2, 2});
     CHECK(search_octree(problem, {3}, {}).counts.nodes == 7);
-    // Each of the two leaves takes 4 visits. At each end the ray crosses empty octants with 1/8 and 1/4 of the cube's
-    // side, one to three of each size; one octant takes 3 or 2 visits. It may also cross two of the root's octants: 1
-    // visit each.
+    // The two leaves take 4 visits each. At each end, the ray crosses 1 to 3 empty octants of side 1/8 (3 visits each),
+    // 1 to 3 of side 1/4 (2 visits each) and at most one of side 1/2 (1 visit).
     const std::uint64_t visits = search_octree(problem, {3, Traversal::restart}, {}).counts.nodes;
     CHECK(visits > 2 * 4 + 2 * (3 + 2));
     CHECK(visits <= 2 * 4 + 2 * 3 * (3 + 2) + 2);

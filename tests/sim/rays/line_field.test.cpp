@@ -56,8 +56,8 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("statistical") {
-  // Of uniform isotropic lines, the share (r1/r0)² crosses an inner sphere, wherever that sphere lies. A field that is
-  // not invariant under translation (for instance through two random points in the ball) has another share at some
+  // Of uniform isotropic lines, the share (r1/r0)² crosses an inner sphere wherever the sphere lies. A field that is
+  // not invariant under translation (such as lines through two random points in the ball) fails this test at some
   // place.
   TEST_CASE("an inner sphere is hit equally often at the centre and at the rim") {
     constexpr int lines = 400'000;
