@@ -22,7 +22,7 @@ using Notices = std::vector<std::string>;
 
 /// One sample at each vertex that a triangle uses, in vertex order.
 ///
-/// The normals are those of the mesh if it has any, else the area-weighted mean normals of the triangles around each
+/// The normals are those of the mesh if it has any, else area-weighted mean normals of the triangles around each
 /// vertex. Unreferenced vertices are dropped. So are vertices without a normal: all triangles around them have no area,
 /// or the file's normal is zero. Each kind of drop adds one notice with its count. Throws Stopped if a stop was
 /// requested.
