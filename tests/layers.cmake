@@ -64,7 +64,7 @@ file(WRITE ${DRAW}/folders.txt "${text}")
 file(WRITE ${DRAW}/folders.dot "${dot}}\n")
 message("${text}")
 
-# Between the parts: model includes no other part, sim only the vocabulary.
+# Between the parts: model includes no other part, sim includes only the vocabulary of model.
 foreach(folder ${folders})
   foreach(other ${${folder}_includes})
     if(folder MATCHES "^model/" AND NOT other MATCHES "^model/")

@@ -1,5 +1,5 @@
-# Checks that pages lead somewhere: relative links of every *.md file, and "folder/page.md" and "folder/page.md, "Heading""
-# in comments of the sources. Called with -D SOURCE=<top of the project>.
+# Checks that relative links in *.md files, and references in comments (folder/page.md or folder/page.md, "Heading"),
+# lead to existing files and headings. Called with -D SOURCE=<top of the project>.
 
 cmake_policy(VERSION 3.25)
 file(GLOB pages ${SOURCE}/*.md)
@@ -11,7 +11,7 @@ foreach(part model sim validate tests notebooks-data)
   list(APPEND sources ${more})
 endforeach()
 
-# Reads a file without what would upset a list: brackets and semicolons.
+# Reads a file without brackets and semicolons, which would split a CMake list.
 function(read_plain file result)
   file(READ ${file} text)
   string(REPLACE "](" "LINK(" text "${text}")

@@ -24,8 +24,8 @@ struct Release {
 template <class Handle>
 using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Release>;
 
-/// Throws OutOfMemory, or std::runtime_error with Embree's error number, if an operation on the device has failed since
-/// the last call. If there is no device (rtcNewDevice returned none), reports why it could not be made.
+/// Throws if an operation on the device has failed since the last call, or if there is no device because rtcNewDevice
+/// failed: OutOfMemory, or std::runtime_error with Embree's error number.
 inline void require_no_error(const Owned<RTCDevice>& device) {
   const RTCError error = rtcGetDeviceError(device.get());
   if (error == RTC_ERROR_OUT_OF_MEMORY) throw OutOfMemory("Embree builds its tree");
@@ -33,8 +33,8 @@ inline void require_no_error(const Owned<RTCDevice>& device) {
     throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
 }
 
-/// Builds the scene's tree. Throws Stopped ("stopped while " + doing) if a stop is requested meanwhile: Embree calls
-/// back regularly while it builds.
+/// Builds the scene's tree. Throws Stopped ("stopped while " + doing) if a stop is requested during the build,
+/// OutOfMemory or std::runtime_error if Embree fails.
 inline void commit(RTCDevice device, RTCScene scene, const std::stop_token& stop, const char* doing) {
   const auto go_on = [](void* token, double) { return !static_cast<const std::stop_token*>(token)->stop_requested(); };
   rtcSetSceneProgressMonitorFunction(scene, go_on, const_cast<std::stop_token*>(&stop));

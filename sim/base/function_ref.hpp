@@ -8,8 +8,8 @@ namespace detp::sim {
 template <class Signature>
 class FunctionRef;
 
-/// A callable that is borrowed: a parameter for what is called before the function returns. Takes no memory, unlike
-/// std::function.
+/// A reference to a callable, for parameters that are called only before the function returns. Allocates no memory,
+/// unlike std::function.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

@@ -34,7 +34,7 @@ double resource_limit(int resource) {
   return known && limit.rlim_cur != RLIM_INFINITY ? static_cast<double>(limit.rlim_cur) : no_limit;
 }
 
-/// The number in a file. No limit if there is no file, or if it holds no number ("max").
+/// The limit in a file; no_limit if there is no file, or no positive number in it (but "max").
 double limit_in(const std::filesystem::path& path) {
   std::ifstream file(path);
   double limit = 0;

@@ -13,13 +13,13 @@ namespace detp::sim {
 /// RLIMIT_DATA sets a smaller limit. Read once.
 [[nodiscard]] double machine_memory();
 
-/// Bytes that one piece of work may use, including its rays and discs: the value of set_memory_limit or of the
-/// environment variable DETP_MEMORY_LIMIT, by default half of machine_memory. Throws std::invalid_argument if the
-/// variable is malformed.
+/// Bytes that one piece of work may use, including its rays and discs: the limit of set_memory_limit, else of the
+/// environment variable DETP_MEMORY_LIMIT, else half of machine_memory. Throws std::invalid_argument if the variable is
+/// malformed.
 [[nodiscard]] double memory_budget();
 
-/// Sets the budget for all threads of the process. The default cannot be restored. Throws std::invalid_argument unless
-/// bytes > 0 and finite.
+/// Sets the budget for all threads of the process; without a value, restores the default. Throws std::invalid_argument
+/// unless the value is > 0 and finite.
 void set_memory_limit(std::optional<double> bytes);
 
 /// Reads "4G", "512M" or a number of bytes. K, M, G and T are powers of 1024. Throws std::invalid_argument for anything
@@ -33,11 +33,11 @@ void require_memory(std::string_view what, double bytes);
 /// array exists too.
 [[nodiscard]] double grown_bytes(std::size_t count, std::size_t element);
 
-/// The smallest limit of the process's own memory cgroup and of the groups around it. `own_groups` is a text like
-/// /proc/self/cgroup; the groups' files are under `root` (/sys/fs/cgroup). Infinite if no limit is set.
+/// The smallest limit of the process's own memory cgroup and of the groups around it; infinite if no limit is set.
+/// `own_groups` is text in the format of /proc/self/cgroup; the groups' files are under `root` (/sys/fs/cgroup).
 [[nodiscard]] double cgroup_limit(const std::string& own_groups, const std::string& root);
 
-/// Memory ran out. The message says during which work.
+/// Memory ran out. The message names the work that needed it.
 class OutOfMemory : public std::bad_alloc {
  public:
   explicit OutOfMemory(std::string_view doing);

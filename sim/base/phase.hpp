@@ -10,8 +10,8 @@ namespace detp::sim {
 /// A phase of some work. `from` and `to` are shares of the whole work, 0 to 1, in proportion to predicted time.
 struct Phase {
   std::string what;    ///< "making rays"
-  double from = 0;     ///< done before this phase
-  double to = 0;       ///< done after it
+  double from = 0;     ///< share done before this phase
+  double to = 0;       ///< share done after this phase
   double work = 0;     ///< predicted units of work of this phase, as StopCheck counts them; 0: unknown
   double seconds = 0;  ///< predicted time of this phase if the work is unknown; 0: unknown too
 };
@@ -19,7 +19,7 @@ struct Phase {
 /// Called at the beginning of each phase, by any thread. May be empty.
 using ReportPhase = std::function<void(const Phase&)>;
 
-/// Reports phases of a part of the work, which extends from one share of the whole to another. Empty if `whole` is.
+/// Returns a function that passes the phases of part [from, to] of the work to `whole`. Empty if `whole` is empty.
 [[nodiscard]] inline ReportPhase part_of(ReportPhase whole, double from, double to) {
   if (!whole) return {};
   return [whole = std::move(whole), from, to](const Phase& phase) {

@@ -15,7 +15,7 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
-/// Stable sort by the 8-bit digit at `shift`. Returns false, and does nothing, if all digits are equal.
+/// Sorts stably by the 8-bit digit from bit `shift`. If all entries have the same digit, only returns false.
 inline bool sort_by_digit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& to, int shift,
                           StopCheck& check) {
   std::array<std::size_t, 256> place{};
@@ -28,9 +28,9 @@ inline bool sort_by_digit(const std::vector<KeyedIndex>& from, std::vector<Keyed
   return true;
 }
 
-/// Stable sort by rising key. Keys have at most `bits` bits. Cost O(n): for each 8-bit digit one pass that counts, and
-/// one that moves unless all digits are equal. Throws Stopped if a stop was requested; the entries are then in any
-/// order.
+/// Stable sort by rising key. Keys have at most `bits` bits. Cost O(n): for each 8-bit digit one pass that counts
+/// entries, and one that moves them (unless all have the same digit). Throws Stopped if a stop was requested; the
+/// entries are then in any order.
 inline void radix_sort(std::vector<KeyedIndex>& entries, int bits = 64, const std::stop_token& stop = {}) {
   if (entries.empty()) return;
   StopCheck check(stop, "sorting along a curve");

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t cache_line = 64;  // bytes; the alignment and the smallest size
 
-/// A size class: 64 bytes, then four to an octave: 80, 96, 112, 128, 160, …
+/// Number of the size class of a request. The classes are 64 bytes, then four per octave: 80, 96, 112, 128, 160, …
 std::size_t class_of(std::size_t bytes) {
   if (bytes <= cache_line) return 0;
   const auto octave = static_cast<std::size_t>(std::bit_width(bytes - 1)) - 1;  // 2^octave < bytes <= 2^(octave + 1)

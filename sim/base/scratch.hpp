@@ -10,9 +10,9 @@
 /// Memory that a search keeps for the next one.
 namespace detp::sim {
 
-/// A memory resource that keeps what is freed and hands it out again: a search that is repeated at the same size takes
-/// nothing from the heap. Blocks are rounded up to four sizes an octave and aligned to a cache line. Safe for the
-/// threads of one search; two searches at once need one each.
+/// A memory resource that keeps freed blocks and reuses them: a search that is repeated at the same size takes nothing
+/// from the heap. Sizes are rounded up to one of four sizes per octave; blocks are aligned to a cache line. The threads
+/// of one search may share a Scratch; simultaneous searches need one each.
 class Scratch final : public std::pmr::memory_resource {
  public:
   Scratch() = default;
@@ -20,11 +20,11 @@ class Scratch final : public std::pmr::memory_resource {
   Scratch(const Scratch&) = delete;
   Scratch& operator=(const Scratch&) = delete;
 
-  /// To be called before a search. Frees what is kept if that is more than twice what was in use at once since the last
-  /// call.
+  /// Call it before each search. Calls release() if the bytes taken from the heap exceed twice the largest number of
+  /// bytes in use at once since the last call.
   void begin();
 
-  /// Frees all that is not in use.
+  /// Frees the blocks that are not in use.
   void release();
 
   /// Bytes taken from the heap and not freed.
@@ -62,8 +62,8 @@ struct DeleteIn {
 template <class T>
 using OwnedIn = std::unique_ptr<T, DeleteIn<T>>;
 
-/// An object in memory of that resource, which must outlive it. T's destructor must be virtual if Made is derived from
-/// T.
+/// Makes an object in memory of the resource, which must outlive the object. T's destructor must be virtual if Made is
+/// derived from T.
 template <class T, class Made = T, class... Arguments>
 [[nodiscard]] OwnedIn<T> make_in(std::pmr::memory_resource& memory, Arguments&&... arguments) {
   void* const place = memory.allocate(sizeof(Made));

@@ -13,7 +13,7 @@ class Stopped : public std::runtime_error {
  public:
   explicit Stopped(const std::string& message, Progress progress = {}) : runtime_error(message), progress_(progress) {}
 
-  /// The progress in numbers; of 0 units if it is not known.
+  /// The progress in numbers; Progress::of is 0 if the progress is not known.
   [[nodiscard]] const Progress& progress() const { return progress_; }
 
  private:

@@ -37,7 +37,7 @@ int startable_threads(int threads) {
   static int started = 1;
   const std::lock_guard lock(mutex);
   if (threads > tried) {
-    // Tries as many as are wanted beside this one, plus one that the program may need for something else.
+    // Tries one more than needed: the program may need a thread for something else.
     started = std::max(1, count_startable_threads(threads));
     tried = threads;
   }

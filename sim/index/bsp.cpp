@@ -39,8 +39,8 @@ class Bsp {
       visit_nodes(node.first + above, part_of(box, node.axis, node.plane, above), level + 1, visit);
   }
 
-  /// `interval` is the part of the ray in the node, grown by the slack. Continues in the child that the ray enters
-  /// first, and then in the other. The children are grown too, so that near the plane the ray is in both.
+  /// `interval` is the part of the ray in the node's box, grown by the slack. Continues in the child that the ray
+  /// enters first, then in the other child. The children are grown too, so a ray near the plane enters both.
   template <class Search>
   void enter(std::uint32_t number, const RayInterval& interval, std::uint32_t ray, const ClippedRay& clipped,
              Search& search) const {

@@ -11,8 +11,8 @@
 namespace detp::sim {
 namespace {
 
-/// Sides or costs that differ by less count as equal, so that rounding and the slack decide nothing: the same discs
-/// always give the same tree.
+/// Two sides, or two costs, whose ratio is closer to 1 than this count as equal. So rounding and the slack do not
+/// affect the tree: the same discs always give the same tree.
 constexpr double clear = 1 - 1e-9;
 
 using Discs = std::vector<std::uint32_t>;
@@ -115,7 +115,7 @@ class Builder {
            grown_bytes(tree_.nodes.size() + 2, sizeof(BspNode));
   }
 
-  /// Checks the memory for splitting a node with `discs` discs, or for its references.
+  /// Throws std::length_error unless a node with `discs` discs can be split, or its references stored.
   void require_room(std::size_t discs) const {
     require_memory("the BSP tree", needed(discs) + 2 * static_cast<double>(discs) * sizeof(std::uint32_t));
     if (tree_.references.size() + discs >= UINT32_MAX || tree_.nodes.size() + 2 >= UINT32_MAX)

@@ -9,7 +9,7 @@ namespace detp::sim {
 
 /// A node. An inner node's children are adjacent, the lower part first; a leaf has references to discs.
 struct BspNode {
-  double plane = 0;         ///< place of an inner node's plane
+  double plane = 0;         ///< coordinate of an inner node's plane along the axis
   std::uint32_t first = 0;  ///< first child, or first reference
   std::uint32_t count = 0;  ///< number of references of a leaf
   int axis = -1;            ///< axis across which an inner node is split; -1: a leaf
@@ -33,7 +33,7 @@ struct BspNodes {
 /// The part of a box below or above a plane across an axis.
 [[nodiscard]] Box part_of(Box box, int axis, double plane, bool above);
 
-/// Builds the tree of a problem's discs, each listed in every leaf that it overlaps.
+/// Builds the tree of a problem's discs. Each disc is listed in every leaf that it overlaps.
 ///
 /// Every plane halves the longest side of its box, as in Sung and Shirley (Graphics Gems III, which the paper cites).
 /// The surface-area heuristic decides whether to split. A line through a box of area F crosses its half, of area F',
@@ -42,14 +42,14 @@ struct BspNodes {
 ///     F'/F (2 v + n_low + n_high) < n
 ///
 ///   where  n              discs in the node
-///          n_low, n_high  those whose bounds reach into the half
-///          v              cost of visiting a node: a quarter of the parameter `leaf`, so that a cube of discs much
-///                         smaller than itself is split exactly if it holds more than `leaf`
+///          n_low, n_high  discs whose bounds reach into the lower and the upper half
+///          v              cost of visiting a node: a quarter of the parameter `leaf`, so that a cube whose discs are
+///                         much smaller than the cube is split exactly if it holds more than `leaf` discs
 ///
-/// Discs that are all in both halves, such as coincident ones, end the splitting. Choosing the planes by the heuristic
-/// too, at the best of 15 places along each axis, saves tests but no time (sim/index/experiments.md).
+/// A node is not split if all its discs are in both halves, for instance if they coincide. Placing the planes by the
+/// heuristic too, at the best of 15 places along each axis, saves disc tests but no time (sim/index/experiments.md).
 ///
-/// Throws Stopped if a stop was requested, and std::length_error, naming the bytes, before it would exceed the memory
+/// Throws Stopped if a stop was requested, and std::length_error, naming the bytes, if the tree would exceed the memory
 /// budget.
 [[nodiscard]] BspNodes build_bsp(const Problem& problem, const BspParameters& parameters, const std::stop_token& stop);
 

@@ -17,12 +17,12 @@
 namespace detp::sim {
 namespace {
 
-/// Several times the rounding error of single precision, in own units: sim/geometry/proofs.md, "The culls".
+/// Several times the rounding error of single precision, in units of EmbreeFrame: sim/geometry/proofs.md, "The culls".
 constexpr double margin = 0x1p-18;
-/// More than the distance from S₀'s centre to the end of S₀ and the slack, in own units.
+/// More than the radius of S₀ plus the slack, in units of EmbreeFrame.
 constexpr double half_length = 1.5;
 
-/// Peak memory of Embree's build, in pages used; 60 to 84 were measured for 2·10⁵ discs.
+/// Peak memory of Embree's build for each disc, counted in used pages; 60 to 84 bytes were measured for 2·10⁵ discs.
 constexpr double bytes_per_disc = 95;
 
 /// Coordinates in which S₀, grown by the slack, has a radius of 0.5 … 1 around the origin. Embree uses them in single
@@ -40,8 +40,8 @@ class EmbreeFrame {
     return bounds({(disc.centre - centre_) / unit_, disc.normal, disc.radius / unit_}, growth_);
   }
 
-  /// The part of the ray near S₀; nullopt if there is none. Its origin, computed in double precision, is near S₀ even
-  /// if the ray's is far away. It is slightly longer than the part, so that no end is lost.
+  /// The part of the ray near S₀, made slightly longer so that rounding cuts off no end; nullopt if there is none. Its
+  /// origin is computed in double precision, and is near S₀ even if the ray's origin is far away.
   [[nodiscard]] std::optional<RTCRay> clipped_ray(const Ray& ray) const {
     const glm::dvec3 origin = (ray.origin - centre_) / unit_;
     const double abreast = -glm::dot(origin, ray.direction);
@@ -121,7 +121,7 @@ class Bvh {
     *arguments->bounds_o = {low.x, low.y, low.z, 0, high.x, high.y, high.z, 0};
   }
 
-  /// Reports no hit, so that Embree continues, unless the query ends the traversal.
+  /// Ends the traversal if DiscTest::test returns false; otherwise reports no hit, so that Embree continues.
   static void show_disc(const RTCOccludedFunctionNArguments* arguments) {
     if (arguments->valid[0] != 0 && !reinterpret_cast<Query*>(arguments->context)->discs->test(arguments->primID))
       RTCRayN_tfar(arguments->ray, arguments->N, 0) = -INFINITY;
@@ -173,14 +173,14 @@ class BvhSearch final : public RaySearch, private DiscTest {
   std::exception_ptr failure_;
 };
 
-/// Bounding volume hierarchy over the discs by Embree. It reports the discs whose box a ray meets (and others in the
-/// same leaf if discs are few); each is tested in double precision. None is missed: sim/geometry/proofs.md, "The
-/// culls". Embree does not report the nodes it visits. Embree's advice to flush tiny numbers to zero is not followed,
-/// because the decision in double precision needs them.
+/// Embree's bounding volume hierarchy over the discs. Embree reports each disc whose box a ray meets (and other discs
+/// of the same leaf if there are few discs). Each reported disc is tested in double precision. No hit is missed:
+/// sim/geometry/proofs.md, "The culls". Embree does not report the nodes it visits. Embree advises flushing tiny
+/// numbers to zero; this is not done, because the decision in double precision needs them.
 ///
-/// The boxes are a user geometry, whose callback makes the decision. For comparison, the table also has Embree's own
-/// point geometries with enlarged radius and the same decision in a filter (build + search, ms of processor time; tests
-/// per hit; one thread, minimum of 11 runs):
+/// The boxes are a user geometry, whose callback makes the decision. The other rows of the table are Embree's own point
+/// geometries, with enlarged radius and the same decision in a filter. Columns: build + search, in ms of processor
+/// time; tests per hit (one thread, minimum of 11 runs):
 ///
 ///                                @uniform, 100 000 discs, 50 000 lines    @tree, 85 967 discs, 100 000 paths
 ///     boxes, low quality         11 + 103; 2.3                            9 + 93; 3.0
@@ -190,7 +190,7 @@ class BvhSearch final : public RaySearch, private DiscTest {
 ///     spheres                    33 + 140; 4.0                            28 + 129; 6.4    reports each disc twice
 ///
 /// Points get the same tree at low quality as at medium. Low quality is the default: with 10³ … 3·10⁵ rays on four
-/// scenes it took 0.3 to 1.1 times as long as medium.
+/// scenes it took 0.3 to 1.1 times as long as medium quality.
 class BvhIndex final : public Index {
  public:
   BvhIndex(const Problem& problem, BuildQuality quality, const RunOptions& options)

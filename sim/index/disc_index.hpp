@@ -10,7 +10,7 @@ namespace detp::sim {
 
 /// A node of an octree or a BSP tree, or a cell of a grid.
 struct IndexNode {
-  Box box;  ///< the box in which rays meet it; for a grid's outermost cells the part inside the grid's box
+  Box box;  ///< the node's box; a grid's outermost cells are clipped to the grid's box
   int level = 0;
   bool leaf = false;
   std::size_t references = 0;  ///< number of discs listed here; 0 for inner nodes
@@ -27,18 +27,18 @@ struct IndexSize {
 
 using VisitNode = std::function<void(const IndexNode&)>;
 
-/// Builds an octree, without any rays, and calls `visit` for its nodes, parents before children. Throws as run does for
-/// parameters out of range, and for an index that would not fit in memory; Stopped if a stop was requested while it was
-/// built.
+/// Builds an octree, calls `visit` for each of its nodes (parents before children) and returns its size. The problem
+/// needs no rays. Throws as run does if a parameter is out of range or the octree would not fit in memory, and Stopped
+/// if a stop was requested during the build.
 IndexSize inspect_octree(const Problem& problem, const OctreeParameters& parameters, const IndexVariant& variant,
                          const VisitNode& visit, const std::stop_token& stop = {});
 
-/// Builds a grid, without any rays, and calls `visit` for its cells, including empty ones. Throws as inspect_octree
-/// does.
+/// Builds a grid, calls `visit` for each of its cells, including empty ones, and returns its size. Throws as
+/// inspect_octree does.
 IndexSize inspect_grid(const Problem& problem, const GridParameters& parameters, const IndexVariant& variant,
                        const VisitNode& visit, const std::stop_token& stop = {});
 
-/// Builds a BSP tree, without any rays, and calls `visit` for its nodes, including empty leaves. Throws as
+/// Builds a BSP tree, calls `visit` for each of its nodes, including empty leaves, and returns its size. Throws as
 /// inspect_octree does.
 IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, const VisitNode& visit,
                       const std::stop_token& stop = {});
@@ -47,7 +47,7 @@ IndexSize inspect_bsp(const Problem& problem, const BspParameters& parameters, c
 [[nodiscard]] std::unique_ptr<Index> index_octree(const Problem& problem, const OctreeParameters& parameters,
                                                   const IndexVariant& variant, const RunOptions& options = {});
 
-/// Prepares a variant of the grid. There is only one way to traverse it.
+/// Prepares a variant of the grid. There is only one way to traverse a grid. Throws as prepare does.
 [[nodiscard]] std::unique_ptr<Index> index_grid(const Problem& problem, const GridParameters& parameters,
                                                 const IndexVariant& variant, const RunOptions& options = {});
 

@@ -49,7 +49,7 @@ class Grid {
   }
 
   /// Steps from cell to cell along the ray. The place of each plane is recomputed from its number, so errors do not
-  /// accumulate. A cell missed by rounding does no harm, because discs near its faces are in the next cell too.
+  /// accumulate. A cell missed by rounding does no harm: discs near the cell's faces are also in the next cell.
   template <class Search>
   void trace(const Ray& traced, std::uint32_t ray, Search& search) const {
     const ClippedRay clipped(traced);
@@ -74,7 +74,7 @@ class Grid {
   }
 
  private:
-  /// Distance along the ray at which it leaves the cell across an axis.
+  /// Distance at which the ray leaves the cell through a face across the axis; unbounded if parallel to that face.
   double exit_distance(const ClippedRay& ray, const Cell& cell, int axis) const {
     if (std::isinf(ray.inverse[axis])) return unbounded;
     const auto plane = static_cast<double>(cell[axis] + (ray.inverse[axis] > 0 ? 1 : 0));
@@ -122,8 +122,8 @@ class Grid {
     std::uint32_t disc;
   };
 
-  /// Peak bytes: first the cells and the placements; then the cells twice, and the placements with the references made
-  /// from them.
+  /// The larger of two peaks, in bytes: first the cells and the growing placements; then the cells twice, the
+  /// placements and the references.
   [[nodiscard]] double building_bytes(std::size_t placements) const {
     constexpr double each = sizeof(Placement) + sizeof(std::uint32_t);
     const double cells = static_cast<double>(starts_.size()) * sizeof(starts_[0]);

@@ -13,11 +13,11 @@
 
 namespace detp::sim {
 
-/// Traces rays through an index and tests each against the discs of the cells that it enters. A disc hit in several
-/// cells is recorded once. Without mailboxes it is tested in each cell (repeated tests count, although the answer is
-/// known).
+/// Traces rays through an index, and tests each ray against the discs of the cells that it enters. A hit is recorded
+/// once, even if several of these cells list the disc. disc_tests counts a ray and a disc once with mailboxes; without
+/// mailboxes it counts them in each of these cells, even where the hit is already known.
 ///
-/// An index provides trace(ray, number, search), which calls visit and test, and size().
+/// `Cells` provides size(), and trace(ray, number, search), which calls the search's visit and test.
 template <bool counting, bool mailboxing, class Cells>
 class IndexedSearch final : public RaySearch {
  public:
@@ -68,8 +68,8 @@ class IndexedSearch final : public RaySearch {
   FoundPairs* hits_ = nullptr;
 };
 
-/// An index of cells over discs, and its search. The constructor of `Cells` receives the problem and the further
-/// arguments.
+/// An index of cells over discs, and its search. `Cells` is constructed from the problem, `arguments` and the stop
+/// token.
 template <class Cells>
 class TracedIndex final : public Index {
  public:
@@ -130,13 +130,13 @@ class TracedIndex final : public Index {
   return {box.low - largest, box.high + largest};
 }
 
-/// The box that the cells of an index fill. It is more than 2 slack larger than the discs' box, so that a ray along an
-/// outer face, or just outside it, is still in the cells when it passes discs that touch that face
+/// The box that the cells of an index fill. Each of its faces is more than 2 slacks outside the discs' box. So a ray
+/// along a face of the discs' box, or just outside it, is in the cells where it passes discs that touch this face
 /// (sim/geometry/proofs.md, "The culls").
 ///
-/// In man-made scenes, discs often lie exactly where the box is halved or quartered. The margin moves each plane by an
-/// amount that depends on the plane's place. If this were exactly one slack for some j/N with small N, rounding would
-/// decide which cells these discs overlap.
+/// In man-made scenes, discs often lie exactly on the planes that cut the discs' box into N equal parts, with a small
+/// N. The margin moves the plane at j/N by 2.618 (2j/N - 1) slacks. This distance must not be exactly one slack:
+/// rounding would then decide which cells these discs overlap.
 [[nodiscard]] inline Box index_box(const Problem& problem) {
   constexpr double slacks = 2.618;
   const Box box = index_box(problem.discs());

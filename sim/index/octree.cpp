@@ -62,8 +62,8 @@ class Octree {
                      [&](std::uint32_t child, const Box& part) { visit_nodes(child, part, level + 1, visit); });
   }
 
-  /// Peak bytes while the tree is built, or while its nodes are linked, each with the number of the node from which it
-  /// was made.
+  /// Peak bytes while the tree is built or linked. Linking keeps, for each linked node, the number of the tree's node
+  /// from which it was made.
   [[nodiscard]] double linking_bytes() const {
     return std::max(tree_.building_bytes,
                     static_cast<double>(tree_bytes()) +
@@ -74,7 +74,7 @@ class Octree {
     return tree_.nodes.size() * sizeof(OctreeNode) + tree_.references.size() * sizeof(std::uint32_t);
   }
 
-  /// Descends from the root towards that leaf place. Tests the discs of the leaf there, or finds the omitted octant.
+  /// Descends from the root to `place`, and tests the leaf there. Returns the cube of the leaf or omitted octant.
   template <class Search>
   LeafCube search_from_root(const Leaf& place, std::uint32_t ray, Search& search) const {
     std::uint32_t number = 0;
@@ -91,8 +91,8 @@ class Octree {
     return cube_around(place, 1);
   }
 
-  /// Moves from a leaf or empty octant (at first the root) across `face`, and down to the leaf or empty octant at
-  /// `place`. Sets `number` to that node.
+  /// Moves from node `number` (the root, a leaf or an empty octant) across `face`, then down to the leaf or empty
+  /// octant at `place`. Tests its discs, sets `number` to it, and returns its cube.
   template <class Search>
   LeafCube search_along_link(std::uint32_t& number, const Leaf& place, int face, std::uint32_t ray,
                              Search& search) const {

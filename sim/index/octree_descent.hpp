@@ -15,7 +15,7 @@ void for_each_child(const OctreeNode& node, const Box& box, const VisitChild& vi
     if (node.octants >> octant & 1) visit(child++, octant_of(box, octant));
 }
 
-/// The descent of one ray, which crosses the cube, from the root of an octree into every node that it crosses.
+/// Takes one ray, which must cross the cube, from the root of an octree into every node that the ray crosses.
 class OctreeDescent {
  public:
   OctreeDescent(const OctreeNodes& tree, const ClippedRay& clipped, double slack)
@@ -27,8 +27,8 @@ class OctreeDescent {
     visit_all(0, tree_.cube, 0, ray, search);
   }
 
-  /// Visits the same nodes. Of each node's children, the one that the ray enters first comes first; of children entered
-  /// together, the lower octant.
+  /// Visits the same nodes, but the children of each node in the order in which the ray enters them. Children entered
+  /// at the same distance are visited in the order of their octants.
   template <class Search>
   void visit_in_order(std::uint32_t ray, Search& search) const {
     visit_in_order(0, tree_.cube, 0, ray, search);

@@ -17,7 +17,7 @@ std::vector<LinkedNode> nodes_without_links(const OctreeNodes& tree, StopCheck& 
   if (total >= no_node)
     throw std::length_error("the octree would have 2^32 or more linked nodes; a smaller depth is needed");
   std::vector<LinkedNode> nodes;
-  std::vector<std::uint32_t> source{0};  // the node there; no_node for an omitted octant
+  std::vector<std::uint32_t> source{0};  // the tree's node for each of `nodes`; no_node for an omitted octant
   nodes.reserve(total);
   source.reserve(total);
   const LinkedNode unlinked{.links = {no_node, no_node, no_node, no_node, no_node, no_node}};

@@ -11,8 +11,8 @@ inline constexpr std::uint32_t no_node = std::numeric_limits<std::uint32_t>::max
 
 /// An inner node, a leaf, or an octant without discs, which is a leaf without references.
 struct LinkedNode {
-  /// For each face, number 2 axis + (1 for the upper): the adjacent node of the same size, or the larger leaf there;
-  /// no_node outside the cube.
+  /// For face number 2 axis + (1 for the upper face): the adjacent node of the same size, or the larger leaf there;
+  /// no_node at the cube's faces.
   std::array<std::uint32_t, 6> links;
   std::uint32_t first = 0;  ///< number of the first of eight children, or of the first reference
   std::uint32_t count = 0;  ///< number of references
@@ -20,12 +20,12 @@ struct LinkedNode {
   bool inner = false;
 };
 
-/// Converts an octree to one with all eight children of each inner node, and with every node linked to its neighbours.
-/// The root is first, parents come before children.
+/// Returns the nodes of an octree, completed to eight children for each inner node, and linked to their neighbours. The
+/// root is first, parents come before children.
 ///
 /// Source  H. Samet: Implementing ray tracing with octrees and neighbor finding (1989); here the links are stored, not
 ///         found while tracing.
-/// Throws  std::length_error, naming the bytes, if it would not fit in memory.
+/// Throws  std::length_error, naming the bytes, if the nodes would not fit in memory; Stopped if a stop was requested.
 [[nodiscard]] std::vector<LinkedNode> link_neighbours(const OctreeNodes& tree, const std::stop_token& stop);
 
 }  // namespace detp::sim

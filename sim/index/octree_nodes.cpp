@@ -63,7 +63,7 @@ class OctreeBuilder {
       }
   }
 
-  /// The discs of each octant. Examines only the octants that the disc's bounds overlap.
+  /// The discs of each octant. Tests a disc for overlap only with the octants that its bounds reach.
   std::array<std::vector<std::uint32_t>, 8> split(const Box& box, const std::vector<std::uint32_t>& discs) {
     std::array<std::vector<std::uint32_t>, 8> parts;
     const glm::dvec3 middle = box.centre();

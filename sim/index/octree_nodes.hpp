@@ -33,7 +33,7 @@ struct OctreeNodes {
 [[nodiscard]] Box octant_of(const Box& box, unsigned octant);
 
 /// Builds the octree of a problem's discs. Throws Stopped if a stop was requested, and std::length_error, naming the
-/// bytes, if it would not fit in memory.
+/// bytes, if the octree would not fit in memory.
 [[nodiscard]] OctreeNodes build_octree(const Problem& problem, int depth, Insertion insertion,
                                        const std::stop_token& stop);
 

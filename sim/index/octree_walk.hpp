@@ -16,14 +16,14 @@ struct LeafCube {
   std::int64_t side;
 };
 
-/// The cube with that side, a power of two, that contains the leaf.
+/// The cube in the octree with side `side`, a power of two, that contains the leaf.
 [[nodiscard]] inline LeafCube cube_around(const Leaf& leaf, std::int64_t side) {
   LeafCube cube{leaf, side};
   for (std::int64_t& low : cube.low) low -= low % side;
   return cube;
 }
 
-/// The octant that contains the leaf, in the node whose octants have `levels_below` levels below them.
+/// Number of the octant that contains the leaf, in the node whose octants are `levels_below` levels above the leaves.
 [[nodiscard]] inline unsigned octant_of(const Leaf& leaf, int levels_below) {
   unsigned octant = 0;
   for (int axis = 0; axis < 3; ++axis) octant |= static_cast<unsigned>(leaf[axis] >> levels_below & 1) << axis;
@@ -39,9 +39,9 @@ class LeafWalk {
         leaves_(std::int64_t{1} << depth),
         side_(cube.size().x / static_cast<double>(std::int64_t{1} << depth)) {}
 
-  /// Walks along a ray; `interval` is its part in the cube. `enter(leaf, face)` processes the leaf, and returns the
-  /// cube that the ray may skip: that of a leaf or of an omitted octant. `face` is the face of the previous cube
-  /// through which the ray left it, 2 axis + (1 for the upper); -1 for the first.
+  /// Walks along a ray; `interval` is the ray's part in the cube. `enter(leaf, face)` processes the leaf, and returns
+  /// the cube that the ray leaves next: the leaf, or the omitted octant around it. `face` is the face through which the
+  /// ray left the previous cube: 2 axis + (1 for the upper face); -1 for the first leaf.
   template <class Enter>
   void for_each_leaf(const Ray& ray, const ClippedRay& clipped, const RayInterval& interval, const Enter& enter) const {
     Leaf place = leaf_at(clipped.origin + interval.from * ray.direction, {{}, leaves_});
@@ -68,7 +68,7 @@ class LeafWalk {
   }
 
  private:
-  /// The leaf that contains the point, or the nearest leaf in the cube.
+  /// The leaf of the cube `within` that contains the point, or the nearest leaf of it.
   [[nodiscard]] Leaf leaf_at(const glm::dvec3& point, const LeafCube& within) const {
     Leaf leaf{};
     for (int axis = 0; axis < 3; ++axis) {

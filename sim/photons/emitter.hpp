@@ -12,7 +12,7 @@ struct PhotonStart {
   glm::dvec3 direction{0.0, 0.0, 1.0};  ///< unit length
 };
 
-/// Samples photons from a light. All have the same power.
+/// Samples photons from a light. All photons have the same power.
 class Emitter {
  public:
   /// Throws std::invalid_argument for a light that is not finite, or an area light without area.

@@ -16,7 +16,7 @@ double longest_side(const Box& box) {
   return std::max({size.x, size.y, size.z});
 }
 
-/// The light, not yet at its height.
+/// The light at its place along X and Z, at the height of the box's top.
 AreaLight level_light(const Box& box) {
   const glm::dvec3 size = box.size();
   const double least = 0.05 * longest_side(box);

@@ -10,15 +10,15 @@
 namespace detp::sim {
 
 /// Decides how many photons to trace for a wanted number of path pieces. Works in rounds, because the number of pieces
-/// per photon is known only from photons already traced. The rounds affect how much is traced in vain, but not the
-/// result.
+/// per photon is known only from photons already traced. The rounds affect how many photons are traced in vain, but not
+/// the result.
 class PhotonRounds {
  public:
   PhotonRounds(std::string scene, std::uint64_t pieces)
       : scene_(std::move(scene)), pieces_(pieces), limit_(1000 + 100 * pieces) {}
 
-  /// Number of photons in the next round: about as many as yield the missing pieces. `found`: pieces of all rounds so
-  /// far. Throws std::invalid_argument if the limit is reached.
+  /// Number of photons in the next round: about as many as yield the missing pieces. `found` is the number of pieces in
+  /// all rounds so far. Throws std::invalid_argument if the limit is reached.
   [[nodiscard]] std::uint64_t next(std::uint64_t found) {
     if (traced_ >= limit_)
       throw std::invalid_argument("the light of " + scene_ + " hardly meets its surfaces: " + std::to_string(traced_) +

@@ -33,7 +33,7 @@ PhotonPieces PhotonSource::trace_group(std::uint64_t group, const std::stop_toke
   return tracer_.trace(first, std::min(first + group_size, limit_), stop);
 }
 
-/// Continues until `groups` groups have been counted.
+/// Traces further groups to count their rays, until `groups` groups are counted.
 void PhotonSource::count_rays(std::uint64_t groups, const std::stop_token& stop) {
   const std::uint64_t known = starts_.size() - 1;
   if (groups <= known) return;

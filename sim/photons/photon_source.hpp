@@ -7,7 +7,7 @@
 
 namespace detp::sim {
 
-/// The rays of photon_paths by number, bit for bit, without storing them.
+/// Returns the rays of photon_paths by number, bit for bit the same, without storing them.
 ///
 /// Each photon yields as many rays as its path has pieces. So the constructor traces all photons once, in groups of
 /// 1024, and keeps the number of rays before each group. A block that starts in the middle of a group traces that group
@@ -24,13 +24,13 @@ class PhotonSource final : public RaySource {
  private:
   [[nodiscard]] PhotonPieces trace_group(std::uint64_t group, const std::stop_token& stop) const;
   void count_rays(std::uint64_t groups, const std::stop_token& stop);
-  /// Number of photons up to the one that yields the last ray.
+  /// Number of photons up to the one that yields the last ray, which is included.
   [[nodiscard]] std::uint64_t emitted(const std::stop_token& stop) const;
 
   PhotonTracer tracer_;
   std::uint64_t count_;
   std::uint64_t limit_;                ///< in photons
-  std::vector<std::uint64_t> starts_;  ///< number of each group's first ray; last, the number of all rays found
+  std::vector<std::uint64_t> starts_;  ///< number of each group's first ray; at the end, the number of all rays found
   Box origins_;
   double power_ = 0;
 };

@@ -9,7 +9,7 @@
 
 namespace detp::sim {
 
-/// The straight pieces of some photons' paths, in order, and the photon's number for each.
+/// The straight pieces of some photons' paths, in order, and for each piece the number of its photon.
 struct PhotonPieces {
   std::vector<Ray> rays;
   std::vector<std::uint64_t> photons;

@@ -58,8 +58,8 @@ void intersect_facet(const RTCIntersectFunctionNArguments* arguments) {
   RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = limit;
 }
 
-/// Distance at which the ray enters the sphere around the origin that contains the whole mesh; 0 if it starts inside;
-/// negative if it never enters.
+/// Distance along the ray to the sphere around (0, 0, 0) with radius start_radius, which contains the whole mesh. 0 if
+/// the ray starts inside the sphere; negative if the ray never enters it.
 double entry(const glm::dvec3& origin, const glm::dvec3& direction) {
   if (glm::dot(origin, origin) <= start_radius * start_radius) return 0;
   const double along = -glm::dot(origin, direction);
@@ -68,7 +68,7 @@ double entry(const glm::dvec3& origin, const glm::dvec3& direction) {
   return along < 0 || rest < 0 ? -1 : along - std::sqrt(rest);
 }
 
-/// The smallest power of two above half the box's diagonal: scaling by it is exact.
+/// The smallest power of two above half the box's diagonal. Scaling by a power of two is exact.
 double caster_unit(const Box& box) {
   const glm::dvec3 half = 0.5 * box.size();
   return std::exp2(std::ilogb(std::hypot(half.x, half.y, half.z)) + 1);

@@ -8,16 +8,16 @@
 
 namespace detp::sim {
 
-/// Finds the first triangle that a ray meets. Embree finds the candidates in single precision. Double precision decides
-/// which of them is met, and where: so the point found lies on the surface within rounding, however small the triangle,
-/// and a ray that starts on a surface does not meet it again.
+/// Finds the first triangle that a ray meets. Embree finds candidates in single precision. Double precision decides
+/// which candidate is met, and where. So the point found lies on the surface within rounding, however small the
+/// triangle is, and a ray that starts on a surface does not meet it again.
 ///
 /// Works in coordinates of its own, in which the mesh's box is centred at the origin with a half diagonal of 0.5 … 1.
-/// So a tiny scale or a great distance from the origin does no harm. Safe to use from many threads.
+/// So a tiny scene, or one far from the origin, does no harm. Safe to use from many threads.
 class RayCaster {
  public:
-  /// Copies what it needs of the mesh. Triangles without area are never met. The box holds every used vertex and is not
-  /// a single point. Throws std::runtime_error if Embree fails; Stopped if a stop was requested.
+  /// Copies what it needs of the mesh. Triangles without area are never met. The box must hold every used vertex, and
+  /// must not be a single point. Throws std::runtime_error if Embree fails; Stopped if a stop was requested.
   RayCaster(const Mesh& mesh, const Box& box, const std::stop_token& stop = {});
   ~RayCaster();
   RayCaster(const RayCaster&) = delete;
@@ -35,8 +35,8 @@ class RayCaster {
     std::uint32_t triangle;
   };
 
-  /// The first triangle that the ray meets, except the one it starts from. If two are met at the same distance, the one
-  /// with the lower number. Origin and unit direction are in the caster's own coordinates.
+  /// The first triangle that the ray meets, except triangle `from`, where it starts; nullopt if there is none. At the
+  /// same distance the lowest number counts. Origin and unit direction are in the caster's own coordinates.
   [[nodiscard]] std::optional<Intersection> first_intersection(const glm::dvec3& origin, const glm::dvec3& direction,
                                                                std::optional<std::uint32_t> from = std::nullopt) const;
 

@@ -10,8 +10,8 @@ namespace detp::sim {
 
 /// Uniform isotropic random lines through a sphere: the measure μ_ℓ, invariant under rotation and translation.
 ///
-/// A uniform direction, and a uniform point on the disc perpendicular to it through the sphere's centre
-/// (Santaló, Integral Geometry, II.12). Line i is a function of (seed, i) alone.
+/// A line has a uniform direction and crosses a uniform point of the disc that is perpendicular to it around the
+/// sphere's centre (Santaló, Integral Geometry, II.12). Line i is a function of (seed, i) alone.
 class LineField {
  public:
   /// Throws std::invalid_argument unless the radius is > 0, and the radius and the centre's coordinates are at most

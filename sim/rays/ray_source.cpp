@@ -30,7 +30,7 @@ void LinesOfField::read(std::uint64_t first, std::span<Ray> block, const std::st
 }
 
 double LinesOfField::farthest_from(const glm::dvec3& point) const {
-  constexpr double rounding = 1 + 1e-12;  // of the distance of an origin on the sphere, and of computed distances
+  constexpr double rounding = 1 + 1e-12;  // errors of the lines' origins and of this formula
   return (glm::distance(sphere_.centre, point) + sphere_.radius + 1e-15 * glm::length(sphere_.centre)) * rounding;
 }
 

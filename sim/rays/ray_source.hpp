@@ -7,7 +7,7 @@
 #include "detp/sim/geometry/geometry.hpp"
 #include "line_field.hpp"
 
-/// Rays by number, so that only a block of them need be in memory at a time.
+/// Sources that return rays by number, so that only one block of rays needs to be in memory at a time.
 namespace detp::sim {
 
 /// A sequence of rays. Each is a function of its number alone: every read of a ray returns the same bytes, whichever
@@ -22,7 +22,7 @@ class RaySource {
   /// threads. Throws Stopped if a stop was requested; the block's contents are then unspecified.
   virtual void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const = 0;
 
-  /// An upper bound on the distance of a ray's origin from the point.
+  /// An upper bound on the distance of any ray's origin from the point.
   [[nodiscard]] virtual double farthest_from(const glm::dvec3& point) const = 0;
 };
 
@@ -39,7 +39,7 @@ class RaysInMemory final : public RaySource {
   std::span<const Ray> rays_;
 };
 
-/// The first lines of a field.
+/// The first `count` lines of a field.
 class LinesOfField final : public RaySource {
  public:
   LinesOfField(const Sphere& sphere, std::uint64_t seed, std::uint64_t count)

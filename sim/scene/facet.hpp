@@ -5,15 +5,15 @@
 
 #include "detp/sim/geometry/geometry.hpp"
 
-/// Intersection of a ray with a triangle, in double precision. All coordinates are below about 1.
+/// Intersection of a ray with a triangle, in double precision. Coordinates are at most about 1 in size.
 namespace detp::sim {
 
 /// Slack at a triangle's edges, as a share of its height, so that rounding lets no ray through between two triangles.
 inline constexpr double facet_edge_slack = 1e-10;
-/// A ray that starts this close to a triangle's plane does not meet the triangle: it starts on it or beside it.
+/// A ray that starts this close to a triangle's plane counts as starting on it, and does not meet the triangle.
 inline constexpr double facet_plane_slack = 1e-13;
-/// A triangle whose doubled area is below this share of its longest edge squared has no area: the value is rounding
-/// error.
+/// A triangle whose doubled area is below this share of its longest edge squared counts as one without area: the value
+/// is rounding error.
 inline constexpr double least_facet_area = 1e-14;
 
 /// A triangle prepared for intersection.

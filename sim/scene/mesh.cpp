@@ -14,7 +14,7 @@ namespace {
 /// triangle has no area.
 constexpr double least_area = 8 * std::numeric_limits<double>::epsilon();
 
-/// If a sum of normals is below this share of the summed areas, it is a residue of cancellation.
+/// If a sum of area vectors is shorter than this share of their summed lengths, it is a residue of cancellation.
 constexpr double least_sum = 1e-12;
 
 std::vector<bool> used_vertices(const Mesh& mesh) {
@@ -51,7 +51,7 @@ glm::dvec3 area_vector(const std::array<glm::dvec3, 3>& corners) {
   return glm::length(vector) > least_area * glm::length(first) * glm::length(second) ? vector : glm::dvec3{0.0};
 }
 
-/// The area vectors of the triangles around a vertex.
+/// Adds up the area vectors of the triangles around a vertex.
 struct AreaVectorSum {
   glm::dvec3 sum{0.0};
   glm::dvec3 largest{0.0};
@@ -64,8 +64,8 @@ struct AreaVectorSum {
     if (length > glm::length(largest)) largest = vector;
   }
 
-  /// Unit length, or zero if no triangle has an area. If the triangles cancel, for instance those of a leaf that has
-  /// one triangle for each face, it is the normal of the largest.
+  /// The vertex's normal: of unit length, or zero if no triangle has an area. If the area vectors cancel, for instance
+  /// those of a leaf with one triangle for each side, it is the normal of the largest triangle.
   [[nodiscard]] glm::dvec3 normal() const { return unit_or_zero(glm::length(sum) > least_sum * area ? sum : largest); }
 };
 

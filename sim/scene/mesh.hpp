@@ -22,14 +22,15 @@ using Notices = std::vector<std::string>;
 
 /// One sample at each vertex that a triangle uses, in vertex order.
 ///
-/// The normals are those of the mesh if it has any, else the area-weighted mean of the triangles around the vertex.
-/// Unreferenced vertices are dropped. So are vertices without a normal: all triangles around them have no area, or the
-/// file's normal is zero. Each kind of drop adds one notice with its count. Throws Stopped if a stop was requested.
+/// The normals are those of the mesh if it has any, else area-weighted mean normals of the triangles around each
+/// vertex. Unreferenced vertices are dropped. So are vertices without a normal: all triangles around them have no area,
+/// or the file's normal is zero. Each kind of drop adds one notice with its count. Throws Stopped if a stop was
+/// requested.
 [[nodiscard]] std::vector<Sample> samples_at_vertices(const Mesh& mesh, Notices& notices,
                                                       const std::stop_token& stop = {});
 
-/// Mean length of the mesh's edges; an edge of several triangles counts once. 0 if there are no triangles. It estimates
-/// the distance between neighbouring samples at vertices. Throws Stopped if a stop was requested.
+/// Mean length of the mesh's edges, an estimate of the distance between neighbouring samples at vertices. An edge of
+/// several triangles counts once. 0 if there are no triangles. Throws Stopped if a stop was requested.
 [[nodiscard]] double mean_edge_length(const Mesh& mesh, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

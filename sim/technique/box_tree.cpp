@@ -35,7 +35,7 @@ void cull(const RayList& around, const Box& box, RayList& inside, StopCheck& che
   });
 }
 
-/// Searches the same tree in double, one ray and one disc at a time.
+/// The search of the plain engine: the same tree as simd, but in double precision, one ray and one disc at a time.
 template <bool counting>
 class PlainSearch {
  public:
@@ -103,7 +103,7 @@ class PlainSearch {
   std::size_t done_ = 0;            ///< number of discs before the current one in the order
 };
 
-/// Lists of rays are culled down a tree of boxes to its leaves' discs.
+/// Culls lists of rays down a tree of boxes, and tests the leaves' lists against their discs.
 class BoxTreeIndex final : public Index {
  public:
   BoxTreeIndex(const Problem& problem, const BoxTreeParameters& parameters, const RunOptions& options)

@@ -14,8 +14,8 @@
 namespace detp::sim {
 namespace {
 
-/// Bytes of a level, not including its rays: for three walks (one for each class of rays), and for the walk from which
-/// they are copied.
+/// Bytes of a level, not including its rays: for three walks (one for each class of rays), and for the walk that is
+/// copied to make them.
 constexpr double bytes_a_level =
     3 * (sizeof(Sphere) + sizeof(stream::RayList) + sizeof(stream::ListArena::Mark) + sizeof(SphereCounts)) +
     sizeof(SphereCounts) + sizeof(Sphere);

@@ -5,7 +5,7 @@
 #include "detp/sim/search/outcome.hpp"
 #include "detp/sim/search/problem.hpp"
 
-/// Predicted memory of techniques that cull lists of rays, in addition to rays, discs and pairs.
+/// Predicted memory of techniques that cull lists of rays, not including rays, discs and pairs.
 ///
 /// The number of rays in a list is random. The prediction is for isotropic lines, uniform through all of S₀: a list's
 /// share of them is proportional to its sphere's surface. Rays that are concentrated in one place need more.
@@ -32,13 +32,13 @@ struct NestedLists {
                                 bool plain);
 
 /// Bytes of a plain search of lists: the discs' order, their totals and outcome (or a copy of the caller's totals), and
-/// the lists. The lists inside the outermost hold `nested` times its rays.
+/// the lists. All lists inside the outermost hold `nested` times as many rays as the outermost.
 [[nodiscard]] double listing_bytes(const Problem& problem, const RunOptions& options, double nested);
 
-/// Peak bytes while a sphere tree is built, including sorting before.
+/// Peak bytes while the discs are sorted and the sphere tree is built.
 [[nodiscard]] double building_bytes(const Problem& problem, const SphereTreeParameters& parameters);
 
-/// Bytes while it is searched; the search is always plain.
+/// Bytes while a sphere tree is searched; the search is always plain.
 [[nodiscard]] double searching_bytes(const Problem& problem, const RunOptions& options, const SphereTree& tree);
 
 }  // namespace detp::sim

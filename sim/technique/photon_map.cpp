@@ -75,14 +75,14 @@ class NearestPhotons {
   [[nodiscard]] double worstDist() const { return found_.worstDist(); }
   [[nodiscard]] bool full() const { return found_.full(); }
 
-  /// The rays of the photons nearer than the farthest; empty if fewer photons than wanted were found.
+  /// The rays of all photons found, except the farthest; empty if fewer photons than wanted were found.
   [[nodiscard]] std::vector<std::uint32_t> rays() const {
     std::vector<std::uint32_t> rays;
     for (std::size_t i = 0; full() && i + 1 < indices_.size(); ++i) rays.push_back(cloud_.photons[indices_[i]].ray);
     return rays;
   }
 
-  /// r_k² of the farthest.
+  /// r_k², the square of the farthest photon's distance.
   [[nodiscard]] double square() const { return squares_.back(); }
 
  private:
@@ -167,9 +167,9 @@ class PhotonMap {
   PhotonTree tree_{3, cloud_};
 };
 
-/// Bytes of the photons, of their numbers in the order of nanoflann's tree, of its nodes, and of the outcome. Leaves
-/// hold up to 10 photons. If photons are even, repeated halving leaves 5 to 6 on average in a leaf, and fewer if they
-/// are concentrated.
+/// Bytes of the photons, of their numbers in the order of nanoflann's tree, of its nodes, and of the outcome. A leaf
+/// holds at most 10 photons. On average it holds 5 to 6 if repeated halving splits evenly spread photons, and fewer if
+/// they are concentrated.
 double map_bytes(const Problem& problem) {
   constexpr double in_a_leaf = 5.5;
   constexpr double node = sizeof(PhotonTree::Node);
@@ -184,18 +184,18 @@ double map_bytes(const Problem& problem) {
 ///
 ///     E = (power of the k - 1 nearest) / (π r_k²)        r_k: distance of the k-th nearest
 ///
-/// With k instead of k - 1 the result would be k/(k - 1) times too large for even photons (García, Ureña, Sbert, CGF
-/// 2012; its deviation and bias: model/accuracy/nearest_photons.hpp). The discs' radii and normals do not matter,
-/// except that with front_facing only photons count that arrive in front. If fewer than k photons count for a disc, its
-/// irradiance is 0.
+/// With k instead of k - 1, the result would be k/(k - 1) times too large for evenly spread photons (García, Ureña,
+/// Sbert, CGF 2012; standard deviation and bias of E: model/accuracy/nearest_photons.hpp). The discs' radii and normals
+/// do not matter, except that with front_facing only photons that arrive in front count. If fewer than k photons count
+/// for a disc, its irradiance is 0.
 ///
-/// Hits and pairs are the k - 1 photons used. Counts are the stored photons (references) and these hits. On one thread.
+/// Hits and pairs are the k - 1 photons used. Counts are stored photons (references) and hits. It runs on one thread.
 class PhotonMapIndex final : public Index {
  public:
   explicit PhotonMapIndex(int nearest) : nearest_(nearest) {}
 
   /// Throws std::invalid_argument if no ray has a finite length, if there are fewer than k photons, if k of them are
-  /// exactly at a disc's centre, and for totals to continue, which this estimator does not have.
+  /// exactly at a disc's centre, and for totals or a standard error, which this estimator does not have.
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     if (options.totals != nullptr)
       throw std::invalid_argument(

@@ -26,9 +26,9 @@ struct Cell {
   [[nodiscard]] bool is_split() const { return first != 0; }
 };
 
-/// A kd-tree over rays. When a disc searches a cell, the cell is halved across its longest side, as long as it has more
-/// rays than a leaf and is longer than the largest disc is wide: in smaller cells a disc would search most of the
-/// parts. A split is not made if most rays would be in both halves, for instance if rays coincide.
+/// A kd-tree over rays. When a disc searches a cell, the cell is halved across its longest side if it has more rays
+/// than `leaf` and is longer than the largest disc is wide. (In a smaller cell, a disc would search most of the parts.)
+/// A cell is not halved if most of its rays would be in both halves, for instance if the rays coincide.
 ///
 /// Source  V. Havran, J. Bittner, H.-P. Seidel: Ray Maps for Global Illumination (2004); the splitting rule is ours.
 template <bool counting>
@@ -77,7 +77,7 @@ class RayMap {
     return !cell.final && cell.rays.size() > leaf_ && std::max({size.x, size.y, size.z}) > narrowest_;
   }
 
-  /// One half of a box, grown by the slack, so that rays near the middle plane are in both halves.
+  /// One half of a cell, with the rays that meet the half grown by the slack. Rays near the middle are in both halves.
   [[nodiscard]] Cell half_of(const Cell& cell, int axis, bool upper) {
     Cell half{cell.box, Rays(cell.rays.get_allocator())};
     (upper ? half.box.low : half.box.high)[axis] = cell.box.centre()[axis];
@@ -96,7 +96,7 @@ class RayMap {
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
     Cell lower = half_of(cells_[number], axis, false);
     Cell upper = half_of(cells_[number], axis, true);
-    constexpr double most_twice = 1.9;  // rays in both halves, per ray; a line meets 4/3 halves of a cube
+    constexpr double most_twice = 1.9;  // entries in the halves' lists, per ray; a line meets 4/3 halves of a cube
     const auto in_halves = static_cast<double>(lower.rays.size() + upper.rays.size());
     cells_[number].final = in_halves > most_twice * static_cast<double>(cells_[number].rays.size());
     if (cells_[number].final) return;
@@ -112,7 +112,7 @@ class RayMap {
                        problem_);
   }
 
-  /// A ray in several cells of the disc is tested once.
+  /// Tests the rays against the disc. A ray in several of the disc's cells is tested once.
   void test(const Rays& rays, std::uint32_t disc) {
     tally_.add(&Counts<std::uint64_t>::visits);
     for_each_checked(std::span(rays), check_, [&](std::uint32_t ray) {
@@ -134,7 +134,7 @@ class RayMap {
   Rays found_;
 };
 
-/// Each disc looks up the rays that cross it. Builds nothing before the rays are known. On one thread.
+/// Each disc looks up the rays that cross it. Builds nothing before the rays are known. The search runs on one thread.
 class RayMapIndex final : public Index {
  public:
   explicit RayMapIndex(int leaf) : leaf_(leaf) {}

@@ -14,8 +14,8 @@ struct TechniqueSearch {
 
 [[nodiscard]] const TechniqueSearch& search_of(Technique technique);
 
-/// Builds the index of a candidate over a problem's discs. It is valid for rays that start no farther away than those
-/// of the problem (which may have none yet). Throws as run does; Stopped if a stop was requested.
+/// Builds the index of a candidate over a problem's discs (rays may come later), for rays whose origins are at most
+/// Problem::farthest from the centre of S₀. Throws as run does; Stopped if a stop was requested.
 [[nodiscard]] std::unique_ptr<Index> prepare(const Problem& problem, const Valid<Candidate>& candidate,
                                              const RunOptions& options);
 

@@ -10,40 +10,40 @@
 
 namespace detp::sim {
 
-/// What one search at a time needs, and keeps for the next.
+/// Memory for one search at a time, kept for the next search.
 struct SearchScratch {
   Scratch memory;
   std::vector<Ray> rays;  ///< copied from a view
   Outcome outcome;
 };
 
-/// Discs, prepared for one technique: for rays that come again and again, as in a renderer's loop.
+/// Discs prepared for one technique, to be searched again and again with new rays, as in a renderer's loop.
 ///
-/// What depends on the discs alone is built once. A searcher is const: many threads may search it at once, each with a
-/// scratch of its own. A search on one thread that is repeated at the same size takes nothing from the heap (except for
-/// pairs, of photon-map, and what oneTBB keeps for itself).
+/// What depends on the discs alone is built once. A searcher is const: many threads may search it at once, each with
+/// its own scratch. If a search on one thread is repeated at the same size, it takes nothing from the heap (except for
+/// pairs, for photon-map, and inside oneTBB).
 class Searcher {
  public:
-  /// Borrows the discs, which must outlive the searcher, unless a normal must be normalised. No ray may start farther
-  /// than `farthest` from the centre of the discs' S₀ (default: 1000 radii of S₀). Of the options, the engine, the
-  /// number of threads and the stop token matter here. Throws as make_problem and run do; Stopped on a stop request.
+  /// Borrows the discs, which must outlive the searcher; copies them if a normal must be normalised. No ray may start
+  /// farther than `farthest` from the centre of the discs' S₀ (default: 1000 radii of S₀). Of the options, only the
+  /// engine, the threads and the stop token matter here. Throws as make_problem and run do; Stopped on a stop request.
   Searcher(std::span<const Disc> discs, const Candidate& candidate, std::optional<double> farthest = {},
            bool front_facing = false, const RunOptions& options = {});
 
-  /// The same of a copy of the discs.
+  /// The same, but copies the discs.
   Searcher(const DiscsView& discs, const Candidate& candidate, std::optional<double> farthest = {},
            bool front_facing = false, const RunOptions& options = {});
 
-  /// Finds the hits of the rays, as run does; the outcome is the scratch's, until its next search. Counts and seconds
-  /// are those of the search alone. Throws as run does, and std::invalid_argument where a ray starts too far away.
+  /// Finds the hits of the rays, as run does. Returns the scratch's outcome, valid until its next search. Counts and
+  /// seconds are those of the search alone. Throws as run does, and std::invalid_argument if a ray starts too far away.
   const Outcome& search(std::span<const Ray> rays, SearchScratch& scratch, RunOptions options = {}) const;
   const Outcome& search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options = {}) const;
 
-  /// What building the index took.
+  /// Counts, time and memory of building the index.
   [[nodiscard]] const Built& built() const { return index_->built(); }
 
  private:
-  /// Of the copies if there are any, else of the borrowed discs.
+  /// Uses the copies if there are any, else the borrowed discs.
   Searcher(std::vector<Disc> copies, std::span<const Disc> borrowed, const Candidate& candidate,
            std::optional<double> farthest, bool front_facing, const RunOptions& options);
 

@@ -21,9 +21,9 @@ WalkedSpheres spheres_of(const Problem& problem, const SphereCacheParameters& pa
 
 /// Nested spheres with lists of their rays, walked from the outermost inwards, so that no hit is lost.
 ///
-/// A sphere serves a disc if the disc lies in it and in every larger one. From the first sphere that does not contain
-/// the disc, all spheres are rebuilt around the disc's centre, each from the list of the one around it, as long as they
-/// contain the disc.
+/// A sphere serves a disc if it and all larger spheres contain the disc. From the first sphere that does not contain
+/// the disc, all spheres are rebuilt around the disc's centre, each from the list of the next larger sphere, as long as
+/// they contain the disc.
 std::unique_ptr<Index> prepare_sphere_cache(const Problem& problem, const Parameters& parameters,
                                             const RunOptions& options) {
   const auto& own = std::get<SphereCacheParameters>(parameters);
@@ -31,10 +31,10 @@ std::unique_ptr<Index> prepare_sphere_cache(const Problem& problem, const Parame
 }
 
 /// The paper's walk (section 2.2), kept for study: searches from the innermost sphere outwards for the first that
-/// contains the disc. This sphere need not lie inside the larger ones, so its list may lack rays, and hits are lost.
+/// contains the disc. This sphere may extend beyond larger spheres, so its list may lack rays, and hits are lost.
 ///
 /// Always in double: which hits are lost depends on every ray in a sphere's list, and the lists of the float engine
-/// hold a few more.
+/// hold a few more rays.
 std::unique_ptr<Index> prepare_sphere_cache_published(const Problem& problem, const Parameters& parameters,
                                                       const RunOptions& options) {
   const auto& own = std::get<SphereCacheParameters>(parameters);

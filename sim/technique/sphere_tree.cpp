@@ -88,8 +88,8 @@ class Search {
   std::size_t place_ = 0;            ///< the discs before this place in the order are done
 };
 
-/// Culls the list of rays down the tree, depth first, and tests it against the leaves' discs. Has one list for each
-/// level.
+/// Culls the list of rays down the tree, depth first, and tests each leaf's list against the leaf's discs. Has one list
+/// for each level.
 class SphereTreeIndex final : public Index {
  public:
   SphereTreeIndex(const Problem& problem, const SphereTreeParameters& parameters, const RunOptions& options)

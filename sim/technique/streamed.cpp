@@ -78,7 +78,7 @@ class StreamedSearch {
           fmt::format("{} rays are too many for pairs; the maximum is {}", source_.size(), UINT32_MAX - 1));
   }
 
-  /// Predicts the bytes in addition to those of each block's search. Throws before allocation if they do not fit.
+  /// Predicts the bytes needed besides those of each block's search. Throws before allocation if they do not fit.
   void predict_bytes() {
     const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
                               (options_.run.standard_error ? error_bytes : 0);

@@ -9,7 +9,7 @@
 namespace detp::sim {
 
 struct StreamOptions {
-  RunOptions run;                                  ///< its totals must be null
+  RunOptions run;                                  ///< run.totals must be null
   bool front_facing = false;                       ///< count only rays that arrive at a disc's front
   std::size_t block = 0;                           ///< rays in memory at a time; 0: default_block
   std::function<void(double done)> progress = {};  ///< called before each block, 0 <= done < 1
@@ -23,19 +23,19 @@ struct StreamedOutcome {
   double bytes = 0;          ///< predicted peak memory, including discs and a block of rays, without pairs
 };
 
-/// As many rays as discs, rounded up to a power of two, but at least 2²⁰ and at most 2²²: 64 to 256 MiB.
+/// Default rays in a block: as many as discs, rounded up to a power of two, but from 2²⁰ to 2²² (64 to 256 MiB).
 ///
-/// For techniques that cull lists, each block costs a pass over the discs, which pays off only if the block has about
-/// as many rays. The processor's caches do not matter: techniques that trace rays one by one process a block in chunks
-/// of 64, and a grid (10⁶ discs) takes the same time for blocks of 2¹⁶ and of 10⁶ rays.
+/// Techniques that cull lists visit all discs once for each block, which pays off only if the block has about as many
+/// rays as there are discs. The processor's caches do not matter: techniques that trace rays one by one process a block
+/// in chunks of 64 rays, and a grid (10⁶ discs) takes the same time for blocks of 2¹⁶ and of 10⁶ rays.
 [[nodiscard]] std::size_t default_block(std::size_t discs);
 
 /// Runs a candidate over any number of rays. The result is that of `run`, bit for bit (hits, irradiance, pairs), for
 /// any block size. The index over the discs is built once.
 ///
 /// A stop request also ends the making of rays; the result is then that of the first rays. Throws as make_problem and
-/// run do (but there may be more than 2³² rays, unless pairs are requested), and std::length_error, naming the bytes,
-/// before it would exceed the memory budget. Pairs (8 bytes each) are checked as they grow.
+/// run do. There may be more than 2³² rays, unless pairs are requested. Throws std::length_error, naming the bytes,
+/// before the memory budget would be exceeded. The memory of pairs (8 bytes each) is checked again after each block.
 [[nodiscard]] StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& source,
                                            const Valid<Candidate>& candidate, const StreamOptions& options = {});
 

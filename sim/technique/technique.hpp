@@ -6,10 +6,10 @@
 /// Runs any technique: finds which rays cross which discs. All exact techniques give the same result.
 namespace detp::sim {
 
-/// Runs one technique: prepares its index, and searches it once. Throws std::invalid_argument for a problem that
+/// Runs one technique: prepares its index, and searches the index once. Throws std::invalid_argument for a problem that
 /// make_problem did not make, for parameters that are out of range or belong to another technique, for a number of
-/// threads out of range or totals of other discs, and std::length_error, naming the bytes, if an index would not fit in
-/// memory.
+/// threads out of range and for totals of other discs; std::length_error, naming the bytes, if an index would not fit
+/// in memory.
 [[nodiscard]] Outcome run(const Problem& problem, const Valid<Candidate>& candidate, const RunOptions& options = {});
 
 }  // namespace detp::sim

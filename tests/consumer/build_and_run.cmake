@@ -1,6 +1,6 @@
-# Installs the build tree, then builds and runs against what was installed: a renderer's loop by find_package and by
-# pkg-config, and a program that needs the formulas alone, without the packages that the other parts need.
-# Called with -D BUILD=<build tree> -D SOURCE=<consumer's folder> -D GENERATOR=<generator> -D COMPILER=<C++ compiler>.
+# Installs the build tree, then builds and runs programs against what was installed: a renderer's loop (by find_package
+# and by pkg-config), and a program that uses only the formulas (without the packages that the other parts need). Called
+# with -D BUILD=<build tree> -D SOURCE=<consumer's folder> -D GENERATOR=<generator> -D COMPILER=<C++ compiler>.
 set(prefix ${BUILD}/consumer/prefix)
 file(REMOVE_RECURSE ${BUILD}/consumer)
 

@@ -82,7 +82,7 @@ class ProblemMaker {
     return made == glm::dvec3{0} ? glm::dvec3{0, 0, 1} : made;
   }
 
-  /// Scales a unit vector: to length 1 within float rounding, or to any length.
+  /// Returns a unit vector unchanged, rounded to floats, or scaled to another length.
   glm::dvec3 stretched(const glm::dvec3& unit) {
     if (one_in(16)) return bytes_.PickValueInArray({1e-300, 2.0, 1e200, 1 + 1e-12, 1 - 0.9e-12}) * unit;
     return one_in(8) ? glm::dvec3(glm::vec3(unit)) : unit;
@@ -120,7 +120,7 @@ class ProblemMaker {
     return made;
   }
 
-  /// A direction in the plane, or nearly.
+  /// A direction in the plane, or nearly in it.
   glm::dvec3 in_plane_of(const glm::dvec3& normal, const glm::dvec3& heading) {
     glm::dvec3 made = heading - glm::dot(heading, normal) * normal;
     made += bytes_.PickValueInArray({0.0, 0.0, 1e-17, 1e-12, 1e-7, 1e-4}) * normal;

@@ -1,5 +1,5 @@
-// All exact techniques, in floats and in doubles, in one run and in blocks, compared with the predicate: the same
-// pairs, and the same bits of irradiance.
+// Compares all exact techniques (in floats and in doubles, in one run and in blocks) with the predicate: they must find
+// the same pairs, and the same bits of irradiance.
 
 #include <fmt/format.h>
 
@@ -52,7 +52,7 @@ ParameterValue value_of(const Parameter& parameter, FuzzedDataProvider& bytes) {
 }
 
 /// Every exact technique, with parameters selected by the bytes. For so few discs Embree takes a hundred times as long
-/// as the others, so it is only in one problem of eight.
+/// as the other techniques, so it runs in only one problem of eight.
 std::vector<Candidate> candidates(FuzzedDataProvider& bytes) {
   std::vector<Candidate> list;
   for (const TechniqueRecord& record : technique_records) {

@@ -56,7 +56,7 @@ struct Tried {
   }
 };
 
-/// Compares the decision of every pair by the canonical predicate with that of all techniques.
+/// Compares the hits of all techniques with the canonical predicate's decision of every pair.
 void compare(const HardScene& scene, bool front, Tried& tried) {
   const Problem problem = make_problem(scene.rays, scene.discs, front);
   const Outcome expected =
@@ -83,7 +83,7 @@ Tried hard_pairs(std::size_t family) {
   return tried;
 }
 
-/// Isotropic lines, half of them cut to segments. There are more of them than fit in one block.
+/// Isotropic lines, half of them cut to segments; more rays than fit in one block.
 Tried isotropic_pairs(Body body) {
   HardScene scene{uniform_discs(body, 2, 1500, 0.04, 5), {}};
   scene.rays = LineField(enclosing_sphere(scene.discs), 6).lines(0, 160'000);

@@ -39,7 +39,7 @@ double distance_in_bands(const DiscBand& band, const ExactDisc& exact, bool line
   return std::min(rim, std::min(std::abs(exact.ahead()), std::abs(exact.beyond_end())) / band.ends);
 }
 
-/// `judge` makes the decision.
+/// `judge` makes the decision that is compared with the exact one.
 template <class Judge>
 TrialResult try_discs(std::size_t family, std::uint64_t cases, const Judge& judge) {
   TrialResult result;

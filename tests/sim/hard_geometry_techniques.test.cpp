@@ -53,7 +53,7 @@ std::span<const Engine> engines_of(const Candidate& candidate) {
   return std::span(both).first(record_of(candidate.technique).simd ? 2 : 1);
 }
 
-/// Number of pairs that only one of the technique and the canonical predicate finds.
+/// Number of pairs that only the technique finds, plus those that only the canonical predicate finds.
 std::size_t differences(const Outcome& outcome, const Outcome& expected) {
   std::vector<Pair> different;
   std::set_symmetric_difference(expected.pairs.begin(), expected.pairs.end(), outcome.pairs.begin(),
@@ -87,7 +87,8 @@ void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, 
   }
 }
 
-/// Discs that touch the faces x = ±1 of their common box, and rays that touch the discs there, some from outside.
+/// Discs that touch the faces x = ±1 of their common box, and rays almost along these faces, which pass the points of
+/// contact within rounding error, some inside the box and some outside.
 HardScene scene_at_faces(std::uint64_t index) {
   RandomSequence random(300, index);
   HardScene scene;

@@ -37,7 +37,7 @@ std::map<double, double> losses(Body body) {
 }  // namespace
 
 TEST_SUITE("statistical") {
-  // Of 165 000 hits, any share has a standard deviation of at most 0.12 %: 1 % is eight of them.
+  // A share of 165 000 hits has a standard deviation of at most 0.12 %. The tolerance, 1 %, is eight of these.
   TEST_CASE("the published walk loses a tenth of all hits at Q = 0.6 and over two fifths at 0.8, on surfaces more") {
     const std::map<double, double> volume = losses(Body::cube);
     const std::map<double, double> surface = losses(Body::cube_faces);

@@ -14,9 +14,9 @@
 #include <utility>
 #include <vector>
 
-/// The part of oneTBB that the project uses, implemented with std::thread. ThreadSanitizer understands how std::thread
-/// orders work; oneTBB's library is not instrumented, so it would report races that do not exist. For the preset
-/// `thread` only. Every loop starts threads of its own.
+/// The part of oneTBB that the project uses, implemented with std::thread, for the preset `thread` only.
+/// ThreadSanitizer understands how std::thread orders work. It does not see how oneTBB's uninstrumented library does,
+/// and would report races that do not exist. Every loop starts threads of its own.
 namespace tbb {
 namespace detail {
 
@@ -26,7 +26,7 @@ inline thread_local int depth = 0;        ///< nesting depth of loops: inner loo
 
 inline int threads_here() { return std::min<int>(limit, concurrency > 0 ? concurrency : static_cast<int>(limit)); }
 
-/// Calls work(i) for i = 0 … threads - 1, each on its own thread. Rethrows an exception of any of them.
+/// Calls work(i) for i = 0 … threads - 1, each on its own thread. Rethrows one of the exceptions thrown.
 template <class Work>
 void on_each(int threads, const Work& work) {
   std::exception_ptr thrown;

@@ -31,8 +31,8 @@ struct LitMesh {
 /// A box of side 1, open in front (+Z), with two blocks in it. An area light just under the ceiling shines down.
 [[nodiscard]] LitMesh cornell();
 
-/// `count` points uniform in the cube [-1, 1]³ with isotropic normals. Each is a function of the seed and its number.
-/// Throws Stopped if a stop was requested.
+/// `count` points uniform in the cube [-1, 1]³ with isotropic normals. Each sample is a function of the seed and of its
+/// number. Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed,
                                                   const std::stop_token& stop = {});
 

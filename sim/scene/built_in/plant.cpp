@@ -26,8 +26,8 @@ glm::dvec3 any_direction(RandomSequence& random) {
   return uniform_direction(u, random.between(0, 1));
 }
 
-/// Length L of the pieces of a tube whose edges have the mean length `edge`, if an edge around the tube has length a.
-/// Edges around, along and across a piece are equally many, so a + L + √(L² + a²) = 3 edge.
+/// Length L of the pieces of a tube such that the mean length of its edges is `edge`. A tube has equally many edges
+/// around it (length a = `around`), along it (L) and across a piece (√(L² + a²)), so a + L + √(L² + a²) = 3 edge.
 double piece_length(double edge, double around) {
   const double rest = 3 * edge - around;
   return (rest * rest - around * around) / (2 * rest);

@@ -8,15 +8,15 @@
 /// Trees: limbs that bear limbs. The last generation bears leaves.
 namespace detp::sim::built_in {
 
-/// How the limbs of one generation grow on those of the generation before. The trunk is the first generation.
+/// How the limbs of one generation grow on those of the generation before, the parents. The trunk is the first.
 struct Generation {
-  int limbs;          ///< on each limb of the generation before
-  double from, to;    ///< shares of that limb's length between which they sit
-  double length;      ///< of the lowest of them, divided by that limb's length
-  double shortening;  ///< share by which the topmost is shorter than the lowest
-  double thickness;   ///< radius divided by that limb's radius at that point
-  double angle;       ///< angle to that limb, radians
-  double lift;        ///< how far it bends towards the sky (negative: the ground) along its length; 1 is about 45°
+  int limbs;          ///< on each parent
+  double from, to;    ///< shares of the parent's length between which the limbs sit
+  double length;      ///< of the parent's lowest limb, divided by the parent's length
+  double shortening;  ///< share by which the topmost limb is shorter than the lowest
+  double thickness;   ///< radius at the foot, divided by the parent's radius there
+  double angle;       ///< angle to the parent, radians
+  double lift;        ///< how far a limb bends towards the sky (negative: the ground) along its length; 1 is about 45°
   double wobble;      ///< random turn of each of its pieces
 };
 
@@ -51,7 +51,7 @@ struct Foliage {
 
 inline constexpr std::size_t triangles_of_a_leaf = 4;
 
-/// Distributes the leaves over the twigs in turn, along their whole length. Leaves face roughly up.
+/// Distributes the leaves over the twigs in turn, along the outer 85 % of each twig. Leaves face roughly up.
 void add_foliage(Mesh& mesh, const std::vector<Limb>& twigs, const Foliage& foliage);
 
 }  // namespace detp::sim::built_in

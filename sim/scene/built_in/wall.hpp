@@ -4,7 +4,7 @@
 
 namespace detp::sim::built_in {
 
-/// A straight upright wall. It is open at its ends, top and bottom, where other walls and floors meet it. All lengths
+/// A straight upright wall. It is open at its ends, top and bottom, where other walls and floors meet it. Lengths are
 /// in scene units.
 struct Wall {
   glm::dvec3 corner;  ///< where it starts, on the face opposite to `out`

@@ -6,8 +6,8 @@
 
 namespace detp::sim {
 
-/// A random subset of `count` <= samples.size(), in the same order. All subsets are equally likely. Throws Stopped if a
-/// stop was requested.
+/// A random subset of `count` samples, in the same order; `count` is at most samples.size(). All subsets are equally
+/// likely. Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<Sample> random_subset(const std::vector<Sample>& samples, std::size_t count,
                                                 std::uint64_t seed, const std::stop_token& stop = {});
 

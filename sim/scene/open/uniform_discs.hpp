@@ -14,9 +14,9 @@ enum class Body {
   cube_faces  ///< on its six faces
 };
 
-/// `count` discs at uniform points in a cube of that side around the origin, or on its faces, with isotropic normals.
-/// Each is a function of the seed and its number. Throws std::invalid_argument unless side and radius are > 0 and
-/// finite, std::length_error if the discs would not fit in memory, and Stopped if a stop was requested.
+/// `count` discs at uniform points in a cube of side `side` around the origin, or on its faces, with isotropic normals.
+/// Each disc is a function of the seed and of its number. Throws std::invalid_argument unless side and radius are > 0
+/// and finite, std::length_error if the discs would not fit in memory, and Stopped if a stop was requested.
 [[nodiscard]] std::vector<Disc> uniform_discs(Body body, double side, std::size_t count, double radius,
                                               std::uint64_t seed, const std::stop_token& stop = {});
 

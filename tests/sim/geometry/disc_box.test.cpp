@@ -13,7 +13,7 @@ namespace {
 
 const Box unit_box{{0, 0, 0}, {1, 1, 1}};
 
-/// Whether one of many points of the disc lies in the box; never true if they do not overlap.
+/// Whether one of many points of the disc lies in the box; never true if disc and box do not overlap.
 bool sampled_overlap(const Disc& disc, const Box& box) {
   const auto [u, v] = basis_around(disc.normal);
   for (int i = 0; i <= 60; ++i)

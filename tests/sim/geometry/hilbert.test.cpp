@@ -22,8 +22,8 @@ struct Place {
   Cell cell;
 };
 
-/// The cells in a cube of 2^levels cells a side whose low corner is `low`, in the order of the curve. `cell` is a
-/// cell's side; the box has side 1.
+/// The cells of a cube with 2^levels cells along a side and the low corner `low`, in the order of the curve. `cell` is
+/// the side of a cell in a box of side 1.
 std::vector<Place> along_curve(const Cell& low, int levels, double cell) {
   std::vector<Place> places;
   const std::int64_t side = std::int64_t{1} << levels;
@@ -71,7 +71,7 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("the curve goes from one half of the box to the next through a common face of two of the smallest cells") {
-    std::vector<Place> corners;  // corners of the eight halves: the curve enters and leaves each half at one
+    std::vector<Place> corners;  // corners of the octants: the curve enters and leaves an octant at its corners
     for (std::int64_t x : {0, 32767, 32768, 65535})
       for (std::int64_t y : {0, 32767, 32768, 65535})
         for (std::int64_t z : {0, 32767, 32768, 65535})

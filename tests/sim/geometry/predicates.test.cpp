@@ -22,7 +22,7 @@ Ray segment(const glm::dvec3& from, const glm::dvec3& to) {
   return {.origin = from, .direction = glm::normalize(to - from), .length = glm::distance(from, to)};
 }
 
-/// The textbook method: intersects the line with the plane and compares the distance.
+/// The textbook method: intersects the line with the plane, and compares the distance from the centre with the radius.
 bool crosses(const Ray& ray, const Disc& disc) {
   const double facing = glm::dot(disc.normal, ray.direction);
   const double t = glm::dot(disc.normal, disc.centre - ray.origin) / facing;

@@ -19,7 +19,7 @@ namespace {
 const Candidate brute{Technique::brute_force, BruteForceParameters{}};
 const Candidate bvh{Technique::bvh, BvhParameters{}};
 
-/// Rays aimed near the discs from the distance `far`, alternately lines and segments that end near them.
+/// Rays aimed near the discs from the distance `far`: alternately segments that end near a disc, and lines.
 std::vector<Ray> rays_from(const std::vector<Disc>& discs, double far) {
   std::vector<Ray> rays;
   for (std::size_t i = 0; i < 4 * discs.size(); ++i) {

@@ -77,7 +77,7 @@ TEST_SUITE("identity") {
     CHECK(once == plain);
     Counts anew = search_octree(problem, {5, Traversal::restart}, {}).counts;
     CHECK(anew.nodes > plain.nodes);
-    // If a ray runs in a plane between leaves, the top-down walk enters the leaves on both sides.
+    // If a ray runs in a plane between leaves, top-down traversal enters the leaves on both sides, restart only on one.
     CHECK(anew.disc_tests <= plain.disc_tests);
     const Counts grid = search_grid(problem, {32}, {}).counts;
     Counts grid_once = search_grid(problem, {32}, {.mailboxing = true}).counts;
@@ -143,8 +143,8 @@ TEST_SUITE("known answer") {
     (void)inspect_octree(problem, {3}, {}, [&](const IndexNode& node) { ++by_level[node.level]; });
     CHECK(by_level == std::vector<int>{1, 2, 2, 2});
     CHECK(search_octree(problem, {3}, {}).counts.nodes == 7);
-    // Each of the two leaves takes 4 nodes. At both ends, empty octants of 1/8 and 1/4 of the side take 3 and 2, and
-    // the ray cuts two more of each at their sides; two octants of the root take 1.
+    // The two leaves take 4 visits each. At each end, the ray crosses 1 to 3 empty octants of side 1/8 (3 visits each),
+    // 1 to 3 of side 1/4 (2 visits each) and at most one of side 1/2 (1 visit).
     const std::uint64_t visits = search_octree(problem, {3, Traversal::restart}, {}).counts.nodes;
     CHECK(visits > 2 * 4 + 2 * (3 + 2));
     CHECK(visits <= 2 * 4 + 2 * 3 * (3 + 2) + 2);

@@ -18,7 +18,7 @@ std::vector<Box> boxes_of(const std::vector<LinkedNode>& nodes, const Box& cube)
   return boxes;
 }
 
-/// Whether box b covers the whole of that face of box a, from behind.
+/// Whether box b adjoins that face of box a from outside, and covers the whole face.
 bool covers(const Box& b, const Box& a, int face) {
   const int axis = face / 2;
   if (face % 2 == 0 ? b.high[axis] != a.low[axis] : b.low[axis] != a.high[axis]) return false;

@@ -43,7 +43,7 @@ std::vector<Ray> paths_with_threads(const Scene& scene, std::size_t count, std::
   return photon_paths(scene, count, 1);
 }
 
-/// Checks that all rays are valid, and reports which is not.
+/// Checks that all rays are valid.
 void check_sound(const Scene& scene, const std::vector<Ray>& rays) {
   const double longest = 2 * (1 + 2e-5) * diagonal(scene);
   std::size_t unsound = 0;

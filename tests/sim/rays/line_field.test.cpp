@@ -56,8 +56,9 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("statistical") {
-  // In the measure of lines, a share of (r1/r0)² crosses an inner sphere wherever it lies. A field that is not
-  // invariant under translation (for instance through two random points in the ball) fails at some place.
+  // Of uniform isotropic lines, the share (r1/r0)² crosses an inner sphere wherever the sphere lies. A field that is
+  // not invariant under translation (such as lines through two random points in the ball) fails this test at some
+  // place.
   TEST_CASE("an inner sphere is hit equally often at the centre and at the rim") {
     constexpr int lines = 400'000;
     constexpr double radius = 0.3;

@@ -18,7 +18,7 @@ namespace {
 
 const Candidate box_tree{Technique::box_tree, BoxTreeParameters{4, 4}};
 
-/// The sample variance of each ray's share, ray by ray.
+/// The standard error of each disc's irradiance, from the sample variance of the rays' shares.
 std::vector<double> by_definition(std::span<const Ray> rays, std::span<const Disc> discs, const Outcome& outcome) {
   std::vector<std::vector<double>> shares(discs.size(), std::vector<double>(rays.size(), 0.0));
   for (const Pair& pair : outcome.pairs)
@@ -86,7 +86,7 @@ TEST_SUITE("standard error of irradiance") {
     int covered = 0;
     for (std::size_t d = 0; d < discs.size(); ++d)
       covered += std::abs(outcome.irradiance[d] - expected) <= 1.96 * outcome.standard_error[d] ? 1 : 0;
-    // 95 % of 2000 with a binomial error of 0.5 %, which shared rays enlarge.
+    // 95 % of 2000 are expected. The binomial error is 0.5 %; the error is larger because discs share rays.
     CHECK(covered / 2000.0 > 0.92);
     CHECK(covered / 2000.0 < 0.97);
   }

@@ -71,7 +71,7 @@ DiscsAndRays segments() { return cut(lines(), 0.3); }
 /// For techniques whose memory does not depend on the number of rays.
 DiscsAndRays fewer_lines() { return lines_through(uniform_discs(Body::cube, 2, 150'000, 0.01, 1), 20'000); }
 
-/// Discs in 27 clusters. Each cluster is a 64th of the size of 1/27 of the space.
+/// Discs in 27 clusters, one in each of 3³ cells of the space. A cluster fills 1/64 of its cell's volume.
 DiscsAndRays few_rays_on_clusters() {
   DiscsAndRays given{uniform_discs(Body::cube, 2, 200'000, 0.002, 3), {}};
   for (Disc& disc : given.discs)
@@ -121,7 +121,7 @@ Measured measure(const Case& each) {
   return {outcome.bytes, 1024 * (status("VmHWM") - before)};
 }
 
-/// Measures in a process of its own.
+/// Measures the memory of a run in a process of its own.
 Measured measure_apart(const Case& each) {
   std::array<int, 2> ends{};
   REQUIRE(pipe(ends.data()) == 0);

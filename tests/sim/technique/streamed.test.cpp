@@ -44,7 +44,7 @@ const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParam
                                         {Technique::bsp, BspParameters{8, 4}},
                                         {Technique::grid, GridParameters{6}}};
 
-/// Reports a smaller distance than that at which its rays start.
+/// A source whose farthest_from returns less than the distance at which its rays start.
 class UnderstatedDistance final : public RaySource {
  public:
   std::uint64_t size() const override { return rays().size(); }

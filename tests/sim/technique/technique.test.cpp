@@ -237,7 +237,8 @@ TEST_SUITE("known answer") {
     const Outcome octree = run(problem, {Technique::octree, OctreeParameters{4}});
     const Outcome cells = run(problem, {Technique::grid, GridParameters{16}});
     CHECK(octree.counts.references == cells.counts.references);
-    // The octree's cube is slightly larger than the grid's box, so its outermost leaves are met more often.
+    // The octree's cube is slightly larger than the grid's box, so rays meet its outer leaves more often than outer
+    // cells.
     CHECK(octree.counts.disc_tests >= cells.counts.disc_tests);
     CHECK(static_cast<double>(octree.counts.disc_tests) < 1.01 * static_cast<double>(cells.counts.disc_tests));
   }

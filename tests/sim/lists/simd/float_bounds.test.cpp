@@ -20,7 +20,7 @@ using namespace detp::support;
 
 namespace {
 
-/// Scenes of one kind, with its name: the hard families, discs that touch corners, and isotropic lines.
+/// A kind of scenes: a hard family, discs that touch corners, or isotropic lines.
 struct Kind {
   std::string name;
   std::size_t number;
@@ -73,8 +73,8 @@ void check_all_kinds(std::uint64_t scenes, std::size_t rays, bool print) {
                       kind.name, shares.decisions, shares.hits, shares.rim, shares.wrong, shares.widest, shares.ends,
                       shares.box, shares.sphere));
   }
-  // The proof adds up errors that never occur together, so the measured shares are small; but they are well above
-  // noise.
+  // The proof adds up errors that never occur together, so the measured shares of the bounds are small. But they are
+  // well above noise.
   CHECK(most.rim > 0.03);
   CHECK(most.ends > 0.03);
   CHECK(most.box > 0.005);
@@ -82,7 +82,7 @@ void check_all_kinds(std::uint64_t scenes, std::size_t rays, bool print) {
   CHECK(most.widest > 0.03);
 }
 
-/// Number of hits by which two counts differ.
+/// The difference between two counts of hits, summed over the discs.
 std::uint64_t differences(const std::vector<std::uint64_t>& some, const std::vector<std::uint64_t>& others) {
   std::uint64_t sum = 0;
   for (std::size_t i = 0; i < some.size(); ++i)

@@ -19,8 +19,8 @@ using namespace detp::support;
 
 namespace {
 
-/// Lines and segments from all hard families, all through one scene's discs, except families so far away that floats
-/// decide little. Their powers are all 1, or span ten decades.
+/// Lines and segments of the hard families, except those so far away that floats decide little. All are aimed at the
+/// discs of one scene. Their powers are all 1, or span ten decades.
 HardScene mixed_scene(bool equal_powers) {
   HardScene scene = hard_scene(0, 0, 60, 1);
   scene.rays.clear();
