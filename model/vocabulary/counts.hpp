@@ -12,15 +12,15 @@ namespace detp {
 template <class T>
 struct Counts {
   T cull_tests{};  ///< ray-sphere and ray-box tests of rays in lists
-  T culls{};       ///< lists made: one for each sphere or box, and for each block of rays
+  T culls{};       ///< lists made: for each block of rays, one for each sphere or box
   T listed{};      ///< rays added to these lists
-  T visits{};      ///< disc visits to lists that hold a ray: one for each disc and each list
+  T visits{};      ///< (disc, list) pairs: discs tested against a list of at least one ray
   T disc_tests{};  ///< ray-disc tests
-  T doubtful{};    ///< of these, tests repeated in double because single precision was not certain
+  T doubtful{};    ///< ray-disc tests repeated in double because single precision was not certain
   T steps{};       ///< grid cells visited by rays
   T nodes{};       ///< tree nodes, inner nodes and leaves, visited by single rays or single discs
   T references{};  ///< disc references stored in an index
-  T placements{};  ///< insertions of a disc into a cell or node while an index is built, at all its levels
+  T placements{};  ///< insertions of a disc into a cell or node while an index is built, at all levels
   T sorted{};      ///< discs sorted along a curve
   T hits{};        ///< (ray, disc) pairs found
 
