@@ -51,8 +51,9 @@ Range range_of(long double a, long double b, long double c) {
   return {p, std::min(c, sum), std::max(c, sum), meet ? c_less_p : 2 * small, std::abs(short_of_sum), meet};
 }
 
-/// The trapezoidal rule over τ = ln((s - p)/(q - s)). All other singularities lie on Im τ = ±π, for any p, q and f: the
-/// error is proportional to e^{-2π²/h}, times (2π/h)⁴ for the pole to which s = ∞ is mapped.
+/// A node of the trapezoidal rule over τ = ln((s - p)/(q - s)). For any p, q and f, all singularities other than s = p
+/// and s = q lie on Im τ = ±π. So with step h the error is proportional to e^{-2π²/h}, times (2π/h)⁴ for the pole to
+/// which s = ∞ is mapped.
 struct Node {
   double v = 0;       // (s - p)/(q - p)
   double rest = 0;    // (q - s)/(q - p)
