@@ -16,12 +16,11 @@ namespace detp::model {
 ///
 ///   where  n_R   rays, all of one power;   d, r₀   radii of disc and S₀, length
 ///
-/// The number of hits of a disc is binomial. Source: our derivation; counted: tests/model/estimate_error. Throws
-/// std::invalid_argument unless n_R is a count and 0 < d <= r₀.
+/// The number of hits of a disc is binomial. Source: our derivation, compared with counts in
+/// tests/model/accuracy/estimate_error.test.cpp. Throws std::invalid_argument unless n_R is a count and 0 < d <= r₀.
 [[nodiscard]] double uniform_field_deviation(double rays, DiscRadius disc, SphereRadius outer);
 
-/// n_R = (1 - p)/(p σ²): the rays needed for a relative standard deviation σ > 0. The inverse of the formula above, not
-/// rounded.
+/// n_R = (1 - p)/(p σ²): the number of rays at which uniform_field_deviation is σ > 0. Not rounded to a whole number.
 [[nodiscard]] double rays_for_deviation(double deviation, DiscRadius disc, SphereRadius outer);
 
 /// A density of photons on a surface around a point: each of n photons lands with density f, in 1/area.
@@ -34,7 +33,7 @@ struct SmoothDensity {
 ///
 ///     variance = f/(nπh²)      bias = h² ∇²f/8      MSE = variance + bias²
 ///
-/// Leading order: h must be far below the distance over which f changes, nπh²f far above 1.
+/// Leading order: h must be far below the distance over which f changes, and nπh²f far above 1.
 struct DensityError {
   double variance = 0;  ///< 1/area²
   double bias = 0;      ///< 1/area, with its sign
@@ -42,11 +41,12 @@ struct DensityError {
   [[nodiscard]] double mean_square() const { return saturated(variance + static_cast<long double>(bias) * bias); }
 };
 
-/// Source: our derivation, by Taylor expansion of f over the disc; counted: tests/model/estimate_error. Throws
-/// std::invalid_argument unless photons, f and h are > 0 and all are finite.
+/// Source: our derivation, by Taylor expansion of f over the disc, compared with counts in
+/// tests/model/accuracy/estimate_error.test.cpp. Throws std::invalid_argument unless n, f and h are > 0 and all numbers
+/// are finite.
 [[nodiscard]] DensityError density_error(const SmoothDensity& density, double photons, double radius);
 
-/// h⁶ = 32 f/(nπ(∇²f)²): the radius with the smallest mean square error, which then falls as n^{-2/3}. Throws
+/// h with h⁶ = 32 f/(nπ(∇²f)²): the radius with the smallest mean square error. This error ∝ n^{-2/3}. Throws
 /// std::invalid_argument as density_error does, and for ∇²f = 0: without curvature a larger disc is always better.
 [[nodiscard]] double best_density_radius(const SmoothDensity& density, double photons);
 

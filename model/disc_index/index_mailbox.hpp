@@ -12,8 +12,8 @@ namespace detp::model {
 ///
 ///   where  x   disc radius over cell side
 ///          N   expected number of planes that cross the disc: (3π/2) x in endless cells
-///          M   expected number of lines where two such planes meet that cross the disc: (3π/2) x² in endless cells
-///              (boxes: 12 · 0.5932 x²)
+///          M   expected number of lines that pierce the disc, each the intersection of two planes: (3π/2) x² in
+///              endless cells (boxes: 12 · 0.5932 x²)
 ///          R   tabulated for x from 1/16 to 32, 18.2 … 19.5;   R(0) = 6π;   constant beyond 32
 ///
 /// So n_R n_P S a²/(4π r₀²) disc tests are made with mailboxes; without mailboxes 6 E replaces S.

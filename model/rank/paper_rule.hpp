@@ -4,7 +4,7 @@
 
 namespace detp::model {
 
-/// The processor's cache that the inner sphere's rays should fit, and the memory of a ray.
+/// The processor's cache, which should hold the rays of the innermost sphere, and the memory of a ray.
 struct ProcessorCache {
   double bytes = 1 << 20;     ///< size of the cache, bytes > 0; the default is a common L2
   double bytes_per_ray = 64;  ///< origin, direction, length and power in double precision

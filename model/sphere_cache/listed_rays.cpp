@@ -88,7 +88,7 @@ double near_outermost(int dimension, double log_lambda, double outer_disc, doubl
   const double added = count.mix([&](std::size_t i) {
     return disc.mix([&](std::size_t j) { return added_near(dimension, i, j, depth, octaves); });
   });
-  // Beyond the table: the less the disc is smaller than S₀, the less a sphere around it can be off centre.
+  // Beyond the table: the closer d is to r₀, the closer the spheres' centres are to that of S₀.
   const double rest = std::min(1.0, (1 - outer_disc) / (1 - outer_disc_shares.back()));
   return added * rest * std::min(1.0, 2 * (shallow_to - depth));
 }
