@@ -28,7 +28,7 @@ struct IndexAxis {
 /// Where the centres are along an axis.
 enum class Centres {
   uniform,   ///< anywhere in the room
-  low_face,  ///< at its low end, like samples on a face of their box
+  low_face,  ///< at the room's low end, like samples on a face of their box
   high_face
 };
 

@@ -40,11 +40,11 @@ namespace detp::model {
 /// faces have 1, 2 and 3 times 4^{-i}/6. If a side of the box is not a whole number of cells, the last cell is cut. For
 /// D between 2 and 3: the geometric interpolation of both.
 ///
-/// Workload::sample_extent is a volume V or an area A: the sum is over V/s_i³ or 1.5 A/s_i² equal cells (the mean
-/// number that a random plane crosses), at least 1 and at most 8^i.
+/// Workload::sample_extent is a volume V or an area A: the sum is over V/s_i³ or 1.5 A/s_i² equal cells (as many as a
+/// random surface of area A crosses), at least 1 and at most 8^i.
 ///
 /// Source     our derivation.
-/// Accuracy   1e-14 in a cube and on its faces; with an extent of their own: an estimate.
+/// Accuracy   1e-14 in a cube and on its faces; with sample_extent: an estimate.
 /// Throws     std::invalid_argument unless 0 <= level <= 300.
 [[nodiscard]] double occupied_cell_spheres(const Valid<Workload>& workload, int level);
 

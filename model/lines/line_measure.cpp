@@ -29,8 +29,8 @@ long double crossing(const Valid<Workload>& workload, long double volume, long d
   return std::min(1.0L, (volume + workload.path_length * area / 4) / space);
 }
 
-/// The limits p < q of the integral over s, the distance of the circles' centres, and the integrand's next zero f >= q.
-/// Differences are computed before they lose digits.
+/// The integral over s, the distance of the circles' centres: its limits p < q, and the integrand's next zero f >= q.
+/// The differences are computed from a, b and c without cancellation.
 struct Range {
   long double p;         // |a - b|
   long double q;         // min(c, a + b)
@@ -124,7 +124,7 @@ double both_hit_share(double a, double b, double c) {
   for (const Node& node : nodes()) {
     const double s = p + width * node.v;
     const double chord = (1 + s) * (s + p);
-    const double cosine = (end + fall * node.rest) * (1 + s * q);  // squared; of the direction, if q < c
+    const double cosine = (end + fall * node.rest) * (1 + s * q);  // 1 - (s q)²
     sum += node.weight * (range.meet ? std::sqrt(chord * cosine) / s : std::sqrt(chord) * s / (1 + std::sqrt(cosine)));
   }
   const long double scale = range.q_less_p / b * (range.q_less_p / b) / exact_pi;

@@ -9,11 +9,11 @@
 /// T(Q, k) has many local minima, at values of Q only a few percent apart: each sphere's rebuilds depend on its size
 /// relative to the curve's cells. T also has kinks at the knots of the tables. Often r_k is a few d at the best k.
 ///
-/// For one ratio, all numbers of spheres are evaluated in one pass over its spheres. The search starts with 128 equal
-/// intervals, cut at the steps of k, and halves intervals in which T might be smaller than the best T so far. Around
-/// each remaining minimum, T at 17 ratios shows which parts may hold a lower minimum, and Brent's method finds this
-/// minimum. If T is almost constant (a cost of zero, extreme numbers of samples or spheres), no interval can be
-/// excluded: the search then ends after most_evaluated_spheres spheres with the best result so far.
+/// For one ratio, all numbers of spheres are evaluated in one pass over its spheres. The search starts with 128
+/// intervals, equal in ln ln 1/Q and cut at the steps of k. It halves intervals in which T might be smaller than the
+/// best T so far. Around each remaining minimum, T at 17 ratios shows which parts may hold a lower minimum, and Brent's
+/// method finds this minimum. If T is almost constant (a cost of zero, extreme numbers of samples or spheres), no
+/// interval can be excluded: the search then ends after most_evaluated_spheres spheres with the best result so far.
 namespace detp::model {
 
 /// If no sphere holds a disc (d >= 0.98 r₀), k is 0 and Q is published_ratio, which has no effect.

@@ -164,8 +164,8 @@ struct Candidate {
 /// technique has no such parameter.
 void set_parameter(Candidate& candidate, std::string_view name, const ParameterValue& value);
 
-/// The parameters as text: "Q 0.607, k 9". Choices are only shown if they differ from the default. Empty if there are
-/// no parameters.
+/// The parameters as text: "Q 0.607, k 9". A default choice is not shown if the technique has other parameters too.
+/// Empty if there are no parameters.
 [[nodiscard]] std::string describe(const Candidate& candidate);
 
 /// The technique and its parameters: "box-tree, fan-out 4, leaf 16".
