@@ -2,8 +2,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// How accurate an irradiance estimate is, and how more rays or another radius would change that. The cost models
-/// convert the rays to seconds.
+/// How accurate an irradiance estimate is, and how more rays or another radius would change its error.
 ///
 /// Accuracy: relative error at most 1.1e-16 compared with 100 digits (the mean square error 3.3e-16), over 10⁶ inputs
 /// log-uniform over all doubles (tests/model/hard_cases). Results above the largest double saturate; below the smallest
@@ -51,9 +50,6 @@ struct DensityError {
 [[nodiscard]] double best_density_radius(const SmoothDensity& density, double photons);
 
 /// n for a relative root mean square error ε at the best radius: n = (3/2)^{3/2} |∇²f| / (√32 π f² ε³).
-///
-/// Halving the error takes eight times as many photons. At a fixed radius it would take four times as many, but the
-/// error could not fall below the bias.
 [[nodiscard]] double photons_for_error(const SmoothDensity& density, double relative_error);
 
 }  // namespace detp::model

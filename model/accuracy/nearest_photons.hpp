@@ -23,7 +23,7 @@
 ///
 /// At equal mean count k = nπh²f the disc has variance f²/k and bias k∇²f/(8πnf). The unbiased estimate has k/(k - 2)
 /// times this variance and (k - 1)/k times this bias. The best mean square errors of both agree to leading order,
-/// f² 3/(2k). The difference is that r_k adapts to f, while the disc's radius is fixed.
+/// f² 3/(2k). But r_k adapts to f, while the disc's radius is fixed.
 ///
 /// Validity   even density around the point up to r_k, except for its curvature: k∇²f/(8πnf²) far below 1, no edge of
 ///            the surface within r_k. n is fixed; for a Poisson number of photons p = 0.

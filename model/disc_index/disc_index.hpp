@@ -37,8 +37,7 @@ namespace detp::model {
 /// Accuracy   per line that hits the cube, cases as in index_cells.hpp, 20 000 lines through S₀: nodes within 1.7 % for
 ///            top-down and restart (median 0.7 %). Disc tests for n_P 1e4 and 1e5 within 2.4 %, with mailboxes 2.1 %;
 ///            for n_P 1e3 up to 14 % off, where all lines make only a few hundred tests (median of all cases 0.7 %).
-/// Throws     std::invalid_argument for a workload or depth out of range, and for neighbour links: the number of inner
-///            nodes that a ray visits from a link down to a leaf has no closed form here.
+/// Throws     std::invalid_argument for a workload or depth out of range, and for neighbour links (no closed form).
 [[nodiscard]] std::vector<Counts<double>> octree_counts_by_depth(const Valid<Workload>& workload,
                                                                  const OctreeParameters& deepest,
                                                                  const IndexVariant& variant = {});

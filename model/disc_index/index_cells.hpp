@@ -6,8 +6,6 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "index_overlap.hpp"
 
-/// The cells of an index of discs: how many there are, how many a disc overlaps, how many rays meet them, and how many
-/// are occupied.
 namespace detp::model {
 
 /// The cells of an index, and the numbers that follow from their side.
@@ -36,7 +34,7 @@ struct Cells {
 ///            is then 0.1 % too large if d is 1/20 of the samples' side, 0.5 % at 1/10, 2 % at 1/5, 11 % at 1/2.
 /// Accuracy   counted in a cube and on its faces, n_P 1e3 … 1e5, d/a 0.05 … 4, 1 to 8 halvings, d <= side/5 (150
 ///            cases): E within 2.2 % (median 0.3 %), by bounding box 2.9 % (0.3 %); the noise of 1000 samples is 2 %.
-///            With d up to side/4, E within 2.1 % (n_P 1e4, 1e5). With larger discs, for which an index makes no sense,
+///            With d up to side/4, E within 2.1 % (n_P 1e4, 1e5). With larger discs,
 ///            E is up to 6 % too small, and disc tests with mailboxes up to 13 % too many.
 [[nodiscard]] Cells index_cells(const Valid<Workload>& workload, double parts, Insertion insertion = Insertion::exact);
 

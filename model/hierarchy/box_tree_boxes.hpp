@@ -34,9 +34,8 @@ struct MeanBox {
 /// The sides of the box are L + 2d minus E[y] at both ends. Sides along different axes count as independent, so the
 /// mean of a product is the product of the means. This is exact for d = 0, where E[side] = L (m - 1)/(m + 1).
 ///
-/// The plain engine lists the lines that cross the box, of surface F = 2 (xy + yz + zx). The simd engine also lists
-/// some lines that miss the box: as many in all as cross a convex body of surface F + 2 ln(4/3)/π (x² + y² + z²)
-/// (validate/structural).
+/// The plain engine lists the lines that cross the box, of surface F = 2 (xy + yz + zx). The simd engine lists as many
+/// lines as cross a convex body of surface F + 2 ln(4/3)/π (x² + y² + z²) (validate/structural).
 ///
 /// Source     our derivation.
 /// Accuracy   E[y], interpolated, 0.2 %.

@@ -10,8 +10,7 @@
 /// Nested: the centres of a cell and of its child are s_{i+1}√3/2 apart, half the child's diagonal. The radii differ by
 /// the same length: r_i - r_{i+1} = (s_i - s_{i+1})√3/2 = s_{i+1}√3/2. So S_{i+1} lies in S_i and touches it from
 /// inside. A list culled from the parent's list loses no ray, and holds exactly n_i = n_R (r_i/r₀)² rays if S_i lies in
-/// S₀. (Without nesting lists would lose no ray either, because a ray that hits a disc crosses all spheres around the
-/// disc. But n_i would not be exact.)
+/// S₀.
 ///
 /// Inside S₀: if the samples' box is a cube, the sphere of the root cell is S₀ itself, r₀ = s√3/2 + d, and all others
 /// lie in S₀. If the box is flat, the cells are those of a cube on its longest side, and spheres extend outside S₀;

@@ -20,7 +20,7 @@ void require_inside(std::string_view what, double size, double outer) {
         fmt::format("{} must not exceed the sphere radius {}, or it pokes out (got {})", what, outer, size));
 }
 
-/// In long double, because d² may be below the range of doubles, and V + ℓF above it.
+/// In long double, because d² or V_box may be below the range of doubles, and V + ℓF above it.
 long double crossing(const Valid<Workload>& workload, long double volume, long double area) {
   const long double r0 = workload.sphere_radius;
   if (workload.path_length <= 0) return std::min(1.0L, area / (4 * exact_pi * r0 * r0));

@@ -53,15 +53,13 @@ namespace detp::model {
 ///            body or if it enters through the body's surface, where the flux of segments is ℓ/(4 V_box) per area.
 /// Valid      segments: origins uniform in the box, isotropic directions. Real paths start and end on surfaces: expect
 ///            errors of tens of percent.
-/// Accuracy   1.1e-16. Computed in long double, because d² or V_box may be below the range of doubles although P is
-///            not.
+/// Accuracy   1.1e-16.
 [[nodiscard]] double crossing_probability(const Valid<Workload>& workload, double volume, double area);
 
 /// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².
 ///
-/// Half as many if only rays that arrive at a disc's front count (our derivation): a ray that crosses the disc arrives
-/// either at its front or at its back. Reversing all rays exchanges front and back and does not change the isotropic
-/// measure, so both are equally likely.
+/// Half as many if only rays that arrive at a disc's front count. (Our derivation: reversing all rays exchanges front
+/// and back and does not change the isotropic measure.)
 ///
 /// Valid      half: for isotropic directions only. Photons mostly arrive on the side of the light.
 /// Accuracy   1.1e-16.

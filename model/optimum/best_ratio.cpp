@@ -23,7 +23,6 @@ class CacheTimes {
     costs_.visit *= blocks;
   }
 
-  /// Number of spheres whose counts have been evaluated.
   [[nodiscard]] std::int64_t evaluated_spheres() const { return evaluated_spheres_; }
 
   /// T without spheres; Q does not matter.
@@ -223,7 +222,6 @@ std::int64_t last_stop(const Valid<Workload>& workload, double ratio, std::int64
   return static_cast<std::int64_t>(std::min(static_cast<double>(most), std::floor(exact * (1 + 1e-12))));
 }
 
-/// Whether the sphere S₁ of this ratio holds a disc.
 bool holds_a_disc(const Valid<Workload>& workload, double ratio) {
   return workload.disc_radius < ratio * workload.sphere_radius;
 }

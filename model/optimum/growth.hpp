@@ -20,7 +20,7 @@ struct Growth {
 /// How the disc radius changes when samples are added to the same scene.
 enum class DiscRule {
   fixed,              ///< d is constant: each disc keeps its number of hits, so every technique takes at least n_R n_P
-  as_sample_distance  ///< d ∝ n_P^{-1/D}, for instance half the distance between samples
+  as_sample_distance  ///< d ∝ n_P^{-1/D}
 };
 
 struct GrowthCase {

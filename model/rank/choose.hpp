@@ -6,7 +6,6 @@
 
 #include "registry.hpp"
 
-/// Chooses a technique and its parameters from the numbers of a workload alone.
 namespace detp::model {
 
 /// A technique with its best parameters for a workload.

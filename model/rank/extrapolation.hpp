@@ -10,8 +10,7 @@
 /// Detects predictions outside the range in which their formula was compared with counts.
 ///
 /// Compared with counts (validate/sweep/results.md): isotropic lines through S₀, samples uniform in a cube or on its
-/// faces, n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3, and the parameters below. Outside these ranges the closed forms
-/// are still evaluated, but have not been checked.
+/// faces, n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3, and the parameters below.
 ///
 ///     sphere-cache (both)   Q 0.3 … 0.9, at most as many spheres as can hold a disc, samples sorted
 ///     cell-spheres          depth 1 … 6

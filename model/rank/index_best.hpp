@@ -4,8 +4,8 @@
 
 #include "registry.hpp"
 
-/// The size of an index with the smallest time. (In the paper cells are as wide as a disc, eq 21.) nullopt if every
-/// size exceeds the limits. Throws std::invalid_argument for a workload out of range.
+/// The size of an index with the smallest time; nullopt if every size exceeds the limits. Throws std::invalid_argument
+/// for a workload out of range.
 namespace detp::model {
 
 /// Depth of the fastest octree, searched top-down. Tries all depths; predicts each level once.
@@ -21,8 +21,7 @@ namespace detp::model {
 /// 64 values within a factor of 1.4 of the best m, then the neighbours of the best m.
 ///
 /// Accuracy   on 95 % of 1200 cubes and boxes, some of them a thousand times longer than high, the time is the smallest
-///            that any of seven searches found; at worst it is 7.7 % longer. It is never longer than the best time of
-///            the steps of 10 %.
+///            that any of seven searches found; at worst it is 7.7 % longer.
 [[nodiscard]] std::optional<int> best_grid_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                                  const SearchLimits& limits = {});
 

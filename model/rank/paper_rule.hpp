@@ -10,7 +10,7 @@ struct ProcessorCache {
   double bytes_per_ray = 64;  ///< origin, direction, length and power in double precision
 };
 
-/// The paper's rule for choosing a technique, kept as a baseline for comparison.
+/// The paper's rule for choosing a technique.
 ///
 ///     X = mean distance between samples / d
 ///     X <= 2       index of discs, cells as wide as a disc (eq 21)

@@ -51,8 +51,7 @@ struct TechniqueModel {
 
 [[nodiscard]] const TechniqueModel& model_of(Technique technique);
 
-/// Whether closed forms predict the technique's counts, so that it can be chosen without a run. Trees whose shape
-/// depends on the individual samples (bsp, bvh) have none.
+/// Whether closed forms predict the technique's counts, so that it can be chosen without a run.
 [[nodiscard]] inline bool has_closed_form(Technique technique) { return model_of(technique).predict != nullptr; }
 
 }  // namespace detp::model

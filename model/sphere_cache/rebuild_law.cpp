@@ -40,7 +40,7 @@ double mix(double a, double b, double weight) { return (1 - weight) * a + weight
 
 double weight_of_volume(double dimension) { return std::clamp(dimension - 2, 0.0, 1.0); }
 
-/// Interpolates a law between surfaces (2) and volumes (3) for a dimension between them.
+/// Interpolates a law between surfaces (2) and volumes (3).
 template <class Law>
 double between_dimensions(double dimension, const Law& law) {
   const double weight = weight_of_volume(dimension);

@@ -4,9 +4,8 @@
 #include <cstddef>
 #include <string_view>
 
-/// The counted operations of a technique. A prediction (double, an expectation) and an observation (std::uint64_t) use
-/// the same record, so comparing them is a subtraction term by term. A term means the same for every technique and
-/// engine.
+/// The counted operations of a technique: a prediction (double, an expectation) or an observation (std::uint64_t). A
+/// term means the same for every technique and engine.
 namespace detp {
 
 template <class T>
@@ -72,7 +71,7 @@ template <class T>
   return counts.cull_tests + counts.disc_tests;
 }
 
-/// An observation converted to a prediction's record, for arithmetic.
+/// An observation converted to a prediction's record.
 template <class T>
 [[nodiscard]] constexpr Counts<double> as_expected(const Counts<T>& counts) {
   Counts<double> expected;

@@ -52,7 +52,7 @@ struct BoxTreeParameters {
   bool operator==(const BoxTreeParameters&) const = default;
 };
 
-/// How a ray finds the leaves of an octree. (A grid is walked from cell to cell.)
+/// How a ray finds the leaves of an octree.
 enum class Traversal {
   top_down,       ///< from the root into every child that the ray crosses
   front_to_back,  ///< into the same children, in the order in which the ray enters them
@@ -84,7 +84,7 @@ struct BspParameters {
   bool operator==(const BspParameters&) const = default;
 };
 
-/// How a bounding volume hierarchy is built. Medium takes longer to build, and is faster to search.
+/// How a bounding volume hierarchy is built. Medium builds longer and searches faster.
 enum class BuildQuality {
   low,    ///< along a Morton curve
   medium  ///< by the surface area heuristic

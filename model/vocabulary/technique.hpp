@@ -145,14 +145,12 @@ static_assert([] {
 /// The technique with that name; nullopt if there is none.
 [[nodiscard]] std::optional<Technique> technique_named(std::string_view name);
 
-/// One technique with its parameters.
 struct Candidate {
   Technique technique = Technique::brute_force;
   Parameters parameters = BruteForceParameters{};
   bool operator==(const Candidate&) const = default;
 };
 
-/// The technique with its default parameters.
 [[nodiscard]] constexpr Candidate default_candidate(Technique technique) {
   return {technique, record_of(technique).defaults};
 }

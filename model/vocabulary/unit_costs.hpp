@@ -6,7 +6,6 @@
 #include "counts.hpp"
 #include "technique.hpp"
 
-/// Unit costs, which convert counts to seconds on one machine.
 namespace detp {
 
 /// Time in seconds of each counted operation on one machine; all from 0 to 1e200.

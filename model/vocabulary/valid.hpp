@@ -3,7 +3,6 @@
 #include <concepts>
 #include <type_traits>
 
-/// Values that are checked where they are made, and are not checked again where they are passed on.
 namespace detp {
 
 /// A T for which `check(value)` did not throw. Use Valid<T>, which is const: the value cannot change after its check.

@@ -2,7 +2,6 @@
 
 #include <array>
 
-/// The size of the problem that a technique must solve, in numbers.
 namespace detp {
 
 /// n_R rays against n_P discs of radius d inside the sphere S₀.

@@ -12,7 +12,7 @@
 #include "detp/sim/geometry/geometry.hpp"
 #include "detp/sim/geometry/random.hpp"
 
-/// Rays that just hit or just miss a disc or a sphere, in every way we could think of.
+/// Rays that just hit or just miss a disc or a sphere.
 namespace detp::support {
 
 /// A sequence of random numbers for one case.
