@@ -2,8 +2,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// How accurate an irradiance estimate is, and how more rays or another radius would change that. The cost models
-/// convert the rays to seconds.
+/// How accurate an irradiance estimate is, and how more rays or another radius would change its error.
 ///
 /// Accuracy: relative error at most 1.1e-16 compared with 100 digits (the mean square error 3.3e-16), over 10⁶ inputs
 /// log-uniform over all doubles (tests/model/hard_cases). Results above the largest double saturate; below the smallest
@@ -16,12 +15,11 @@ namespace detp::model {
 ///
 ///   where  n_R   rays, all of one power;   d, r₀   radii of disc and S₀, length
 ///
-/// The number of hits of a disc is binomial. Source: our derivation; counted: tests/model/estimate_error. Throws
-/// std::invalid_argument unless n_R is a count and 0 < d <= r₀.
+/// The number of hits of a disc is binomial. Source: our derivation, compared with counts in
+/// tests/model/accuracy/estimate_error.test.cpp. Throws std::invalid_argument unless n_R is a count and 0 < d <= r₀.
 [[nodiscard]] double uniform_field_deviation(double rays, DiscRadius disc, SphereRadius outer);
 
-/// n_R = (1 - p)/(p σ²): the rays needed for a relative standard deviation σ > 0. The inverse of the formula above, not
-/// rounded.
+/// n_R = (1 - p)/(p σ²): the number of rays at which uniform_field_deviation is σ > 0. Not rounded to a whole number.
 [[nodiscard]] double rays_for_deviation(double deviation, DiscRadius disc, SphereRadius outer);
 
 /// A density of photons on a surface around a point: each of n photons lands with density f, in 1/area.
@@ -34,7 +32,7 @@ struct SmoothDensity {
 ///
 ///     variance = f/(nπh²)      bias = h² ∇²f/8      MSE = variance + bias²
 ///
-/// Leading order: h must be far below the distance over which f changes, nπh²f far above 1.
+/// Leading order: h must be far below the distance over which f changes, and nπh²f far above 1.
 struct DensityError {
   double variance = 0;  ///< 1/area²
   double bias = 0;      ///< 1/area, with its sign
@@ -42,18 +40,16 @@ struct DensityError {
   [[nodiscard]] double mean_square() const { return saturated(variance + static_cast<long double>(bias) * bias); }
 };
 
-/// Source: our derivation, by Taylor expansion of f over the disc; counted: tests/model/estimate_error. Throws
-/// std::invalid_argument unless photons, f and h are > 0 and all are finite.
+/// Source: our derivation, by Taylor expansion of f over the disc, compared with counts in
+/// tests/model/accuracy/estimate_error.test.cpp. Throws std::invalid_argument unless n, f and h are > 0 and all numbers
+/// are finite.
 [[nodiscard]] DensityError density_error(const SmoothDensity& density, double photons, double radius);
 
-/// h⁶ = 32 f/(nπ(∇²f)²): the radius with the smallest mean square error, which then falls as n^{-2/3}. Throws
+/// h with h⁶ = 32 f/(nπ(∇²f)²): the radius with the smallest mean square error. This error ∝ n^{-2/3}. Throws
 /// std::invalid_argument as density_error does, and for ∇²f = 0: without curvature a larger disc is always better.
 [[nodiscard]] double best_density_radius(const SmoothDensity& density, double photons);
 
 /// n for a relative root mean square error ε at the best radius: n = (3/2)^{3/2} |∇²f| / (√32 π f² ε³).
-///
-/// Halving the error takes eight times as many photons. At a fixed radius it would take four times as many, but the
-/// error could not fall below the bias.
 [[nodiscard]] double photons_for_error(const SmoothDensity& density, double relative_error);
 
 }  // namespace detp::model

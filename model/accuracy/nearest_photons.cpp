@@ -16,7 +16,7 @@ void check(const SmoothDensity& density, double photons) {
   require_count("number of photons", photons, 3, 1e18);
 }
 
-/// y > 0 with y²(y + 1) = c. Newton's method, started above the root, where the cubic is convex, never passes it.
+/// y > 0 with y²(y + 1) = c. Newton's method starts above the root, where the cubic is convex, so it stays above.
 long double root_of_cubic(long double c) {
   long double y = std::cbrt(c);
   for (;;) {

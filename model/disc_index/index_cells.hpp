@@ -6,8 +6,6 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "index_overlap.hpp"
 
-/// The cells of an index of discs: how many there are, how many a disc overlaps, how many rays meet them, and how many
-/// are occupied.
 namespace detp::model {
 
 /// The cells of an index, and the numbers that follow from their side.
@@ -15,29 +13,28 @@ struct Cells {
   double side = 0;                       ///< a, length
   std::array<double, 3> along{1, 1, 1};  ///< cells along each axis
   Insertion insertion = Insertion::exact;
-  /// E: cells that one disc overlaps, in a box of finite size, whose outermost planes are never crossed
+  /// E: expected number of cells that a disc overlaps. No disc crosses the outermost planes of the index
   double overlapped = 1;
-  /// S: lines that meet at least one of the cells that one disc overlaps, divided by those that meet a square of side a
-  /// (6 for one cell)
+  /// S: see faces_seen. S a² is the surface area of a convex body that as many lines meet as meet at least one of the
+  /// cells that a disc overlaps (S = 6 for one cell)
   double seen = 6;
   double crossing = 0;  ///< P(cell), for all rays of the workload
-  double meeting = 0;   ///< P(at least one of the cells that one disc overlaps), for all rays
+  double meeting = 0;   ///< P(at least one of the cells that a disc overlaps), for all rays
 
   [[nodiscard]] double count() const { return along[0] * along[1] * along[2]; }
 };
 
 /// `parts` cells along the longest side of the box grown by d, and as many as needed along the others.
 ///
-/// E is computed from the planes that cross a disc (`PlaneCrossings`, index_overlap.hpp), S likewise
-/// (index_mailbox.hpp).
+/// E and S are computed from the planes that cross a disc (`PlaneCrossings`, index_overlap.hpp; index_mailbox.hpp).
 /// Samples of dimension 2 without an extent of their own lie on the box's faces, in proportion to the faces' areas,
-/// with one coordinate fixed. For dimensions between 2 and 3 the two cases are interpolated.
+/// with one coordinate fixed. For dimensions between 2 and 3, volume and faces are interpolated.
 ///
-/// Valid      P: cells inside S₀. The corners of a cube of samples, grown by d, extend outside S₀: by the formula 0.1 %
-///            too many lines meet it if d is 1/20 of the samples' side, 0.5 % at 1/10, 2 % at 1/5, 11 % at 1/2.
+/// Valid      P: cells inside S₀. The corners of a cube of samples, grown by d, extend outside S₀. P of the grown cube
+///            is then 0.1 % too large if d is 1/20 of the samples' side, 0.5 % at 1/10, 2 % at 1/5, 11 % at 1/2.
 /// Accuracy   counted in a cube and on its faces, n_P 1e3 … 1e5, d/a 0.05 … 4, 1 to 8 halvings, d <= side/5 (150
 ///            cases): E within 2.2 % (median 0.3 %), by bounding box 2.9 % (0.3 %); the noise of 1000 samples is 2 %.
-///            With d up to side/4, E within 2.1 % (n_P 1e4, 1e5). With larger discs, for which an index makes no sense,
+///            With d up to side/4, E within 2.1 % (n_P 1e4, 1e5). With larger discs,
 ///            E is up to 6 % too small, and disc tests with mailboxes up to 13 % too many.
 [[nodiscard]] Cells index_cells(const Valid<Workload>& workload, double parts, Insertion insertion = Insertion::exact);
 
@@ -45,15 +42,13 @@ struct Cells {
 ///
 ///     Σ_cells 1 - (1 - q)^n_P
 ///
-///   where  q   probability that a disc overlaps the cell: the terms of E, distributed over the cells by the
-///              probability
-///              that, along each axis, the centre lies in the cell's slab or the disc reaches into it; smaller at the
-///              index's ends
+///   where  q   probability that a disc overlaps the cell: its part of the terms of E. Along each axis, either the
+///              centre lies in the cell's slab, or the disc reaches into the slab. q is smaller at the index's ends
 ///
 /// Accuracy   counted as for E: within 2.7 % (median 0.2 %); with d > side/4 up to 13 % too few.
 ///
-/// Samples on surfaces with an extent A of their own: the cells that a random surface crosses, R = min(C, 1.5 A/a²),
-/// all equally likely, R (1 - exp(-n_P E/R)); C is the number of all cells. This is only an estimate.
+/// Samples on surfaces with an extent A of their own: R (1 - exp(-n_P E/R)), as if all R cells that a random surface
+/// crosses were equally likely. R = min(C, 1.5 A/a²), where C is the number of all cells. This is only an estimate.
 [[nodiscard]] double occupied_cells(const Valid<Workload>& workload, const Cells& cells);
 
 }  // namespace detp::model

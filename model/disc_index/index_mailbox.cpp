@@ -15,7 +15,7 @@ using std::numbers::pi;
 constexpr std::array table{
 #include "index_mailbox_table.inc"
 };
-constexpr double first = 1.0 / 16;  ///< x of the first entry; each entry is at √2 times the x of the one before
+constexpr double first = 1.0 / 16;  ///< x of the first entry; x grows by a factor of √2 from entry to entry
 
 /// R(x), linear in log x; below the table linear in x.
 double beyond_one_cell(double x) {

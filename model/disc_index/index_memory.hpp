@@ -20,12 +20,12 @@ struct IndexLayout {
 ///
 /// Accuracy   within 2.1 % of the measured bytes (median 0.3 %; cases as in index_cells.hpp).
 ///
-/// Does not include neighbour links. Building needs up to twice that, plus the lists of the nodes that are being split.
+/// Does not include neighbour links. Building needs up to twice these bytes, plus lists of the nodes being split.
 [[nodiscard]] double octree_bytes(const Valid<Workload>& workload, const OctreeParameters& parameters,
                                   const IndexVariant& variant = {}, const IndexLayout& layout = {});
 
-/// Expected bytes of a grid: cell (C + 1) + reference n_P E, where C is its number of cells. Building needs 16 n_P E
-/// more.
+/// Expected bytes of a grid: cell (C + 1) + reference n_P E, where C is the number of cells. Building needs 16 n_P E
+/// bytes more.
 ///
 /// Accuracy   within 2 % of the measured bytes (median 0.1 %).
 [[nodiscard]] double grid_bytes(const Valid<Workload>& workload, const GridParameters& parameters,

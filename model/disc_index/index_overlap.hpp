@@ -28,7 +28,7 @@ struct IndexAxis {
 /// Where the centres are along an axis.
 enum class Centres {
   uniform,   ///< anywhere in the room
-  low_face,  ///< at its low end, like samples on a face of their box
+  low_face,  ///< at the room's low end, like samples on a face of their box
   high_face
 };
 
@@ -58,24 +58,25 @@ struct PlaneCrossings {
   }
 };
 
-/// Crossings if the centres are uniform along the axis; `planes` is their expected number.
+/// Crossings if the centres are uniform along the axis. `planes` is the expected number of planes that cross the disc.
 [[nodiscard]] PlaneCrossings uniform_crossings(double planes, Insertion insertion);
 
-/// Crossings of all planes of the axis. Those at the index's own ends cross no disc. Exact up to x = 64, except that
-/// the weights of uniform centres are those of endless cells; beyond, as in endless cells.
+/// Crossings of all planes of the axis. The planes at the index's ends cross no disc. Exact up to x = 64, except that
+/// uniform centres have the weights of endless cells. Above x = 64, all values are those of endless cells.
 [[nodiscard]] PlaneCrossings crossings(const IndexAxis& axis, Centres centres, Insertion insertion);
 
-/// A run of equal slabs of an axis. A slab is the space between neighbouring planes. Means over the run, by `Centres`.
+/// A run of neighbouring slabs of an axis. A slab is the space between neighbouring planes. The values hold for one
+/// slab, as means over the run; they are indexed by `Centres`.
 struct Slabs {
   double count = 0;
-  std::array<double, 3> centred{};  ///< probability that the disc's centre lies in one of them
-  std::array<double, 3> pierced{};  ///< share of the lines along the axis that pierce the disc inside one of them
-  std::array<PlaneCrossings, 3> reached{};  ///< discs that have their centre outside and reach into one of them
+  std::array<double, 3> centred{};          ///< probability that the disc's centre lies in the slab
+  std::array<double, 3> pierced{};          ///< share of the lines along the axis that pierce the disc inside the slab
+  std::array<PlaneCrossings, 3> reached{};  ///< discs whose centre is outside the slab and that reach into it
 };
 
-/// The slabs of an axis, for the cells that hold a disc, in at most 5 runs from each side and one between. (A line
-/// along the axis pierces a disc at most u d beyond its centre with probability ½ + (4/π) [¾ u √(1 - u²) + ¼ asin u - ½
-/// u² acos u]. For uniform centres and for boxes the shares of the centres are used instead.)
+/// The slabs of an axis: at most 5 runs at each end, and one between. (A line along the axis pierces a disc at most u d
+/// beyond its centre with probability ½ + (4/π) [¾ u √(1 - u²) + ¼ asin u - ½ u² acos u]. For uniform centres and for
+/// boxes, `pierced` equals `centred` instead.)
 struct SlabRuns {
   std::array<Slabs, 11> runs{};
   std::size_t size = 0;

@@ -19,7 +19,7 @@ using box_tree::Leaves;
 using box_tree::LevelNodes;
 using box_tree::Sums;
 
-/// P of bodies by their mean surface and volume.
+/// P(node) from the mean surface and volume of nodes' boxes.
 class CrossingProbability {
  public:
   CrossingProbability(const Valid<Workload>& workload, double side)
@@ -72,7 +72,7 @@ class Widening {
   /// The halves of an inner node that are inner nodes themselves.
   struct Link {
     std::array<std::size_t, 2> child{};
-    std::array<double, 2> inner{};  ///< their probability
+    std::array<double, 2> inner{};  ///< probability that the half is an inner node
   };
 
   /// Mean and variance of the number of inner nodes at most `depth` levels below an inner node, including itself.
@@ -122,8 +122,8 @@ class Widening {
     return std::min(mean - excess, std::min(mean, most));
   }
 
-  /// Joins inner nodes to the wide node above them, the largest first: these are the least deep. Inner nodes that are
-  /// not joined start wide nodes. Returns the number joined.
+  /// Joins an inner node of this kind and inner nodes below it to a wide node, the least deep ones first. Inner nodes
+  /// that are not joined become tops of wide nodes. Returns the number joined, including the top.
   double open(std::size_t number) {
     const Moments& moments = moments_[number];
     frontier_.assign(1, {number, 1.0});
@@ -169,10 +169,10 @@ class Widening {
 /// The counts for `samples` in a cube of that side, or on its faces.
 TreeCounts tree_counts(int dimension, const Valid<Workload>& workload, double samples, double side, int fan_out,
                        int leaf, Engine engine) {
-  constexpr double far = 1e60;  // beyond all that makes a difference
+  constexpr double far = 1e60;  // a larger or smaller radius makes no difference
   const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
-  // 64 units of the last place of floats next to 1 (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
-  // of two: here to √3/2, as in a cube with a side of 1, so that the unit of length does not matter.
+  // 64 units in the last place of floats next to 1 (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
+  // of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not matter.
   const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
   const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
   const CrossingProbability crossing(workload, side);
@@ -212,7 +212,8 @@ Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxT
   }
   const int fan_out = std::min(parameters.fan_out, box_tree_most_children);
   const int leaf = std::min(parameters.leaf, box_tree_largest_leaf);
-  // Leaves larger than the largest tabulated: as many nodes as for proportionally fewer samples.
+  // Leaves larger than box_tree_largest_leaf: as many nodes as for leaves of that size and proportionally fewer
+  // samples.
   const double in_one = static_cast<double>(parameters.leaf) / leaf;
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
   const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);

@@ -115,7 +115,7 @@ double CellBoxes::side_of(const Axis& axis, double discs) const {
   const double whole = axis.length + 2 * radius_;
   if (axis.touched == 0) return whole - 2 * missing(axis.uniform, discs);
   if (axis.uniform_share <= 0) return axis.touched == 1 ? 2 * (radius_ - missing(flat_, discs)) : whole;
-  // If no disc is on the face, or all are, the others determine the box's end.
+  // Discs on a face determine the box's end there. The uniform discs determine it if no disc is on that face.
   const double none_on = std::exp(discs * axis.log_off_face);
   const double uniform = missing(axis.uniform, axis.uniform_share * discs);
   const double at_face = (1 - none_on) * missing(flat_, axis.on_face * discs) + none_on * uniform;
@@ -126,7 +126,7 @@ double CellBoxes::side_of(const Axis& axis, double discs) const {
 }
 
 double CellBoxes::variance_of(const Axis& axis, double discs) const {
-  constexpr double of_reaches = 8.0 / 3 - pi * pi / 4;  // of a single disc's side over d²
+  constexpr double of_reaches = 8.0 / 3 - pi * pi / 4;  // variance of one disc's side over d²
   const double uniform = axis.uniform_share * discs;
   const double length = uniform > 1 ? axis.length / (uniform + 1) : 0;
   return 2 * length * length * (uniform - 1) / (uniform + 2) + of_reaches * radius_ * radius_ / discs;

@@ -7,7 +7,7 @@
 
 namespace detp::model::box_tree {
 
-/// How an engine lists rays for a box: it grows the box by the margin on all sides, in multiples of the cube's side.
+/// How an engine lists rays for a box: it grows the box on all sides by `margin`, a multiple of the cube's side.
 struct Listing {
   Engine engine = Engine::simd;
   double margin = 0;
@@ -17,25 +17,25 @@ struct Listing {
 struct MeanBox {
   double products = 0;  ///< xy + yz + zx of the sides, half the surface
   double spread = 0;    ///< variance of the products over their squared mean
-  double surface = 0;   ///< of the convex body whose lines the cull lists
+  double surface = 0;   ///< of a convex body: the cull lists the lines that cross it
   double volume = 0;
 };
 
 /// The mean box around m isotropic discs in a cell.
 ///
-/// Along an axis where the samples are uniform in [0, L], the box ends at L + d - y. Here y is the smallest of m values
-/// (L - x) + (d - reach), with reach = d √(1 - u²), u uniform in [0, 1]:
+/// Along an axis where the samples' coordinates x are uniform in [0, L], the box ends at L + d - y. Here y is the
+/// smallest of m values (L - x) + (d - reach), with reach = d √(1 - u²), u uniform in [0, 1]:
 ///
 ///     E[y] = ∫₀^{L+d} (1 - G(y))^m dy      G(y) = (1/L) ∫ P(d - reach < v) dv, over v from y - L (or 0) to y
 ///
 ///   where  P(d - reach < v)   √(1 - (1 - v/d)²) for v < d, 1 beyond
 ///          L = 0              samples on a face of the cube: G(y) = P(d - reach < y)
 ///
-/// The sides of the box are L + 2d minus E[y] at both ends. Sides along different axes are taken as independent, and
-/// the mean of a product as the product of the means: exact for d = 0, where E[side] = L (m - 1)/(m + 1).
+/// The sides of the box are L + 2d minus E[y] at both ends. Sides along different axes count as independent, so the
+/// mean of a product is the product of the means. This is exact for d = 0, where E[side] = L (m - 1)/(m + 1).
 ///
-/// The plain engine lists the lines that cross the box, of surface F = 2 (xy + yz + zx). The simd engine also lists
-/// some that do not: those of a convex body of surface F + 2 ln(4/3)/π (x² + y² + z²) (validate/structural).
+/// The plain engine lists the lines that cross the box, of surface F = 2 (xy + yz + zx). The simd engine lists as many
+/// lines as cross a convex body of surface F + 2 ln(4/3)/π (x² + y² + z²) (validate/structural).
 ///
 /// Source     our derivation.
 /// Accuracy   E[y], interpolated, 0.2 %.
@@ -57,12 +57,12 @@ class CellBoxes {
 
   struct Axis {
     double length = 0;
-    Row uniform;         ///< along it
-    int touched = 0;     ///< as in CellKind
-    double on_face = 0;  ///< share of the discs on each of the faces across it
-    double uniform_share = 1;
-    double log_off_face = 0;  ///< logarithms of the shares of discs that are not on that face, …
-    double log_on_faces = 0;  ///< … and not on either face
+    Row uniform;               ///< for discs uniform along the axis
+    int touched = 0;           ///< as in CellKind
+    double on_face = 0;        ///< share of the discs on one of the touched faces across the axis
+    double uniform_share = 1;  ///< share of the discs on no face across the axis
+    double log_off_face = 0;   ///< logarithm of 1 - on_face
+    double log_on_faces = 0;   ///< logarithm of the share of the discs on any face across the axis
   };
 
   static Row row_of(double side, double radius, double log_radius);

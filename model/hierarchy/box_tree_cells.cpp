@@ -9,16 +9,16 @@ namespace {
 using Flags = std::array<int, 3>;
 
 constexpr int most_halvings = 64;  // 2⁶⁴ cells
-// After so many halvings, cells at the cube's edges and corners have few of the samples. From there on they count as
+// After this many halvings, cells at the cube's edges and corners hold few of the samples. From then on they count as
 // cells on its faces.
 constexpr int edge_halvings = 21;
 constexpr int corner_halvings = 9;
 static_assert(edge_halvings % 3 == 0 && corner_halvings % 3 == 0);
 
-/// The number of halvings across an axis (0 is halved first) after `halvings` halvings in all.
+/// The number of halvings across an axis (axis 0 is halved first) after `halvings` halvings in total.
 int across(int axis, int halvings) { return (halvings + 2 - axis) / 3; }
 
-/// Of a curve with cells of 2^-bits.
+/// Sides of a cell; the smallest cells of the curve have the side 2^-bits.
 std::array<double, 3> sides_of(int halvings, int bits) {
   std::array<double, 3> side;
   for (int axis = 0; axis < 3; ++axis) side[axis] = std::ldexp(1.0, -std::min(bits, across(axis, halvings)));
@@ -77,7 +77,7 @@ class SurfaceKinds {
     const std::array<double, 3> side = sides_of(halvings, 64);
     double area = 0;
     for (int axis = 0; axis < 3; ++axis) area += touched[axis] * side[(axis + 1) % 3] * side[(axis + 2) % 3];
-    // Cells that are split up into cells on faces come before these.
+    // A cell that is split up into cells on faces comes before them.
     const bool whole = halvings < (faces(touched) == 3 ? corner_halvings : edge_halvings) || faces(touched) > 3;
     keys_.push_back({halvings, whole ? 4 * halvings : 4 * halvings - 3,
                      CellKind{.share = area / 6,
@@ -87,7 +87,8 @@ class SurfaceKinds {
   }
 
   void add_face(int halvings) {
-    // Even numbers occur if the cube was halved across z, odd numbers if across y; the first four never occur.
+    // After the last cell of the cube that is halved into this kind: across z if `halvings` is even, else across y.
+    // The first four kinds never occur.
     const int place = std::max(1, halvings % 2 == 0 ? 6 * halvings - 2 : 6 * halvings);
     keys_.push_back({-1, place,
                      CellKind{.share = std::ldexp(1.0, -halvings) / 6,
@@ -99,7 +100,7 @@ class SurfaceKinds {
 
   double side(int halvings) const { return std::ldexp(1.0, -std::min(bits_, halvings)); }
 
-  /// The number of that kind of cells.
+  /// The index of this kind.
   std::size_t find(int halvings, const Flags& touched) const {
     int of_face = -1;
     if (faces(touched) == 1) of_face = halvings - across(touched[0] ? 0 : touched[1] ? 1 : 2, halvings);

@@ -39,7 +39,7 @@ void binomial(double trials, double share, int last, std::vector<double>& out) {
   for (int k = start; k > 0 && out[k] > 1e-14; --k) out[k - 1] = out[k] * (k / ((trials - k + 1) * odds));
 }
 
-/// a(m) of a kind of cells; while it is being summed, times their number. Empty if all these cells are nodes.
+/// a(m) of one kind of cells; multiplied by the number of cells until all terms are added. Empty: all are nodes.
 using NodeProbabilities = std::vector<double>;
 
 class ExpectedLevels {
@@ -76,7 +76,7 @@ class ExpectedLevels {
   }
 
  private:
-  /// The largest number of discs considered for a cell that expects `expected`.
+  /// The largest number of discs considered for a cell that expects `expected` discs.
   [[nodiscard]] int most_of(double expected) const {
     return static_cast<int>(std::min<double>(most_, expected + deviations * std::sqrt(expected) + 10));
   }
@@ -163,8 +163,8 @@ class ExpectedLevels {
     return {{first, CellBoxes(kinds_[cell.child[1]], radius_, listing_)}};
   }
 
-  /// The share of cells with discs in both halves. Other cells are not nodes; their half is. Changes the mean box to
-  /// that of the nodes.
+  /// The share of cells with discs in both halves. Only these cells are nodes. Changes `box` from the mean box of all
+  /// cells to that of the nodes.
   static double split_share(const CellKind& cell, const Halves& halves, double discs, MeanBox& box) {
     if (!halves || discs > most_in_one_half) return 1;
     double split = 1;
@@ -204,7 +204,8 @@ class ExpectedLevels {
     const double expected = samples_ * child.share;
     const double rest = 1 - child.share;
     const double sibling = rest > 0 ? std::min(1.0, (parent.share - child.share) / rest) : 1;
-    // Computed for the expected number of discs, and shifted for other numbers, because the sibling has the rest.
+    // Computed once, for the child's expected number of discs. For other numbers it is shifted: the sibling has the
+    // rest.
     const int first = std::max(1, static_cast<int>(expected - deviations * std::sqrt(expected)));
     const int last = most_of(expected);
     const double others = std::floor(samples_ - expected);
@@ -222,7 +223,7 @@ class ExpectedLevels {
     }
   }
 
-  /// The share of a kind's cells that are inner nodes, by their number of discs.
+  /// Sets, for each number of discs, the share of a kind's cells that are inner nodes.
   void set_inner_probabilities(std::size_t number) {
     if (are_all_inner(kinds_[kinds_[number].child[0]]) && are_all_inner(kinds_[kinds_[number].child[1]])) return;
     const NodeProbabilities& node_probability = node_probabilities_[number];

@@ -24,31 +24,31 @@ struct Sums {
 struct Leaves {
   double count = 0;
   double discs = 0;    ///< in each of them
-  double surface = 0;  ///< mean of their boxes (MeanBox), as the next two
+  double surface = 0;  ///< mean of their boxes (MeanBox); volume and spread likewise
   double volume = 0;
   double spread = 0;
 };
 
-/// Expected nodes of the binary tree whose discs are those of a cell of one kind (none of its halves).
+/// Expected nodes of the binary tree that have exactly the discs of a cell of one kind.
 struct LevelNodes {
   Sums inner;
   std::vector<Leaves> leaves;
 };
 
-/// For each of cell_kinds(dimension) as far as there are nodes: samples uniform in a cube of side 1 (3) or on its
-/// faces (2), discs of that radius.
+/// The expected nodes for each of cell_kinds(dimension, samples), up to the last kind that has nodes. Samples are
+/// uniform in a cube of side 1 (dimension 3) or on its faces (2).
 ///
 /// A cell of m samples is a node if both its halves hold samples and no ancestor is a leaf. That probability is
 ///
 ///     a(m) = Σ_s P(s) a'(m + s) (1 - q'(m + s))
 ///
-///   where  P(s)    binomial: of s samples in the other half of the parent
-///          a', q'  of the parent; q(m) the probability that a node is a leaf
+///   where  P(s)    binomial probability of s samples in the other half of the parent
+///          q(m)    probability that a node of m samples is a leaf
+///          a', q'  a and q of the parent
 ///
-/// A node is a leaf if m <= leaf, and for some of m <= 64 (box_tree_sah_leaves.hpp).
+/// Every node of m <= leaf samples is a leaf, and some nodes of m <= 64 are (box_tree_sah_leaves.hpp).
 ///
-/// Source     our derivation.
-/// Valid      as box_tree.hpp says, which gives the accuracy.
+/// Source     our derivation. Valid range and accuracy: see box_tree.hpp.
 [[nodiscard]] std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf,
                                                            const Listing& listing = {});
 

@@ -4,11 +4,11 @@
 
 namespace detp::model {
 
-/// A box tree that suits the workload: 4 children a node; leaves of 64 if there are fewer rays than discs (building the
-/// tree then takes longer than searching it), of 8 from 64 rays a disc, of 16 in between.
+/// Parameters of a box tree that suit the workload. A node has 4 children. A leaf has 64 discs if there are fewer rays
+/// than discs (building the tree then takes longer than searching it), 8 discs from 64 rays per disc on, else 16.
 ///
-/// A rule of thumb, measured on seven workloads of 10³ … 10⁶ rays and discs: with leaves twice or half as large a run
-/// took 1.0 to 1.2 times as long, with leaves four times as large or small up to 1.8 times.
+/// A rule of thumb, measured on seven workloads of 10³ … 10⁶ rays and discs. With leaves twice or half as large, a run
+/// took 1.0 to 1.2 times as long; with leaves four times or a quarter as large, up to 1.8 times.
 [[nodiscard]] inline BoxTreeParameters box_tree_rule(const Valid<Workload>& workload) {
   constexpr int fan_out = 4;
   const double rays_a_disc = workload.rays / workload.samples;

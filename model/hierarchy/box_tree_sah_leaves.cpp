@@ -48,7 +48,7 @@ int most_discs(double expected) {
 constexpr int most_in_table = 6;
 constexpr std::size_t small_row = 3 * (most_in_table - 1);
 constexpr std::size_t small_radii = 21;              // d over the cell's longest side, 2⁻⁹, 2^{-8.5} … 2
-constexpr std::size_t small_shapes = 2 + 3 + 3 + 2;  // of cells: on a face, in the volume, at an edge; the last ones
+constexpr std::size_t small_shapes = 2 + 3 + 3 + 2;  // cells on a face, in the volume, at an edge; smallest cells
 #include "box_tree_sah_leaves.inc"
 
 int faces_of(const CellKind& cell) { return cell.touched[0] + cell.touched[1] + cell.touched[2]; }
@@ -68,7 +68,7 @@ class SmallNodes {
     weight_ = at - static_cast<double>(row);
   }
 
-  /// Sets which nodes of so many discs become leaves. Returns their expected cost over their mean area.
+  /// Sets the leaves among nodes with `discs` discs. Returns the nodes' expected cost over their mean area.
   double set_leaf_share(SahLeaves& level, int discs) const {
     level.share[discs] = value(discs, 0);
     level.box[discs] = value(discs, 1);
@@ -111,7 +111,7 @@ SahLeafModel::SahLeafModel(int dimension, double samples, double radius, int lea
       leaf_(leaf),
       on_faces_(dimension == 2),
       least_side_(radius / 64),
-      // In cells that expect fewer discs than this, almost none has more discs than a leaf.
+
       least_discs_(std::exp((std::log(1e-4) + std::lgamma(leaf + 2)) / leaf) / (dimension == 2 ? 3 : 1)) {
   if (leaf >= largest_sah_leaf) return;
   std::vector<const CellKind*> cells;  // by number of halvings
@@ -167,13 +167,13 @@ void SahLeafModel::start_from_leaves(const CellKind& cell, Row& area, Row& cost)
   }
 }
 
-/// Fitted: how much the two sides of the heuristic's inequality differ between nodes.
+/// The fitted factor of σ: all of σ except A m^0.7 (A_0/A)^0.35.
 double SahLeafModel::deviation_factor(double leaf_share_of_pairs) const {
   return 0.215 * (on_faces_ ? 1.1 : 1) * (leaf_ > 1 ? 1.13 : 1) *
          (1 + 1.2 * leaf_share_of_pairs * (1 - leaf_share_of_pairs));
 }
 
-/// The area that the mean box would have if the discs were points, as a share of its area.
+/// A_0/A: the area that the mean box would have if the discs were points, divided by its area.
 double SahLeafModel::point_box_share(const CellKind& cell, int discs, double area) const {
   const auto& side = cell.side;
   const double flat = side[0] * side[1] + (on_faces_ ? 0 : side[1] * side[2] + side[2] * side[0]);

@@ -46,8 +46,8 @@ double single_entry(std::size_t dimension, Term term, double run, double step) {
   });
 }
 
-/// R. Beyond the table each further halving of the cells adds what the last one added, times 2^{p-D} for the p-th
-/// moment: the weight of the curve's additional jumps.
+/// R. Beyond the table, each further halving of the cells adds 2^{p-D} times what the previous halving added, where p
+/// is 1 for <ρ>² and 2 for <ρ²>: the curve's additional jumps have this weight.
 double single_radius(std::size_t dimension, Term term, double run, double log_runs) {
   if (run <= 1) return 0;
   constexpr double last = single_steps - 1;
@@ -127,8 +127,8 @@ std::vector<TreeLevel> sphere_tree_levels(const Valid<Workload>& workload,
                                           const Valid<SphereTreeParameters>& parameters) {
   std::vector<TreeLevel> levels;
   double run = std::min<double>(parameters.leaf, workload.samples);
-  // A sphere around a single sample has no extent. So with leaves of one sample the nesting of spheres starts above the
-  // leaves, which are level -1.
+  // A sphere around a single sample has no extent. So if leaves have one sample, they are level -1, and the nesting of
+  // spheres starts above them.
   for (double level = parameters.leaf == 1 ? -1 : 0;;
        ++level, run = std::min(run * parameters.fan_out, workload.samples)) {
     levels.push_back(level_of(workload, parameters, run, level));

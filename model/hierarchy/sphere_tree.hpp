@@ -7,33 +7,33 @@
 /// The sphere tree: lists of rays are culled down a tree of nested spheres.
 ///
 /// Runs of consecutive samples along the Morton curve (the paper: Lebesgue curve) are leaves; f consecutive nodes have
-/// one parent. Each node's sphere contains its children's spheres (a leaf's contains its discs), and its list is culled
-/// from its parent's.
+/// one parent. A node's sphere contains its children's spheres, a leaf's sphere its discs. Each node's list is culled
+/// from its parent's list.
 ///
 /// Nested: S(child) ⊂ S(parent) by construction, from the root down. So every ray that crosses a node's sphere is in
 /// its parent's list, and the node's own list holds exactly these rays:
 ///
-///     sphere tests = n_R (1 + Σ_{nodes except the root} P(parent))      disc tests = n_R Σ_leaves P(leaf)
-///     samples(leaf)
+///     sphere tests = n_R (1 + Σ_{nodes except the root} P(parent))
+///     disc tests   = n_R Σ_leaves P(leaf) samples(leaf)
 ///
-///   where  P   share of the rays that cross a node's sphere. Lines: F(node)/F(S₀), times both_hit_share if it extends
-///              outside S₀. Segments: crossing_probability
+///   where  P   share of the rays that cross a node's sphere. Lines: F(node)/F(S₀), times both_hit_share if the sphere
+///              extends outside S₀. Segments: crossing_probability
 ///
-/// This is exact if the spheres are known (validate/structural_hierarchy.hpp). From the workload's numbers alone, their
-/// areas must be estimated. For a level of N nodes over runs of c = leaf f^l samples
+/// This is exact if the spheres are known (validate/structural_hierarchy.hpp). If only the workload's numbers are
+/// known, the areas F of the spheres are estimated. On a level of N nodes over runs of c = leaf f^l samples
 ///
 ///     mean F = 4π (<ρ²> + 2d <ρ> + d²)      <ρ²> = a² N^{-2/D} R(N, c) K(f, l)
 ///
-///   where  ρ   radius of the sphere around the samples themselves, length; <ρ> is its mean, of the same form
+///   where  ρ   radius of a node's sphere minus d, length. <ρ>² has the form of <ρ²>, with an R and a K of its own
 ///          a   side of the cube that has the samples' volume (D = 3), or that has their area on its faces (D = 2)
-///          R   factor for spheres around runs of c samples alone. On surfaces it grows with ln N without limit: the
-///              curve has 4^j jumps of size 2^{-j} a, and those of each size add the same to the sum of all ρ²
-///          K   how much larger spheres around nested spheres are, l levels above the leaves: for f = 8 from 1.04 to
-///              1.43, for f = 2 from 1.08 to 2.26, largest near the root
+///          R   factor for spheres around runs of c samples, not nested. On surfaces R grows with ln N without limit:
+///              the curve has 4^j jumps of size 2^{-j} a, so the jumps of each size add the same to Σ ρ²
+///          K   factor for nesting, l levels above the leaves: for f = 8 from 1.04 to 1.43, for f = 2 from 1.08 to
+///              2.26, largest near the root
 ///
-/// A sphere around a run extends outside S₀ like a sphere whose centre is √(M (1 - q)) from that of S₀. M is the mean
-/// square distance of the samples from there; q is <ρ²> of runs alone divided by that of a sphere around all samples.
-/// (The spreads within runs and between runs add up to M.)
+/// The distance of a node's sphere from the centre of S₀ is taken as √(M (1 - q)). M is the mean square distance of the
+/// samples from that centre; q is <ρ²> of the node's run divided by that of all samples, both without nesting. (The
+/// spreads within runs and between runs add up to M.)
 ///
 /// R and K are tabulated (sphere_tree_tables.inc, made by validate/tools/sphere_tree_table.cpp).
 namespace detp::model {
@@ -58,9 +58,9 @@ struct TreeLevel {
 ///
 /// Accuracy   compared with the structural counts of samples in a cube and on its faces, f 2 … 16, leaves of 1 … 100, d
 ///            0.1 … 2 sample distances. Deviations (median, 95th percentile, largest) for n_P 20 000 … 200 000 (882
-///            trees): sphere tests 1.0, 3.9, 13 %; disc tests 0.8, 4.3, 9.2 % (leaves of 2 samples, whose few largest
-///            spheres are random); time at the built-in unit costs 0.8, 2.5, 3.9 %. Including 1000 and 3000 samples
-///            (1470 trees): time 1.2, 4.9, 8.6 %.
+///            trees): sphere tests 1.0, 3.9, 13 %; disc tests 0.8, 4.3, 9.2 % (for leaves of 2 samples: the few
+///            largest spheres are random); time at the built-in unit costs 0.8, 2.5, 3.9 %. Including 1000 and 3000
+///            samples (1470 trees): time 1.2, 4.9, 8.6 %.
 [[nodiscard]] Counts<double> sphere_tree_counts(const Valid<Workload>& workload,
                                                 const Valid<SphereTreeParameters>& parameters);
 

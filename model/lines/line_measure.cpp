@@ -20,7 +20,7 @@ void require_inside(std::string_view what, double size, double outer) {
         fmt::format("{} must not exceed the sphere radius {}, or it pokes out (got {})", what, outer, size));
 }
 
-/// In long double, because d² may be below the range of doubles, and V + ℓF above it.
+/// In long double, because d² or V_box may be below the range of doubles, and V + ℓF above it.
 long double crossing(const Valid<Workload>& workload, long double volume, long double area) {
   const long double r0 = workload.sphere_radius;
   if (workload.path_length <= 0) return std::min(1.0L, area / (4 * exact_pi * r0 * r0));
@@ -29,8 +29,8 @@ long double crossing(const Valid<Workload>& workload, long double volume, long d
   return std::min(1.0L, (volume + workload.path_length * area / 4) / space);
 }
 
-/// The limits p < q of the integral over s, the distance of the circles' centres, and the integrand's next zero f >= q.
-/// Differences are computed before they lose digits.
+/// The integral over s, the distance of the circles' centres: its limits p < q, and the integrand's next zero f >= q.
+/// The differences are computed from a, b and c without cancellation.
 struct Range {
   long double p;         // |a - b|
   long double q;         // min(c, a + b)
@@ -51,8 +51,9 @@ Range range_of(long double a, long double b, long double c) {
   return {p, std::min(c, sum), std::max(c, sum), meet ? c_less_p : 2 * small, std::abs(short_of_sum), meet};
 }
 
-/// The trapezoidal rule over τ = ln((s - p)/(q - s)). All other singularities lie on Im τ = ±π, for any p, q and f: the
-/// error is proportional to e^{-2π²/h}, times (2π/h)⁴ for the pole to which s = ∞ is mapped.
+/// A node of the trapezoidal rule over τ = ln((s - p)/(q - s)). For any p, q and f, all singularities other than s = p
+/// and s = q lie on Im τ = ±π. So with step h the error is proportional to e^{-2π²/h}, times (2π/h)⁴ for the pole to
+/// which s = ∞ is mapped.
 struct Node {
   double v = 0;       // (s - p)/(q - p)
   double rest = 0;    // (q - s)/(q - p)
@@ -123,7 +124,7 @@ double both_hit_share(double a, double b, double c) {
   for (const Node& node : nodes()) {
     const double s = p + width * node.v;
     const double chord = (1 + s) * (s + p);
-    const double cosine = (end + fall * node.rest) * (1 + s * q);  // squared; of the direction, if q < c
+    const double cosine = (end + fall * node.rest) * (1 + s * q);  // 1 - (s q)²
     sum += node.weight * (range.meet ? std::sqrt(chord * cosine) / s : std::sqrt(chord) * s / (1 + std::sqrt(cosine)));
   }
   const long double scale = range.q_less_p / b * (range.q_less_p / b) / exact_pi;

@@ -47,23 +47,21 @@ namespace detp::model {
 ///     segments   P = min(1, (V + ℓF/4) / V_box)
 ///
 ///   where  V, F    volume and surface area of the body
-///          ℓ       mean length of the rays inside the samples' box grown by d;   V_box  its volume
+///          V_box   volume of the samples' box grown by d;   ℓ   mean length of the rays inside this box
 ///
-/// Source     eq (3); for segments our derivation: a segment with uniform origin meets K if its origin lies in K or if
-///            it enters K through its surface, where the flux of segments of length ℓ is ℓ/(4 V_box) per area.
+/// Source     eq (3); for segments our derivation: a segment with uniform origin meets a body if its origin lies in the
+///            body or if it enters through the body's surface, where the flux of segments is ℓ/(4 V_box) per area.
 /// Valid      segments: origins uniform in the box, isotropic directions. Real paths start and end on surfaces: expect
 ///            errors of tens of percent.
-/// Accuracy   1.1e-16. Computed in long double, because d² or V_box may be below the range of doubles although P is
-///            not.
+/// Accuracy   1.1e-16.
 [[nodiscard]] double crossing_probability(const Valid<Workload>& workload, double volume, double area);
 
 /// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².
 ///
-/// If only rays that arrive at a disc's front count, half of them (our derivation): a ray that crosses the disc arrives
-/// either at its front or at its back. Reversing all rays exchanges front and back and does not change the isotropic
-/// measure, so both are equally likely.
+/// Half as many if only rays that arrive at a disc's front count. (Our derivation: reversing all rays exchanges front
+/// and back and does not change the isotropic measure.)
 ///
-/// Valid      fronts: isotropic directions; photons mostly arrive on the side of the light.
+/// Valid      half: for isotropic directions only. Photons mostly arrive on the side of the light.
 /// Accuracy   1.1e-16.
 [[nodiscard]] double expected_hits(const Valid<Workload>& workload);
 
@@ -81,14 +79,14 @@ namespace detp::model {
 ///     c < a+b     share = min(a, b)²/b² - ∫_p^q √((c²-s²)(s²-p²)((a+b)²-s²)) ds/s / (π c b²)
 ///     c >= a+b    share = ∫_p^q √((q²-s²)(s²-p²)) s ds/(1 + √(1-s²/c²)) / (π c² b²)
 ///
-/// This form loses no digits near tangency, near containment, or at a great distance. The integrals are evaluated by
-/// the trapezoidal rule over ln((s-p)/(q-s)), with 165 points.
+/// This form loses no digits if the spheres almost touch, if one almost contains the other, or if they are far apart.
+/// The integrals are evaluated by the trapezoidal rule over ln((s-p)/(q-s)), with 165 points.
 ///
 /// Limits     B inside A (c + b <= a): 1.  A inside B: a²/b².  c → ∞: a²/(2c²).
 /// Source     our derivation, from Santaló's projection formula.
 /// Accuracy   4.2e-15 compared with the lenses in 100 digits (244 inputs), 5.4e-15 compared with the chords in 113 bits
-///            (20 000 inputs, most of them close to where the spheres touch or separate): worst at a + b = c. Monotone
-///            in c to 1e-15.
+///            (20 000 inputs, most of them with the spheres almost touching): largest at a + b = c. Monotone in c to
+///            1e-15.
 /// Throws     std::invalid_argument unless a, b > 0 and c >= 0, all finite.
 [[nodiscard]] double both_hit_share(double a, double b, double c);
 

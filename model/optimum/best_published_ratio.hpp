@@ -19,14 +19,14 @@ struct BestRatio {
   double ratio = 0;          ///< Q
   std::int64_t spheres = 0;  ///< k
   double time = 0;           ///< T at (Q, k), in the unit of the costs
-  double lower_bound = 0;    ///< no Q in the range searched has a smaller T with its k, 1 … most_spheres
+  double lower_bound = 0;    ///< T is not smaller at any Q searched, with k = 1 … most_spheres
 };
 
 /// Minimises the published T over 0.02 <= Q <= 0.98 with k = 1 … most_spheres.
 ///
 /// Accuracy   lower_bound is within 1e-9 of time (relative). Cost: tens of microseconds; grows with most_spheres².
 /// Limits     if no interval is in the range (d very close to r₀), spheres = 0.
-/// Throws     std::invalid_argument for a workload out of range or d >= r₀: there is no sphere then.
+/// Throws     std::invalid_argument for a workload out of range, and for d >= r₀ (no sphere).
 [[nodiscard]] BestRatio best_ratio(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                    std::int64_t most_spheres = 40);
 
@@ -34,7 +34,7 @@ struct BestRatio {
 /// k = ⌈log_Q(d/r₀)⌉; 0 if the latter is 0.
 ///
 /// Adding sphere k pays off if t min(n_P, Q^{-3k}) < u n_P (1 - Q²). The left side grows with k, the right side does
-/// not. So k is the last sphere that pays off. Source: our derivation from eqs (8, 12, 17).
+/// not. So the result is the largest k that pays off. Source: our derivation from eqs (8, 12, 17).
 ///
 /// Throws     as sphere_count does, and std::invalid_argument for a workload or costs out of range.
 [[nodiscard]] std::int64_t best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio);

@@ -23,7 +23,6 @@ class CacheTimes {
     costs_.visit *= blocks;
   }
 
-  /// Number of spheres whose counts have been evaluated.
   [[nodiscard]] std::int64_t evaluated_spheres() const { return evaluated_spheres_; }
 
   /// T without spheres; Q does not matter.
@@ -45,8 +44,8 @@ class CacheTimes {
     return time;
   }
 
-  /// The fastest number of spheres among 1 … last; spheres = 0 if last = 0. Stops early if the spheres alone take
-  /// longer than `time_limit`; the result is then slower than that.
+  /// The fastest number of spheres among 1 … last; spheres = 0 if last = 0. Stops early if T without disc tests reaches
+  /// `time_limit`; the result is then slower than `time_limit`.
   [[nodiscard]] BestRatio best_stop(double ratio, std::int64_t last, double time_limit) const {
     BestRatio best{ratio, 0, 0};
     if (last >= 1)
@@ -76,8 +75,8 @@ class CacheTimes {
   mutable std::int64_t evaluated_spheres_ = 0;
 };
 
-/// ln(ln 1/Q), the coordinate of the search. Changing ln Q by a step moves sphere i by i steps, and there are
-/// ln(d/r₀)/ln Q spheres; so T has about as many local minima in each unit of this coordinate.
+/// ln(ln 1/Q), the coordinate of the search. The local minima of T are spaced about evenly in this coordinate: if ln Q
+/// changes by δ, ln r_i changes by i δ, and there are ln(d/r₀)/ln Q spheres.
 double search_coordinate(double ratio) { return std::log(-std::log(ratio)); }
 
 /// The first ratios of a search, including all steps Q_j with j <= most_spheres.
@@ -96,8 +95,8 @@ std::vector<double> first_ratios(const StepPieces& pieces, std::int64_t most_sph
 /// Halves the intervals that may hold a better ratio, the most promising first, and then refines the remaining minima.
 class Search {
  public:
-  /// Searches numbers of spheres up to most_spheres; if most_spheres is 0, `run` decides the number. One ratio takes at
-  /// most `spheres` spheres.
+  /// Searches numbers of spheres up to most_spheres; if it is 0, the function passed to `run` fixes the number.
+  /// `spheres` is the largest number of spheres evaluated for one ratio.
   Search(const CacheTimes& times, const StepPieces& pieces, std::int64_t most_spheres, std::int64_t spheres)
       : times_(times),
         pieces_(pieces),
@@ -171,7 +170,7 @@ class Search {
     }
   }
 
-  /// The point's number of spheres, and its neighbours that are about as good there. Only itself if k is fixed.
+  /// The point's number of spheres k, and k - 1 and k + 1 if their T is about as small. Only k if the number is fixed.
   [[nodiscard]] std::vector<std::int64_t> stops_around(const BestRatio& point) const {
     std::vector<std::int64_t> stops{point.spheres};
     for (const std::int64_t k : {point.spheres - 1, point.spheres + 1})
@@ -197,7 +196,7 @@ class Search {
     }
   }
 
-  /// Brent's method in a coordinate from -1 to 1, in which its tolerance is 4e-6 of the width, at a kink too.
+  /// Brent's method in a coordinate from -1 to 1. So its tolerance is 4e-6 of the width, even at a kink.
   void follow(double low, double high, std::int64_t k) {
     const std::int64_t evaluations_left = (most_evaluated_spheres_ - times_.evaluated_spheres()) / k - 1;
     if (evaluations_left < 2) return;
@@ -223,7 +222,6 @@ std::int64_t last_stop(const Valid<Workload>& workload, double ratio, std::int64
   return static_cast<std::int64_t>(std::min(static_cast<double>(most), std::floor(exact * (1 + 1e-12))));
 }
 
-/// Whether the sphere S₁ of this ratio holds a disc.
 bool holds_a_disc(const Valid<Workload>& workload, double ratio) {
   return workload.disc_radius < ratio * workload.sphere_radius;
 }
@@ -248,7 +246,7 @@ BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitC
   const CacheTimes times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   BestRatio best;
-  // The ratios were chosen one after another. Each minimises the remaining mean square excess over the best T.
+  // The ratios were chosen one after another. Each one minimises the mean square excess over the best T that remains.
   for (const double ratio : {0.575, 0.47, 0.765, 0.425, 0.49, 0.6, 0.455, 0.635}) {
     const BestRatio stop = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), HUGE_VAL);
     if (best.spheres == 0 || stop.time < best.time) best = stop;

@@ -6,16 +6,17 @@
 
 /// The radius ratio Q and the number of spheres k at which the sphere cache is fastest, by the corrected T.
 ///
-/// T(Q, k) has many local minima in ln Q, only a few percent apart: each sphere's rebuilds depend on its size relative
-/// to the curve's cells. It also has kinks at the knots of the tables. For one ratio, all numbers of spheres are
-/// evaluated in one pass over its spheres. The search starts with 128 ratios and the steps of k, and halves intervals
-/// as long as T might be smaller inside than the best so far. Around each remaining minimum, T at 17 ratios shows which
-/// parts may hold a lower one, and Brent's method finds it. Often the best innermost sphere has r_k of a few d, not of
-/// d. If T is almost constant (a cost of zero, extreme numbers of samples or spheres), no interval can be excluded: the
-/// search then ends after most_evaluated_spheres spheres with the best result so far.
+/// T(Q, k) has many local minima, at values of Q only a few percent apart: each sphere's rebuilds depend on its size
+/// relative to the curve's cells. T also has kinks at the knots of the tables. Often r_k is a few d at the best k.
+///
+/// For one ratio, all numbers of spheres are evaluated in one pass over its spheres. The search starts with 128
+/// intervals, equal in ln ln 1/Q and cut at the steps of k. It halves intervals in which T might be smaller than the
+/// best T so far. Around each remaining minimum, T at 17 ratios shows which parts may hold a lower minimum, and Brent's
+/// method finds this minimum. If T is almost constant (a cost of zero, extreme numbers of samples or spheres), no
+/// interval can be excluded: the search then ends after most_evaluated_spheres spheres with the best result so far.
 namespace detp::model {
 
-/// If no sphere holds a disc (d > 0.98 r₀), k is 0 and Q is the paper's, but has no effect.
+/// If no sphere holds a disc (d >= 0.98 r₀), k is 0 and Q is published_ratio, which has no effect.
 struct BestRatio {
   double ratio = 0;                    ///< Q
   std::int64_t spheres = 0;            ///< k; 0: no sphere, each disc is tested with all rays
@@ -29,17 +30,18 @@ inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 ///
 /// Accuracy   T exceeds that of best_ratio_and_stop by 1.1 % in the median, 5 % at the 90th percentile, at most 14 %
 ///            (300 random workloads: n_R, n_P 10² … 10⁸, d/r₀ 10⁻⁴ … 0.1, D 2 … 3, copies 0 … 2 t, rebuilds 0 … 50 t).
-///            With the single ratio of optimal_ratio it is 16 % in the median, at most 95 %.
+///            With the single ratio of optimal_ratio, T exceeds it by 16 % in the median, at most 95 %.
 /// Cost       about 30 µs, 4 µs a ratio.
 /// Throws     as best_ratio_and_stop.
 [[nodiscard]] BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs);
 
 /// Minimises T jointly over 0.02 <= Q <= 0.98 and k = 1 … most_spheres with r_k >= d.
 ///
-/// Accuracy   compared with the smallest T on at least 20 000 ratios, at the steps of k, and on ever finer grids around
-///            all minima, on 750 random workloads: within 6e-11 of it. There is no proved lower bound for T: the
-///            largest slope of T is estimated from experiments.
-/// Cost       4000 spheres in the mean, at 0.4 … 0.8 µs each; with most_spheres <= 40 at most most_evaluated_spheres.
+/// Accuracy   T is within 6e-11 (relative) of the smallest T on at least 20 000 ratios, at the steps of k, and on ever
+///            finer grids around all minima (750 random workloads). There is no proved lower bound for T: the largest
+///            slope of T is estimated from experiments.
+/// Cost       evaluates 4000 spheres in the mean, at 0.4 … 0.8 µs each; if most_spheres <= 40, at most
+///            most_evaluated_spheres.
 /// Throws     std::invalid_argument for a workload or costs out of range.
 [[nodiscard]] BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                             std::int64_t most_spheres = 40);
@@ -47,7 +49,7 @@ inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 /// The fastest number of spheres k for a given Q, at least 1 (if a sphere holds a disc) and at most 4096.
 [[nodiscard]] BestRatio best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio);
 
-/// The fastest Q for a given k, 0 … 9e18. If no Q in the range has r_k >= d, the largest Q.
+/// The fastest Q for a given k, 0 … 9e18. If r_k < d for all Q in 0.02 … 0.98, the largest of these Q.
 [[nodiscard]] BestRatio best_ratio_for(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                        std::int64_t spheres);
 

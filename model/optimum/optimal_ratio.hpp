@@ -6,7 +6,7 @@
 /// T_R ∝ Σ_i Q^{-(D-2)i-2}. The sum's largest terms are the innermost ones, whose size is fixed by d for any Q:
 /// T_R ∝ 1/(Q² (1 - Q^{D-2})), or 1/(Q² ln(1/Q)) for D = 2.
 ///
-/// This explains the published "0.6 to 0.7". It neglects the steps of k, finite n_P and the other terms of T;
+/// This explains the published "0.6 to 0.7". The formula neglects the steps of k, finite n_P and the other terms of T;
 /// `best_ratio` includes them.
 namespace detp::model {
 

@@ -6,7 +6,6 @@
 
 #include "registry.hpp"
 
-/// Chooses a technique and its parameters from the numbers of a workload alone.
 namespace detp::model {
 
 /// A technique with its best parameters for a workload.
@@ -17,8 +16,8 @@ struct Ranked {
   std::vector<std::string> extrapolated;  ///< reasons why the counts are extrapolations; empty if they are not
 };
 
-/// All exact techniques with a closed form, each with its best parameters, fastest first. After a stop request the
-/// ranking has those tried until then, at least one.
+/// All exact techniques with a closed form, each with its best parameters, fastest first. After a stop request, the
+/// ranking has only the techniques tried before the request, but at least one.
 ///
 /// Parameters: the sphere cache by best_ratio_and_stop; cell spheres and the octree by trying their depths; the sphere
 /// tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by box_tree_rule; the grid by
@@ -26,13 +25,13 @@ struct Ranked {
 [[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                        const SearchLimits& limits = {});
 
-/// One technique with its best parameters. Nothing if no parameters are within the limits (spheres as large as S₀, too
-/// many references), or if it has no closed form.
+/// One technique with its best parameters. nullopt if the technique has no closed form, if no parameters are within the
+/// limits, or if the best sphere cache has no spheres, which is brute force.
 [[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload,
                                             const Valid<UnitCosts>& costs, const SearchLimits& limits = {});
 
 /// One technique with the parameters in `fixed`. The others are the best ones if a closed form gives them, else the
-/// defaults. Nothing if no parameters are within the limits. Throws std::invalid_argument for a workload or parameter
+/// defaults. nullopt if no parameters are within the limits. Throws std::invalid_argument for a workload or parameter
 /// out of range, and for parameters of another technique.
 [[nodiscard]] std::optional<Candidate> complete(Technique technique, const FixedParameters& fixed,
                                                 const Valid<Workload>& workload, const Valid<UnitCosts>& costs,

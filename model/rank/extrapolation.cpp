@@ -12,8 +12,8 @@
 namespace detp::model {
 namespace {
 
-/// The tolerance for scenes from files: their samples fill the box less evenly than samples of a cube, whose own box is
-/// slightly smaller than the cube.
+/// Relative tolerance, because the box of samples is slightly smaller than the cube, and samples of a scene fill their
+/// box less evenly.
 constexpr double about_equal = 0.1;
 
 bool differ(double a, double b) { return std::abs(a - b) > about_equal * b; }

@@ -10,8 +10,7 @@
 /// Detects predictions outside the range in which their formula was compared with counts.
 ///
 /// Compared with counts (validate/sweep/results.md): isotropic lines through S₀, samples uniform in a cube or on its
-/// faces, n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3, and the parameters below. Outside these ranges the closed forms
-/// are still evaluated, but have not been checked.
+/// faces, n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3, and the parameters below.
 ///
 ///     sphere-cache (both)   Q 0.3 … 0.9, at most as many spheres as can hold a disc, samples sorted
 ///     cell-spheres          depth 1 … 6
@@ -23,7 +22,7 @@
 /// Brute force always tests n_R n_P pairs, and so does a sphere cache without spheres.
 namespace detp::model {
 
-/// Collects the inputs that are outside, each as a short text.
+/// Collects reasons: a short text for each input that is outside its range.
 class Reasons {
  public:
   /// Adds a reason unless least <= value <= most, except for rounding.
@@ -44,7 +43,7 @@ void uncounted_octree(const Valid<Workload>& workload, const Parameters& paramet
 void uncounted_grid(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
 
 /// The reasons why the counts that `predict` returns for the candidate are extrapolated: a short text for each input
-/// that is outside, such as "d over r0 1e-05 below 0.0001". Empty if they are not extrapolated.
+/// that is outside its range, such as "d over r0 1e-05 below 0.0001". Empty if the counts are not extrapolated.
 ///
 /// Throws std::invalid_argument for a workload or parameters out of range.
 [[nodiscard]] std::vector<std::string> extrapolations(const Valid<Workload>& workload,

@@ -7,14 +7,14 @@
 
 namespace detp::model {
 
-/// Keeps the fastest of the parameters that it is called with, if they are within the limits.
+/// Keeps the fastest of the parameters passed to `consider`, if they are within the limits.
 template <class P>
 class Fastest {
  public:
   Fastest(const UnitCosts& costs, Technique technique, const SearchLimits& limits)
       : costs_(costs), technique_(technique), limits_(limits) {}
 
-  /// The time for these counts; infinite if there are too many references.
+  /// Returns the time for these counts; infinite if there are too many references.
   double consider(const P& parameters, const Counts<double>& counts) {
     if (counts.references > limits_.most_references) return std::numeric_limits<double>::infinity();
     const double time = price(counts, costs_, technique_).total();

@@ -4,8 +4,8 @@
 
 #include "registry.hpp"
 
-/// The size of an index with the smallest time; the paper's cells are as wide as a disc (eq 21) instead. Nothing if
-/// every size exceeds the limits. Throws std::invalid_argument for a workload out of range.
+/// The size of an index with the smallest time; nullopt if every size exceeds the limits. Throws std::invalid_argument
+/// for a workload out of range.
 namespace detp::model {
 
 /// Depth of the fastest octree, searched top-down. Tries all depths; predicts each level once.
@@ -16,12 +16,12 @@ namespace detp::model {
 ///
 /// A grid with m cells a side over a cube takes u n_P E/m² + v m for each of n_R P(cube) lines, and b n_P E to build,
 /// where E is a polynomial in m with positive coefficients. Every term is convex in m, so there is one minimum. The
-/// time ripples around this curve because of the ends of the box, mostly if it is not a cube, so that the last cells
-/// extend outside it. So m is tried in steps of 10 % until the time is three times the smallest, then up to 64 values
-/// within a factor of 1.4 of the best, then its neighbours.
+/// time ripples around this curve because of the ends of the box, mostly if the box is not a cube: then the last cells
+/// extend outside the box. So m is tried in steps of 10 % until the time is three times the smallest so far, then up to
+/// 64 values within a factor of 1.4 of the best m, then the neighbours of the best m.
 ///
-/// Accuracy   of 1200 cubes and boxes, some of them a thousand times longer than high: finds the smallest time that any
-///            of seven searches found on 95 %, at worst 7.7 % more; never more than the best in steps of 10 %.
+/// Accuracy   on 95 % of 1200 cubes and boxes, some of them a thousand times longer than high, the time is the smallest
+///            that any of seven searches found; at worst it is 7.7 % longer.
 [[nodiscard]] std::optional<int> best_grid_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                                  const SearchLimits& limits = {});
 

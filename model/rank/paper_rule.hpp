@@ -4,13 +4,13 @@
 
 namespace detp::model {
 
-/// The processor's cache that the inner sphere's rays should fit, and the memory of a ray.
+/// The processor's cache, which should hold the rays of the innermost sphere, and the memory of a ray.
 struct ProcessorCache {
   double bytes = 1 << 20;     ///< size of the cache, bytes > 0; the default is a common L2
   double bytes_per_ray = 64;  ///< origin, direction, length and power in double precision
 };
 
-/// The paper's rule for choosing a technique, kept as a baseline for comparison.
+/// The paper's rule for choosing a technique.
 ///
 ///     X = mean distance between samples / d
 ///     X <= 2       index of discs, cells as wide as a disc (eq 21)

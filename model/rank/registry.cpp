@@ -27,13 +27,13 @@ Valid<P> checked_parameters(const Valid<Candidate>& candidate) {
   return Valid<P>(candidate, std::get<P>(candidate.parameters));
 }
 
-/// A formula of one technique's parameters, for candidates of any.
+/// Calls a formula that takes the parameters of one technique, with those of the candidate.
 template <class P, auto counts>
 Counts<double> predicted(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine) {
   return counts(workload, checked_parameters<P>(candidate));
 }
 
-/// The same of a technique with a simd engine, where the formula counts the lists and visits of one block of rays.
+/// As `predicted`, for a technique with a simd engine whose formula counts the lists and visits of one block of rays.
 template <class P, auto counts>
 Counts<double> in_blocks(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
   const auto& parameters = checked_parameters<P>(candidate);
@@ -123,7 +123,7 @@ std::optional<Parameters> best_box_tree(const Valid<Workload>& workload, const V
   return tree;
 }
 
-/// The depth that is best top-down serves for all traversals.
+/// The best depth for top-down traversal, whatever the traversal is.
 std::optional<Parameters> best_octree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                       const FixedParameters&, const SearchLimits& limits) {
   const auto depth = best_octree_depth(workload, costs, limits);

@@ -40,8 +40,8 @@ struct TechniqueModel {
   /// Expected counts of a search by that engine. Null where there is no closed form.
   Counts<double> (*predict)(const Valid<Workload>&, const Valid<Candidate>&, Engine) = nullptr;
 
-  /// The fastest parameters among those with the fixed values; nothing if none fits the limits. Not called if all
-  /// numbers are fixed.
+  /// The fastest parameters that have the fixed values; nullopt if no such parameters are within the limits. Not called
+  /// if all numbers are fixed.
   std::optional<Parameters> (*best)(const Valid<Workload>&, const Valid<UnitCosts>&, const FixedParameters&,
                                     const SearchLimits&) = nullptr;
 
@@ -51,8 +51,7 @@ struct TechniqueModel {
 
 [[nodiscard]] const TechniqueModel& model_of(Technique technique);
 
-/// Whether closed forms predict the technique's counts, so that it can be chosen without a run. Trees whose shape
-/// depends on the individual samples (bsp, bvh) have none.
+/// Whether closed forms predict the technique's counts, so that it can be chosen without a run.
 [[nodiscard]] inline bool has_closed_form(Technique technique) { return model_of(technique).predict != nullptr; }
 
 }  // namespace detp::model

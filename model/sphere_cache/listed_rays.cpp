@@ -21,7 +21,7 @@ constexpr std::array shallow_samples{1e3, 1e5};
 
 #include "listed_rays_tables.inc"
 
-/// The place of a value on a grid: between two points, or (with a weight outside 0 … 1) beyond its ends.
+/// The place of a value on a grid: between two points, or (with a weight below 0) below the first point.
 struct Place {
   std::size_t left = 0;
   double weight = 0;
@@ -88,7 +88,7 @@ double near_outermost(int dimension, double log_lambda, double outer_disc, doubl
   const double added = count.mix([&](std::size_t i) {
     return disc.mix([&](std::size_t j) { return added_near(dimension, i, j, depth, octaves); });
   });
-  // Beyond the table: the closer the spheres' size is to the discs', the less a disc can be off centre.
+  // Beyond the table: the closer d is to r₀, the closer the spheres' centres are to that of S₀.
   const double rest = std::min(1.0, (1 - outer_disc) / (1 - outer_disc_shares.back()));
   return added * rest * std::min(1.0, 2 * (shallow_to - depth));
 }

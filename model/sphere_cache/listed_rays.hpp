@@ -8,7 +8,7 @@
 ///
 /// S_i is centred at the sample for which it was rebuilt. The spheres around it were centred at this sample or at an
 /// earlier one, so S_i may extend outside them, and outside S₀ near the edge of the scene. Rays that cross S_i but miss
-/// one of the spheres around it are not listed (the discs that S_i serves do not need them): L_i = n_i g_i.
+/// one of the spheres around it are not listed (the discs that S_i serves do not need them). So L_i = n_i g_i.
 namespace detp::model {
 
 /// n_i: rays that cross a sphere of radius r inside S₀.
@@ -16,17 +16,18 @@ namespace detp::model {
 ///     n_i = n_R r²/r₀²                   lines
 ///     n_i = n_R (V + ℓF/4)/V_box         segments of mean length ℓ; V and F are volume and surface of the sphere
 ///
-/// Exact if the sphere lies in S₀ and the rays are uniform. If it extends outside S₀, g_i corrects this.
+/// Exact if the sphere lies in S₀ and the rays are uniform. If the sphere extends outside S₀, n_i is too large; the
+/// factor g_i corrects this.
 [[nodiscard]] double rays_through(const Valid<Workload>& workload, double radius);
 
 /// g_i along the Morton curve: share of the rays through S_i that cross all spheres around it, mean over its builds.
 ///
-///     1 - g = deep(λ, u, d/r_i) + [shallow(r₀/r_i, u, d/r₀) - deep, for the samples that `shallow` was made with]
+///     1 - g = deep(λ, u, d/r_i) + [shallow(r₀/r_i, u, d/r₀) - deep(λ', u, d/r_i)]
 ///
-///   where  deep      far inside S₀: depends on the samples in a cube of side r_i, λ = n r_i^D/extent, on
-///                    u = log₂(1/Q),
-///                    and on how much smaller the balls are than their spheres
-///          shallow   near S₀: S_i extends outside S₀, and fewer spheres are around S_i
+///   where  deep      share lost far inside S₀
+///          shallow   share lost near S₀, where S_i extends outside S₀, and fewer spheres are around S_i
+///          λ         samples in a cube of side r_i, n r_i^D/extent;   u   log₂(1/Q)
+///          λ'        λ of the samples with which `shallow` was tabulated
 ///
 /// If d = r_i, or for λ → 0, S_i and the spheres next to it are all rebuilt for each sample: 1 - g → 0.
 ///

@@ -40,7 +40,7 @@ double mix(double a, double b, double weight) { return (1 - weight) * a + weight
 
 double weight_of_volume(double dimension) { return std::clamp(dimension - 2, 0.0, 1.0); }
 
-/// Interpolates a law between surfaces (2) and volumes (3) for a dimension between them.
+/// Interpolates a law between surfaces (2) and volumes (3).
 template <class Law>
 double between_dimensions(double dimension, const Law& law) {
   const double weight = weight_of_volume(dimension);
@@ -77,8 +77,8 @@ double log_extent(int dimension) { return dimension == 3 ? 0 : 2.584962500721156
 
 constexpr double log2_of_10 = 3.321928094887362;
 
-/// The place among a table's columns, in decades above 10³: for the number of samples that the cube would hold at the
-/// ball's density, at most 10⁷, the last column.
+/// The place among a table's columns, in decades above 10³, of the number of samples that the whole cube would hold at
+/// this λ. The last column is 10⁷.
 double decades_of(int dimension, double log_lambda, double halvings) {
   const double log_samples = log_lambda + log_extent(dimension) + dimension * halvings;
   return std::clamp(log_samples / log2_of_10 - 3, 0.0, columns - 1.0);
@@ -135,7 +135,7 @@ void require_share(std::string_view what, double value) {
     throw std::invalid_argument(fmt::format("{} must be from 0 to 1 (got {})", what, value));
 }
 
-/// b from a digit of the table, which is 90 b/(1 + b).
+/// b from a digit of the table; the digit is 90 b/(1 + b).
 double tabulated_b(std::size_t row, std::size_t octaves) {
   const int ninetieths = digit(chain_table[row * octave_steps.size() + octaves]);
   return ninetieths / (90.0 - ninetieths);
@@ -164,8 +164,8 @@ double large_ball_b(int dimension, double log_lambda, double halvings, double oc
              place - static_cast<double>(column));
 }
 
-/// b of a small ball, from the column of 10⁷ samples: interpolated between the halvings of the same phase around the
-/// one at which a ball has this λ.
+/// b of a small ball, from the column of 10⁷ samples: interpolated between the two halvings of the ball's phase that
+/// are around the halvings at which a ball has this λ.
 double small_ball_b(int dimension, double log_lambda, double halvings, double octaves) {
   constexpr double least = coarse_to - 0.5;
   const double same_lambda = (7 * log2_of_10 - log_extent(dimension) - log_lambda) / dimension;
@@ -187,8 +187,8 @@ double chain_b(int dimension, const Ball& ball, double octaves) {
 
 constexpr double least_octaves = 1.0 / 16;
 
-/// m_{i-1}/s_i in a nest with the smallest tabulated ratio whose balls hold many samples. Because m ∝ ρ^{-D}, it solves
-/// x (2^{D/16} - 1) = e^{-bx}, by Newton's method.
+/// The crowding x = m_{i-1}/s_i in a nest with the smallest tabulated ratio whose balls hold many samples. Because
+/// m ∝ ρ^{-D}, x (2^{D/16} - 1) = e^{-bx}; solved by Newton's method.
 double crowding_of_nest(int dimension, double b) {
   const double growth = std::exp2(dimension * least_octaves) - 1;
   double x = 0;

@@ -12,32 +12,32 @@
 ///
 ///   where  n        samples;   D   their dimension;   extent   the volume (D = 3) or area (D = 2) that they fill
 ///          ρ        radius of the ball, length: r_i - d, because the whole disc must lie in the sphere
-///          s        side of the curve's cube, length;   h   halvings from it to the ball
+///          s        side of the curve's cube, length;   h   halvings from the cube to the ball
 ///          λ        samples in a cube of side ρ;   φ   place of ρ between two halvings
 ///
-/// F_D → 1 for λ → 0 (each sample starts a ball), and ∝ 1/λ for λ → ∞: then m ∝ ρ^{-D}, times a factor that is periodic
-/// in log ρ and varies by a factor of two, with jumps where the ball just contains a cell of the curve.
+/// F_D → 1 for λ → 0: each sample starts a ball. F_D ∝ 1/λ for λ → ∞. Then m is ρ^{-D} times a factor that is periodic
+/// in log ρ and varies by a factor of two; it jumps where the ball just contains a cell of the curve.
 ///
-/// Balls larger than a sixteenth of the cube are affected by its faces. Their counts, in a cube or on its faces, are
-/// tabulated separately, for four values of n per decade: with more samples the count jumps at a smaller ball, and
-/// interpolation between whole decades would smooth the jumps. Compared with 355 such spheres of nests, r_i from 0.3 of
-/// the side, at random n_P 10³ … 10⁶ and Q, over other samples, the deviations (median, 95th percentile, largest) of
-/// m_1 are 0.4, 1.9, 3.5 % (D = 2) and 0.6, 3.1, 8.1 % (D = 3), of the spheres inside it 1.1, 4.7, 5.9 % and 1.2, 4.0,
-/// 10.0 %; the noise is 0.6 % in the mean.
+/// The cube's faces affect balls larger than a sixteenth of the cube. The counts of such balls, in a cube or on its
+/// faces, are tabulated separately, for four values of n per decade: with more samples a count jumps at a smaller ball,
+/// and interpolation between whole decades would smooth the jumps. Compared with 355 such spheres of nests (r_i from
+/// 0.3 of the side, random n_P 10³ … 10⁶ and Q, samples that the table was not made from), the deviations (median, 95th
+/// percentile, largest) of m_1 are 0.4, 1.9, 3.5 % (D = 2) and 0.6, 3.1, 8.1 % (D = 3). Those of m_i, i > 1, are 1.1,
+/// 4.7, 5.9 % and 1.2, 4.0, 10.0 %. The mean noise of the counts is 0.6 %.
 ///
-/// Nested balls. S_i is rebuilt whenever the sphere around it is, and for those of its own rebuilds that remain:
+/// Nested balls. S_i is rebuilt whenever S_{i-1} is, and also at a share of the rebuilds that S_i would have alone:
 ///
 ///     m_i = m_{i-1} + s_i (1 - m_{i-1}/n) w      w = exp(-b m_{i-1}/s_i)
 ///
 ///   where  s_i            rebuilds of S_i alone
-///          m_{i-1}/s_i    rebuilds of the sphere around it relative to these, the crowding
-///          w              share of its own rebuilds that remain at samples at which the outer sphere stays. If S_i
-///                        moved in equal steps independent of S_{i-1}, b would be about ½. Both follow the same
-///                        curve, so b depends on the ratio of the balls, on their phase and on λ
+///          m_{i-1}/s_i    the crowding
+///          w              share of the s_i rebuilds that remain at samples at which S_{i-1} stays. If S_i moved in
+///                        equal steps independent of S_{i-1}, b would be about ½. Both follow the same curve, so b
+///                        depends on the ratio of the balls, on their phase and on λ
 ///
-/// With ever more spheres (ratio → 1) the distance between samples matters: a ball that is only slightly smaller than
-/// the one around it is rebuilt alone only if a sample falls between both. So w is proportional to the logarithm of the
-/// ratio once this is less than the distance of samples divided by ρ, λ^{-1/D}.
+/// If the ratio is close to 1, the distance between samples matters: a ball that is only slightly smaller than the ball
+/// around it is rebuilt alone only if a sample falls between the two. So w is proportional to the logarithm of the
+/// ratio if this logarithm is less than λ^{-1/D}, the distance between samples divided by ρ.
 ///
 /// F, b and the counts of large balls are tabulated (rebuild_law_tables.inc, made by
 /// validate/tools/rebuild_law_table.cpp).
@@ -45,7 +45,7 @@ namespace detp::model {
 
 /// A ball around a sample, in the numbers of the rebuild law.
 struct Ball {
-  double lambda = 0;    ///< λ: samples in a cube of its radius
+  double lambda = 0;    ///< λ: samples in a cube of side ρ
   double halvings = 0;  ///< h = log₂(s/ρ)
 };
 
@@ -55,7 +55,7 @@ struct Ball {
 /// s_i along the curve: rebuilds of one ball alone, from 1 to `samples`.
 ///
 /// Source     our tabulation.
-/// Accuracy   of the table 1 %, up to 5 % near a jump in φ; between D = 2 and 3 the geometric interpolation is
+/// Accuracy   of the table: 1 %, near a jump in φ up to 5 %. The geometric interpolation between D = 2 and 3 is
 ///            unverified.
 /// Throws     std::invalid_argument unless λ >= 0, n > 0, h is finite and 1 <= D <= 3.
 [[nodiscard]] double single_rebuilds(double dimension, double samples, const Ball& ball);
@@ -68,14 +68,14 @@ void require_rebuild_law(SampleOrder order);
 /// rebuild. Throws as require_rebuild_law does.
 [[nodiscard]] double single_rebuilds(const Valid<Workload>& workload, double radius, SampleOrder order);
 
-/// w: share of a ball's own rebuilds that remain inside another.
+/// w: the share of a ball's own rebuilds that remain if another ball is around it.
 ///
 ///   octaves    log₂(ρ_{i-1}/ρ_i), >= 0; tabulated from 1/16 to 9/4; beyond 9/4 b is constant
 ///   crowding   m_{i-1}/s_i, >= 0
 ///
-/// Source     b: our tabulation over nests of one ratio. Below 1/16 of an octave w is taken from 1/16, at the crowding
-///            of such a nest, and multiplied by a factor proportional to 1 - e^{-x}, x = octaves/(c λ^{-1/D}); c = 0.9
-///            (D = 2) and 0.45 (D = 3) are our fit to nests of 1/32 … 1/256.
+/// Source     b: our tabulation over nests of one ratio. Below 1/16 of an octave, w is its value at 1/16 (with at most
+///            the crowding of a nest of that ratio) times a factor proportional to 1 - e^{-x}, x = octaves/(c
+///            λ^{-1/D}). c = 0.9 (D = 2) and 0.45 (D = 3) are our fit to nests of 1/32 … 1/256.
 /// Throws     std::invalid_argument for a number out of range.
 [[nodiscard]] double own_rebuild_share(double dimension, const Ball& ball, double octaves, double crowding);
 

@@ -14,7 +14,7 @@ namespace detp::model {
 namespace {
 
 constexpr std::size_t remembered = 6;
-constexpr std::int64_t most_groups = 4096;  // number of groups of equal ratio
+constexpr std::int64_t most_groups = 4096;  // number of groups of full size
 
 /// Walks through the spheres from the outside in.
 class Walk {
@@ -43,8 +43,8 @@ class Walk {
   [[nodiscard]] const SphereLevel& innermost() const { return current_; }
 
  private:
-  /// m_i, `step` spheres inside the current one. At each sphere n - m shrinks by the same factor, computed for the
-  /// middle one.
+  /// m_i of the sphere that is `step` spheres inside `outer`. At each of these spheres n - m shrinks by the same
+  /// factor, which is computed for the middle one.
   [[nodiscard]] double rebuilds(const SphereLevel& outer, double step) const {
     const double n = workload_.samples;
     const double d = workload_.disc_radius;
@@ -64,8 +64,8 @@ class Walk {
     return std::max(alone, n - (n - outer.rebuilds) * shrinking);
   }
 
-  /// L_{i-1}, mean over the builds of S_i, for a sphere `step` spheres inside the current one: between the current list
-  /// and the new one.
+  /// L'_{i-1} for the sphere S_i that is `step` spheres inside `outer`. S_{i-1} lies between the two, and so does the
+  /// length of its list.
   [[nodiscard]] double tests(const SphereLevel& outer, double step) const {
     const double more = outer.rebuilds / current_.rebuilds;
     const double again = step == 1 ? more : std::pow(more, 1 / step);
@@ -102,8 +102,8 @@ class Walk {
   std::vector<EnclosingSphere> around_;  ///< the nearest first; for unsorted samples
 };
 
-/// Sum of `terms` terms of a geometric sequence. Its last term is b, and a is the one before the first. If b is too
-/// small for a double, `log_ratio` gives the ratio.
+/// Sum of `terms` terms of a geometric sequence: b is the last term, and a is the term before the first. If b is too
+/// small for a double, `log_ratio` is the logarithm of the ratio.
 double sum_of_terms(double a, double b, double terms, double log_ratio) {
   if (terms == 1) return b;
   if (!(a > 0)) return terms * b / 2;
@@ -147,7 +147,7 @@ Counts<double> sphere_cache_counts(const Valid<Workload>& workload, const Valid<
   double tests = 0;
   double copies = 0;
   double rebuilds = 0;
-  // Groups of equal ratio, but smaller towards `to`, where r_i - d goes to 0.
+  // Groups of `largest` spheres each, but smaller ones towards `to`, where r_i - d goes to 0.
   const auto add_groups = [&](std::int64_t from, std::int64_t to) {
     const std::int64_t largest = (to - from - 1) / most_groups + 1;
     for (std::int64_t i = from; i < to;) {

@@ -9,8 +9,8 @@
 /// The sphere cache with its exact walk, corrected.
 ///
 /// Differences from the paper's version (sphere_cache_published.hpp):
-///  - A sphere serves a disc only if the disc lies in it and in all larger ones; otherwise rays would be lost. So the
-///    walk goes from the outermost sphere inwards, and rebuilds all from the first that does not contain the disc.
+///  - A sphere serves a disc only if this sphere and all larger spheres contain the disc; otherwise rays would be lost.
+///    So the walk goes inwards, and rebuilds all spheres from the first one that does not contain the disc.
 ///  - m_i follows rebuild_law.hpp.
 ///  - S_i is centred where it was rebuilt and need not lie inside S_{i-1}, so its list holds only a share of its rays
 ///    (listed_rays.hpp).
@@ -22,8 +22,8 @@
 ///
 ///   where  n_i   expected rays in S_i: n_R P(hit S_i)
 ///          L_i   expected rays listed for S_i, mean over its builds;   g_i   listed_share
-///          L'_i  mean over the builds of S_{i+1};   L"_k   mean over the discs. Both are longer than L, because long
-///                lists are used for longer than short ones. Our fits to counted walks; they add up to 4 % and 8 %
+///          L'_i  length of that list, mean over the builds of S_{i+1};   L"_k   mean over the discs. Both exceed L, by
+///                at most 4 % and 8 %, because long lists are used for longer than short ones. Fitted to counted walks
 namespace detp::model {
 
 /// One sphere of the cache.
@@ -37,31 +37,29 @@ struct SphereLevel {
   double served = 0;    ///< L"_i: ray-disc tests of a disc if S_i is the innermost sphere
 };
 
-/// The first `most` of the k spheres. Throws std::invalid_argument for numbers out of range, and for the
-/// Hilbert order (require_rebuild_law).
+/// The spheres S_1 … S_j, j = min(most, k). Throws std::invalid_argument for numbers out of range, and for the Hilbert
+/// order (require_rebuild_law).
 [[nodiscard]] std::vector<SphereLevel> sphere_levels(const Valid<Workload>& workload,
                                                      const Valid<SphereCacheParameters>& parameters, std::int64_t most);
 
-/// Calls visit with S_1 … S_k from the outside in, until it returns false.
+/// Calls visit with S_1 … S_k from the outside in, until visit returns false.
 void for_each_level(const Valid<Workload>& workload, const Valid<SphereCacheParameters>& parameters,
                     const std::function<bool(const SphereLevel&)>& visit);
 
 /// Expected counts, in bounded time for any k (0: each disc is tested with all rays). More than 4096 spheres are summed
-/// in groups: in a group s_i w_i/n of the rebuild law is constant, so n - m_i shrinks by the same factor at each
-/// sphere, and the ratio of consecutive terms m_i L'_{i-1} is constant too. Both are then summed in closed form.
+/// in groups. In a group, s_i w_i/n of the rebuild law is taken as constant, so n - m_i shrinks by the same factor at
+/// each sphere. The ratio of consecutive terms m_i L'_{i-1} is taken as constant too, so the sums have a closed form.
 /// Spheres with r_i < d, which are rebuilt for each sample, have groups of their own.
 ///
-/// Accuracy   compared with walks counted over samples uniform in a cube (D = 3) or on its faces (D = 2), n_P 10³ …
-///            10⁷,
-///            d/r₀ 10⁻⁴ … 0.2, Q 0.3 … 0.9 (250 workloads, means over 1000 (n_P = 10³) to 2 (10⁷) sets of samples; the
-///            4463 spheres with at least 30 rebuilds). Deviations (median, 95th percentile, largest):
+/// Accuracy   compared with walks counted over samples uniform in a cube (D = 3) or on its faces (D = 2), n_P
+///            10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, Q 0.3 … 0.9: 250 workloads, means over 1000 (n_P = 10³) to 2 (10⁷) sets of
+///            samples, 4463 spheres with at least 30 rebuilds. Deviations (median, 95th percentile, largest):
 ///              m_i   0.4, 3.1, 9.4 % (D = 2; largest at n_P = 10⁷, Q = 0.8) and 0.1, 2.0, 7.9 % (D = 3; 10⁷, 0.9)
-///              L_i   0.3, 1.6, 6.4 % (D = 2) and 0.2, 1.8, 5.3 % (D = 3), the largest at n_P = 10⁷ with up to 3 % of
-///                    noise in the count; up to n_P = 10⁶ 3.2 and 2.9 %
+///              L_i   0.3, 1.6, 6.4 % (D = 2) and 0.2, 1.8, 5.3 % (D = 3), the largest at n_P = 10⁷, where the count
+///                    has up to 3 % of noise; for n_P up to 10⁶ the largest are 3.2 and 2.9 %
 ///              T_R   0.7, 1.7, 2.6 % (D = 2) and 0.4, 1.3, 2.3 % (D = 3)
-///            T_I, with the innermost sphere at r_k = 0.3 or 0.1 r₀ (32 workloads): within 5.4 %, mostly 2 %, the
-///            largest
-///            for surfaces and one sphere. Groups compared with the sum over all spheres, k 4097 … 10⁶, n_P 10³ … 10⁹,
+///            T_I, with the innermost sphere at r_k = 0.3 or 0.1 r₀ (32 workloads): within 5.4 % (surfaces, one
+///            sphere), mostly within 2 %. Groups compared with the sum over all spheres, k 4097 … 10⁶, n_P 10³ … 10⁹,
 ///            d/r₀ 10⁻⁶ … 0.5: 0.2 %.
 [[nodiscard]] Counts<double> sphere_cache_counts(const Valid<Workload>& workload,
                                                  const Valid<SphereCacheParameters>& parameters);

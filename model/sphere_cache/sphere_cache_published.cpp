@@ -21,7 +21,7 @@ long double power(RadiusRatio ratio, long double exponent) {
 /// Σ_{i=0}^{n-1} xⁱ for x = e^{log_x}.
 long double geometric_sum(long double log_x, long double n) { return std::expm1(n * log_x) / std::expm1(log_x); }
 
-/// The number of spheres, from the outside in, that are rebuilt fewer times than there are samples: Q^{-3i} <= n_P.
+/// The number of spheres, from the outside in, with m_i = Q^{-3i} <= n_P.
 long double sparse_spheres(double samples, RadiusRatio ratio, std::int64_t k) {
   const long double most =
       std::log(static_cast<long double>(samples)) / (-3 * std::log(static_cast<long double>(ratio.value)));

@@ -4,9 +4,9 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// The sphere cache as in the paper. S₀ contains everything; S_i, of radius r_i = r₀Qⁱ, keeps the rays of S_{i-1} that
-/// cross it, and is rebuilt when the next sample leaves it. Samples are visited along the Morton curve (the paper:
-/// Lebesgue curve).
+/// The sphere cache as in the paper. S₀ contains everything. S_i has the radius r_i = r₀Qⁱ; its list holds the rays of
+/// S_{i-1}'s list that cross S_i. S_i is rebuilt when the next sample is outside it. Samples are visited along the
+/// Morton curve (the paper: Lebesgue curve).
 ///
 ///   symbols  n_R, n_P   rays, samples;   Q   radius ratio;   k   index of the innermost sphere
 ///            t, u       time of one ray-sphere, one ray-disc test
@@ -28,9 +28,9 @@ namespace detp::model::published {
 
 /// m_i = Q^{-3i}: how often S_i is rebuilt (eqs 10, 11, 17). Saturates at the largest double.
 ///
-/// Far off: it uses r_i instead of r_i - d and the radius instead of the side of a cell, ignores the jumps of the
-/// curve, and applies only to samples that fill a volume. The counted rebuilds, divided by min(n_P, m_i), were 0.7 to
-/// 35 000 in a volume, largest where r_i is near d, and 0.1 to 3100 on surfaces (validate/sweep/results.md). See
+/// Far off: the formula uses r_i instead of r_i - d, uses the radius instead of the side of a cell, ignores the jumps
+/// of the curve, and holds only for samples in a volume. The counted rebuilds were 0.7 to 35 000 times min(n_P, m_i) in
+/// a volume (most where r_i is near d), and 0.1 to 3100 times on surfaces (validate/sweep/results.md). See
 /// rebuild_law.hpp.
 [[nodiscard]] double rebuilds(RadiusRatio ratio, std::int64_t i);
 
@@ -41,7 +41,7 @@ namespace detp::model::published {
 [[nodiscard]] double rebuild_time(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k,
                                   double sphere_test);
 
-/// T_R = t n_R (n_P^{1/3} - 1) / (Q²(1 - Q)) for few samples at a distance of about d (eq 19).
+/// T_R = t n_R (n_P^{1/3} - 1) / (Q²(1 - Q)) for few samples, about d apart (eq 19).
 [[nodiscard]] double rebuild_time_few_samples(const Valid<Workload>& workload, RadiusRatio ratio, double sphere_test);
 
 /// T_I = u n_k n_P: every disc against the rays of the innermost sphere (eq 8).
@@ -51,8 +51,8 @@ namespace detp::model::published {
 /// Expected counts from which T_R and T_I follow: Σ min(n_P, m_i) rebuilds, their sphere tests, and the disc tests.
 [[nodiscard]] Counts<double> counts(const Valid<Workload>& workload, RadiusRatio ratio, std::int64_t k);
 
-/// Time of the sphere cache without sorting, which the paper says is no faster than testing every disc: u n_R n_P
-/// (section 4).
+/// Time of the sphere cache if samples are not sorted: u n_R n_P. The paper says that this is no faster than testing
+/// every disc (section 4).
 [[nodiscard]] double unsorted_time(const Valid<Workload>& workload, double disc_test);
 
 }  // namespace detp::model::published

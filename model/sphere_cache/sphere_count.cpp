@@ -41,7 +41,7 @@ std::int64_t sphere_count(Form form, RadiusRatio ratio, DiscRadius disc, SphereR
   const long double nearest = std::round(exact);
   if (std::abs(exact - nearest) > 1e-12L * (1 + exact))
     return static_cast<std::int64_t>(form == Form::published ? std::ceil(exact) : std::floor(exact));
-  // The logarithms are not accurate enough to decide on which side of a whole number this is. The powers are.
+  // The logarithms are not accurate enough to round a value so close to a whole number. The powers are.
   auto k = static_cast<std::int64_t>(nearest);
   while (k > 0 && compare(ratio.value, k, disc.value, outer.value) < 0) --k;
   while (compare(ratio.value, k + 1, disc.value, outer.value) >= 0) ++k;

@@ -4,7 +4,6 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// The number of nested spheres of the cache: k.
 namespace detp::model {
 
 /// Index k of the innermost sphere, which has the radius r_k = r₀Q^k.

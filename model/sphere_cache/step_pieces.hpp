@@ -5,11 +5,11 @@
 
 #include "sphere_count.hpp"
 
-/// The intervals of Q between the steps of k, at Q_j = (d/r₀)^{1/j}, where r_j = d. The published T_I has its minima,
-/// all equal, at these Q_j (the paper's text on its fig 12 calls them peaks).
+/// The intervals of Q between the steps of k. The steps are at Q_j = (d/r₀)^{1/j}, where r_j = d. The published T_I has
+/// its minima, all equal, at these Q_j (the paper's text on its fig 12 calls them peaks).
 namespace detp::model {
 
-/// The ratios among which the best is searched.
+/// The range of Q that is searched.
 inline constexpr double least_ratio = 0.02;
 inline constexpr double most_ratio = 0.98;
 

@@ -4,23 +4,22 @@
 #include <cstddef>
 #include <string_view>
 
-/// The counted operations of a technique. A prediction (double, an expectation) and an observation (std::uint64_t) use
-/// the same record, so comparing them is a subtraction term by term. A term means the same for every technique and
-/// engine.
+/// The counted operations of a technique: a prediction (double, an expectation) or an observation (std::uint64_t). A
+/// term means the same for every technique and engine.
 namespace detp {
 
 template <class T>
 struct Counts {
   T cull_tests{};  ///< ray-sphere and ray-box tests of rays in lists
-  T culls{};       ///< lists made: one for each sphere or box, and for each block of rays
+  T culls{};       ///< lists made: for each block of rays, one for each sphere or box
   T listed{};      ///< rays added to these lists
-  T visits{};      ///< disc visits to lists that hold a ray: one for each disc and each list
+  T visits{};      ///< (disc, list) pairs: discs tested against a list of at least one ray
   T disc_tests{};  ///< ray-disc tests
-  T doubtful{};    ///< of these, tests repeated in double because single precision was not certain
+  T doubtful{};    ///< ray-disc tests repeated in double because single precision was not certain
   T steps{};       ///< grid cells visited by rays
   T nodes{};       ///< tree nodes, inner nodes and leaves, visited by single rays or single discs
   T references{};  ///< disc references stored in an index
-  T placements{};  ///< insertions of a disc into a cell or node while an index is built, at all its levels
+  T placements{};  ///< insertions of a disc into a cell or node while an index is built, at all levels
   T sorted{};      ///< discs sorted along a curve
   T hits{};        ///< (ray, disc) pairs found
 
@@ -72,7 +71,7 @@ template <class T>
   return counts.cull_tests + counts.disc_tests;
 }
 
-/// An observation converted to a prediction's record, for arithmetic.
+/// An observation converted to a prediction's record.
 template <class T>
 [[nodiscard]] constexpr Counts<double> as_expected(const Counts<T>& counts) {
   Counts<double> expected;

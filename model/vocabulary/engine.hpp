@@ -9,7 +9,7 @@
 
 namespace detp {
 
-/// How a technique computes its decisions. The hits are the same.
+/// How a technique computes its decisions. Both engines find the same hits.
 enum class Engine {
   plain,  ///< in double, one ray and one disc at a time: the simple version, for comparison
   /// lists of rays as vectors of floats; uncertain decisions are repeated in double. Same as plain if a technique has
@@ -19,10 +19,10 @@ enum class Engine {
 template <>
 inline constexpr std::array<std::string_view, 2> choice_names<Engine>{"plain", "simd"};
 
-/// Number of rays whose lists the simd engine holds at a time. Each block visits the discs again. The lists of a block
-/// (20 or 28 bytes a ray) should stay in the second-level cache while they are culled: 2¹⁵ rays for few discs, where
-/// most culls are near the root, up to 2¹⁷ for many. (2¹³ took 1.1 to 2 times as long; 2¹⁷ for some thousand discs 1.3
-/// times.)
+/// Number of rays in a block. The simd engine searches all discs block by block. The lists of a block (20 or 28 bytes a
+/// ray) should stay in the second-level cache while they are culled. 2¹⁵ rays for up to 2¹³ discs, where most culls are
+/// near the root; 2¹⁷ rays for more than 2¹⁴ discs. (Blocks of 2¹³ rays took 1.1 to 2 times as long. For some thousand
+/// discs, blocks of 2¹⁷ rays took 1.3 times as long.)
 [[nodiscard]] constexpr std::size_t rays_in_block(std::size_t discs) {
   constexpr std::size_t least = std::size_t{1} << 15;
   constexpr std::size_t most = std::size_t{1} << 17;

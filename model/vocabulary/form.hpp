@@ -2,7 +2,6 @@
 
 #include "parameter.hpp"
 
-/// The source of a prediction.
 namespace detp {
 
 /// The version of a formula.

@@ -12,7 +12,7 @@ enum class Insertion {
 /// The defaults are those of the techniques octree and grid.
 struct IndexVariant {
   Insertion insertion = Insertion::exact;
-  bool mailboxing = false;  ///< a ray tests a disc only in the first of the cells in which it meets the disc
+  bool mailboxing = false;  ///< a ray tests a disc only in the first cell on its way that refers to the disc
 
   bool operator==(const IndexVariant&) const = default;
 };

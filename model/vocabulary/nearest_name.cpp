@@ -6,7 +6,7 @@
 namespace detp {
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  // distance[j]: from the letters of a seen so far to the first j of b; two rows back, for swaps.
+  // now[j]: distance between the first i letters of a and the first j of b. last: for i - 1; before: for i - 2.
   std::vector<std::size_t> before(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
   std::vector<std::size_t> now(b.size() + 1);

@@ -47,7 +47,7 @@ struct ParameterRecord {
   double most = 0;
   ParameterValue small = std::int64_t{0};          ///< a value for few samples, for tests and first trials
   std::span<const std::string_view> choices = {};  ///< names of a choice
-  double step = 1.4;                               ///< factor to values worth a try; 0: one more or less
+  double step = 1.4;                               ///< factor between neighbouring values; 0: neighbours differ by 1
   ParameterValue (*get)(const Parameters&) = nullptr;
   void (*set)(Parameters&, const ParameterValue&) = nullptr;
 };

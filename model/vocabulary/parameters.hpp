@@ -26,7 +26,7 @@ inline constexpr std::array<std::string_view, 3> choice_names<SampleOrder>{"lebe
 /// Nested spheres of radius r₀Qⁱ with lists of their rays (sphere-cache, and sphere-cache-published).
 struct SphereCacheParameters {
   double ratio = 0.65;       ///< Q
-  std::int64_t spheres = 1;  ///< k, the innermost sphere's index; 0: no sphere, for any Q
+  std::int64_t spheres = 1;  ///< k, the innermost sphere's index; 0: no sphere, whatever Q is
   SampleOrder order = SampleOrder::lebesgue;
   bool operator==(const SphereCacheParameters&) const = default;
 };
@@ -52,12 +52,12 @@ struct BoxTreeParameters {
   bool operator==(const BoxTreeParameters&) const = default;
 };
 
-/// How a ray finds the leaves of an octree. (A grid is walked from cell to cell.)
+/// How a ray finds the leaves of an octree.
 enum class Traversal {
   top_down,       ///< from the root into every child that the ray crosses
   front_to_back,  ///< into the same children, in the order in which the ray enters them
-  restart,        ///< restarts at the root for every leaf, and for every omitted empty octant, on the ray's way
-  /// visits the same leaves and octants, each by a link from the previous one, without going back to the root
+  restart,        ///< from the root again for every leaf and every omitted empty octant that the ray crosses
+  /// the same leaves and octants as restart, but each is reached by a link from the previous one
   neighbour_links
 };
 template <>
@@ -84,7 +84,7 @@ struct BspParameters {
   bool operator==(const BspParameters&) const = default;
 };
 
-/// How much time building a bounding volume hierarchy may take to make searches faster.
+/// How a bounding volume hierarchy is built. Medium builds longer and searches faster.
 enum class BuildQuality {
   low,    ///< along a Morton curve
   medium  ///< by the surface area heuristic
@@ -107,7 +107,7 @@ struct RayMapParameters {
 
 /// Estimates irradiance from the photons nearest to each disc's centre.
 struct PhotonMapParameters {
-  int nearest = 50;  ///< k, number of photons searched for, at most all
+  int nearest = 50;  ///< k, number of photons searched for; all photons if there are fewer
   bool operator==(const PhotonMapParameters&) const = default;
 };
 

@@ -9,9 +9,9 @@ namespace detp {
 /// Maximum number of characters of one quoted piece of input.
 inline constexpr std::size_t longest_quote = 60;
 
-/// The text with everything escaped that could change how a terminal shows the rest: control characters (C0, DEL, C1),
-/// bytes that are not valid UTF-8, line separators and marks of writing direction, each byte as \x1b. Nothing else
-/// changes, so escaping twice equals escaping once.
+/// Escapes everything that could change how a terminal shows the text: control characters (C0, DEL, C1), bytes that are
+/// not valid UTF-8, line separators and marks of writing direction. Each such byte is replaced by text like \x1b.
+/// Nothing else changes, so escaping twice equals escaping once.
 [[nodiscard]] std::string escaped(std::string_view text);
 
 /// Escaped and truncated after `most` characters; "..." shows the truncation.
@@ -20,7 +20,7 @@ inline constexpr std::size_t longest_quote = 60;
 /// The text escaped, truncated after `longest_quote` characters, and in double quotes.
 [[nodiscard]] std::string quoted(std::string_view text);
 
-/// The name of a file: escaped; in full up to 200 characters, else its first and last characters.
+/// A file's path, escaped. If it has more than 200 characters, "..." replaces those after the first 60.
 [[nodiscard]] std::string shown_path(std::string_view path);
 
 }  // namespace detp

@@ -14,8 +14,9 @@ struct RayBlocks {
 
   [[nodiscard]] double count() const { return whole + (last > 0 ? 1 : 0); }
 
-  /// Expected number of blocks of which a list holds any ray. Each ray is listed independently, with that mean
-  /// probability. Its spread over the lists (variance over squared mean) is taken as that of a gamma variable.
+  /// Expected number of blocks for which a list holds at least one ray. A list holds each ray independently, with a
+  /// probability that is a gamma variable over the lists: `probability` is its mean, `spread` its variance over its
+  /// squared mean.
   [[nodiscard]] double with_any(double probability, double spread = 0) const {
     const double hits = probability < 1 ? -std::log1p(-probability) : 1e300;
     const auto any = [&](double rays) {

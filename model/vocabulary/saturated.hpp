@@ -9,8 +9,7 @@ namespace detp {
 /// double of the same sign.
 ///
 /// Some formulas have factors beyond the range of doubles although their result is within it. They are evaluated in
-/// long double and then converted by this function. Needs x87 long double (64-bit mantissa). Each formula documents the
-/// accuracy it gains.
+/// long double and then converted by this function. Needs x87 long double (64-bit mantissa).
 [[nodiscard]] inline double saturated(long double value) {
   constexpr long double largest = std::numeric_limits<double>::max();
   return static_cast<double>(std::clamp(value, -largest, largest));

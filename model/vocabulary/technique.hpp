@@ -145,27 +145,25 @@ static_assert([] {
 /// The technique with that name; nullopt if there is none.
 [[nodiscard]] std::optional<Technique> technique_named(std::string_view name);
 
-/// One technique with its parameters.
 struct Candidate {
   Technique technique = Technique::brute_force;
   Parameters parameters = BruteForceParameters{};
   bool operator==(const Candidate&) const = default;
 };
 
-/// The technique with its default parameters.
 [[nodiscard]] constexpr Candidate default_candidate(Technique technique) {
   return {technique, record_of(technique).defaults};
 }
 
-/// The technique's parameter with that name; null if it has none.
+/// The technique's parameter with that name; null if there is none.
 [[nodiscard]] const Parameter* find_parameter(Technique technique, std::string_view name);
 
 /// Changes a parameter. Throws std::invalid_argument if the value is out of range or of another kind, or if the
 /// technique has no such parameter.
 void set_parameter(Candidate& candidate, std::string_view name, const ParameterValue& value);
 
-/// The parameters as text: "Q 0.607, k 9". Choices are only shown if they differ from the default. Empty if there are
-/// no parameters.
+/// The parameters as text: "Q 0.607, k 9". A default choice is not shown if the technique has other parameters too.
+/// Empty if there are no parameters.
 [[nodiscard]] std::string describe(const Candidate& candidate);
 
 /// The technique and its parameters: "box-tree, fan-out 4, leaf 16".
@@ -174,7 +172,7 @@ void set_parameter(Candidate& candidate, std::string_view name, const ParameterV
 /// Throws std::invalid_argument if a parameter is out of range or does not belong to the technique.
 void check(const Candidate& candidate);
 
-/// Throws std::invalid_argument where a parameter of a technique is out of its range.
+/// Throws std::invalid_argument if one of the parameters is out of range.
 template <class Own>
 requires std::constructible_from<Parameters, Own>
 void check(const Own& parameters) {
@@ -182,8 +180,8 @@ void check(const Own& parameters) {
     if (std::holds_alternative<Own>(record.defaults)) return check(Candidate{record.technique, parameters});
 }
 
-/// The technique with small parameters, with each parameter at its smallest value, and with each of its choices: the
-/// variants that tests run on few samples.
+/// Variants for tests on few samples: the technique with all parameters `small`; then that variant with one parameter
+/// changed, to its smallest whole number or to each of its choices.
 [[nodiscard]] std::vector<Candidate> small_variants(Technique technique);
 
 }  // namespace detp

@@ -6,13 +6,12 @@
 #include "counts.hpp"
 #include "technique.hpp"
 
-/// Unit costs, which convert counts to seconds on one machine.
 namespace detp {
 
 /// Time in seconds of each counted operation on one machine; all from 0 to 1e200.
 ///
-/// The paper has t, u and (implicitly) v; the others are operations that its formulas omit (sorting, copying).
-/// unit_cost_terms says to which count and engine each belongs.
+/// The paper has t, u and (implicitly) v. The other costs belong to operations that its formulas omit, such as sorting
+/// and copying. unit_cost_terms says to which count and engine each cost belongs.
 struct UnitCosts {
   double cull_test = 1;   ///< t: testing one ray of a list against a sphere or a box
   double disc_test = 1;   ///< u: testing one ray of a list against a disc
@@ -44,7 +43,7 @@ struct CostBreakdown {
 /// The two ways to search: a list of rays against one disc after another, or one ray and one disc at a time.
 enum class CostEngine { lists, ray_by_ray, both };
 
-/// A unit cost: its name in results and on the command line, and the count and engine whose time it is.
+/// A unit cost: its name in results and on the command line, and the count and engine to which it belongs.
 struct UnitCostTerm {
   std::string_view symbol;  ///< "t"
   double UnitCosts::*cost;
@@ -79,10 +78,10 @@ inline constexpr std::array unit_cost_terms{
                  "a disc's visit to a list, beside its tests"},
 };
 
-/// Throws std::invalid_argument, which names the cost, if one is negative, above 1e200 or NaN.
+/// Throws std::invalid_argument if a cost is negative, above 1e200 or NaN. The message names the cost.
 void check(const UnitCosts& costs);
 
-/// Counts × unit costs, part by part, with the costs of one engine.
+/// The time of each part: its counts × their unit costs, with the costs of one engine.
 [[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs,
                                             CostEngine engine = CostEngine::lists) {
   CostBreakdown time;

@@ -3,10 +3,9 @@
 #include <concepts>
 #include <type_traits>
 
-/// A value that has passed its check. It is checked where it is made, and passed on without a second check.
 namespace detp {
 
-/// A T for which `check(value)` did not throw. Use it as Valid<T>, which is const, so that it stays as it was checked.
+/// A T for which `check(value)` did not throw. Use Valid<T>, which is const: the value cannot change after its check.
 template <class T>
 struct Checked : T {
   /// Throws as check does.
@@ -18,13 +17,13 @@ struct Checked : T {
   requires(!(std::derived_from<std::remove_cvref_t<Members>, T> || ...)) && requires(Members... m) { T{m...}; }
   Checked(const Members&... members) : Checked(T{members...}) {}
 
-  /// A value that is part of a checked value, such as the parameters of a candidate. It is not checked again.
+  /// For a part of a checked value, such as the parameters of a candidate: the part is not checked again.
   template <class Whole>
   Checked(const Checked<Whole>&, const T& covered) : T(covered) {}
 };
 
-/// The parameter type of a function that requires a valid T. A plain T converts to it, and is then checked; a Valid<T>
-/// is passed on by reference.
+/// The parameter type of a function that requires a valid T. A plain T is checked when it converts to this type; a
+/// Valid<T> is passed on by reference.
 template <class T>
 using Valid = const Checked<T>;
 

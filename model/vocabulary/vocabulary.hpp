@@ -1,6 +1,6 @@
 #pragma once
 
-/// The types that prediction and simulation share. Contains no formulas of the models, and includes none.
+/// The types that prediction and simulation share.
 #include "checks.hpp"
 #include "counts.hpp"
 #include "engine.hpp"

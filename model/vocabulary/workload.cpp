@@ -33,8 +33,7 @@ void check(const Workload& workload) {
 
 double sample_extent(const Workload& workload) {
   if (workload.sample_extent > 0) return workload.sample_extent;
-  // A flat box has no volume. A thin slice of its longest side replaces a missing side, so that no density becomes
-  // infinite.
+  // A flat box has no volume. Its sides count as at least 1e-6 of the longest, so that no density becomes infinite.
   const double sliver = 1e-6 * scene_side(workload);
   std::array<double, 3> side = workload.box;
   for (double& length : side) length = std::max(length, sliver);

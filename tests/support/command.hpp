@@ -76,7 +76,7 @@ class Process {
 
   void send(int signal) const { ::kill(id_, signal); }
 
-  /// Waits until the command handles signals, a minute at most. An earlier signal would just kill it.
+  /// Waits until the command handles signals, a minute at most. An earlier signal would just kill the process.
   void wait_until_it_listens() const {
     const std::string status = "/proc/" + std::to_string(id_) + "/status";
     while (Clock::now() - start_ < std::chrono::seconds(60)) {
@@ -123,7 +123,7 @@ inline Arguments operator+(Arguments left, const Arguments& right) {
   return left;
 }
 
-/// Runs the line with a time limit that lets it get far enough: 0.1 s, or longer on a slow machine.
+/// Runs the line with a time limit of 0.1 s, doubled (up to about 10 s) until far_enough(result) is true.
 template <class FarEnough>
 Finished stopped_in_time(const std::string& line, const FarEnough& far_enough) {
   for (double limit = 0.1;; limit *= 2) {
@@ -161,8 +161,8 @@ struct Refusal {
   Refusal(const std::string& line, std::string name) : Refusal(words(line), std::move(name)) {}
 };
 
-/// Fails the test unless each is refused as the contract says: exit code 2, nothing on stdout, and on stderr one line
-/// that contains `named`. Runs several at a time.
+/// Fails the test unless each command is refused as the contract says: exit code 2, nothing on stdout, and on stderr
+/// one line that contains `named`. Runs several commands at a time.
 inline void check_refused(const std::vector<Refusal>& refusals) {
   constexpr std::size_t at_a_time = 8;
   std::vector<std::unique_ptr<Process>> processes(refusals.size());

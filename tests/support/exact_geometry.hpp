@@ -155,7 +155,7 @@ class ExactSphere {
   }
 
   [[nodiscard]] bool hit() const { return distance_ <= radius_; }
-  /// distance of the centre from the ray, minus the radius (for a line times |D|, which is 1 to within 1e-12)
+  /// distance of the centre from the ray, minus the radius; for a line times |D|, which is 1 to within 1e-12
   [[nodiscard]] double beyond() const { return difference_of_roots(distance_, radius_, exponent_); }
 
  private:

@@ -34,7 +34,7 @@ struct Kernel {
     Real after;    ///< >= 0: crosses above the segment's lower end
     Real before;   ///< >= 0: crosses below the segment's upper end
     Real beside;   ///< |w|
-    Real highest;  ///< the largest distance in z of an end from the centre
+    Real highest;  ///< the larger distance in z from the centre to an end of the segment
   };
 
   explicit Kernel(const KernelCase<Real>& of) : ray(of) {

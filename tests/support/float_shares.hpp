@@ -16,8 +16,8 @@ namespace detp::support {
 struct Shares {
   double rim = 0;     ///< error of |V| - d|φ|, as a share of the band
   double ends = 0;    ///< error at a segment's end, as a share of half the band
-  double box = 0;     ///< growth of the discs' boxes that hits needed, as a share of the margin
-  double sphere = 0;  ///< growth of spheres that the ray touches, as a share of the margin
+  double box = 0;     ///< growth of the discs' boxes that was needed to list all hits, as a share of the margin
+  double sphere = 0;  ///< the same for spheres that a ray just touches
   std::uint64_t decisions = 0;
   std::uint64_t hits = 0;
   std::uint64_t wrong = 0;  ///< decisions in which floats alone differ from the canonical predicate

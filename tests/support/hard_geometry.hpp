@@ -12,7 +12,7 @@
 #include "detp/sim/geometry/geometry.hpp"
 #include "detp/sim/geometry/random.hpp"
 
-/// Rays that just hit or just miss a disc or a sphere, in every way we could think of.
+/// Rays that just hit or just miss a disc or a sphere.
 namespace detp::support {
 
 /// A sequence of random numbers for one case.
@@ -54,7 +54,7 @@ class RandomSequence {
   std::array<double, 4> four_{};
 };
 
-/// The distribution of a family's cases: exponents of 10; lengths are in radii of the disc or sphere.
+/// The distribution of a family's cases. low and high are exponents of 10; `from` and `length` are in disc radii.
 struct Family {
   std::string_view name;
   double cosine_low = -1, cosine_high = 0;  ///< |n·D|
@@ -98,7 +98,7 @@ struct DiscCase {
 inline sim::Ray hard_ray(const Family& family, RandomSequence& random, const sim::Disc& disc) {
   const double cosine = std::min(1.0, random.magnitude(family.cosine_low, family.cosine_high));
   const glm::dvec3 direction = slanting(random, disc.normal, cosine);
-  // The crossing is near the rim. For grazing rays it is often where the rim is parallel to them.
+  // The crossing is mostly near the rim, and often where the rim is parallel to the ray's projection on the plane.
   const glm::dvec3 sideways = glm::normalize(glm::cross(disc.normal, direction));
   const glm::dvec3 forwards = glm::cross(sideways, disc.normal);
   const double angle = random.one_in(2) ? random.rounding_offset() * 1e7 : random.between(0, 2 * std::numbers::pi);
@@ -130,7 +130,7 @@ inline DiscCase hard_disc(const Family& family, std::uint64_t number, std::uint6
   }
   sim::Ray ray = hard_ray(family, random, disc);
   if (!ray.is_line() && random.one_in(20)) ray.length = 0;
-  // Far from the coordinates' origin rounding moves the ray. So set the radius to where the ray now crosses.
+  // Far from the coordinates' origin, rounding moves the ray. So the rim is often moved to where the ray now crosses.
   const glm::dvec3 moment = glm::cross(ray.origin - disc.centre, ray.direction);
   const double crossed = glm::length(glm::cross(disc.normal, moment)) / std::abs(glm::dot(disc.normal, ray.direction));
   if (random.one_in(2) && std::abs(crossed - disc.radius) < 0.1 * disc.radius)
@@ -143,8 +143,8 @@ struct SphereCase {
   sim::Sphere sphere;
 };
 
-/// A ray that passes a sphere at about its radius, beside the centre or with an end near that point. Or a sphere whose
-/// radius is set to its distance from the ray.
+/// A sphere, and a ray through a point at about one radius from the centre; some rays end near this point. In every
+/// second case the radius is then set to about the centre's distance from the ray.
 inline SphereCase hard_sphere(const Family& family, std::uint64_t number, std::uint64_t index) {
   RandomSequence random(100 + number, index);
   const sim::Disc disc = hard_disc(family, number, index).disc;

@@ -36,7 +36,7 @@ inline sim::Disc disc_at_cells(RandomSequence& random, const glm::dvec3& centre,
   return disc;
 }
 
-/// Ray number i is hard for disc number i modulo the number of discs.
+/// Ray number i is a hard_ray for disc number i modulo the number of discs.
 inline HardScene hard_scene(std::size_t family_number, std::uint64_t index, std::size_t discs, std::size_t rays) {
   const Family& family = families[family_number];
   RandomSequence random(200 + family_number, index);

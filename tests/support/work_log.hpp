@@ -18,7 +18,7 @@ class LoggedWork {
   [[nodiscard]] std::uint64_t total() const { return log_.total; }
   [[nodiscard]] std::uint64_t largest() const { return log_.largest; }
 
-  /// Whether the work between two checks had the promised bound.
+  /// True if the work between two checks was always less than 2 StopCheck::most_work.
   [[nodiscard]] bool bounded() const { return log_.largest < 2 * StopCheck::most_work; }
 
  private:

@@ -42,7 +42,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
-  // 4000 replicates: the standard deviation of a standard deviation is 1/√8000 = 1.1 % of it.
+  // A standard deviation counted on 4000 replicates has a relative standard error of 1/√8000 = 1.1 %.
   TEST_CASE("the deviation over replicates of a uniform field is the binomial one") {
     constexpr int replicates = 4000;
     constexpr std::uint64_t rays = 500;
@@ -89,7 +89,7 @@ TEST_SUITE("known answer") {
     const double error_of_mean = std::sqrt(variance / replicates);
     CHECK(std::abs(mean - 1.5 - expected.bias) < 5 * error_of_mean);
     CHECK_MESSAGE(std::abs(mean - 1.5 - 1.25 * expected.bias) > 5 * error_of_mean, "a bias 25 % off must show");
-    // The binomial factor 1 - p, which the leading order omits, is 10 % here; the count adds 1.3 %.
+    // The leading order omits the binomial factor 1 - p, about 0.9 here. The count has a standard error of 1.3 %.
     CHECK(std::abs(variance / expected.variance - 0.9) < 0.08);
   }
 }

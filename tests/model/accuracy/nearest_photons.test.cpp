@@ -101,11 +101,11 @@ TEST_SUITE("known answer") {
       estimates.add((nearest - 1) / (photons * pi * squares[nearest - 1]));
     }
     const DensityError expected = nearest_photons_error({.value = 1.5, .laplacian = -12}, photons, nearest);
-    // The next order of the bias is k∇²f/(8πnf²) of it: 2 %.
+    // The next order of the bias is k∇²f/(8πnf²) times the bias: 2 %.
     const double tolerance = 4 * estimates.error_of_mean() + 0.02 * std::abs(expected.bias);
     CHECK(std::abs(estimates.mean() - 1.5 - expected.bias) < tolerance);
     CHECK_MESSAGE(std::abs(estimates.mean() - 1.5 - 1.4 * expected.bias) > tolerance, "a bias 40 % off must show");
-    // The curvature adds k²(∇²f)²/(32π²n²f⁴) of the variance to it: less than a thousandth.
+    // The curvature adds k²(∇²f)²/(32π²n²f⁴) times the variance to the variance: less than a thousandth.
     CHECK(std::abs(estimates.variance() - expected.variance) < 4.5 * estimates.error_of_variance());
     CHECK_MESSAGE(std::abs(estimates.variance() - 1.2 * expected.variance) > 4.5 * estimates.error_of_variance(),
                   "20 % off must show");
@@ -132,7 +132,7 @@ TEST_SUITE("identity") {
       const double photons = std::round(photons_for_nearest_error(density, error));
       const double k = best_nearest_photons(density, photons);
       const double reached = std::sqrt(nearest_photons_error(density, photons, k).mean_square()) / density.value;
-      // Rounding k to a whole number has a second-order effect; p is k/n.
+      // photons_for_nearest_error neglects p = k/n. Rounding k to a whole number has only a second-order effect.
       CHECK(reached == doctest::Approx(error).epsilon(0.005 + k / photons));
     }
   }

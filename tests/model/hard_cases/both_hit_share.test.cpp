@@ -42,7 +42,7 @@ Exact lens_area(const Exact& a, const Exact& b, const Exact& c) {
   return segment(a, from_a) + segment(b, c - from_a);
 }
 
-/// The documented integral: the lens seen from each direction. Substitution s = c sin θ, the apparent distance of the
+/// The documented integral of the lens area over all directions. Substitutes s = c sin θ, the distance of the projected
 /// centres.
 Exact share_by_lenses(const Exact& a, const Exact& b, const Exact& c) {
   const Exact small = std::min(a, b);
@@ -57,14 +57,13 @@ Exact share_by_lenses(const Exact& a, const Exact& b, const Exact& c) {
   return (covered * (1 - sqrt(1 - p * p / (c * c))) + lenses) / area;
 }
 
-/// The share of both spheres, integrated by parts. If the spheres overlap, it is a difference from the share of nested
-/// spheres; otherwise there is no difference.
+/// The share of both spheres, integrated by parts. If the spheres overlap, the integral is subtracted from the share of
+/// nested spheres; otherwise the integral is the share.
 Quad share_by_chords(const Quad& a, const Quad& b, const Quad& c) {
   const Quad small = std::min(a, b);
   const Quad p = abs(a - b);
   const Quad nested = small / b * (small / b);
-  // Exact: 113 bits hold the difference of doubles of similar size; otherwise the rounding error is only that of the
-  // sum.
+  // 113 bits hold the difference of two doubles of similar size exactly. Otherwise only the sum is rounded.
   const Quad c_less_p = small > std::max(a, b) / 2 ? Quad{c - p} : Quad{(c - std::max(a, b)) + small};
   if (c_less_p <= 0) return nested;
   const Quad c_less_sum = (c - std::max(a, b)) - small;

@@ -14,7 +14,7 @@ constexpr double largest = std::numeric_limits<double>::max();
 constexpr double least = std::numeric_limits<double>::denorm_min();
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A formula that is wrong by the factor 1 + `off`, evaluated on a few random inputs.
+/// The ledger of a formula that is wrong by `factor`, on a few random inputs.
 Ledger of_square_times(double factor) {
   return on_random_inputs(99, 100, [&](Draw& draw, Ledger& ledger) {
     const double x = draw.log_uniform(1e-100, 1e100);

@@ -10,8 +10,7 @@
 #include "detp/sim/geometry/random.hpp"
 #include "support/random_workload.hpp"
 
-/// Random inputs from the whole domain of the formulas. They are a function of their index alone, so threads do not
-/// affect them.
+/// Random inputs from the whole domain of the formulas. An input depends only on its family and index, not on threads.
 namespace detp::hard_cases {
 
 /// The 64-bit words of one index.

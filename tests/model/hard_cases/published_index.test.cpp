@@ -9,7 +9,7 @@ namespace published = detp::model::published;
 
 namespace {
 
-/// The largest k >= 0 with 2^{k+1} d <= s.
+/// Compares the depth with the largest k >= 0 for which 2^{k+1} d <= s; 0 if there is none.
 void compare_depth(double d, double side, Ledger& ledger) {
   const int depth = published::octree_depth({d}, side);
   const bool narrow_enough = depth == 0 || ldexp(Exact{d}, depth + 1) <= side;

@@ -18,7 +18,7 @@ namespace detp::hard_cases {
 inline constexpr std::uint64_t few = 2'000;       ///< in the quick suite
 inline constexpr std::uint64_t many = 1'000'000;  ///< in the suite "hard-cases"
 
-/// Calls check(draw, ledger) for the inputs 0 … inputs - 1 of a family. Rethrows its exceptions.
+/// Calls check(draw, ledger) for the inputs 0 … inputs - 1 of a family. Rethrows an exception of check.
 template <class Check>
 [[nodiscard]] Ledger on_random_inputs(std::uint64_t family, std::uint64_t inputs, const Check& check) {
   const std::uint64_t threads = std::min<std::uint64_t>(std::max(1U, std::thread::hardware_concurrency()), inputs);

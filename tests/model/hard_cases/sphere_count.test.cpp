@@ -21,7 +21,7 @@ struct Case {
   double outer;
 };
 
-/// Corrected: r_k >= d > r_{k+1}. Published: the same if r_k = d, else one more.
+/// Corrected k: r_k >= d > r_{k+1}. Published k: equal to the corrected k if r_k = d, else larger by one.
 void compare_count(const Case& c, Ledger& ledger) {
   const auto [q, d, r0] = c;
   const auto inputs = [&] { return fmt::format("Q {:a}, d {:a}, r0 {:a}", c.ratio, c.disc, c.outer); };

@@ -71,7 +71,7 @@ TEST_SUITE("identity") {
             CHECK(counts.disc_tests > 0.99 * smaller.disc_tests);
             smaller = counts;
           }
-          for (const int leaf : {16, 63, 64, 100}) {  // one disc more or less
+          for (const int leaf : {16, 63, 64, 100}) {  // a leaf of one disc more
             const Counts<double> one = counts_of(w, {5, leaf});
             const Counts<double> next = counts_of(w, {5, leaf + 1});
             for (const auto term : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests})

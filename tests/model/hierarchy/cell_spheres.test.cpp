@@ -127,7 +127,7 @@ TEST_SUITE("known answer") {
       }
   }
 
-  // The number of occupied cells for n uniform samples varies by less than √cells: 5 standard deviations at most.
+  // The standard deviation of the number of occupied cells is less than √cells; up to five deviations are allowed.
   TEST_CASE("occupied cells are as counted on random samples") {
     constexpr int samples = 20'000;
     for (const int level : {2, 4, 5, 6}) {

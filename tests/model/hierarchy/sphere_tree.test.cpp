@@ -82,7 +82,7 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("spheres are half as large for eight times as many samples in a volume, four times as many on surfaces") {
-    // The curve's largest jumps affect ever fewer nodes: this converges in a volume, but not on surfaces.
+    // In a volume, the mean area times n^(2/3) converges. On surfaces, the mean area times n grows with log n.
     const auto leaf_area = [](double samples, double dimension) {
       const Workload w = cube_workload(10, samples, 1e-9, 2, dimension);
       return std::pow(model::sphere_tree_levels(w, {8, 8}).back().rms_radius, 2);

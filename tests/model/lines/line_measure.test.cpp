@@ -32,7 +32,7 @@ double lens_in_strips(double a, double b, double c) {
   return 2 * area * reach / strips;
 }
 
-/// both_hit_share by brute force: sums over directions; from each, the spheres appear as circles.
+/// both_hit_share by brute force: a sum over directions. Along a direction, the spheres project to circles.
 double both_hit_share_in_strips(double a, double b, double c) {
   constexpr int directions = 1500;
   double sum = 0;

@@ -59,8 +59,8 @@ void check_growth(const GrowthCase& growth_case, const std::function<double(cons
 }  // namespace
 
 TEST_SUITE("reference value") {
-  // T = a + b n_P^p (or a + b log n_P): the lower-order term and the steps of k and of depths cause deviations. The
-  // largest is 0.012, for spheres on surfaces.
+  // The fitted p deviates from the stated p by at most 0.012 (spheres on surfaces). Reasons: T = a + b n_P^p (or
+  // a + b log n_P) has the lower-order term a; k and depths are whole numbers, so T has steps.
   TEST_CASE("the best time of each technique grows over four decades of samples with the stated order") {
     for (const Technique technique :
          {Technique::brute_force, Technique::sphere_cache, Technique::octree, Technique::grid})

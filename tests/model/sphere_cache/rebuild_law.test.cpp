@@ -19,7 +19,7 @@ namespace {
 const Workload in_volume = cube_workload(1e6, 1e6, 0.001, 2);
 const Workload on_faces = cube_workload(1e6, 1e6, 0.001, 2, 2);
 
-/// m/n of a ball alone that does not see the ends of the cube.
+/// m/n of a ball alone, so small that the cube's faces do not affect it.
 double small_ball_share(double dimension, double lambda, double phase) {
   return single_rebuilds(dimension, 1e300, {lambda, 20 + phase}) / 1e300;
 }
@@ -198,7 +198,7 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("large balls between the table's entries: m_1 agrees with counts over other sets of samples") {
-    // Within 2 %, except for two volumes between a jump and the table's next number of samples: 5.6 and 3.4 %.
+    // Within 2 %, except for two rows with D = 3: a jump lies between the table's numbers of samples around theirs.
     struct Counted {
       double dimension, samples, disc, ratio, rebuilds;  // in a cube of side 2; noise 0.1 to 1.9 %
       double within = 0.02;                              // the noise and the table's own error of 1 %
@@ -218,7 +218,7 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("balls of radius ρ in [-1, 1]³ start 34 to 65 ρ^-3 times (volume), 46 to 85 ρ^-2 times (faces)") {
-    // The factor depends on the phase. Both ends of the ranges must be reached, as the curve's factor does.
+    // The factor depends on the phase: over all phases it must reach both ends of its range.
     double least_in_volume = INFINITY;
     double most_in_volume = 0;
     double least_on_faces = INFINITY;

@@ -70,7 +70,7 @@ Counts<double> summed(const Workload& w, const SphereCacheParameters& parameters
     sum.cull_tests += level.rebuilds * level.tests;
     sum.culls += level.rebuilds;
     sum.listed += level.rebuilds * level.listed;
-    sum.disc_tests = w.samples * level.listed;  // before the factor for lists that serve long and are therefore longer
+    sum.disc_tests = w.samples * level.listed;  // L_k; without the factor of L"_k
   }
   return sum;
 }

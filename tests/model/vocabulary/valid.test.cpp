@@ -24,8 +24,8 @@ int cost_checks = 0;
 
 }  // namespace
 
-// The linker sends each call of detp::check to the function of the same name with __wrap_ before it; the original has
-// __real_ before its name (tests/CMakeLists.txt).
+// The linker redirects each call of detp::check to the function with __wrap_ before its symbol. __real_ before the
+// symbol calls the original function (tests/CMakeLists.txt).
 extern "C" {
 void __real__ZN4detp5checkERKNS_8WorkloadE(const detp::Workload& workload);
 void __real__ZN4detp5checkERKNS_9CandidateE(const detp::Candidate& candidate);
