@@ -30,8 +30,8 @@ class CellWalk : public ListWalk {
         entered_(other.entered_),
         spheres_(other.spheres_, &memory) {}
 
-  /// Advances to the next disc. Returns the first level, at least 1, at which this disc's cell differs from the previous
-  /// disc's cell; depth + 1 if no cell differs; 1 for the first disc.
+  /// Advances to the next disc. Returns the first level, at least 1, at which this disc's cell differs from the
+  /// previous disc's cell; depth + 1 if no cell differs; 1 for the first disc.
   int enter(const Disc& disc) override;
   [[nodiscard]] int innermost() const override { return deepest(); }
   [[nodiscard]] int deepest() const override { return static_cast<int>(spheres_.size()) - 1; }

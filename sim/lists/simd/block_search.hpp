@@ -29,7 +29,8 @@ struct BlockSearch {
   DiscTotals* totals;       ///< sums of power, indexed and written like hits; null if hits are only counted
 };
 
-/// Number of tests (of a ray against a box, a sphere or a disc) in a unit of work of StopCheck: about one vector of rays.
+/// Number of tests (of a ray against a box, a sphere or a disc) in a unit of work of StopCheck: about one vector of
+/// rays.
 inline constexpr std::size_t tests_a_unit = 16;
 
 /// Units of work for testing each ray of a list `times` times.

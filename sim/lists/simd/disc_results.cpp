@@ -90,8 +90,8 @@ void DiscResults::add_counted_hits() {
 }
 
 void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
-  // A copy takes a few nanoseconds per disc, a test a sixth of a nanosecond. So copies take at most about a hundredth of
-  // the time.
+  // A copy takes a few nanoseconds per disc, a test a sixth of a nanosecond. So copies take at most about a hundredth
+  // of the time.
   constexpr std::uint64_t tests_for_each_disc = 4096;
   rays_ = block.first() + block.size();
   if (rays_ == problem_.rays.size() || tests - tests_at_snapshot_ < tests_for_each_disc * tree_.discs.size()) return;

@@ -56,8 +56,8 @@ struct DiscRun {
 /// to `fan_out` children. A leaf holds up to `leaf` discs, or up to 64 if that costs less than a split.
 ///
 /// The expected cost follows the surface-area heuristic: a line that crosses a node crosses a child with probability
-/// F(child)/F(node). (If nodes were runs of equal length along the curve, there would be 1.7 to 2.3 times as many tests,
-/// because the boxes of such runs span the curve's jumps.)
+/// F(child)/F(node). (If nodes were runs of equal length along the curve, there would be 1.7 to 2.3 times as many
+/// tests, because the boxes of such runs span the curve's jumps.)
 ///
 /// Throws Stopped if a stop was requested. Throws std::length_error for 2³¹ or more discs and, naming the bytes, before
 /// the memory budget would be exceeded.

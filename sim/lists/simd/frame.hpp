@@ -25,8 +25,8 @@ struct Frame {
 
   explicit Frame(const Problem& problem);
 
-  /// Returns 32u + 128u d + 4 slack, d being the radius in frame units. A decision is repeated in double if it is within
-  /// this band of the rim, or within half this band of an end.
+  /// Returns 32u + 128u d + 4 slack, d being the radius in frame units. A decision is repeated in double if it is
+  /// within this band of the rim, or within half this band of an end.
   [[nodiscard]] float band(double radius) const {
     return static_cast<float>(32 * float_unit + 128 * float_unit * radius + 4 * slack);
   }

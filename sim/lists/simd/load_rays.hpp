@@ -12,9 +12,9 @@ struct RayTraits {
   std::optional<double> power;  ///< the power of each ray, if all powers are equal
 };
 
-/// Converts rays to the frame's coordinates and sorts them by class; their numbers start at 0. Leaves out rays that stay
-/// far from S₀. There must be at least one ray, and at most 2³¹. Each list must be empty and have room for all rays and
-/// their ends.
+/// Converts rays to the frame's coordinates and sorts them by class; their numbers start at 0. Leaves out rays that
+/// stay far from S₀. There must be at least one ray, and at most 2³¹. Each list must be empty and have room for all
+/// rays and their ends.
 RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists);
 
 }  // namespace detp::sim::stream

@@ -42,8 +42,8 @@ struct TreeSize {
 ///
 /// The sizes of arrays are known, except for culled lists, whose number of rays is random. These are predicted for
 /// isotropic lines, uniform through S₀. Rays that are concentrated in one place need more: a thread checks again before
-/// its lists grow. Untouched pages, and memory that the heap keeps of freed arrays, are not included. The searches throw
-/// std::length_error, naming the bytes, if the memory does not suffice.
+/// its lists grow. Untouched pages, and memory that the heap keeps of freed arrays, are not included. The searches
+/// throw std::length_error, naming the bytes, if the memory does not suffice.
 [[nodiscard]] double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree);
 
 /// Predicted peak bytes of brute force (prepare_all), in addition to rays, discs and pairs.

@@ -10,8 +10,8 @@ namespace detp::sim::stream {
 ///
 /// Each class of rays has its own walk in each block, so at most as many threads as classes search. Spheres list also
 /// rays that pass them by less than the margin, and some segments that end before them (kernels-inl.hpp). Otherwise
-/// tests and listed rays are counted as in one walk over all rays; visits and culls are counted in each block. `room` is
-/// the expected size of the lists.
+/// tests and listed rays are counted as in one walk over all rays; visits and culls are counted in each block. `room`
+/// is the expected size of the lists.
 void search_walk(const SearchInput& input, const MakeWalk& make_walk, const ListCapacity& room,
                  const RunOptions& options, Outcome& outcome);
 
