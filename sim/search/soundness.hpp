@@ -15,7 +15,7 @@ namespace detp::sim {
 /// Lower bound on disc radii, so that squares do not underflow.
 inline constexpr double least_radius = 1e-100;
 
-/// Returns the ray or disc with a direction or normal of length 1. A length of 1 to within 1e-12 is unchanged, and 0.
+/// Returns the ray or disc with a unit direction or normal. Unchanged if the length is 1 to within 1e-12, or 0.
 [[nodiscard]] Ray normalised(Ray ray);
 [[nodiscard]] Disc normalised(Disc disc);
 
