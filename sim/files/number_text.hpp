@@ -5,8 +5,7 @@
 
 namespace detp::sim {
 
-/// The double nearest to the number that the whole text spells, independent of the locale; nullopt if the text is not a
-/// number.
+/// The double nearest to the number that the whole text spells, in any locale; nullopt if the text is not a number.
 ///
 /// Accepts a leading '+', and "inf", "infinity" and "nan" in any case. Numbers too large for a double become infinite;
 /// numbers too near to zero become zero. Surrounding spaces are not accepted.

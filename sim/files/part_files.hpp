@@ -2,12 +2,11 @@
 
 #include <string>
 
-/// Part files: files being written under a temporary name. The program keeps a list of them, so that it can remove them
-/// when it has to end at once.
+/// Part files: files being written under a temporary name. The program keeps a list of all part files, so that it can
+/// remove them when it has to end at once.
 namespace detp::sim {
 
-/// Creates a part file in the folder of `target`, for writing, and sets `name` to its path. Returns its descriptor, or
-/// -1 with errno set.
+/// Creates a part file in the folder of `target`; sets `name` to its path. Returns its descriptor, or -1 and sets errno.
 [[nodiscard]] int create_part_file(const std::string& target, std::string& name);
 
 /// Makes an open nameless file a part file in the folder of `target`, and sets `name` to its path. On failure returns

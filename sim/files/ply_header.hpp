@@ -31,8 +31,7 @@ struct PlyElement {
   std::uint64_t rows = 0;
   std::vector<PlyProperty> properties;
 
-  /// The place of the property of that name, which must be a list if `list` is true, and a single number if not.
-  /// Nullopt if the element has no such property.
+  /// The place of the list (`list` true) or single number of that name. Nullopt if the element has no such property.
   [[nodiscard]] std::optional<std::size_t> property(std::string_view wanted, bool list) const;
 };
 

@@ -31,8 +31,7 @@ class TableRow {
 
   void set(std::size_t column, double value) { values_[column] = value; }
 
-  /// Sets the row's place: its line number in a CSV file, or its number, from 1, among the `rows` vertices of a PLY
-  /// file.
+  /// Sets the row's place: its line in a CSV file, or its number, from 1, among the `rows` vertices of a PLY file.
   void place(std::size_t number, std::size_t rows = 0) {
     number_ = number;
     rows_ = rows;

@@ -10,8 +10,7 @@
 #include "detp/sim/base/radix_sort.hpp"
 #include "geometry.hpp"
 
-/// What the space-filling curves share: a grid of 65536 cells per side, and sorting points by the places of their cells
-/// on the curve.
+/// What the space-filling curves share: a grid of 65536 cells per side, and sorting points by place on the curve.
 namespace detp::sim {
 
 /// A cell's number along each axis, 16 bits each.
@@ -34,15 +33,13 @@ using CurveCell = std::array<std::uint32_t, 3>;
   return cell;
 }
 
-/// Peak bytes of sorting `points` points: copies of their positions, and the two arrays between which the radix sort
-/// moves entries.
+/// Peak bytes of sorting `points` points: copies of their positions, and the radix sort's two arrays of entries.
 [[nodiscard]] inline double sorting_bytes(std::size_t points) {
   return (sizeof(glm::dvec3) + 2 * sizeof(KeyedIndex)) * static_cast<double>(points);
 }
 
-/// Returns the points' indices in order of rising code(point, box), where the box is the points' bounding box. Codes
-/// have 48 bits. Points of the same code keep their order. At most 2³² - 1 points. Throws Stopped if a stop was
-/// requested.
+/// Returns the points' indices in order of rising code(point, the points' bounding box). Codes have 48 bits. Points of
+/// the same code keep their order. At most 2³² - 1 points. Throws Stopped if a stop was requested.
 template <class Code>
 [[nodiscard]] std::vector<std::uint32_t> order_along(std::span<const glm::dvec3> points, const Code& code,
                                                      const std::stop_token& stop) {

@@ -6,9 +6,8 @@
 
 #include "geometry.hpp"
 
-/// How near to the boundary of a shape a predicate may decide wrongly. Proved in sim/geometry/proofs.md. Valid if no
-/// square under- or overflows (make_problem's limits), and for directions and normals whose length is 1 to within
-/// 1e-12.
+/// How near to a shape's boundary a predicate may decide wrongly. Proved in sim/geometry/proofs.md. Valid if no square
+/// under- or overflows (make_problem's limits), and for directions and normals whose length is 1 to within 1e-12.
 namespace detp::sim {
 
 /// u = 2⁻⁵³: half the distance from 1 to the next double.

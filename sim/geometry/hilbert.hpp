@@ -16,19 +16,17 @@ namespace detp::sim {
 /// face.
 ///
 /// The curve enters a cell at one corner, visits the eight octants along a Gray code, and leaves at a corner that
-/// differs along one axis. The cell's state is the first corner and this axis. The octant visited as number w has the
-/// state
+/// differs along one axis. The cell's state is the first corner and this axis. The octant visited as number w has state
 ///
 ///     corner' = corner ^ rotated(start(w))      axis' = axis + 1 + turn(w)  (mod 3)
 ///
 ///   where  start(w)  the corner at which octant w is entered, in the curve's own axes:
 ///                    g(2 ⌊(w-1)/2⌋), g the Gray code; 0 for w = 0
-///          turn(w)   the axis along which the curve leaves octant w: number of trailing ones of w (w odd) or of w - 1
-///                    (w even); 0 for w = 0
+///          turn(w)   the axis along which the curve leaves octant w: number of trailing ones of w, or of w - 1 if w is
+///                    even; 0 for w = 0
 ///
 /// Along the Hilbert curve a sphere cache is rebuilt 0.76 to 0.89 times as often as along the Morton curve (Q 0.5 …
-/// 0.8, a volume and two scenes of 10⁵ samples), a cache of one sphere 0.65 to 0.84 times as often (10⁶ samples):
-/// sim/geometry/README.md.
+/// 0.8, a volume and two scenes of 10⁵ samples), one sphere 0.65 to 0.84 times (10⁶ samples): sim/geometry/README.md.
 ///
 /// Source     C. Hamilton, A. Rau-Chaplin: Compact Hilbert indices (2008), for three dimensions. The 24 states are
 ///            tabulated at compile time.

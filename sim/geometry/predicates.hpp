@@ -11,9 +11,9 @@ namespace detp::sim {
 ///
 /// Compares the distance between the centre and the ray's nearest point with the radius. The distance's error is about
 /// ε|f|, where f is the vector from the ray's origin to the centre. The discriminant b² - 4ac would have an error of
-/// ε|f|²/r. The decision is right if the true distance differs from the radius by more than error_band(ray, sphere),
-/// about 2.2u|f| + 4ur (u = 2⁻⁵³). True distances are from the line that the direction spans, or from the segment
-/// origin + [0, length] direction.
+/// ε|f|²/r. The decision is right if the centre's true distance from the line that the direction spans, or from the
+/// segment origin + [0, length] direction, differs from the radius by more than error_band(ray, sphere), about
+/// 2.2u|f| + 4ur (u = 2⁻⁵³).
 [[nodiscard]] inline bool hits(const Ray& ray, const Sphere& sphere) {
   const glm::dvec3 f = sphere.centre - ray.origin;
   double along = glm::dot(f, ray.direction);
@@ -37,8 +37,7 @@ inline constexpr double reach = 1 + 2e-12;
 ///
 /// If the disc is seen almost edge-on, rounding decides, and could report a hit far from the disc. Two checks prevent
 /// this; they need a D of unit length. First, the distance of the whole line from the centre, |w × D|, must be at most
-/// d·reach. Second, if a segment passes all other checks, its point nearest to the centre must lie within d·reach of
-/// the centre.
+/// d·reach. Second, if a segment passes all other checks, its distance from the centre must be at most d·reach.
 [[nodiscard]] inline bool hits(const Ray& ray, const Disc& disc) {
   const glm::dvec3 w = ray.origin - disc.centre;
   const glm::dvec3 moment = glm::cross(w, ray.direction);

@@ -9,8 +9,7 @@ namespace detp::sim {
 
 /// The sphere cache's spheres S₁ … S_k. S_i has the radius r₀Qⁱ and the centre of the disc for which it was built.
 ///
-/// The first sphere that does not serve a disc, and all smaller spheres that can contain the disc, are rebuilt around
-/// the disc's centre.
+/// The first sphere that does not serve a disc, and all smaller spheres that can hold it, are rebuilt around the disc.
 class SphereWalk : public ListWalk {
  public:
   /// Which spheres serve a disc.
@@ -28,8 +27,7 @@ class SphereWalk : public ListWalk {
   SphereWalk(const SphereWalk& other, std::pmr::memory_resource& memory)
       : serving_(other.serving_), spheres_(other.spheres_, &memory), built_(other.built_) {}
 
-  /// The number of spheres that the constructor makes beside S₀, or one more. For Q = 1 - 1e-9 the number can reach
-  /// about 10⁹·ln(r₀/r), so check their memory first.
+  /// The number of spheres without S₀, or one more. For Q = 1 - 1e-9 about 10⁹·ln(r₀/r), so check their memory first.
   [[nodiscard]] static double levels(const Problem& problem, const SphereCacheParameters& parameters);
 
   int enter(const Disc& disc) override;

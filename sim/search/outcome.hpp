@@ -41,9 +41,8 @@ struct RunOptions {
   /// 0: all cores; at most 4096. Results and counts do not depend on the number. Techniques that trace rays one by one
   /// use all threads, plain techniques that cull lists of rays use one.
   int threads = 1;
-  /// Unless null: sums over earlier rays (if empty, there are none), to which the run adds. The caller then calls
-  /// `finish` for hits and irradiance. So runs over successive blocks of rays give the same bits as one run over all
-  /// rays.
+  /// Unless null: sums over earlier rays (empty: none), to which the run adds. The caller gets hits and irradiance by
+  /// `finish`. Runs over successive blocks of rays give the same bits as one run over all rays.
   Totals* totals = nullptr;
   /// Memory for a search's arrays, except those that it returns. A Scratch keeps the memory for the next search.
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
@@ -74,8 +73,7 @@ struct Outcome {
   /// Power of the rays that cross the disc, divided by π d²: ((x + y) + z) / π d². Each of x, y, z is the sum, in ray
   /// order, over the rays with that dominant_axis. All exact techniques give the same bits.
   std::vector<double> irradiance;
-  /// Standard error of the irradiance, for independent rays (PowerSquares::finish). Empty if not requested, or if the
-  /// run was stopped.
+  /// Of the irradiance, for independent rays (PowerSquares::finish). Empty if not requested, or if the run was stopped.
   std::vector<double> standard_error;
   std::uint64_t total_hits = 0;
   Counts<std::uint64_t> counts;       ///< all zero unless requested (`hits` always holds total_hits)
@@ -88,7 +86,7 @@ struct Outcome {
   Phases seconds;
   bool stopped = false;  ///< true if a stop request ended the run: hits and irradiance are partial
   /// The progress of the run. If its unit is rays, hits and irradiance are exactly those of the first `done` rays. If
-  /// its unit is discs, the `done` discs marked in done_discs were tested against all rays; hits and irradiance of all
+  /// its unit is discs, the `done` discs marked in done_discs were tested against all rays; hits and irradiance of the
   /// other discs are 0 and have no meaning.
   Progress progress;
   std::vector<bool> done_discs;  ///< empty unless the progress is in discs

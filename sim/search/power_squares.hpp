@@ -10,8 +10,7 @@ namespace detp::sim {
 /// Bytes for each disc: its sum of squares and its standard error.
 constexpr double error_bytes = 2 * sizeof(double);
 
-/// For each disc, the sum of the squared powers of its hits: the standard error of the irradiance follows from this
-/// sum.
+/// For each disc, the sum of the squared powers of its hits, which gives the standard error of the irradiance.
 ///
 /// As long as all rays carry the same power, the sums follow from the numbers of hits. After that, the sums need pairs.
 class PowerSquares {

@@ -11,8 +11,7 @@
 
 namespace detp::sim {
 
-/// Rays and discs, checked by make_problem. The caller's rays and discs must outlive every use of the problem, which
-/// copies them only to normalise them.
+/// Rays and discs, checked by make_problem. They are copied only to be normalised, and must outlive the problem's use.
 struct Problem {
   std::span<const Ray> rays;
   std::span<const Disc> discs;
@@ -40,12 +39,11 @@ struct Problem {
 /// normalised in floats has an error of about 1e-7.) A ray's length does not change: it is in scene units, not a
 /// multiple of the direction's length.
 ///
-/// Throws std::invalid_argument if there is no ray or no disc, or if a ray or disc is malformed. The message has its
+/// Throws std::invalid_argument if there is no ray or no disc, or if a ray or disc is malformed; the message has its
 /// number, as in "ray 17: direction must be non-zero (got 0 0 0)". Malformed are: a number that is not finite (except a
 /// length of +infinity: the whole line), a coordinate or radius above 1e100, a radius below 1e-100, a direction or
-/// normal of length 0, a length <= 0, a power that is negative or above most_power (9.6e288 for radii of at least 1;
-/// larger powers could overflow). Throws std::length_error for more than 2³² - 2 rays or discs, and Stopped on a stop
-/// request.
+/// normal of length 0, a length <= 0, a power < 0 or above most_power (9.6e288 for radii of at least 1; larger powers
+/// could overflow). Throws std::length_error for more than 2³² - 2 rays or discs, and Stopped on a stop request.
 ///
 /// The slack is 16e-12 E + ∛(2d κ²) + 1e-15 M. In spite of rounding, a ray that counts as a hit comes nearer to the
 /// disc than the slack, with a margin for the rounding of the culls (proof: sim/geometry/proofs.md). E is the distance

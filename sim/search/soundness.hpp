@@ -8,8 +8,7 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 
-/// The checks of make_problem, and its normalisation of directions and normals. Functions that process spans throw
-/// Stopped on a stop request.
+/// The checks of make_problem, and its normalisation of directions and normals. All throw Stopped, except normalised().
 namespace detp::sim {
 
 /// Lower bound on disc radii, so that squares do not underflow.

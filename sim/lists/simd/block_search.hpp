@@ -12,8 +12,7 @@ namespace detp::sim::stream {
 /// Hits of one disc by rays of each class.
 using ClassCounts = std::array<std::uint32_t, classes>;
 
-/// A node's children are searched as separate tasks if testing its rays against its children takes at least so many
-/// tests.
+/// Least number of tests of a node's rays against its children for which the children are searched as separate tasks.
 inline constexpr std::size_t least_work = std::size_t{1} << 16;
 
 /// Data that all threads read during the search of a block of rays.
@@ -29,8 +28,7 @@ struct BlockSearch {
   DiscTotals* totals;       ///< sums of power, indexed and written like hits; null if hits are only counted
 };
 
-/// Number of tests (of a ray against a box, a sphere or a disc) in a unit of work of StopCheck: about one vector of
-/// rays.
+/// Number of tests (ray against box, sphere or disc) in a unit of work of StopCheck: about one vector of rays.
 inline constexpr std::size_t tests_a_unit = 16;
 
 /// Units of work for testing each ray of a list `times` times.

@@ -167,8 +167,7 @@ class Builder {
     return static_cast<std::uint32_t>(found - places_.begin());
   }
 
-  /// Writes binary node `number` at `place`, and its descendants. `around` is ListCapacity::all for its ancestors'
-  /// lists.
+  /// Writes binary node `number` at `place`, and its descendants. `around` is ListCapacity::all of the lists around it.
   void widen(std::uint32_t number, std::size_t place, double around) {
     const Binary& node = binary_[number];
     widening_.after(1);

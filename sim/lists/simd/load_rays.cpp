@@ -30,8 +30,7 @@ struct Triple {
   Doubles x, y, z;
 };
 
-/// For each ray the component along axis (k + shift) modulo 3, where k is the ray's class. `first` are the rays of
-/// class 0, `second` those of class 1.
+/// For each ray the component along axis (k + shift) % 3, k the ray's class (0 for rays in `first`, 1 in `second`).
 HWY_INLINE Doubles turned(const Triple& v, Mask first, Mask second, int shift) {
   const Doubles axes[3] = {v.x, v.y, v.z};
   const Doubles of_third = axes[(2 + shift) % 3];

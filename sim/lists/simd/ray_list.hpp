@@ -35,8 +35,7 @@ inline constexpr std::uint32_t falling = 1U << 31;
   return {count, from(list.a), from(list.b), from(list.p), from(list.q), from(list.id), from(list.from), from(list.to)};
 }
 
-/// Expected sizes of nested lists, as shares of the number of rays. Each list has room for all rays of the list from
-/// which it is culled.
+/// Expected sizes of nested lists, as shares of the number of rays. A list has room for all rays of the list around it.
 struct ListCapacity {
   double first = 0;  ///< the outermost culled list, as far as it is filled
   double all = 0;    ///< `first`, and the room of all lists inside
@@ -51,7 +50,7 @@ using RayLists = std::array<RayList, classes>;
 /// before the memory budget would be exceeded.
 class ListArena {
  public:
-  /// `expected` is the total number of floats of its lists, for which one chunk is allocated.
+  /// `expected` is the total number of floats of its lists, and the size of the first chunk.
   explicit ListArena(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::size_t expected = 0)
       : expected_(expected), chunks_(memory) {}
 

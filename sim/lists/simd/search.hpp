@@ -32,9 +32,8 @@ struct TreeSize {
   ListCapacity lists = {};
 };
 
-/// The expected tree: leaves are half full, the tree is binary, and a child's box has fan_out^(-2/3) of the surface of
-/// its parent's box. If discs are concentrated in a few cells, there may be more nodes. make_disc_tree checks their
-/// memory again while it writes them.
+/// The expected binary tree: leaves are half full, a child's box has fan_out^(-2/3) of its parent's surface. If discs
+/// are concentrated in a few cells, there may be more nodes; make_disc_tree checks their memory while it writes them.
 [[nodiscard]] TreeSize expected_tree(std::size_t discs, const BoxTreeParameters& parameters);
 
 /// Predicted peak bytes of a search: sorted discs and their tree, lists of rays, sums, outcome. Rays, discs, pairs and
@@ -65,8 +64,7 @@ struct SearchInput {
 /// The index of brute force: tests every ray against every disc. (Rays that load_rays leaves out count as tested.)
 [[nodiscard]] std::unique_ptr<Index> prepare_all(const Problem& problem, const RunOptions& options);
 
-/// Finds the hits of all rays, by culling lists down a tree of boxes. The results have the same bytes for any number of
-/// threads.
+/// Finds the hits of all rays, by culling lists down a tree of boxes. Gives the same bytes for any number of threads.
 void search_boxes(const SearchInput& input, int fan_out, const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim::stream

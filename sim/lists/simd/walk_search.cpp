@@ -54,8 +54,7 @@ class ClassWalk {
     worker_.skipped.push_back({place, static_cast<std::uint32_t>(block_.tree.order.size()) - place});
   }
 
-  /// Makes a level's list. The first level of a disc frees its old list and all lists inside, which were culled from
-  /// it.
+  /// Makes a level's list. If `first`, frees the level's old list and all lists inside, which were culled from it.
   void build(std::size_t level, bool first) {
     if (first && level < built_) worker_.lists.release(marks_[level]);
     built_ = level + 1;
