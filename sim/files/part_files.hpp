@@ -6,7 +6,7 @@
 /// remove them when it has to end at once.
 namespace detp::sim {
 
-/// Creates a part file in the folder of `target`; sets `name` to its path. Returns its descriptor, or -1 and sets errno.
+/// Creates a part file in the folder of `target`; sets `name` to its path. Returns a descriptor, or -1 with errno set.
 [[nodiscard]] int create_part_file(const std::string& target, std::string& name);
 
 /// Makes an open nameless file a part file in the folder of `target`, and sets `name` to its path. On failure returns

@@ -36,7 +36,7 @@ Radii radii_of(std::span<const Disc> discs, StopCheck& check) {
   return radii;
 }
 
-/// The largest power for which the sum over 2⁶⁴ rays, and this sum over the smallest disc's area, do not overflow.
+/// The largest power for which the sum over 2⁶⁴ rays, also divided by the smallest disc's area, does not overflow.
 double most_power_for(double smallest_radius) {
   const double area = std::numbers::pi * smallest_radius * smallest_radius;
   return 0.99 * std::numeric_limits<double>::max() * 0x1p-64 * std::min(1.0, area);

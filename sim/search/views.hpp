@@ -72,7 +72,7 @@ struct DiscsView {
   NumbersView radii;
 };
 
-/// Copies the rays and normalises their directions. A direction of 0 stays 0; one that is not finite stays not finite.
+/// Copies the rays and normalises their directions. A direction of 0 stays 0; a direction that is not finite stays so.
 void read_rays(const RaysView& view, std::vector<Ray>& rays);
 
 /// Copies the discs and normalises their normals, as read_rays does.
