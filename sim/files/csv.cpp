@@ -90,7 +90,7 @@ class CsvReader {
 
   InputFile file_;
   TextLines lines_;
-  std::vector<std::size_t> order_;  ///< for each of the file's columns, its place among the known ones
+  std::vector<std::size_t> order_;  ///< for each of the file's columns, its index in row_.columns()
   TableRow row_;
 };
 

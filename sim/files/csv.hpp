@@ -7,10 +7,10 @@ namespace detp::sim {
 /// Reads numbers from CSV: a header with the columns in any order, then rows. Passes each row to `sink` as it is read.
 /// Returns the number of rows.
 ///
-/// Fields end at commas. Blanks around them, blank lines, any line ends and a byte order mark are accepted; quotes and
-/// comments are not. Numbers are read independently of the locale, including "inf" and "nan". Throws FileError with the
-/// line if the header is missing, or has an unknown or a repeated column; if a required column is missing; if a row has
-/// too few or too many fields; if a field is not a number; and as TextLines does.
+/// Fields end at commas. Blanks around fields, blank lines, any line ends and a byte order mark are accepted; quotes
+/// and comments are not. Numbers are read independently of the locale, including "inf" and "nan". Throws FileError with
+/// the line if the header is missing, or has an unknown or a repeated column; if a required column is missing; if a row
+/// has too few or too many fields; if a field is not a number; and as TextLines does.
 std::size_t read_csv(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
                      std::stop_token stop = {});
 

@@ -9,11 +9,11 @@
 
 namespace detp::sim {
 
-/// Bytes of a file whose reading is a unit of work (StopCheck).
+/// Number of bytes whose reading is a unit of work (StopCheck).
 inline constexpr std::uint64_t bytes_a_unit = 8;
 
-/// Reads a file piece by piece; also a pipe or a device. If one delivers nothing, the wait for it ends within 0.1 s of
-/// a stop request.
+/// Reads a file, a pipe or a device piece by piece. If a pipe or device delivers nothing, the wait for it ends within
+/// 0.1 s of a stop request.
 class InputFile {
  public:
   /// Opens the file. Throws FileError with the system's reason if it is missing or unreadable.
@@ -28,13 +28,13 @@ class InputFile {
   [[nodiscard]] std::string_view buffered() const { return {buffer_.data() + begin_, end_ - begin_}; }
 
   /// Reads until at least `bytes` bytes are in buffered(). Returns false if the file ends before. Throws FileError with
-  /// the system's reason (for instance if it is a folder), and Stopped.
+  /// the system's reason (for instance if the path is a folder), and Stopped.
   bool fetch(std::size_t bytes) { return end_ - begin_ >= bytes || fetch_more(bytes); }
 
   /// Skips bytes of buffered().
   void skip(std::size_t bytes) { begin_ += bytes; }
 
-  /// Number of bytes after the position; unknown for pipes and devices.
+  /// Number of bytes that have not been skipped, read or not. Nullopt for pipes, devices and files that report size 0.
   [[nodiscard]] std::optional<std::uint64_t> rest() const;
 
  private:

@@ -83,7 +83,7 @@ class PlyMeshReader {
   PlyFile file_;
   KeptMemory memory_;
   Mesh mesh_;
-  std::uint64_t vertices_ = 0;  ///< number that the header declares
+  std::uint64_t vertices_ = 0;  ///< number of vertices that the header declares
 };
 
 /// Throws FileError if a vector that a face uses is not finite.

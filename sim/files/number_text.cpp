@@ -18,8 +18,8 @@ std::errc parse_whole(std::string_view text, Number& number) {
   return stop == end ? error : std::errc::invalid_argument;
 }
 
-/// For a number outside the range of long double: whether it is too large (else it is too small). The first digit that
-/// is not 0 has the place value 10^(places before the point + exponent).
+/// For a number outside the range of long double: returns true if it is too large, false if it is too near to zero. The
+/// sign of the first non-zero digit's place relative to the point, plus the exponent, decides.
 bool too_large(std::string_view text) {
   const std::size_t e = text.find_first_of("eE");
   const std::string_view mantissa = text.substr(0, e);
@@ -40,7 +40,7 @@ std::optional<double> number_in(std::string_view text) {
   const std::errc error = parse_whole(text, number);
   if (error == std::errc{}) return number;
   if (error != std::errc::result_out_of_range) return std::nullopt;
-  // from_chars does not distinguish too large from too small; the wider type does.
+  // from_chars does not distinguish too large from too near to zero; converting from the wider type does.
   long double wide = 0;
   if (parse_whole(text, wide) == std::errc{}) return static_cast<double>(wide);
   return std::copysign(too_large(text) ? std::numeric_limits<double>::infinity() : 0.0, text.starts_with('-') ? -1 : 1);

@@ -5,16 +5,16 @@
 
 namespace detp::sim {
 
-/// The double nearest to the number that the whole text spells, independent of the locale; nullopt if it spells none.
+/// The double nearest to the number that the whole text spells, in any locale; nullopt if the text is not a number.
 ///
 /// Accepts a leading '+', and "inf", "infinity" and "nan" in any case. Numbers too large for a double become infinite;
-/// numbers too small become zero. Surrounding spaces are not accepted.
+/// numbers too near to zero become zero. Surrounding spaces are not accepted.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
 
 /// The text without leading and trailing spaces and tabs.
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 
-/// Returns the text up to the first of `separators`; removes it and that separator from the front of `text`.
+/// Returns the text up to the first character of `separators`; removes this text and the separator from `text`.
 [[nodiscard]] std::string_view cut_until(std::string_view& text, std::string_view separators);
 
 /// Returns the next word, a run of characters other than space and tab, and removes it from the front of `text`; empty

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// If a sum of unit normals is below this share of their number, it is a residue of cancellation.
+/// If the sum of n unit normals is shorter than least_sum n, the sum is a residue of cancellation.
 constexpr double least_sum = 1e-6;
 
 /// The sum of the unit normals of the corners at a position.
@@ -33,12 +33,11 @@ struct CornerNormals {
     ++count;
   }
 
-  /// The sum. If the normals cancel, for instance those of a leaf that has one triangle for each face, the first
-  /// normal.
+  /// The sum; the first normal if the normals cancel, as at a plant's leaf that has one triangle for each side.
   [[nodiscard]] glm::dvec3 vector() const { return glm::length(sum) < least_sum * count ? first : sum; }
 };
 
-/// Indices of a face's corner as the file has them; 0: none.
+/// Indices of a face's corner as written in the file; 0: none.
 struct Corner {
   long long vertex = 0;
   long long normal = 0;
@@ -117,7 +116,8 @@ class ObjReader {
     lines_.fail(quoted(word) + " is not a corner of a face; expected a corner such as 1, 1/2, 1//3 or 1/2/3");
   }
 
-  /// Resolves an index of the file: positive ones count from 1, negative ones backwards from the latest one.
+  /// Converts an index of the file to an index from 0. In the file, positive indices count from 1, negative indices
+  /// backwards from the latest vertex or normal, which is -1.
   [[nodiscard]] std::size_t resolve(long long index, std::size_t count, const char* what) const {
     const auto size = static_cast<long long>(count);
     const bool in_range = index != 0 && index >= -size && index <= size;

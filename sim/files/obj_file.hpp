@@ -7,11 +7,11 @@
 
 namespace detp::sim {
 
-/// Reads the triangles of an OBJ file, and the normals of its corners if every used vertex has at least one.
+/// Reads the triangles of an OBJ file, and the normals of its corners if every used vertex has at least one normal.
 ///
 /// A vertex whose corners have different normals gets the sum of their unit vectors. Positions and normals may be
-/// infinite or NaN: the caller decides about them. A backslash at the end of a line joins the next line to it, except
-/// in comments. Lines with a keyword unknown to OBJ are skipped, with a notice.
+/// infinite or NaN: the caller decides about them. A backslash at the end of a line joins the next line to this line,
+/// except in comments. Lines with a keyword unknown to OBJ are skipped, with a notice.
 ///
 /// Throws FileError with the line (the first of joined lines) for malformed numbers or faces, indices out of range, a
 /// file most of whose lines have unknown keywords; and as TextLines does. Throws std::length_error if the mesh would

@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 44> keywords{
     "trim",   "hole",       "scrv",      "sp",     "end",   "con",  "bevel", "lod",  "usemap", "c_interp", "d_interp",
     "maplib", "shadow_obj", "trace_obj", "ctech",  "stech", "call", "csh",   "bsp",  "bzp",    "cdc",      "res"};
 
-/// Number of statements with unknown keywords that are always accepted, before the file may be rejected.
+/// Number of statements with unknown keywords that are accepted in any file.
 constexpr std::uint64_t unknown_allowed = 100;
 
 }  // namespace

@@ -28,7 +28,7 @@ class OutputFile {
   /// Appends the text. Output is buffered, so an error such as a full disk may only appear later or in commit().
   void write(std::string_view text);
 
-  /// Moves the file to its target. Nothing may be written after it.
+  /// Moves the file to its target. Nothing may be written after commit().
   void commit();
 
  private:
@@ -39,7 +39,7 @@ class OutputFile {
   [[noreturn]] void fail(const std::string& what);
 
   std::string path_;    ///< as the caller spelled it, for messages
-  std::string target_;  ///< with links followed; empty if it is written directly
+  std::string target_;  ///< path_ with links followed; empty if the target is written directly
   std::string part_;    ///< the file to be renamed to the target; empty for a nameless file
   std::string buffer_;
   int descriptor_ = -1;

@@ -5,18 +5,18 @@
 
 namespace detp::sim {
 
-/// The open descriptor that the path names: /dev/stdout, /dev/fd/3. Reopening /dev/stdout would start at the front of
-/// the file that the shell has redirected it to, and overwrite its content.
+/// The open descriptor that the path names: /dev/stdout, /dev/fd/3. If the shell has redirected /dev/stdout to a file,
+/// reopening /dev/stdout would start at the front of this file and overwrite its content.
 [[nodiscard]] std::optional<int> descriptor_named(const std::string& path);
 
-/// The path with links followed: to the file, or to the place where it will be created. None if links lead in a circle.
+/// The path with links followed, to the file or to where it will be created. Nullopt if links lead in a circle.
 [[nodiscard]] std::optional<std::string> followed(const std::string& path);
 
 /// Throws FileError with the system's reason if an OutputFile could not be written there. To be called before long
-/// work. Creates and changes nothing. Does not open pipes: closing one again would signal end of file to its reader.
+/// work. Changes nothing and leaves no file. Does not open pipes: closing a pipe would signal end of file to a reader.
 void require_writable(const std::string& path);
 
-/// Whether both paths lead to one place, however they are spelled. /dev/null is never the same place as anything.
+/// Whether both paths lead to the same place, however they are spelled. False for /dev/null, even twice.
 [[nodiscard]] bool same_place(const std::string& a, const std::string& b);
 
 }  // namespace detp::sim

@@ -23,13 +23,13 @@ PartFiles& part_files() {
   return all;
 }
 
-/// A file name in the same folder that no other writer uses, in this process or another.
+/// A path in the target's folder that no other writer uses, in this process or another.
 std::string next_name(PartFiles& all, const std::string& target) {
   const std::string folder = target.substr(0, target.rfind('/') + 1);
   return folder + ".detp-" + std::to_string(::getpid()) + "-" + std::to_string(++all.last) + ".part";
 }
 
-/// `create` creates the file of that name; it returns -1 if it cannot.
+/// Calls `create` with new names until a name is not taken. `create` creates a file, or returns -1 with errno set.
 template <class Create>
 int create_under_new_name(const std::string& target, std::string& name, const Create& create) {
   PartFiles& all = part_files();

@@ -2,15 +2,15 @@
 
 #include <string>
 
-/// Part files: files being written under a temporary name. The whole program knows them, so it can remove them when it
-/// has to end at once.
+/// Part files: files being written under a temporary name. The program keeps a list of all part files, so that it can
+/// remove them when it has to end at once.
 namespace detp::sim {
 
-/// Creates a part file in the folder of `target`, for writing. Returns its descriptor, or -1 with errno set.
+/// Creates a part file in the folder of `target`; sets `name` to its path. Returns a descriptor, or -1 with errno set.
 [[nodiscard]] int create_part_file(const std::string& target, std::string& name);
 
-/// Gives an open nameless file a temporary name beside `target`, as a part file. On failure returns false with errno
-/// set.
+/// Makes an open nameless file a part file in the folder of `target`, and sets `name` to its path. On failure returns
+/// false with errno set.
 [[nodiscard]] bool name_part_file(int descriptor, const std::string& target, std::string& name);
 
 /// Moves the part file to the target. On failure returns false with errno set; the file is then still a part file.

@@ -39,7 +39,7 @@ class BodyReader {
                                std::to_string(element.rows) + source_.where() + ": " + what);
   }
 
-  /// If the size of the file is known, rejects a header that declares more data before anything is read.
+  /// Rejects an element with more data than the rest of the file, if the file's size is known.
   void check_size(const PlyElement& element) const {
     std::uint64_t least = 0;
     for (const PlyProperty& property : element.properties)

@@ -20,7 +20,7 @@ using PlyValues = std::vector<std::vector<double>>;
 /// A request for properties of one element.
 struct PlyRequest {
   std::string element;
-  std::vector<std::size_t> properties;  ///< their places in the element
+  std::vector<std::size_t> properties;  ///< the properties' places in the element
   /// receives each row, numbered from 0; may throw
   std::function<void(std::uint64_t row, const PlyValues& values)> on_row;
 };
@@ -34,7 +34,7 @@ class PlyFile {
   /// The element of that name; null if the file has none.
   [[nodiscard]] const PlyElement* element(std::string_view name) const;
 
-  /// Reads the body in its order, and skips elements that were not requested. Can be called once.
+  /// Reads the body in the file's order, and skips elements that were not requested. Can be called once.
   ///
   /// Throws FileError with the element and its row counted from 1 ("vertex 17 of 100") if the file is unreadable,
   /// malformed or truncated, or is an ascii file with more numbers than its header declares. Throws Stopped.

@@ -9,7 +9,7 @@
 
 #include "input_file.hpp"
 
-/// The header of a PLY file: what its body contains, in which format.
+/// The header of a PLY file: what the file's body contains, and in which format.
 namespace detp::sim {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
@@ -31,7 +31,7 @@ struct PlyElement {
   std::uint64_t rows = 0;
   std::vector<PlyProperty> properties;
 
-  /// The place of the property of that name. None unless the element has it, and it is a list or not as `list` says.
+  /// The place of the list (`list` true) or single number of that name. Nullopt if the element has no such property.
   [[nodiscard]] std::optional<std::size_t> property(std::string_view wanted, bool list) const;
 };
 
@@ -41,8 +41,8 @@ struct PlyHeader {
   std::size_t lines = 0;  ///< number of lines before the body
 };
 
-/// Reads the header from the front of a file, and leaves the position at the body. Throws FileError with the line if it
-/// is malformed or longer than 256 KiB; and as TextLines does.
+/// Reads the header from the front of a file, and leaves the position at the body. Throws FileError with the line if
+/// the header is malformed or longer than 256 KiB; and as TextLines does.
 [[nodiscard]] PlyHeader read_ply_header(InputFile& file);
 
 }  // namespace detp::sim

@@ -9,12 +9,11 @@
 namespace detp::sim {
 
 /// Reads rays: CSV with the header ox,oy,oz,dx,dy,dz and optionally length and power (columns in any order), or PLY
-/// with those vertex properties. Directions are normalised. `length` is not scaled with them: it is a length in scene
-/// units.
+/// with those vertex properties. Directions are normalised. Lengths do not change then: they are in scene units.
 ///
-/// length: absent, empty or "inf" means a line unbounded both ways; else it must be > 0 and finite, and the ray is the
-/// segment from the origin. power: absent means 1; else it must be finite and >= 0. Throws FileError as read_discs
-/// does, and for a zero direction.
+/// length: absent, empty or "inf" means a line unbounded both ways. Any other length must be > 0, and the ray is the
+/// segment from the origin. power: absent means 1. A given power must be finite and >= 0. Throws FileError as
+/// read_discs does, and for a zero direction.
 [[nodiscard]] std::vector<Ray> read_rays(const std::string& path, std::stop_token stop = {});
 
 /// Writes rays as CSV with the header ox,oy,oz,dx,dy,dz,length,power, with enough digits to read back the same doubles.

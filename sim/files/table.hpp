@@ -31,13 +31,13 @@ class TableRow {
 
   void set(std::size_t column, double value) { values_[column] = value; }
 
-  /// Sets where the row is: its line, or in a PLY file its number among `rows` vertices, from 1.
+  /// Sets the row's place: its line in a CSV file, or its number, from 1, among the `rows` vertices of a PLY file.
   void place(std::size_t number, std::size_t rows = 0) {
     number_ = number;
     rows_ = rows;
   }
 
-  /// Throws FileError with the place.
+  /// Throws FileError with the row's place.
   [[noreturn]] void fail(const std::string& what) const;
 
   /// The number in the column. Throws FileError if it is infinite or NaN.

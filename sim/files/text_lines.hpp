@@ -10,8 +10,7 @@ namespace detp::sim {
 
 /// The lines of a text file, which end in LF, CR LF or CR. A leading UTF-8 byte order mark is skipped.
 ///
-/// Throws FileError with the line if the file is no such text: UTF-16 or UTF-32, a NUL byte, a line longer than
-/// `longest`.
+/// Throws FileError for UTF-16 or UTF-32 and, with the line, for a NUL byte or a line longer than `longest`.
 class TextLines {
  public:
   static constexpr std::size_t longest = std::size_t{1} << 24;  ///< bytes in one line
@@ -30,7 +29,7 @@ class TextLines {
 
   [[nodiscard]] bool ended_by_cr_alone() const { return cr_alone_; }
 
-  /// Moves the file's position behind the line, so that a caller can read binary data after it.
+  /// Moves the file's position behind the line, so that a caller can read binary data after the line.
   void finish_line();
 
   /// Throws FileError with the path and the line.

@@ -9,7 +9,7 @@ namespace detp::sim {
 /// Checks for a stop request while a file is written.
 class WritingCheck {
  public:
-  /// `unit` names the `things` in the plural; it refers to a string of static storage.
+  /// `things` is the number of things to write. `unit` is their name in the plural, a string of static storage.
   WritingCheck(const std::string& path, std::uint64_t things, const char* unit, const std::stop_token& stop)
       : path_(path), check_(stop), written_{0, things, unit} {}
 

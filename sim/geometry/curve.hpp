@@ -10,8 +10,7 @@
 #include "detp/sim/base/radix_sort.hpp"
 #include "geometry.hpp"
 
-/// What the space-filling curves share: a grid of 65536 cells a side, and sorting points by their cell's place on the
-/// curve.
+/// What the space-filling curves share: a grid of 65536 cells per side, and sorting points by place on the curve.
 namespace detp::sim {
 
 /// A cell's number along each axis, 16 bits each.
@@ -19,9 +18,9 @@ using CurveCell = std::array<std::uint32_t, 3>;
 
 /// The cell of a point.
 ///
-/// Coordinates are measured from the box's low corner in units of 1/65536 of its longest side, so cells are cubes. (The
-/// paper stretches each side to the full 16 bits; in a flat scene its cells, and so its runs, would be flat too.) A
-/// point outside the box belongs to its nearest cell.
+/// Coordinates are measured from the box's low corner in units of 1/65536 of the longest side, so cells are cubes. (The
+/// paper stretches each side to the full 16 bits. In a flat scene the paper's cells are flat.) A point outside the box
+/// belongs to the cell nearest to the point.
 [[nodiscard]] inline CurveCell curve_cell(const glm::dvec3& point, const Box& box) {
   const glm::dvec3 size = box.size();
   const double side = std::max({size.x, size.y, size.z});
@@ -34,14 +33,13 @@ using CurveCell = std::array<std::uint32_t, 3>;
   return cell;
 }
 
-/// Peak bytes of sorting `points` points: copies of their positions, and two arrays of entries, between which they are
-/// sorted to and fro.
+/// Peak bytes of sorting `points` points: copies of their positions, and the radix sort's two arrays of entries.
 [[nodiscard]] inline double sorting_bytes(std::size_t points) {
   return (sizeof(glm::dvec3) + 2 * sizeof(KeyedIndex)) * static_cast<double>(points);
 }
 
-/// Indices of the points in order of rising code(point, their bounding box). Codes have 48 bits. Points of the same
-/// code keep their order. At most 2³² - 1 points. Throws Stopped if a stop was requested.
+/// Returns the points' indices in order of rising code(point, the points' bounding box). Codes have 48 bits. Points of
+/// the same code keep their order. At most 2³² - 1 points. Throws Stopped if a stop was requested.
 template <class Code>
 [[nodiscard]] std::vector<std::uint32_t> order_along(std::span<const glm::dvec3> points, const Code& code,
                                                      const std::stop_token& stop) {

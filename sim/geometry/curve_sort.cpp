@@ -64,7 +64,7 @@ std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells, con
   return places;
 }
 
-/// One pass of a radix sort. Counts, and moves, stretches of the words in parallel.
+/// One pass of a radix sort. Processes stretches of the words in parallel.
 class Pass {
  public:
   Pass(const Resolution& resolution, int digit, std::span<const CurvePlace> from, const std::stop_token& stop)
@@ -101,7 +101,7 @@ class Pass {
   std::span<const CurvePlace> from_;
   const std::stop_token& stop_;
   std::size_t stretches_;
-  std::vector<std::uint32_t> starts_;  ///< where the next word goes, for each stretch and each value of the digit
+  std::vector<std::uint32_t> starts_;  ///< index of the next word, for each stretch and each value of the digit
 };
 
 }  // namespace

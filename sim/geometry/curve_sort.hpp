@@ -16,8 +16,8 @@ using CurvePlace = std::uint64_t;
 [[nodiscard]] constexpr std::uint32_t place_code(CurvePlace place) { return static_cast<std::uint32_t>(place >> 32); }
 [[nodiscard]] constexpr std::uint32_t place_index(CurvePlace place) { return static_cast<std::uint32_t>(place); }
 
-/// Radix sort: one pass over the discs, two or three over the words. Cells are cubes with 1/1024 of the longest side of
-/// the discs' box, 1/64 for fewer than 8192 discs. Discs in one cell keep their order. Throws Stopped if a stop was
+/// Returns the places of all discs in rising order. Cells are cubes with 1/1024 of the longest side of the box around
+/// the discs' centres, 1/64 for fewer than 8192 discs. Discs in one cell keep their order. Throws Stopped if a stop was
 /// requested.
 [[nodiscard]] std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs, const std::stop_token& stop = {});
 

@@ -16,7 +16,7 @@ struct Polygon {
   void add(const glm::dvec3& corner) { corners[count++] = corner; }
 };
 
-/// The square in the disc's plane that the disc is inscribed in, relative to its centre.
+/// The square around the disc in the disc's plane, relative to the disc's centre.
 Polygon square_around(const Disc& disc) {
   const auto [u, v] = basis_around(disc.normal);
   const double r = disc.radius;
@@ -61,7 +61,7 @@ bool within(const Polygon& polygon, double radius) {
 }  // namespace
 
 Box bounds(const Disc& disc, double slack) {
-  // Computed from the other two components: 1 - n² would lose the tilt of a normal within 1e-8 of the axis.
+  // The tilt from each axis, computed from the other two components: 1 - n² would lose it within 1e-8 of the axis.
   const glm::dvec3 square = disc.normal * disc.normal;
   const glm::dvec3 tilt{std::sqrt(square.y + square.z), std::sqrt(square.z + square.x), std::sqrt(square.x + square.y)};
   const glm::dvec3 extent = disc.radius * tilt + slack;

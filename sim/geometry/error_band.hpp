@@ -6,15 +6,15 @@
 
 #include "geometry.hpp"
 
-/// How near to its boundary a predicate may decide wrongly. Proved in sim/geometry/proofs.md. Valid if no square
+/// How near to a shape's boundary a predicate may decide wrongly. Proved in sim/geometry/proofs.md. Valid if no square
 /// under- or overflows (make_problem's limits), and for directions and normals whose length is 1 to within 1e-12.
 namespace detp::sim {
 
 /// u = 2⁻⁵³: half the distance from 1 to the next double.
 inline constexpr double rounding_unit = 0.5 * std::numeric_limits<double>::epsilon();
 
-/// How far the computed nearest point on a ray, at `distance` from the origin, may be displaced along the ray: by
-/// rounding, and because D is not exactly of unit length.
+/// How far the computed point of a ray nearest to a centre may be displaced along the ray: by rounding, and because D
+/// is not exactly of unit length. `distance` is the distance between the ray's origin and the centre.
 [[nodiscard]] inline double displacement(const Ray& ray, double distance) {
   return (std::abs(glm::dot(ray.direction, ray.direction) - 1) + 8 * rounding_unit) * distance;
 }
@@ -35,19 +35,19 @@ inline constexpr double rounding_unit = 0.5 * std::numeric_limits<double>::epsil
 
 /// Bounds within which hits(ray, disc) may be wrong.
 struct DiscBand {
-  /// bound on | |n × (w × D)| - d |n·D| |, length; divided by |n·D| it bounds the crossing's distance from the rim
-  double rim;
-  double ends;  ///< segments only: bound on |n·w| and |n·w + length n·D|, length: how near an end is to the plane
+  double rim;   ///< length; rim/|n·D| is the bound on the distance of the crossing from the disc's rim
+  double ends;  ///< length; segments only: bound on the distance of an end from the disc's plane
 };
 
-/// hits(ray, disc) is right if both of these bounds are exceeded:
+/// hits(ray, disc) is right if | |n × (w × D)| - d |n·D| | > rim and, for segments, both |n·w| > ends and
+/// |n·w + length n·D| > ends, with
 ///   rim = u(3|w| + 10d), plus s min(1, 2s/d) for segments;   ends = 4.01 u(|w| + length).
 ///
 /// | symbol | unit   | meaning                                              |
 /// |--------|--------|------------------------------------------------------|
 /// | w      | length | from the disc's centre to the ray's origin           |
 /// | d, n   |        | radius; normal                                       |
-/// | s      | length | (| |D|² - 1 | + 8u) |w|: matters if |w| > 5·10⁷ d    |
+/// | s      | length | (| |D|² - 1 | + 8u) |w|; matters if |w| > 5·10⁷ d    |
 [[nodiscard]] inline DiscBand error_band(const Ray& ray, const Disc& disc) {
   const double w = glm::distance(ray.origin, disc.centre);
   const double rim = rounding_unit * (3 * w + 10 * disc.radius);

@@ -9,11 +9,11 @@ namespace detp::sim {
 
 /// Whether the ray meets the closed sphere.
 ///
-/// Compares the distance of the centre from the ray, measured perpendicular to it, with the radius. The distance's
-/// error is about ε|f|, where f is the vector from the ray's origin to the centre; the discriminant b² - 4ac would have
-/// an error of ε|f|²/r. The decision is right, for the line that the direction spans or the segment origin + [0,
-/// length] direction, if the true distance differs from the radius by more than error_band(ray, sphere), about 2.2u|f|
-/// + 4ur (u = 2⁻⁵³).
+/// Compares the distance between the centre and the ray's nearest point with the radius. The distance's error is about
+/// ε|f|, where f is the vector from the ray's origin to the centre. The discriminant b² - 4ac would have an error of
+/// ε|f|²/r. The decision is right if the centre's true distance from the line that the direction spans, or from the
+/// segment origin + [0, length] direction, differs from the radius by more than error_band(ray, sphere), about
+/// 2.2u|f| + 4ur (u = 2⁻⁵³).
 [[nodiscard]] inline bool hits(const Ray& ray, const Sphere& sphere) {
   const glm::dvec3 f = sphere.centre - ray.origin;
   double along = glm::dot(f, ray.direction);
@@ -29,15 +29,15 @@ inline constexpr double reach = 1 + 2e-12;
 /// Whether the ray crosses the disc: the point where it crosses the disc's plane lies within the closed disc and on the
 /// ray. A ray parallel to the plane does not hit.
 ///
-/// Needs no division. With D the direction, n the normal and w the vector from the disc's centre to the origin, the
-/// vector from the centre to the crossing is w - D (n·w)/(n·D) = (n × (w × D)) / (n·D); neither n nor D need have unit
-/// length. The decision is right if the crossing's distance from the centre differs from d by more than error_band(ray,
-/// disc).rim / |n·D|, about u(3|w| + 10d)/|n·D|, and no end of a segment lies within error_band(ray, disc).ends of the
-/// plane, about 4u(|w| + length). The bounds are derived in sim/geometry/proofs.md.
+/// Needs no division. Let D be the direction, n the normal, d the radius and w the vector from the disc's centre to the
+/// ray's origin. The vector from the centre to the crossing is w - D (n·w)/(n·D) = (n × (w × D)) / (n·D), for n and D
+/// of any length. The decision is right if the crossing's distance from the centre differs from d by more than
+/// error_band(ray, disc).rim / |n·D|, about u(3|w| + 10d)/|n·D|, and each end of a segment is farther from the plane
+/// than error_band(ray, disc).ends, about 4u(|w| + length). The bounds are derived in sim/geometry/proofs.md.
 ///
 /// If the disc is seen almost edge-on, rounding decides, and could report a hit far from the disc. Two checks prevent
-/// this. First, |w × D| is the distance of the whole line from the centre; if it exceeds d, the ray misses. Second, a
-/// candidate hit on a segment must also lie within d of the centre; this check runs last, on candidate hits only.
+/// this; they need a D of unit length. First, the distance of the whole line from the centre, |w × D|, must be at most
+/// d·reach. Second, if a segment passes all other checks, its distance from the centre must be at most d·reach.
 [[nodiscard]] inline bool hits(const Ray& ray, const Disc& disc) {
   const glm::dvec3 w = ray.origin - disc.centre;
   const glm::dvec3 moment = glm::cross(w, ray.direction);

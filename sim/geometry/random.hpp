@@ -3,8 +3,8 @@
 #include <array>
 #include <cstdint>
 
-/// Counter-based random numbers: a pure function of (seed, stream, index). So results do not depend on threads, ranks
-/// or order. Philox4x64-10 of Random123.
+/// Counter-based random numbers (Philox4x64-10 of Random123): a pure function of (seed, stream, index, sub_index). So
+/// results do not depend on threads, ranks or order.
 namespace detp::sim {
 
 /// The purpose of the numbers. Streams never overlap.

@@ -7,7 +7,7 @@
 
 namespace detp::sim {
 
-/// An interval on a ray, by the distance from its origin (negative behind the origin, on a line).
+/// An interval on a ray, in distances from the ray's origin (on a line, negative behind the origin).
 struct RayInterval {
   double from;
   double to;

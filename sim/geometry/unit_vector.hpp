@@ -9,8 +9,8 @@
 namespace detp::sim {
 
 /// The vector scaled to length 1. Components of 1e-300 and 1e300 neither vanish nor overflow. Zero stays zero. A vector
-/// whose length is 1 within rounding is returned unchanged, so a file reads back the vectors that were written. All
-/// components must be finite.
+/// whose length is 1 within rounding is returned unchanged, so vectors that are written to a file are read back
+/// unchanged. All components must be finite.
 [[nodiscard]] inline glm::dvec3 unit_or_zero(const glm::dvec3& vector) {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   if (std::abs(glm::dot(vector, vector) - 1) <= rounding) return vector;

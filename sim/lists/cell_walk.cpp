@@ -11,7 +11,7 @@ namespace {
 
 constexpr int code_digits = 16;
 
-/// The code's octal digit that selects the cell of that level, 1 … 16, inside the one around it.
+/// Octal digit number `level` (1 … 16) of the code: selects one of the eight octants of the cell at level - 1.
 std::uint64_t octant(std::uint64_t code, int level) { return code >> 3 * (code_digits - level) & 7; }
 
 /// The last level at which both codes have the same cell.
@@ -39,7 +39,7 @@ int CellWalk::enter(const Disc& disc) {
   const std::uint64_t code = lebesgue_code(disc.centre, box_);
   const int first = entered_ ? last_common_level(code, code_) + 1 : 0;
   const int depth = static_cast<int>(spheres_.size()) - 1;
-  glm::dvec3 cell{0};  // its number along each axis
+  glm::dvec3 cell{0};  // the cell's number along each axis
   for (int level = 1; level <= depth; ++level) {
     const std::uint64_t digit = octant(code, level);
     cell = 2.0 * cell + glm::dvec3{digit >> 2 & 1, digit >> 1 & 1, digit & 1};

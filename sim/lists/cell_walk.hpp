@@ -10,18 +10,18 @@
 /// them.
 namespace detp::sim {
 
-/// The cell of level i (0: the samples' cube) is that of the first i octal digits of the sample's Morton code. Its
-/// sphere has the cell's centre and the radius s_i √3/2 + d. It contains the discs of all samples in the cell, and lies
-/// in the sphere of the cell around it (proof: model/hierarchy/cell_spheres.hpp).
+/// The first i octal digits of a sample's Morton code select its cell of level i, of side s_i; level 0 is the samples'
+/// cube. The cell's sphere has the cell's centre and the radius s_i √3/2 + d. It contains the discs of all samples in
+/// the cell, and lies in the parent cell's sphere (proof: model/hierarchy/cell_spheres.hpp).
 ///
-/// This also holds with rounding: a sample's code may be that of the adjacent cell, but then the sample lies within 3
-/// ulp (of the cube's size and place) of that cell, and the culls' slack is thousands of times larger.
+/// Rounding may give a sample the code of an adjacent cell. The sample then lies within 3 ulp (of the cube's size and
+/// position) of that cell. The culls' slack is thousands of times larger.
 class CellWalk : public ListWalk {
  public:
   /// For levels 0 … depth.
   CellWalk(std::span<const Disc> discs, int depth);
 
-  /// A copy in that memory.
+  /// A copy that allocates from `memory`.
   CellWalk(const CellWalk& other, std::pmr::memory_resource& memory)
       : box_(other.box_),
         side_(other.side_),
@@ -29,13 +29,13 @@ class CellWalk : public ListWalk {
         entered_(other.entered_),
         spheres_(other.spheres_, &memory) {}
 
-  /// Advances to the cells of the next disc. Returns the first level, at least 1, at which they differ from those of
-  /// the disc before; depth + 1 if all are equal.
+  /// Advances to the next disc. Returns the first level, at least 1, at which this disc's cell differs from the
+  /// previous disc's cell; depth + 1 if no cell differs; 1 for the first disc.
   int enter(const Disc& disc) override;
   [[nodiscard]] int innermost() const override { return deepest(); }
   [[nodiscard]] int deepest() const override { return static_cast<int>(spheres_.size()) - 1; }
 
-  /// The sphere of the cell of that level around the current disc.
+  /// The sphere of the current disc's cell at that level.
   [[nodiscard]] const Sphere& sphere(int level) const override { return spheres_[static_cast<std::size_t>(level)]; }
 
  private:

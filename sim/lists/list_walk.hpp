@@ -10,7 +10,7 @@ namespace detp::sim {
 
 /// Nested spheres that follow the discs, one disc after another. Decides which spheres must be rebuilt, and where.
 ///
-/// Level 0 is S₀, which holds all rays and is never rebuilt. Level i's list of rays is culled from level i - 1's.
+/// Level 0 is S₀. Its list holds all rays and is never rebuilt. Level i's list is culled from the list of level i - 1.
 class ListWalk {
  public:
   virtual ~ListWalk() = default;

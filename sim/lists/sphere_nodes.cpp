@@ -14,7 +14,7 @@ struct Node {
   Box box;
 };
 
-/// The farthest distance of a child's sphere from a point, and the direction to it.
+/// The distance from a point to the farthest point of the children's spheres, and the direction to that child's centre.
 struct FarthestSphere {
   double distance = 0;
   glm::dvec3 towards{0};  ///< unit length, or zero if the point is the child's centre
@@ -39,7 +39,7 @@ FarthestSphere farthest_sphere(std::span<const Node> children, const glm::dvec3&
 
 Node bounding_node(std::span<const Node> children, StopCheck& check) {
   constexpr int steps = 6;
-  constexpr double first_step = 0.1;  // as a share of the distance
+  constexpr double first_step = 0.1;  // as a share of the farthest distance
   constexpr double shrink = 0.7;
   if (children.size() == 1) return children.front();
   Node node{{{}, unbounded}, {}};
@@ -57,7 +57,7 @@ Node bounding_node(std::span<const Node> children, StopCheck& check) {
   return node;
 }
 
-/// The nodes one level above: one for each `run` consecutive nodes.
+/// The nodes one level above `below`: one for each `run` consecutive nodes.
 std::vector<Node> level_above(const std::vector<Node>& below, std::size_t run, StopCheck& check) {
   std::vector<Node> level;
   level.reserve((below.size() - 1) / run + 1);

@@ -13,7 +13,7 @@ namespace detp::sim {
 
 /// Spheres over runs of consecutive discs.
 ///
-/// Leaf j holds the discs order[j·leaf] … order[(j + 1)·leaf - 1]; node j of any other level holds the nodes j·fan_out
+/// Leaf j holds the discs order[j·leaf] … order[(j + 1)·leaf - 1]. Node j of any other level holds the nodes j·fan_out
 /// … (j + 1)·fan_out - 1 of the level below. The last node of a level may hold fewer.
 struct SphereTree {
   std::vector<std::vector<Sphere>> levels;  ///< the leaves first, the root last
@@ -21,16 +21,16 @@ struct SphereTree {
   [[nodiscard]] std::size_t nodes() const;
 };
 
-/// The tree over `discs` in that order, which must contain each disc once.
+/// Returns the tree over `discs`. `order` must contain each disc's number once.
 ///
-/// Each sphere contains its children's spheres (a leaf's: its discs), so S(child) ⊂ S(parent): a list culled from the
-/// parent's lacks no ray of the child's sphere, and integral geometry gives its length. The tightest sphere around the
-/// discs themselves would be smaller (at fan-out 8 its area by 10 % one level above the leaves, 15 % higher up), but
-/// the children's spheres would extend outside it. Rounding moves spheres by a few ulp a level: less than the slack.
+/// A leaf's sphere contains its discs, any other sphere contains its children's spheres. So a list culled from the
+/// parent's list lacks no ray of the child's sphere, and integral geometry gives the list's length. The tightest sphere
+/// around a node's discs would be smaller (its area by 10 % at fan-out 8 one level above the leaves, 15 % higher up),
+/// but would not contain the children's spheres. Rounding moves a sphere by a few ulp per level, less than the slack.
 ///
-/// A sphere's centre starts at the centre of the box around the children's boxes, and moves in six shrinking steps
-/// towards the child that reaches farthest; the best position is kept. Summed over a tree, areas are 10 % less than
-/// without these steps and 1 % more than after twenty (10⁵ samples, fan-out 8).
+/// A sphere's centre starts at the centre of the box around the children's boxes. It moves in six shrinking steps, each
+/// towards the child whose sphere reaches farthest from it. The position with the smallest sphere is kept. The sum of
+/// all areas of a tree is 10 % less than without these steps and 1 % more than after twenty (10⁵ samples, fan-out 8).
 ///
 /// Throws std::invalid_argument for parameters out of range, or if there is no disc; Stopped if a stop was requested.
 [[nodiscard]] SphereTree make_sphere_tree(std::span<const Disc> discs, std::span<const std::uint32_t> order,

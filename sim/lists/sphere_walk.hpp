@@ -7,27 +7,27 @@
 
 namespace detp::sim {
 
-/// The sphere cache's spheres S₁ … S_k, of radius r₀Qⁱ, around the discs for which they were built.
+/// The sphere cache's spheres S₁ … S_k. S_i has the radius r₀Qⁱ and the centre of the disc for which it was built.
 ///
-/// From the first sphere that does not serve the disc, all are rebuilt around its centre, as long as they contain it.
+/// The first sphere that does not serve a disc, and all smaller spheres that can hold it, are rebuilt around the disc.
 class SphereWalk : public ListWalk {
  public:
   /// Which spheres serve a disc.
   enum class ServingSpheres {
-    all_that_hold,  ///< those that contain it, from the outermost inwards without a gap: exact
-    /// the paper's rule (section 2.2): the innermost that contains it, even if a larger one does not; its list may lack
-    /// rays
+    all_that_hold,  ///< from the outermost inwards, until a sphere does not contain the disc: exact
+    /// the paper's rule (section 2.2): the innermost sphere that contains the disc and all larger spheres, even if one
+    /// of these does not contain the disc; lists may lack rays
     innermost_that_holds
   };
 
   /// Omits spheres smaller than the smallest disc, which would never be built.
   SphereWalk(const Problem& problem, const SphereCacheParameters& parameters, ServingSpheres serving);
 
-  /// A copy in that memory.
+  /// A copy that allocates from `memory`.
   SphereWalk(const SphereWalk& other, std::pmr::memory_resource& memory)
       : serving_(other.serving_), spheres_(other.spheres_, &memory), built_(other.built_) {}
 
-  /// The number of these spheres. For Q = 1 - 1e-9 it can reach about 10⁹·ln(r₀/r), so check their memory first.
+  /// The number of spheres without S₀, or one more. For Q = 1 - 1e-9 about 10⁹·ln(r₀/r), so check their memory first.
   [[nodiscard]] static double levels(const Problem& problem, const SphereCacheParameters& parameters);
 
   int enter(const Disc& disc) override;
@@ -40,7 +40,7 @@ class SphereWalk : public ListWalk {
 
   ServingSpheres serving_;
   std::pmr::vector<Sphere> spheres_;
-  int built_ = 1;  ///< S₀ … S_built-1 are where they were last built
+  int built_ = 1;  ///< number of spheres that are built, with S₀
 };
 
 }  // namespace detp::sim

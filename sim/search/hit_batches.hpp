@@ -3,12 +3,12 @@
 #include <cstdint>
 #include <optional>
 
-/// Estimates the hits of all rays of a random stream from those of its first rays.
+/// Estimates the number of hits of a random stream of rays from the hits of its first rays.
 namespace detp::sim {
 
 /// Hits of batches of rays, accumulated for a standard error.
 struct HitBatches {
-  std::uint64_t count = 0;
+  std::uint64_t count = 0;  ///< number of batches
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;
   double squares = 0;  ///< Σ h²/m over the batches, with h hits of m rays
@@ -25,13 +25,12 @@ struct HitEstimate {
   std::optional<double> standard_error;  ///< unknown for fewer than two batches
 };
 
-/// Estimates the hits of N = `all_rays` independent rays from batches of n of them: H N/n, where H is the hits of these
-/// n.
+/// Estimates the hits of N = `all_rays` independent rays from the H hits of n of these rays, in batches: H N/n.
 ///
 ///     SE² = N (N - n)/n σ²,   σ² = Σ m (h/m - H/n)² / (B - 1)        B batches of m rays with h hits
 ///
 /// σ² is the variance of one ray's hits. For n ≪ N the squared error is σ² N²/n; the factor 1 - n/N accounts for the
-/// hits that are already known. `batches` must hold a ray.
+/// hits that are already known. `batches` must have at least one ray.
 [[nodiscard]] HitEstimate estimate_hits(const HitBatches& batches, std::uint64_t all_rays);
 
 }  // namespace detp::sim

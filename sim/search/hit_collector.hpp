@@ -30,11 +30,11 @@ class Tally {
 
 /// Decides by the canonical predicate, and collects the hits.
 ///
-/// For each disc and dominant axis, every technique must pass the rays in rising order of their index. Then all
-/// techniques add powers in the same order, and irradiance is the same to the last bit.
+/// Every technique must add the hits of each disc by rays of one dominant axis in rising order of the rays' numbers.
+/// Then all techniques add powers in the same order, and irradiance is the same to the last bit.
 class HitCollector {
  public:
-  /// Keeps references to all three and, if set, to the options' totals. Pairs are kept in the outcome.
+  /// Keeps references to all three. Adds to options.totals, unless it is null. Stores pairs in the outcome.
   HitCollector(const Problem& problem, const RunOptions& options, Outcome& outcome)
       : problem_(problem), options_(options), outcome_(outcome), own_(options.memory) {
     if (totals().empty()) totals().resize(problem.discs().size());
@@ -53,8 +53,8 @@ class HitCollector {
 
   [[nodiscard]] std::uint64_t kept() const { return kept_; }
 
-  /// Moves the results into the outcome. Powers become irradiance, unless the totals are the caller's. `rays` is the
-  /// number of first rays that have been searched; it is less than all if the search was stopped.
+  /// Stores the results in the outcome; hits and irradiance only if options.totals is null. The first `rays` rays have
+  /// been searched: fewer than all if the search was stopped.
   void store_results(std::uint64_t rays) {
     outcome_.progress = {rays, problem_.rays().size()};
     outcome_.stopped = rays < problem_.rays().size() || !sort_pairs(outcome_.pairs, options_.stop);
@@ -66,13 +66,13 @@ class HitCollector {
     if (options_.totals == nullptr) finish(own_, problem_.discs(), outcome_);
   }
 
-  /// For a search that processes one disc after another. Must be called before store_partial_results.
+  /// Saves the caller's totals. To be called first by a search that may call store_partial_results.
   void save_totals() {
     if (options_.totals != nullptr) before_.emplace(*options_.totals, options_.memory);
   }
 
-  /// Moves the results of a stopped search into the outcome, when all rays had been tested against the discs in `done`.
-  /// The caller's totals are restored, because they cannot show that some discs are missing.
+  /// Stores the results of a stopped search in the outcome. All rays have been tested against the discs in `done`, and
+  /// some rays perhaps against other discs. Restores the caller's totals, which cannot show that discs are missing.
   void store_partial_results(std::span<const std::uint32_t> done) {
     outcome_.stopped = true;
     outcome_.pairs.clear();
@@ -93,7 +93,7 @@ class HitCollector {
   const Problem& problem_;
   const RunOptions& options_;
   Outcome& outcome_;
-  std::optional<Totals> before_;  ///< the initial value of the shared totals
+  std::optional<Totals> before_;  ///< the caller's totals before the search
   Totals own_;
   std::uint64_t kept_ = 0;
 };

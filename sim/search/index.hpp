@@ -12,7 +12,7 @@ namespace detp::sim {
 struct Built {
   Phases seconds;                ///< for sorting and building
   Counts<std::uint64_t> counts;  ///< of building: sorted, placements, references
-  double bytes = 0;              ///< predicted peak memory while it is built
+  double bytes = 0;              ///< predicted peak memory while the index is built
 };
 
 /// The data structure that a technique builds from the discs, before any ray. It is const, so many threads may search
@@ -22,8 +22,8 @@ class Index {
   virtual ~Index() = default;
 
   /// Finds the hits of the problem's rays and fills in the outcome, except for its times. The problem must have the
-  /// discs from which the index was made, and at most the same slack. Counts are those of the search alone. Throws
-  /// std::length_error, naming the bytes, before it would exceed the memory budget.
+  /// discs from which the index was made, and at most the slack that it had then. Counts are those of the search alone.
+  /// Throws std::length_error, naming the bytes, before the memory budget would be exceeded.
   virtual void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const = 0;
 
   [[nodiscard]] const Built& built() const { return built_; }
@@ -42,7 +42,7 @@ void check_options(const RunOptions& options, const Problem& problem);
 /// options out of range. If a search is stopped before it found anything, the outcome has no hits.
 [[nodiscard]] Outcome search(const Index& index, const Problem& problem, const RunOptions& options);
 
-/// The same, into an outcome whose arrays are used again.
+/// The same, but writes into `outcome` and reuses its arrays.
 void search(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim

@@ -38,17 +38,17 @@ struct RunOptions {
   bool standard_error = false;  ///< fill in Outcome::standard_error
   Engine engine = Engine::simd;
   std::stop_token stop = {};  ///< checked in every phase, after at most StopCheck::most_work units of work
-  /// 0: all cores; at most 4096. Results and counts do not depend on it. Techniques that trace rays one by one use all
-  /// threads, plain techniques that cull lists of rays use one.
+  /// 0: all cores; at most 4096. Results and counts do not depend on the number. Techniques that trace rays one by one
+  /// use all threads, plain techniques that cull lists of rays use one.
   int threads = 1;
-  /// Sums of earlier rays. The run adds to them, and leaves hits and irradiance to `finish`. If empty, the run creates
-  /// them. So running blocks of rays one after another gives, bit for bit, the result of one run over all of them.
+  /// Unless null: sums over earlier rays (empty: none), to which the run adds. The caller gets hits and irradiance by
+  /// `finish`. Runs over successive blocks of rays give the same bits as one run over all rays.
   Totals* totals = nullptr;
-  /// Where a search takes its arrays from, except what it returns. A Scratch keeps them for the next search.
+  /// Memory for a search's arrays, except those that it returns. A Scratch keeps the memory for the next search.
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
 };
 
-/// SIMD vectors that the simd engine processed, full or not. They depend on the instruction set.
+/// Numbers of SIMD vectors that the simd engine processed, full or not. They depend on the instruction set.
 struct Vectors {
   std::uint64_t cull = 0;  ///< vectors of rays tested against a sphere or box
   std::uint64_t test = 0;  ///< vectors of rays tested against a disc
@@ -63,8 +63,8 @@ struct Vectors {
 /// Counts of one sphere of the cache.
 struct SphereCounts {
   std::uint64_t rebuilds = 0;  ///< number of builds
-  std::uint64_t tests = 0;     ///< ray-sphere tests of all its builds
-  std::uint64_t listed = 0;    ///< rays listed in all its builds
+  std::uint64_t tests = 0;     ///< ray-sphere tests of all builds
+  std::uint64_t listed = 0;    ///< rays listed in all builds
 };
 
 /// The results of a technique, per disc in the order of the problem's discs.
@@ -73,13 +73,13 @@ struct Outcome {
   /// Power of the rays that cross the disc, divided by π d²: ((x + y) + z) / π d². Each of x, y, z is the sum, in ray
   /// order, over the rays with that dominant_axis. All exact techniques give the same bits.
   std::vector<double> irradiance;
-  /// Of the irradiance, for independent rays (PowerSquares::finish); empty unless asked for, and of a stopped run.
+  /// Of the irradiance, for independent rays (PowerSquares::finish). Empty if not requested, or if the run was stopped.
   std::vector<double> standard_error;
   std::uint64_t total_hits = 0;
   Counts<std::uint64_t> counts;       ///< all zero unless requested (`hits` always holds total_hits)
   Vectors vectors;                    ///< of the simd engine
   std::vector<SphereCounts> spheres;  ///< S₁ … S_k of a sphere cache; empty unless counts are requested
-  std::vector<Pair> pairs;            ///< sorted by ray, then disc; empty unless requested, and for a stopped run
+  std::vector<Pair> pairs;            ///< sorted by ray, then disc; empty if not requested, or if the run was stopped
   /// Predicted peak memory, in addition to rays and discs, checked before it is allocated. Does not include memory that
   /// the heap keeps after arrays are freed.
   double bytes = 0;
@@ -87,7 +87,7 @@ struct Outcome {
   bool stopped = false;  ///< true if a stop request ended the run: hits and irradiance are partial
   /// The progress of the run. If its unit is rays, hits and irradiance are exactly those of the first `done` rays. If
   /// its unit is discs, the `done` discs marked in done_discs were tested against all rays; hits and irradiance of the
-  /// others are 0 and have no meaning.
+  /// other discs are 0 and have no meaning.
   Progress progress;
   std::vector<bool> done_discs;  ///< empty unless the progress is in discs
   HitBatches batches;            ///< hits of the finished rays, batch by batch; empty if the progress is in discs
@@ -99,7 +99,8 @@ void clear(Outcome& outcome);
 /// Fills in the outcome's hits and irradiance from the totals, one for each disc.
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
 
-/// For a stopped outcome with marked done_discs: removes the hits of all other discs, and sets progress and total.
+/// For a stopped outcome whose finished discs are marked in done_discs. Sets hits and irradiance of the other discs to
+/// 0, sets progress to the number of marked discs, and recomputes total_hits.
 void keep_done_discs(Outcome& outcome);
 
 }  // namespace detp::sim

@@ -36,7 +36,7 @@ Radii radii_of(std::span<const Disc> discs, StopCheck& check) {
   return radii;
 }
 
-/// The largest power for which the sum over 2⁶⁴ rays, divided by the area of the smallest disc, does not overflow.
+/// The largest power for which the sum over 2⁶⁴ rays, also divided by the smallest disc's area, does not overflow.
 double most_power_for(double smallest_radius) {
   const double area = std::numbers::pi * smallest_radius * smallest_radius;
   return 0.99 * std::numeric_limits<double>::max() * 0x1p-64 * std::min(1.0, area);
@@ -57,14 +57,14 @@ double cull_slack(const Sphere& enclosing, double farthest, double largest_radiu
 Sphere sphere_around(std::span<const Disc> discs, StopCheck& check) {
   Box box;
   double largest = 0;
-  double sum = 0;  // NaN or infinite if any number is
+  double sum = 0;  // NaN if any number is not finite
   for_each_checked(discs, check, [&](const Disc& disc) {
     box.include(disc.centre);
     largest = std::max(largest, disc.radius);
     sum += 0 * (disc.centre.x + disc.centre.y + disc.centre.z + disc.radius);
   });
   const glm::dvec3 centre = box.centre();
-  // Uses the farther corner, with rounding: half the diagonal can be an ulp shorter.
+  // The distance of the farther corner, as computed: half the diagonal can be an ulp shorter.
   const double reach = std::max(glm::distance(centre, box.low), glm::distance(centre, box.high));
   const double radius = (reach + largest) * (1 + 1e-15);
   if (!(radius > 0 && radius + sum < unbounded)) require_sound(discs, check);

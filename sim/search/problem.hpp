@@ -11,8 +11,8 @@
 
 namespace detp::sim {
 
-/// Rays and discs that have been checked: a problem that exists is valid. They are not copied, and must outlive every
-/// use of the problem, unless directions or normals had to be normalised.
+/// Rays and discs that have been checked: a problem that exists is valid. They are copied only to be normalised, and
+/// must outlive every use of the problem.
 class Problem {
  public:
   [[nodiscard]] std::span<const Ray> rays() const { return rays_; }
@@ -21,7 +21,7 @@ class Problem {
   [[nodiscard]] const Sphere& enclosing() const { return enclosing_; }
   /// Count only rays that arrive at a disc's front.
   [[nodiscard]] bool front_facing() const { return front_facing_; }
-  /// Length by which every cull is enlarged: no hit is farther from its disc (make_problem).
+  /// Length by which culls are enlarged: a ray that hits is nearer to its disc (make_problem).
   [[nodiscard]] double slack() const { return slack_; }
   /// Upper bound on the distance of a ray's origin from the centre of S₀.
   [[nodiscard]] double farthest() const { return farthest_; }
@@ -37,11 +37,11 @@ class Problem {
   friend Problem make_problem_without_rays(std::span<const Disc>, double, bool, const std::stop_token&);
   friend void set_rays(Problem&, std::span<const Ray>, int, std::uint64_t);
 
-  /// Checks and stores the discs. Without rays yet.
+  /// Checks and stores the discs. Leaves the rays empty.
   Problem(std::span<const Disc> discs, bool front_facing, const std::stop_token& stop);
   /// Checks and stores the rays. Returns the distance of the farthest origin from the centre of S₀.
   double store_rays(std::span<const Ray> rays, int threads, std::uint64_t first, const std::stop_token& stop);
-  /// Sets that distance, and the slack that follows.
+  /// Sets the distance of the farthest origin, and computes the slack from it.
   void set_farthest(double farthest);
 
   std::span<const Ray> rays_;
@@ -59,40 +59,41 @@ class Problem {
   std::shared_ptr<const std::vector<Disc>> own_discs_;
 };
 
-/// The smallest sphere around the box of the discs' centres, plus the largest radius. Throws std::invalid_argument if
-/// there are no discs, or if a number or the sphere is not finite; Stopped on a stop request.
+/// The smallest sphere around the box of the discs' centres, enlarged by the largest disc radius. Throws
+/// std::invalid_argument if there are no discs, or if a number or the sphere is not finite; Stopped on a stop request.
 [[nodiscard]] Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop = {});
 
 /// Makes a problem with its S₀. Checks rays and discs, and normalises directions and normals.
 ///
 /// Directions and normals may have any length except 0. If all have unit length to within 1e-12, the problem refers to
-/// the caller's data. Otherwise (a direction normalised in floats has an error of about 1e-7) it holds a copy of the
-/// rays or of the discs, 64 and 56 bytes each, with unit vectors; so every technique finds the same hits. A ray's
-/// length does not change: it is in scene units, not a multiple of the direction's length. Normalise in doubles to
-/// avoid the copy.
+/// the caller's data. Otherwise the problem holds a copy of the rays (64 bytes each) or of the discs (56 bytes each)
+/// with unit vectors, so every technique finds the same hits. (Normalise in doubles to avoid the copy: a direction
+/// normalised in floats has an error of about 1e-7.) A ray's length does not change: it is in scene units, not a
+/// multiple of the direction's length.
 ///
-/// Throws std::invalid_argument if there is no ray or no disc, or if one is malformed; the message has its number, as
-/// in "ray 17: direction must be non-zero (got 0 0 0)". Malformed are: a number that is not finite (except a length of
-/// +infinity: the whole line), a coordinate or radius above 1e100, a radius below 1e-100, a direction or normal of
-/// length 0, a length <= 0, a power that is negative or above most_power (9.6e288 for radii of at least 1; larger
-/// powers could overflow). Throws std::length_error for 2³² or more rays or discs, and Stopped on a stop request.
+/// Throws std::invalid_argument if there is no ray or no disc, or if a ray or disc is malformed; the message has its
+/// number, as in "ray 17: direction must be non-zero (got 0 0 0)". Malformed are: a number that is not finite (except a
+/// length of +infinity: the whole line), a coordinate or radius above 1e100, a radius below 1e-100, a direction or
+/// normal of length 0, a length <= 0, a power < 0 or above most_power (9.6e288 for radii of at least 1; larger powers
+/// could overflow). Throws std::length_error for more than 2³² - 2 rays or discs, and Stopped on a stop request.
 ///
 /// The slack is 16e-12 E + ∛(2d κ²) + 1e-15 M. In spite of rounding, a ray that counts as a hit comes nearer to the
-/// disc than this, with a margin for the rounding of the culls (proof: sim/geometry/proofs.md). E is the distance of
-/// the farthest ray origin from the farthest point of S₀, d the largest disc radius, κ = 2e-15 E the rounding error of
-/// a predicate, M the largest coordinate of the centre of S₀. The first term is for directions and normals that have
-/// unit length only to within 1e-12; the second for rays that graze a disc near its rim, where rounding moves the
-/// crossing farthest; the third for cells far from the origin.
+/// disc than the slack, with a margin for the rounding of the culls (proof: sim/geometry/proofs.md). E is the distance
+/// of the farthest ray origin from the farthest point of S₀, d the largest disc radius, κ = 2e-15 E the rounding error
+/// of a predicate, M the largest coordinate of the centre of S₀. The first term covers directions and normals that have
+/// unit length only to within 1e-12. The second term covers rays that graze a disc near its rim, where rounding moves
+/// the crossing farthest. The third term covers cells far from the origin.
 [[nodiscard]] Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing = false,
                                    int threads = 1, const std::stop_token& stop = {});
 
-/// A problem whose rays come later, in blocks. None of their origins may be farther than `farthest` from the centre of
-/// S₀; the slack is computed from this distance. Throws as make_problem does.
+/// Makes a problem whose rays come later, in blocks (set_rays). Their origins may be at most `farthest` from the centre
+/// of S₀; the slack is computed from this distance. Throws as make_problem does.
 [[nodiscard]] Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, bool front_facing = false,
                                                 const std::stop_token& stop = {});
 
-/// Replaces a problem's rays; the new ones are not copied. Throws as make_problem does, and std::invalid_argument if a
-/// ray starts too far away. The first ray is number `first` in messages. If this throws, the problem is unchanged.
+/// Replaces a problem's rays; copies them only to normalise them. Throws as make_problem does, and
+/// std::invalid_argument if a ray starts farther than Problem::farthest from the centre of S₀. The first ray is number
+/// `first` in messages. If this throws, the problem is unchanged.
 void set_rays(Problem& problem, std::span<const Ray> rays, int threads = 1, std::uint64_t first = 0);
 
 }  // namespace detp::sim

@@ -27,7 +27,7 @@ class Chunks {
   Chunks(std::size_t rays, std::size_t under_way, const RunOptions& options)
       : rays_(rays), buffers_(under_way, options.memory), stop_(options.stop) {}
 
-  /// False after the last chunk, or after a stop request.
+  /// Returns false after the last chunk, or after a stop request.
   bool next(Chunk& chunk) {
     if (begun_ >= rays_ || stop_.stop_requested()) return false;
     const std::size_t end = std::min(begun_ + chunk_rays, rays_);
@@ -74,7 +74,7 @@ Counts<std::uint64_t> search_alone(Chunks& chunks, MakeRaySearch make, HitSum& s
   return search->counts();
 }
 
-/// A chunk leaves the pipeline after all earlier ones, so its buffer is free when its turn comes again.
+/// Chunks leave the pipeline in order, so a buffer is free when its turn comes again.
 Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, MakeRaySearch make, HitSum& total) {
   using namespace oneapi::tbb;
   enumerable_thread_specific<OwnedIn<RaySearch>> searches([&] { return make(); });

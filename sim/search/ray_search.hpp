@@ -13,7 +13,7 @@ class RaySearch {
  public:
   virtual ~RaySearch() = default;
 
-  /// Appends the hits of rays first … last - 1; those of any one disc in ray order. May throw Stopped.
+  /// Appends the hits of rays first … last - 1; the hits of each disc are in ray order. May throw Stopped.
   virtual void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) = 0;
 
   [[nodiscard]] virtual Counts<std::uint64_t> counts() const = 0;
@@ -29,8 +29,8 @@ using MakeRaySearch = FunctionRef<OwnedIn<RaySearch>()>;
 /// finished chunks are added to the totals, chunk by chunk, so powers are always summed in ray order. At most four
 /// chunks per thread are in flight, which limits the hits in memory.
 ///
-/// Only one thread adds up at a time. That takes 2 ns a hit for 10⁴ discs and 16 ns for 10⁶ (hits at random), while a
-/// grid over 10⁵ discs takes 3 µs to find a hit: only with hundreds of threads would they have to wait.
+/// Only one thread adds hits at a time. Adding a hit takes 2 ns for 10⁴ discs and 16 ns for 10⁶ (hits at random);
+/// finding a hit in a grid over 10⁵ discs takes 3 µs. So threads would have to wait only if there were hundreds.
 void search_rays(const Problem& problem, const RunOptions& options, MakeRaySearch make, Outcome& outcome);
 
 }  // namespace detp::sim

@@ -16,7 +16,7 @@ void add_pair(Pairs& pairs, const Pair& pair) {
   pairs.push_back(pair);
 }
 
-/// Sorts by ray, then disc. Returns false if a stop request ended it; the order is then unspecified.
+/// Sorts by ray, then disc. Returns false if a stop request ended the sort; the order is then unspecified.
 [[nodiscard]] inline bool sort_pairs(std::vector<Pair>& pairs, const std::stop_token& stop) {
   StopCheck check(stop, "sorting pairs");
   try {

@@ -19,8 +19,8 @@ namespace {
 using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t rays_at_once = std::size_t{1} << 14;
 
-/// A fast test with squares alone: true only if the vector is certainly within the largest coordinate, or has length 1
-/// (to within 1e-12, with a margin for rounding). False for NaN.
+/// Fast tests with squares alone: true only if all coordinates are certainly at most largest_coordinate, or if the
+/// vector has length 1 (to within 1e-12, with a margin for rounding). False for NaN.
 bool surely_in_range(const glm::dvec3& vector) {
   return glm::dot(vector, vector) <= largest_coordinate * largest_coordinate;
 }
@@ -50,7 +50,7 @@ void require_non_zero(const std::string& what, const glm::dvec3& vector) {
     throw std::invalid_argument(fmt::format("{} must be non-zero (got {} {} {})", what, vector.x, vector.y, vector.z));
 }
 
-/// Throws an error that says what is wrong with the ray, with its number.
+/// Throws an error that says what is wrong with the ray, and has the ray's number. Returns if nothing is wrong.
 void refuse_unsound(const Ray& ray, std::uint64_t number, double most_power) {
   const std::string who = fmt::format("ray {}: ", number);
   require_coordinates(who + "origin", ray.origin);
@@ -114,8 +114,8 @@ std::shared_ptr<const std::vector<T>> normalised_copy(std::span<const T> given, 
   return unit;
 }
 
-/// A copy with unit directions; null if all have unit length. Checks each ray fully: the fast tests have left at least
-/// one in doubt.
+/// A copy with unit directions; null if all directions have unit length. Checks each ray fully: the fast tests have
+/// left at least one ray in doubt.
 std::shared_ptr<const std::vector<Ray>> normalised_if_needed(std::span<const Ray> rays, double most_power,
                                                              std::uint64_t first, StopCheck check) {
   bool all_unit = true;

@@ -8,13 +8,13 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 
-/// The checks of make_problem, and its normalisation of directions and normals. All throw Stopped on a stop request.
+/// The checks of make_problem, and its normalisation of directions and normals. All throw Stopped, except normalised().
 namespace detp::sim {
 
 /// Lower bound on disc radii, so that squares do not underflow.
 inline constexpr double least_radius = 1e-100;
 
-/// With a direction or normal of length 1: as it is if that is so to 1e-12, or if it is 0.
+/// Returns the ray or disc with a unit direction or normal. Unchanged if the length is 1 to within 1e-12, or 0.
 [[nodiscard]] Ray normalised(Ray ray);
 [[nodiscard]] Disc normalised(Disc disc);
 
@@ -29,13 +29,13 @@ void require_sound(std::span<const Disc> discs, StopCheck& check);
 /// The results of check_rays.
 struct CheckedRays {
   double farthest = 0;     ///< distance of the farthest origin from the centre
-  bool one_power = false;  ///< all carry the same power
-  bool segments = false;   ///< at least one is a segment
-  /// copies with unit directions; null if all have unit length to within 1e-12
+  bool one_power = false;  ///< all rays carry the same power
+  bool segments = false;   ///< at least one ray is a segment
+  /// copies with unit directions; null if all directions have unit length to within 1e-12
   std::shared_ptr<const std::vector<Ray>> unit = {};
 };
 
-/// Checks the rays, on all threads of oneTBB's arena. The first ray is number `first` in messages. Throws
+/// Checks the rays, on all threads of the caller's arena. The first ray is number `first` in messages. Throws
 /// std::invalid_argument, with the ray's number, for a number that is not finite (except a length of +infinity), a
 /// coordinate beyond 1e100, a direction of length 0, a length <= 0, and a power that is negative or above most_power.
 [[nodiscard]] CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power,

@@ -17,7 +17,7 @@ struct DiscTotals {
   glm::dvec3 power{0.0};  ///< by the rays' dominant_axis: three sums, each in ray order
 };
 
-/// One for each disc, in their order. (32 bytes each, so a hit touches one cache line.)
+/// The totals of each disc, in the order of the discs. (32 bytes per disc, so a hit touches one cache line.)
 using Totals = std::pmr::vector<DiscTotals>;
 
 /// Power divided by the disc's area.

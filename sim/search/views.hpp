@@ -7,14 +7,14 @@
 
 #include "detp/sim/geometry/geometry.hpp"
 
-/// Rays and discs as they lie in a caller's arrays: floats or doubles, any distance apart.
+/// Rays and discs in a caller's arrays: floats or doubles, with any stride.
 namespace detp::sim {
 
-/// Numbers of a caller's array, borrowed; `components` of them belong together.
+/// A caller's array, not copied. Each element has `components` numbers.
 template <int components>
 class ArrayView {
  public:
-  /// `stride` bytes from one to the next.
+  /// `stride` is the number of bytes from one element to the next.
   ArrayView(const float* first, std::size_t stride = components * sizeof(float))
       : first_(reinterpret_cast<const std::byte*>(first)), stride_(stride), floats_(true) {}
   ArrayView(const double* first, std::size_t stride = components * sizeof(double))
@@ -29,7 +29,7 @@ class ArrayView {
  private:
   template <class T>
   [[nodiscard]] static double value(const std::byte* place, int k) {
-    T value;  // copied, for the caller's structs may be packed
+    T value;  // copied, because the caller's structs may be packed
     std::memcpy(&value, place + static_cast<std::size_t>(k) * sizeof(T), sizeof(T));
     return static_cast<double>(value);
   }
@@ -39,10 +39,10 @@ class ArrayView {
   bool floats_ = false;
 };
 
-/// Three numbers each: a point or a direction.
+/// Elements of three numbers: points or directions.
 using VectorsView = ArrayView<3>;
 
-/// A number each, or the same for all.
+/// One number for each element, or the same number for all.
 class NumbersView : public ArrayView<1> {
  public:
   using ArrayView::ArrayView;
@@ -55,7 +55,7 @@ class NumbersView : public ArrayView<1> {
   bool same_ = false;
 };
 
-/// Rays: see Ray for the meaning of each field. Directions may have any length but 0.
+/// Rays: see Ray for the meaning of each field. Directions may have any length except 0.
 struct RaysView {
   std::size_t count = 0;
   VectorsView origins;
@@ -64,7 +64,7 @@ struct RaysView {
   NumbersView powers = 1.0;
 };
 
-/// Discs: see Disc. Normals may have any length but 0.
+/// Discs: see Disc for the meaning of each field. Normals may have any length except 0.
 struct DiscsView {
   std::size_t count = 0;
   VectorsView centres;
@@ -72,10 +72,10 @@ struct DiscsView {
   NumbersView radii;
 };
 
-/// Copies the rays, with directions of length 1 as far as they are neither 0 nor no numbers.
+/// Copies the rays and normalises their directions. A direction of 0 stays 0; a direction that is not finite stays so.
 void read_rays(const RaysView& view, std::vector<Ray>& rays);
 
-/// The same of discs and their normals.
+/// Copies the discs and normalises their normals, as read_rays does.
 [[nodiscard]] std::vector<Disc> read_discs(const DiscsView& view);
 
 }  // namespace detp::sim

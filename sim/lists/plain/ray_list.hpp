@@ -36,7 +36,7 @@ using RayList = std::pmr::vector<ListedRay>;
 inline void cull(const RayList& around, const Sphere& sphere, double slack, RayList& inside, StopCheck& check) {
   const Sphere grown{sphere.centre, sphere.radius + slack};
   inside.clear();
-  inside.reserve(around.size());  // pages are only touched as far as the list is filled
+  inside.reserve(around.size());  // uses pages of memory only as far as the list is filled
   for_each_checked(std::span(around), check, [&](const ListedRay& listed) {
     if (hits(listed.ray, grown)) inside.push_back(listed);
   });
@@ -52,8 +52,8 @@ void test_disc(const RayList& rays, const Disc& disc, std::uint32_t index, HitCo
   tally.add(&Counts<std::uint64_t>::disc_tests, rays.size());
 }
 
-/// The discs' numbers in that order of their centres; by default along the Morton curve. Throws Stopped if a stop was
-/// requested.
+/// Returns the discs' numbers in the given order of the discs' centres; by default along the Morton curve. Throws
+/// Stopped if a stop was requested.
 [[nodiscard]] inline std::vector<std::uint32_t> along_curve(std::span<const Disc> discs,
                                                             SampleOrder order = SampleOrder::lebesgue,
                                                             const std::stop_token& stop = {}) {

@@ -7,7 +7,7 @@
 
 namespace detp::sim {
 
-/// Adds up the spheres' counts.
+/// Adds the spheres' counts to `counts`.
 inline void add_spheres(std::span<const SphereCounts> spheres, Counts<std::uint64_t>& counts) {
   for (const SphereCounts& sphere : spheres) {
     counts.cull_tests += sphere.tests;
@@ -16,8 +16,8 @@ inline void add_spheres(std::span<const SphereCounts> spheres, Counts<std::uint6
   }
 }
 
-/// The plain engine of all techniques whose spheres follow the discs: rebuilds the levels that the walk returns, and
-/// then tests each disc, in that order, against the innermost list.
+/// The plain engine of all techniques whose spheres follow the discs. For each disc, in `order`, rebuilds the levels
+/// that the walk returns, and tests the disc against the innermost list.
 template <bool counting>
 void search_along_counting(ListWalk& walk, const Problem& problem, std::span<const std::uint32_t> order,
                            const RunOptions& options, Outcome& outcome) {

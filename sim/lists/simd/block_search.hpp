@@ -12,7 +12,7 @@ namespace detp::sim::stream {
 /// Hits of one disc by rays of each class.
 using ClassCounts = std::array<std::uint32_t, classes>;
 
-/// A node with fewer tests than this does not get tasks of its own.
+/// Least number of tests of a node's rays against its children for which the children are searched as separate tasks.
 inline constexpr std::size_t least_work = std::size_t{1} << 16;
 
 /// Data that all threads read during the search of a block of rays.
@@ -21,24 +21,24 @@ struct BlockSearch {
   const Frame& frame;
   const DiscTree& tree;
   std::uint32_t first_ray;  ///< number of the block's first ray
-  bool segments;            ///< its lists have the rays' ends
+  bool segments;            ///< the block's lists have the rays' ends
   bool pairs;               ///< record pairs
   bool vectors;             ///< count vectors
   ClassCounts* hits;        ///< by place in the tree's order; only one thread writes the element of one disc and class
-  DiscTotals* totals;       ///< likewise: sums of power; null if it is enough to count hits
+  DiscTotals* totals;       ///< sums of power, indexed and written like hits; null if hits are only counted
 };
 
-/// Number of tests of a ray against a box, a sphere or a disc in a unit of work (StopCheck): about those of one vector.
+/// Number of tests (ray against box, sphere or disc) in a unit of work of StopCheck: about one vector of rays.
 inline constexpr std::size_t tests_a_unit = 16;
 
-/// Units of work for testing a list of rays `times` times.
+/// Units of work for testing each ray of a list `times` times.
 [[nodiscard]] constexpr std::uint64_t test_work(std::size_t rays, std::size_t times = 1) {
   return rays * times / tests_a_unit + 1;
 }
 
 /// The data of one thread.
 struct Worker {
-  /// `floats` is the expected total size of its lists.
+  /// `floats` is the expected number of floats in the thread's lists.
   explicit Worker(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::stop_token stop = {},
                   std::size_t floats = 0)
       : lists(memory, floats), pairs(memory), check(std::move(stop), "searching"), skipped(memory) {}

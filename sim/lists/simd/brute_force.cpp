@@ -18,10 +18,10 @@ namespace {
 /// Number of discs that stay in the first-level cache while all vectors of rays are tested against them.
 constexpr std::size_t chunk = 512;
 
-/// Rays tested against a chunk between two checks for a stop request.
+/// Number of rays tested against a chunk between two checks for a stop request.
 constexpr std::size_t rays_at_once = StopCheck::most_work * tests_a_unit / chunk;
 
-/// Returns false if a stop request ended it.
+/// Returns false if a stop request ended the tests.
 bool test_chunk(const BlockSearch& block, const RayLists& lists, const DiscRun& discs, Worker& worker) {
   for (int k = 0; k < classes; ++k) {
     const RayList& rays = lists[static_cast<std::size_t>(k)];

@@ -90,8 +90,8 @@ void DiscResults::add_counted_hits() {
 }
 
 void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
-  // A copy takes a few nanoseconds per disc, a test a sixth of one. So this limits the copies to about a hundredth of
-  // the time.
+  // A copy takes a few nanoseconds per disc, a test a sixth of a nanosecond. So copies take at most about a hundredth
+  // of the time.
   constexpr std::uint64_t tests_for_each_disc = 4096;
   rays_ = block.first() + block.size();
   if (rays_ == problem_.rays().size() || tests - tests_at_snapshot_ < tests_for_each_disc * tree_.discs.size()) return;
@@ -99,7 +99,8 @@ void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
   if (has_room_for_snapshot()) take_snapshot();
 }
 
-/// Adds the copy to the memory of the run. If it does not fit, a stopped run has an older result.
+/// If a copy of the results fits the memory budget, adds its bytes to the outcome's and returns true. If not, a stopped
+/// run returns an older copy.
 bool DiscResults::has_room_for_snapshot() {
   const double copy = bytes_of(hits_) + bytes_of(totals_);
   const double more = copy - bytes_of(snapshot_.counts) - bytes_of(snapshot_.totals);
@@ -161,7 +162,7 @@ void DiscResults::finish_outcome(std::span<const DiscRun> skipped) {
   if (by_discs_) mark_done_discs(skipped);
 }
 
-/// For rays that all have the same power, with no earlier totals: no totals are needed.
+/// Fills in the outcome without totals, from counts of hits of equal power.
 void DiscResults::store_counted() const {
   outcome_.hits.resize(hits_.size());
   outcome_.irradiance.resize(hits_.size());
@@ -171,8 +172,7 @@ void DiscResults::store_counted() const {
   outcome_.total_hits = found;
 }
 
-/// Computes hits and irradiance of the discs at places first … last - 1, if hits were only counted. Returns the number
-/// of their hits.
+/// Does so for the discs at places first … last - 1. Returns the number of their hits.
 std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) const {
   constexpr std::size_t prefetch_distance = 32;  // number of discs to prefetch
   RepeatedSums sums(*counted_power_, options_.memory);

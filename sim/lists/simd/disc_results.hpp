@@ -12,17 +12,18 @@ namespace detp::sim::stream {
 
 /// The results so far, disc by disc in the order of a DiscTree.
 ///
-/// If all rays of a block have the same power, hits are only counted. Their powers are added up when that changes, or
-/// at the end, in ray order as usual.
+/// If all rays of a block have the same power, their hits are only counted. The counts are converted to sums of powers
+/// before a block with another power, and at the end. The sums have the same bits as if powers were added in ray order.
 ///
-/// A stop request ends a block when some discs have been searched and others not. The result is then that of an earlier
-/// block, of which a copy is made now and then; or, if there is a single block, the discs that were searched.
+/// After a stop request, a block may end with only some of its discs searched. Its results are then dropped, and the
+/// outcome is the latest copy of earlier results. Copies are made after some of the blocks. If a single block has all
+/// rays, the outcome has instead the discs that were searched.
 class DiscResults {
  public:
-  /// Keeps references to all four. Continues the options' totals, if there are any.
+  /// Keeps references to all four. Continues options.totals if it is not null.
   DiscResults(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome);
 
-  /// The data for the search of a block of rays with these traits.
+  /// Prepares the search of a block of rays with these traits, and returns its data.
   [[nodiscard]] BlockSearch begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits);
 
   /// To be called after the search of a block.
@@ -66,7 +67,7 @@ class DiscResults {
   template <class Workers>
   void store_pairs(Workers& workers) {
     std::size_t count = 0;
-    double bytes = 0;  // peak bytes while they grew
+    double bytes = 0;  // peak bytes while the workers' pairs grew
     for (const Worker& worker : workers) {
       count += worker.pairs.size();
       bytes += grown_bytes(worker.pairs.size(), sizeof(Pair));
@@ -99,12 +100,12 @@ class DiscResults {
   const RunOptions& options_;
   Outcome& outcome_;
   Totals totals_;                        ///< empty while hits have only been counted
-  std::pmr::vector<ClassCounts> hits_;   ///< not yet in the totals
-  std::optional<double> counted_power_;  ///< the power of each of those; nullopt if their powers are in the totals
+  std::pmr::vector<ClassCounts> hits_;   ///< hits that are not yet in the totals
+  std::optional<double> counted_power_;  ///< power of each ray in hits_; nullopt if these powers are in the totals
   std::uint64_t found_ = 0;              ///< hits in the totals, not including those of earlier runs
-  std::size_t rays_ = 0;                 ///< number of first rays that have been searched for all discs
-  bool partial_ = false;                 ///< some discs have been searched for more rays
-  bool by_discs_ = false;                ///< … for all rays
+  std::size_t rays_ = 0;                 ///< all discs have been searched for the first rays_ rays
+  bool partial_ = false;                 ///< the last block ended with only some discs searched
+  bool by_discs_ = false;                ///< partial_, and that block has all rays: some discs are complete
   std::uint64_t tests_at_snapshot_ = 0;
   Snapshot snapshot_;
   HitBatches batches_;

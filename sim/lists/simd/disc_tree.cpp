@@ -33,7 +33,7 @@ struct FloatBox {
     }
   }
 
-  /// Half its surface, which is proportional to the number of lines that cross it.
+  /// Half the box's surface, which is proportional to the number of lines that cross the box.
   [[nodiscard]] float area() const {
     const float x = high[0] - low[0];
     const float y = high[1] - low[1];
@@ -60,13 +60,13 @@ FloatBox box_of(const FloatDisc& disc) {
 constexpr float cull_cost = 1.6F;  ///< one test of a ray against a box, with its share of making the list
 constexpr float list_cost = 1.0F;  ///< each listed ray
 
-/// A node of the binary tree: either a leaf, or its left child follows it.
+/// A node of the binary tree. An inner node's left child is the next node.
 struct Binary {
   FloatBox box;
   std::uint32_t first;
   std::uint32_t count;
   std::uint32_t right;  ///< number of the right child; 0: a leaf
-  float cost;           ///< expected cost, times the area
+  float cost;           ///< expected cost of a ray that crosses the box, times the box's area
   [[nodiscard]] bool leaf() const { return right == 0; }
 };
 
@@ -97,8 +97,8 @@ class Builder {
   }
 
  private:
-  /// Writes the binary tree over a run of discs: its root at `number`, its other nodes among the following 2 count - 2.
-  /// Its shape does not depend on threads.
+  /// Writes the binary tree over a run of discs: the root at `number`, the other nodes among the next 2 count - 2. The
+  /// tree's shape does not depend on the number of threads.
   void split_in_parallel(std::uint32_t first, std::uint32_t count, std::uint32_t number) {
     constexpr std::uint32_t least = 1U << 15;  // smallest number of discs for a task of its own
     StopCheck check(stop_, doing);
@@ -142,7 +142,7 @@ class Builder {
     node.box.include(right.box);
     const float area = node.box.area();
     const float children = left.box.area() + right.box.area();
-    // About every other split is joined to a wide node and then costs nothing.
+    // Culls and lists count half: about every other split is merged into a wide node and then costs nothing.
     const float inner = cull_cost * area + 0.5F * list_cost * children + left.cost + right.cost;
     const float as_leaf = static_cast<float>(node.count) * area;
     const bool drop = as_leaf <= inner && node.count <= most_in_a_leaf;
@@ -167,7 +167,7 @@ class Builder {
     return static_cast<std::uint32_t>(found - places_.begin());
   }
 
-  /// Writes the node at `place`, and its descendants. `around` is the size of the lists that are made before its own.
+  /// Writes binary node `number` at `place`, and its descendants. `around` is ListCapacity::all of the lists around it.
   void widen(std::uint32_t number, std::size_t place, double around) {
     const Binary& node = binary_[number];
     widening_.after(1);
@@ -216,7 +216,7 @@ class Builder {
 
   const Problem& problem_;
   const std::vector<CurvePlace>& places_;
-  double sphere_area_;  ///< half of it
+  double sphere_area_;  ///< half the surface of S₀
   const std::stop_token& stop_;
   StopCheck widening_;
   DiscTree& tree_;

@@ -19,10 +19,10 @@ struct alignas(32) FloatDisc {
   float band;  ///< Frame::band
 };
 
-/// A box and its content: nodes first … first + count - 1 or, in a leaf, the discs at these places of the tree's order.
+/// A box and its content: nodes first … first + count - 1; in a leaf, the discs at these places of the tree's order.
 struct TreeNode {
   float centre[3];
-  float half[3];  ///< half its sides
+  float half[3];  ///< half the box's sides
   std::uint32_t first;
   std::uint32_t count : 31;
   std::uint32_t leaf : 1;
@@ -31,9 +31,9 @@ struct TreeNode {
 struct DiscTree {
   std::vector<TreeNode> nodes;       ///< the root is first; children of a node are adjacent
   std::vector<FloatDisc> discs;      ///< in the order of the leaves
-  std::vector<std::uint32_t> order;  ///< their numbers in the problem
-  std::size_t binary_nodes = 0;      ///< number of nodes of the binary tree from which it was made
-  /// expected sizes of the lists: a line meets a box with a probability of the box's surface over that of S₀
+  std::vector<std::uint32_t> order;  ///< the discs' numbers in the problem
+  std::size_t binary_nodes = 0;      ///< number of nodes of the binary tree from which `nodes` were made
+  /// expected sizes of the lists: a line through S₀ crosses a box with probability F(box)/F(S₀), F the surface
   ListCapacity lists;
 };
 
@@ -51,20 +51,20 @@ struct DiscRun {
 /// The discs of the leaves below a node, or of a leaf.
 [[nodiscard]] DiscRun discs_below(const DiscTree& tree, const TreeNode& node);
 
-/// Splits the discs, sorted along the Morton curve, wherever the curve leaves a cell. Then keeps the splits that lower
-/// the expected cost, and joins them to nodes with up to `fan_out` children. A leaf holds up to `leaf` discs; more only
-/// if that costs less (or if they have the same place on the curve: such discs are split in the middle).
+/// Sorts the discs along the Morton curve, and splits them where the curve leaves a cell. Discs with the same place on
+/// the curve are split in the middle. Keeps the splits that lower the expected cost, and merges them into nodes with up
+/// to `fan_out` children. A leaf holds up to `leaf` discs, or up to 64 if that costs less than a split.
 ///
 /// The expected cost follows the surface-area heuristic: a line that crosses a node crosses a child with probability
-/// F(child)/F(node). (With runs of equal length along the curve as nodes, there would be 1.7 to 2.3 times as many
-/// tests, because their boxes span the curve's jumps.)
+/// F(child)/F(node). (If nodes were runs of equal length along the curve, there would be 1.7 to 2.3 times as many
+/// tests, because the boxes of such runs span the curve's jumps.)
 ///
-/// Throws Stopped if a stop was requested, and std::length_error, naming the bytes, before it would exceed the memory
-/// budget, or for 2³¹ or more discs.
+/// Throws Stopped if a stop was requested. Throws std::length_error for 2³¹ or more discs and, naming the bytes, before
+/// the memory budget would be exceeded.
 [[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, const BoxTreeParameters& parameters,
                                       const RunOptions& options = {});
 
-/// Only the discs in that order: a tree without nodes. Throws Stopped if a stop was requested.
+/// Returns the discs in that order, as a tree without nodes. Throws Stopped if a stop was requested.
 [[nodiscard]] DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
                                       const RunOptions& options = {});
 

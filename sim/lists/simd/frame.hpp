@@ -10,7 +10,7 @@ namespace detp::sim::stream {
 /// u = 2⁻²⁴: half the distance from 1 to the next float.
 inline constexpr double float_unit = 0x1p-24;
 
-/// A sphere in the frame's coordinates, grown by the margin.
+/// A sphere in the frame's coordinates, grown by Frame::margin.
 struct FloatSphere {
   float centre[3];
   float radius;
@@ -25,8 +25,8 @@ struct Frame {
 
   explicit Frame(const Problem& problem);
 
-  /// 32u + 128u d + 4 slack. A decision is repeated in double if it is within this distance of the rim, or within half
-  /// of it of an end.
+  /// Returns 32u + 128u d + 4 slack, d being the radius in frame units. A decision is repeated in double if it is
+  /// within this band of the rim, or within half this band of an end.
   [[nodiscard]] float band(double radius) const {
     return static_cast<float>(32 * float_unit + 128 * float_unit * radius + 4 * slack);
   }

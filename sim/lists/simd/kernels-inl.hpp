@@ -25,7 +25,7 @@ using WordLanes = hn::CappedTag<std::uint32_t, padding>;
 using Floats = hn::Vec<FloatLanes>;
 using Mask = hn::Mask<FloatLanes>;
 
-/// Number of vectors that hold so many rays.
+/// Number of vectors that hold `rays` rays.
 HWY_INLINE std::size_t vectors_of(std::size_t rays) {
   const FloatLanes lanes;
   return (rays + hn::Lanes(lanes) - 1) / hn::Lanes(lanes);
@@ -36,7 +36,7 @@ HWY_INLINE std::size_t vectors_of(const RayLists& lists) {
   return vectors_of(lists[0].size) + vectors_of(lists[1].size) + vectors_of(lists[2].size);
 }
 
-/// The lanes from `first` on that are in the list.
+/// The lanes of the vector at `first` that are in a list of `size` rays.
 HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
   const FloatLanes lanes;
   return hn::FirstN(lanes, HWY_MIN(size - first, hn::Lanes(lanes)));
@@ -44,8 +44,8 @@ HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
 
 /// Appends the kept lanes of the vector at `first`.
 ///
-/// The target of each lane is computed once, by one Compress; the arrays are then permuted. (A Compress of each array
-/// takes five cycles on Zen 5, and before AVX-512 a table lookup each.)
+/// One Compress computes the places of the kept lanes. Each array is then permuted. (A Compress for each array would
+/// take five cycles on Zen 5, and a table lookup without AVX-512.)
 template <bool segments>
 HWY_INLINE void append(const RayList& from, std::size_t first, Floats a, Floats b, Floats p, Floats q, Mask kept,
                        RayList& to) {
@@ -70,8 +70,8 @@ HWY_INLINE void append(const RayList& from, std::size_t first, Floats a, Floats 
 
 /// Lists all rays that cross the box grown by `margin`, and some that miss it.
 ///
-/// While a ray x = p + a z is in the box's slab of z, it can be in the slab of x only if |p + a c_z - c_x| <= h_x + |a|
-/// h_z. The same for y. (Testing the third separating axis, z × D, would list one ray in ten fewer.)
+/// A ray x = p + a z is in the box's slabs of x and z at once only if |p + a c_z - c_x| <= h_x + |a| h_z. The same for
+/// y. (A test of the third separating axis, z × D, would shorten lists by a tenth.)
 template <bool segments, int k>
 HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin, RayList& inside) {
   const FloatLanes lanes;
@@ -113,8 +113,8 @@ HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin,
 /// Lists the rays that may come within the sphere, whose radius already includes Frame::margin.
 ///
 /// With w = (P, Q, 0) from the sphere's centre to the ray at the centre's z, the ray's distance is |w × D|/|D|.
-/// Segments are additionally clipped against the sphere's extent in z; segments that end before the sphere in a corner
-/// of its bounding box are listed although they miss it.
+/// Segments are additionally clipped against the sphere's extent in z. A segment that ends before the sphere, in a
+/// corner of the sphere's bounding box, is listed although it misses the sphere.
 template <bool segments, int k>
 HWY_INLINE void cull_sphere(const RayList& rays, const FloatSphere& sphere, RayList& inside) {
   const FloatLanes lanes;
@@ -231,10 +231,10 @@ HWY_INLINE Decision decide(const RayVector<segments>& rays, const SpreadDisc<k>&
     possible = hn::And(possible, hn::Ge(within, hn::Neg(disc.ends)));
   }
   if constexpr (front_facing) {
-    // The direction is ±(a, b, 1). The ray arrives in front if its product with the normal is negative.
+    // The direction is ±(a, b, 1). The ray arrives in front if the direction's product with the normal is negative.
     const Floats falls = hn::BitCast(lanes, hn::Load(WordLanes{}, rays.id));
     const Mask in_front = hn::Lt(hn::Xor(facing, hn::And(falls, hn::SignBit(lanes))), hn::Zero(lanes));
-    // If a hit is certain, so is its face; uncertain ones are decided again anyway.
+    // If a hit is certain, so is its face. Uncertain hits are decided again anyway.
     possible = hn::And(possible, hn::Or(in_front, hn::Not(sure)));
     sure = hn::And(sure, in_front);
   }

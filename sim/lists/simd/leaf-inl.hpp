@@ -11,12 +11,12 @@
 #include "detp/sim/search/sort_pairs.hpp"
 #include "kernels-inl.hpp"
 
-/// Tests lists of rays against the discs of a leaf: decides exactly which hit, and records the hits.
+/// Tests lists of rays against the discs of a leaf: decides exactly which rays hit, and records the hits.
 HWY_BEFORE_NAMESPACE();
 namespace detp::sim::stream {
 namespace HWY_NAMESPACE {
 
-/// Decides with the canonical predicate the lanes of a vector that floats could not decide. Returns the lanes that hit.
+/// Decides the `unsure` lanes, which floats could not decide, with the canonical predicate. Returns the lanes that hit.
 HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc, const std::uint32_t* ids, Mask unsure,
                                       Worker& worker) {
   const FloatLanes lanes;
@@ -32,7 +32,7 @@ HWY_NOINLINE inline Mask decide_again(const BlockSearch& block, const Disc& disc
   return hn::LoadMaskBits(lanes, bytes);
 }
 
-/// The rays that hit the disc at that place.
+/// The lanes of `there` that hit the disc at that place.
 template <bool segments, bool front_facing, int k>
 HWY_INLINE Mask test(const BlockSearch& block, const RayVector<segments>& rays, Mask there, std::uint32_t place,
                      Worker& worker) {

@@ -21,8 +21,8 @@ using WordLanes = hn::Rebind<std::uint32_t, DoubleLanes>;
 using Doubles = hn::Vec<DoubleLanes>;
 using Mask = hn::Mask<DoubleLanes>;
 
-/// More than the radius 1 of the ball around the origin, with a margin for the slack: if a ray meets the ball, |p| and
-/// |q| are at most √2.
+/// Rays with |p| or |q| above this are left out. If a ray meets the ball of radius 1 around the origin, |p| and |q| are
+/// at most √2. The rest is a margin for the slack.
 constexpr double outside = 2;
 
 /// Three coordinates of one vector of rays.
@@ -30,7 +30,7 @@ struct Triple {
   Doubles x, y, z;
 };
 
-/// For each ray the component along the axis k + shift, where k is its class (first: class 0; second: class 1).
+/// For each ray the component along axis (k + shift) % 3, k the ray's class (0 for rays in `first`, 1 in `second`).
 HWY_INLINE Doubles turned(const Triple& v, Mask first, Mask second, int shift) {
   const Doubles axes[3] = {v.x, v.y, v.z};
   const Doubles of_third = axes[(2 + shift) % 3];
@@ -77,7 +77,7 @@ HWY_INLINE void load_fields(const Ray* ray, Doubles* fields) {
   for (std::size_t j = 0; j < doubles_in_ray; ++j) fields[j] = hn::Load(DoubleLanes(), &ray->origin.x + j);
 }
 #else
-/// The columns of an n × n matrix of doubles, n the number of lanes. Its rows are one Ray apart.
+/// Writes the columns of an n × n matrix of doubles, n the number of lanes. Consecutive rows are one Ray apart.
 template <std::size_t n>
 HWY_INLINE void transpose(const double* rows, Doubles* columns) {
   const DoubleLanes lanes;
@@ -92,7 +92,7 @@ HWY_INLINE void transpose(const double* rows, Doubles* columns) {
     columns[0] = pairs[0];
     columns[1] = pairs[1];
   } else {
-    Doubles fours[n];  // of four rows: columns 0, 1, 2 and 3, and those four further on
+    Doubles fours[n];  // of four rows: column j (0 … 3) and, if n is 8, column j + 4
     for (std::size_t i = 0; i < n; i += 4) {
       for (std::size_t odd = 0; odd < 2; ++odd) {
         const Doubles upper = pairs[i + odd];
@@ -112,7 +112,7 @@ HWY_INLINE void transpose(const double* rows, Doubles* columns) {
   }
 }
 
-/// The fields of one vector of rays. (Gathers of eight lanes take three times as long on Zen 5.)
+/// Loads the fields of one vector of rays. (Gathers of eight lanes take three times as long on Zen 5.)
 HWY_INLINE void load_fields(const Ray* rays, Doubles* fields) {
   constexpr std::size_t n = hn::MaxLanes(DoubleLanes());
   for (std::size_t first = 0; first < doubles_in_ray; first += n) transpose<n>(&rays->origin.x + first, fields + first);
@@ -121,7 +121,7 @@ HWY_INLINE void load_fields(const Ray* rays, Doubles* fields) {
 
 constexpr std::size_t prefetch_distance = 64;  ///< number of rays to prefetch
 
-/// Properties that all rays so far have in common.
+/// Lanes in which at least one ray so far is bounded, or has another power than the first ray.
 struct RayProperties {
   Mask bounded;
   Mask other_power;
@@ -197,7 +197,7 @@ RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& fill
   RayProperties properties{hn::FirstN(lanes, 0), hn::FirstN(lanes, 0)};
   std::size_t i = 0;
   for (; i + step <= rays.size(); i += step) {
-    // Prefetches for blocks that come from memory. (Prefetching did not help if they are in the third-level cache.)
+    // Prefetches rays that come from memory. (Prefetching did not help for rays in the third-level cache.)
     for (std::size_t j = i + prefetch_distance; j < HWY_MIN(i + prefetch_distance + step, rays.size()); ++j)
       hwy::Prefetch(&rays[j]);
     load_some(&rays[i], step, static_cast<std::uint32_t>(i), frame, power, lists, properties);

@@ -8,13 +8,13 @@ namespace detp::sim::stream {
 
 /// Common properties of rays.
 struct RayTraits {
-  bool segments = false;        ///< at least one of them ends
-  std::optional<double> power;  ///< the power of all rays, if it is the same
+  bool segments = false;        ///< at least one ray is a segment
+  std::optional<double> power;  ///< the power of each ray, if all powers are equal
 };
 
-/// Converts rays to the frame's coordinates and sorts them by class; their numbers start at 0. Rays that miss S₀ are
-/// left out. There must be at least one ray, and at most 2³¹. The lists must be empty and have room for all rays in
-/// each class, including ends.
+/// Converts rays to the frame's coordinates and sorts them by class; their numbers start at 0. Leaves out rays that
+/// stay far from S₀. There must be at least one ray, and at most 2³¹. Each list must be empty and have room for all
+/// rays and their ends.
 RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists);
 
 }  // namespace detp::sim::stream

@@ -15,11 +15,11 @@ class Block {
  public:
   explicit Block(std::pmr::memory_resource* memory) : arena_(memory) {}
 
-  /// Loads up to `size` rays from number `first` on; nothing if there is none.
+  /// Loads up to `size` rays from number `first` on; none if there is no such ray.
   void load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size);
 
   [[nodiscard]] std::size_t first() const { return first_; }
-  [[nodiscard]] std::size_t size() const { return size_; }  ///< including those that miss S₀
+  [[nodiscard]] std::size_t size() const { return size_; }  ///< including the rays that load_rays leaves out
   [[nodiscard]] const RayLists& lists() const { return lists_; }
   [[nodiscard]] const RayTraits& traits() const { return traits_; }
 
@@ -29,11 +29,11 @@ class Block {
   RayTraits traits_;
   std::size_t first_ = 0;
   std::size_t size_ = 0;
-  std::size_t capacity_ = 0;  ///< of its lists; not reduced for a smaller block, so that no other pages are touched
+  std::size_t capacity_ = 0;  ///< of each list; not reduced for a smaller block, so that no other pages are touched
 };
 
-/// Calls search(block) for one block after another, until all are searched or a stop is requested. Meanwhile another
-/// thread, if there is one, loads the next block.
+/// Calls search(block) for one block after another, until all are searched or a stop is requested. While a block is
+/// searched, another thread, if there is one, loads the next block.
 template <class Search>
 void for_each_block(const Problem& problem, const Frame& frame, const RunOptions& options, const Search& search) {
   const std::size_t size = rays_in_block(problem.discs().size());

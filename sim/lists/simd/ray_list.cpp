@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t line = 16;  // floats in a cache line
 
-/// An odd number of whole cache lines, so that the arrays of one list do not fall on the same cache sets.
+/// Floats from array to array: an odd number of cache lines, so that the arrays do not fall on the same cache sets.
 std::size_t stride_for(std::size_t capacity) {
   const std::size_t lines = (capacity + padding + line - 1) / line;
   return (lines | 1) * line;

@@ -12,10 +12,10 @@
 /// Lists of rays as structures of arrays.
 namespace detp::sim::stream {
 
-/// Arrays are readable and writable this many floats beyond their end. At least the size of the largest vector.
+/// Arrays are readable and writable this many floats beyond their end. At least the floats of the largest vector.
 inline constexpr std::size_t padding = 16;
 
-/// Rays of one class, in rising order of their numbers. Its arrays belong to a ListArena.
+/// Rays of one class, in rising order of their numbers. The arrays belong to a ListArena.
 struct RayList {
   std::size_t size = 0;
   float* a = nullptr;           ///< dx/dz
@@ -35,11 +35,10 @@ inline constexpr std::uint32_t falling = 1U << 31;
   return {count, from(list.a), from(list.b), from(list.p), from(list.q), from(list.id), from(list.from), from(list.to)};
 }
 
-/// Expected sizes of nested lists, relative to the list of all rays. Each list has room for all rays of the one around
-/// it.
+/// Expected sizes of nested lists, as shares of the number of rays. A list has room for all rays of the list around it.
 struct ListCapacity {
-  double first = 0;  ///< the outermost list, touched only as far as it is filled
-  double all = 0;    ///< the outermost list, and the whole of the others
+  double first = 0;  ///< the outermost culled list, as far as it is filled
+  double all = 0;    ///< `first`, and the room of all lists inside
 };
 
 /// One list for each class.
@@ -48,17 +47,17 @@ using RayLists = std::array<RayList, classes>;
 [[nodiscard]] inline std::size_t size(const RayLists& lists) { return lists[0].size + lists[1].size + lists[2].size; }
 
 /// Memory for lists, last in, first out. Pages are only touched as far as lists are filled. Throws std::length_error
-/// before it would exceed the memory budget.
+/// before the memory budget would be exceeded.
 class ListArena {
  public:
-  /// `expected` is the total number of floats of its lists; they will be in one chunk.
+  /// `expected` is the total number of floats of its lists, and the size of the first chunk.
   explicit ListArena(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::size_t expected = 0)
       : expected_(expected), chunks_(memory) {}
 
   /// A list with room for `capacity` rays.
   [[nodiscard]] RayList allocate(std::size_t capacity, bool segments);
 
-  /// Lists with room for as many rays as `lists` has.
+  /// Lists that each have room for the rays of the same list of `lists`.
   [[nodiscard]] RayLists allocate_like(const RayLists& lists, bool segments) {
     return {allocate(lists[0].size, segments), allocate(lists[1].size, segments), allocate(lists[2].size, segments)};
   }
@@ -69,7 +68,7 @@ class ListArena {
   };
   [[nodiscard]] Mark mark() const { return {chunk_, used_}; }
 
-  /// Frees all lists taken since the mark.
+  /// Frees all lists allocated since the mark.
   void release(const Mark& mark) {
     chunk_ = mark.chunk;
     used_ = mark.used;
@@ -78,7 +77,7 @@ class ListArena {
  private:
   float* allocate_floats(std::size_t count);
 
-  /// Returns floats to the memory that they come from.
+  /// Returns floats to the memory resource from which they were allocated.
   struct Deallocate {
     std::pmr::memory_resource* memory;
     std::size_t count;
@@ -97,7 +96,7 @@ class ListArena {
   double bytes_ = 0;  ///< of all chunks
 };
 
-/// At the end of a scope, frees the lists taken in it.
+/// At the end of a scope, frees the lists allocated in that scope.
 class ArenaScope {
  public:
   explicit ArenaScope(ListArena& arena) : arena_(arena), mark_(arena.mark()) {}

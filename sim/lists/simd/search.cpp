@@ -16,13 +16,13 @@ namespace {
 
 using Workers = tbb::enumerable_thread_specific<Worker>;
 
-/// Processes the children as tasks if there is enough work.
+/// Searches everything below a node. Processes the children as tasks if there is enough work.
 void divide(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Workers& workers) {
   if (node.leaf || size(lists) * node.count < least_work) {
     search_below(block, node, lists, workers.local());
     return;
   }
-  // Isolated: a waiting thread must not start an unrelated task, whose lists would be put on top of those in use.
+  // Isolated: a waiting thread must not start an unrelated task, which would put its lists on top of the lists in use.
   tbb::this_task_arena::isolate([&] {
     tbb::parallel_for(node.first, node.first + node.count, [&](std::uint32_t child) {
       Worker& worker = workers.local();

@@ -8,19 +8,19 @@
 /// repeated in double.
 namespace detp::sim::stream {
 
-/// Whether floats are precise enough: rays must start within 6·10⁸ radii of S₀. (Beyond that, the slack is so large
-/// that nothing is culled.)
+/// Whether floats are precise enough: rays must start within about 6·10⁸ r₀ of S₀. (For rays that start farther away,
+/// the slack is so large that nothing is culled.)
 [[nodiscard]] bool can_search(const Problem& problem);
 
 /// The numbers on which the memory of a search depends.
 struct SearchSize {
   std::size_t discs = 0;
-  std::size_t rays = 0;   ///< in one call
+  std::size_t rays = 0;   ///< in one search
   int threads = 1;        ///< 0: all cores
   bool segments = false;  ///< at least one ray is a segment
-  /// powers are summed, because rays differ in power, or pairs, fronts or shared totals are requested
+  /// powers are summed: rays differ in power, or pairs, front-facing hits only, or shared totals are requested
   bool sums = true;
-  bool own_totals = true;  ///< it fills in the outcome's hits and irradiance
+  bool own_totals = true;  ///< the search fills in the outcome's hits and irradiance
 };
 
 [[nodiscard]] SearchSize size_of(const Problem& problem, const RunOptions& options);
@@ -32,18 +32,17 @@ struct TreeSize {
   ListCapacity lists = {};
 };
 
-/// The expected tree for `discs` discs: leaves are half full, and their parents halve the cells that they are in. If
-/// discs are concentrated in a few cells there may be more nodes; make_disc_tree checks again while it writes them.
+/// The expected binary tree: leaves are half full, a child's box has fan_out^(-2/3) of its parent's surface. If discs
+/// are concentrated in a few cells, there may be more nodes; make_disc_tree checks their memory while it writes them.
 [[nodiscard]] TreeSize expected_tree(std::size_t discs, const BoxTreeParameters& parameters);
 
-/// Predicted peak bytes of a search, in addition to rays, discs, pairs and the copy kept for a stopped run (which are
-/// checked when they are allocated): sorted discs and their tree, lists of rays, sums, outcome.
+/// Predicted peak bytes of a search: sorted discs and their tree, lists of rays, sums, outcome. Rays, discs, pairs and
+/// the copy for a stopped run are not included; they are checked when they are allocated.
 ///
-/// All of it follows from the sizes of arrays, except for the lists of rays inside the outermost, whose number of rays
-/// is random. The prediction for these is for isotropic lines, uniform through S₀. Rays that are concentrated in one
-/// place need more: a thread checks again before its lists grow. Untouched pages, and memory that the heap keeps of
-/// freed arrays, are not included. The searches throw std::length_error, naming the bytes, if the memory does not
-/// suffice.
+/// The sizes of arrays are known, except for culled lists, whose number of rays is random. These are predicted for
+/// isotropic lines, uniform through S₀. Rays that are concentrated in one place need more: a thread checks again before
+/// its lists grow. Untouched pages, and memory that the heap keeps of freed arrays, are not included. The searches
+/// throw std::length_error, naming the bytes, if the memory does not suffice.
 [[nodiscard]] double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree);
 
 /// Predicted peak bytes of brute force (prepare_all), in addition to rays, discs and pairs.
@@ -52,7 +51,7 @@ struct TreeSize {
 /// Predicted peak bytes of search_walk, in addition to rays, discs and pairs, and including sorting before it.
 [[nodiscard]] double walk_bytes(const SearchSize& size, const ListCapacity& lists);
 
-/// Floats in the nested lists of one thread, touched or not.
+/// Number of floats in the nested lists of one thread, touched or not.
 [[nodiscard]] std::size_t list_floats(const SearchSize& size, const ListCapacity& lists);
 
 /// The input of a search: a problem's rays, and its discs in an order or in a tree.
@@ -62,10 +61,10 @@ struct SearchInput {
   const DiscTree& tree;
 };
 
-/// The index of brute force: tests every ray against every disc. (Rays that miss S₀ need no test, but count as tested.)
+/// The index of brute force: tests every ray against every disc. (Rays that load_rays leaves out count as tested.)
 [[nodiscard]] std::unique_ptr<Index> prepare_all(const Problem& problem, const RunOptions& options);
 
-/// Finds the hits of all rays, by culling lists down a tree of boxes. Same bytes for any number of threads.
+/// Finds the hits of all rays, by culling lists down a tree of boxes. Gives the same bytes for any number of threads.
 void search_boxes(const SearchInput& input, int fan_out, const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim::stream

@@ -14,13 +14,13 @@ double rays_at_once(const SearchSize& size) {
   return static_cast<double>(std::min(rays_in_block(size.discs), size.rays));
 }
 
-/// Bytes of the block that is searched, and of the one that is loaded meanwhile, both with their rays' ends.
+/// Bytes of the block that is searched and of the block that is loaded meanwhile, both with their rays' ends.
 double block_bytes(const SearchSize& size) {
   constexpr double bytes_a_ray = 7 * sizeof(float);
   return bytes_a_ray * static_cast<double>(std::min(2 * rays_in_block(size.discs), size.rays));
 }
 
-/// Floats of a ray in a list inside the block's.
+/// Floats of a ray in a list that is culled from a block's lists.
 double floats_per_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
 
 /// Bytes of the nested lists of one thread. If the last block is smaller, its lists use pages that earlier lists left
@@ -33,7 +33,7 @@ double list_bytes(const SearchSize& size, const ListCapacity& lists) {
   return sizeof(float) * floats_per_ray(size) * (rays * lists.all + beside);
 }
 
-/// The larger of two peaks: during the search, and after it, when blocks have been freed for the outcome.
+/// The larger of two peaks: during the search, with its blocks, and after the search, with the outcome instead.
 double searching_bytes(const SearchSize& size, double tree, double lists) {
   constexpr double outcome = sizeof(std::uint64_t) + sizeof(double);
   const double a_disc =
@@ -72,7 +72,7 @@ double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree) {
 
 TreeSize expected_tree(std::size_t discs, const BoxTreeParameters& parameters) {
   const double nodes = std::min(2.0, 4.0 / parameters.leaf) * static_cast<double>(discs);
-  const double share = std::pow(parameters.fan_out, -2.0 / 3);  // surface of a part relative to that of the whole
+  const double share = std::pow(parameters.fan_out, -2.0 / 3);  // a child's surface relative to its parent's surface
   return {.binary_nodes = nodes, .nodes = nodes, .lists = {share, share + share / (1 - share)}};
 }
 

@@ -25,7 +25,7 @@ HWY_INLINE void cull(const BlockSearch& block, const TreeNode& node, const RayLi
   if (block.vectors) worker.vectors.cull += vectors_of(around);
 }
 
-/// Tests a leaf's discs, in portions that are small enough for the check in between.
+/// Tests a leaf's discs in portions, and checks for a stop request before each portion.
 template <bool segments, bool counting_only>
 void visit_leaf(const BlockSearch& block, TreeNode leaf, const RayLists& lists, Worker& worker) {
   if (size(lists) == 0) return;  // the root may be a leaf, with no ray near

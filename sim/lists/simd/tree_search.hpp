@@ -9,7 +9,7 @@ namespace detp::sim::stream {
 void cull_node(const BlockSearch& block, const TreeNode& node, const RayLists& around, RayLists& inside,
                Worker& worker);
 
-/// Searches everything below a node; `lists` are the node's lists. If a stop was requested, it ends early and adds the
+/// Searches everything below a node; `lists` are the node's lists. If a stop was requested, ends early and adds the
 /// discs that were not searched to worker.skipped.
 void search_below(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Worker& worker);
 

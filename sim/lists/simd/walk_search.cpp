@@ -13,7 +13,7 @@
 namespace detp::sim::stream {
 namespace {
 
-/// The walk of one class of rays through one block.
+/// The walk for the rays of one class in one block.
 class ClassWalk {
  public:
   ClassWalk(const BlockSearch& block, int k, const RayList& rays, ListWalk& walk, Worker& worker,
@@ -54,7 +54,7 @@ class ClassWalk {
     worker_.skipped.push_back({place, static_cast<std::uint32_t>(block_.tree.order.size()) - place});
   }
 
-  /// The lists further in were made from this one, and are freed with it.
+  /// Makes a level's list. If `first`, frees the level's old list and all lists inside, which were culled from it.
   void build(std::size_t level, bool first) {
     if (first && level < built_) worker_.lists.release(marks_[level]);
     built_ = level + 1;

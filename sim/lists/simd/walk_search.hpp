@@ -6,11 +6,11 @@
 namespace detp::sim::stream {
 
 /// The float version of search_along (lists/plain/walk_search.hpp): finds the hits of all rays, with lists that follow
-/// the discs in that order. Same bytes for any number of threads.
+/// the discs in the tree's order. The results have the same bytes for any number of threads.
 ///
-/// Each class of rays is a separate walk, block after block, so at most as many threads as classes are used. Counts are
-/// those of one walk over all rays, except for rays that pass a sphere by less than the margin, and segments that end
-/// before they reach a sphere (kernels-inl.hpp). `room` is the expected size of their lists.
+/// Each class of rays has its own walk in each block, so at most as many threads as classes search. Visits and culls
+/// are counted in each block. Tests and listed rays are those of one walk over all rays, plus rays that pass a sphere
+/// within the margin and some segments that end before it (kernels-inl.hpp). `room` is the expected size of the lists.
 void search_walk(const SearchInput& input, const MakeWalk& make_walk, const ListCapacity& room,
                  const RunOptions& options, Outcome& outcome);
 
