@@ -102,9 +102,9 @@ Workload measure(const sim::Problem& problem, const SurfaceFacts& surface, const
                     .sample_distance = surface.edge_length,
                     .path_length = mean_path_length(problem, box, radius, stop),
                     .front_facing = problem.front_facing};
-  // One sample, or all in one place: the box has no size, so use the discs' diameter.
+  // If all samples are at one point, their box has no size. Then uses a cube with the discs' diameter as side.
   if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
-  // from the samples' own box: a scene's samples need not fill the scene's box
+  // Computed from the samples' own box, because samples need not fill the scene's box.
   workload.sample_extent = sample_extent(workload);
   if (surface.area > 0) {
     const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);
