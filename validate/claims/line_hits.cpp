@@ -18,7 +18,7 @@
 namespace detp::validate {
 namespace {
 
-constexpr int positions = 8;  ///< number of random places of each kind of sphere or disc
+constexpr int positions = 8;  ///< number of spheres or discs of each kind, at random places
 constexpr double tolerance = 0.015;
 constexpr double sphere_radius = 0.4;
 constexpr double disc_radius = 0.3;
@@ -65,7 +65,7 @@ Bodies bodies_inside(const Experiment& experiment) {
   return bodies;
 }
 
-/// Shares of one batch's lines that hit, each averaged over its bodies.
+/// Share of one batch's lines that hit a body, averaged over the bodies of each kind.
 struct Shares {
   double spheres = 0;
   double discs = 0;
@@ -78,8 +78,8 @@ double hits_of(const sim::Ray& line, const std::vector<Body>& bodies) {
       std::count_if(bodies.begin(), bodies.end(), [&](const Body& body) { return sim::hits(line, body); }));
 }
 
-/// All claims use the same lines, because drawing a line takes longer than testing it. So the claims are dependent,
-/// which the budget for false verdicts, a sum over the claims, allows for.
+/// All claims use the same lines, because drawing a line takes longer than testing it with a body. So the claims are
+/// not independent. The budget for false verdicts holds nevertheless, since it is a sum over the claims.
 std::vector<Shares> shares_of_batches(const Experiment& experiment, const Bodies& bodies, std::size_t lines) {
   return for_each_batch(experiment, [&](int batch) {
     const sim::LineField field({}, batch_seed(experiment, 1, batch));

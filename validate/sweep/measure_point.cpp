@@ -59,7 +59,7 @@ class Rows {
   std::vector<Deviation> rows_;
 };
 
-/// The values of one term over the sets.
+/// The values of the term with the name `wanted`, one for each set.
 std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_view wanted) {
   std::vector<double> values;
   for (const Counts<double>& counts : sets)
@@ -69,7 +69,8 @@ std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_
   return values;
 }
 
-/// Raises the standard error to that of `events` independent events, if it is smaller: few sets may agree by chance.
+/// Raises the standard error to that of `events` independent events if it is less, since a few sets may agree by
+/// chance.
 Estimate allow_for_few(Estimate estimate, double events) {
   if (events > 0) estimate.standard_error = std::max(estimate.standard_error, estimate.mean / std::sqrt(events));
   return estimate;
@@ -90,7 +91,7 @@ void compare_counts(Rows& rows, Form form, const Counts<double>& predicted,
   });
 }
 
-/// The paper's counts, if it has a formula for them.
+/// The counts by the paper's formulas, or nothing if the paper has none for the technique.
 std::optional<Counts<double>> published_counts(const Workload& workload, const Candidate& candidate) {
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters)) {
     const std::int64_t k =
