@@ -13,7 +13,7 @@
 namespace detp::cli {
 namespace {
 
-/// The option texts; parsed when the command runs.
+/// The texts of the options, which are parsed when the command runs.
 struct BenchCommand {
   std::string effort = "quick";
   std::optional<std::string> scene;
@@ -64,7 +64,7 @@ std::vector<Technique> techniques_of(const BenchCommand& command) {
   return techniques;
 }
 
-/// One thread and all cores, or the number of threads requested.
+/// The numbers of threads to use: the requested number, or else 1 and the number of cores.
 std::vector<int> threads_of(const CommonOptions& common) {
   if (common.threads > 0) return {common.threads};
   const int cores = static_cast<int>(std::thread::hardware_concurrency());

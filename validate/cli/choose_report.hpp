@@ -27,7 +27,7 @@ struct ChooseAnswer {
 [[nodiscard]] Json to_json(const ChooseAnswer& answer);
 [[nodiscard]] std::string to_text(const ChooseAnswer& answer, const Screen& screen);
 
-/// A row for each candidate in the order of the ranking, for other candidates that were tried, and for the paper's
+/// A row for each ranked candidate, then for each other candidate that was tried, and for the candidate of the paper's
 /// rule. The workload's columns come from the resolved inputs.
 [[nodiscard]] std::string to_csv(const ChooseAnswer& answer, const Json& inputs);
 

@@ -11,7 +11,7 @@
 #include "detp/sim/base/progress.hpp"
 #include "screen.hpp"
 
-/// What the commands share: their options, and the form of their results.
+/// The options of every command, and the form of their results.
 namespace detp::cli {
 
 using Json = nlohmann::ordered_json;
@@ -33,15 +33,15 @@ struct CommonOptions {
   [[nodiscard]] Screen screen() const;
 };
 
-/// A command's result in the three formats. `main` adds the JSON envelope (schema, provenance), and marks the result of
-/// a stopped command.
+/// A command's result in the three formats. run_program() adds the JSON envelope (schema, provenance), and marks the
+/// result of a stopped command.
 struct Result {
   Json inputs;
   Json json;
   std::string text;
   std::string csv;
   ExitCode code = ExitCode::done;
-  /// progress, if a stop request ended the command; the result is then partial
+  /// the progress if a stop request ended the command, so that the result is partial; else nothing
   std::optional<sim::Progress> stopped = {};
 };
 

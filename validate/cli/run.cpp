@@ -68,8 +68,8 @@ void write_per_disc(const std::string& path, const sim::Outcome& outcome, const 
   file.commit();
 }
 
-/// Checks the options for output files before the run. Throws if several rows would write their hits to the same file,
-/// if --standard-error is set without --per-disc, or if two options name the same file.
+/// Checks the options for output files before the run. Throws if several rows would write their hits to one file, if
+/// --standard-error is set without --per-disc, or as check_outputs does.
 void check_files(const RunOptions& options, const CommonOptions& common, std::size_t rows) {
   if (rows > 1 && (options.per_disc || options.pairs))
     throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
@@ -99,8 +99,8 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnsw
   return std::nullopt;
 }
 
-/// Whether all rows can read their rays in blocks. The photon map cannot: it accesses rays in any order, so it needs
-/// all of them in memory.
+/// True if all rows can read their rays in blocks. The photon map needs all rays in memory, because it accesses them in
+/// any order.
 bool can_stream(CandidateOptions& options, std::size_t rows) {
   for (std::size_t row = 0; row < rows; ++row) {
     options.lists.choose_row(row);
@@ -126,8 +126,8 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Com
   return answer;
 }
 
-/// Divides the progress among the rows of a table. The expected time of a problem is a constant (for the scene and the
-/// index) plus a term proportional to its number of rays.
+/// Divides the progress among the rows of a table. A problem is a scene with its rays, searched by several candidates.
+/// The expected time of a problem is a constant (for scene and index) plus a term proportional to its number of rays.
 class RowProgress {
  public:
   RowProgress(RunOptions& options, const CommonOptions& common) : candidates_(options.candidate.lists.rows()) {
@@ -157,7 +157,7 @@ class RowProgress {
   static constexpr double share_of_job = 0.3;
 
   std::size_t candidates_;
-  std::vector<double> ends_;  ///< summed expected times up to the end of each problem
+  std::vector<double> ends_;  ///< for each problem: the sum of the expected times up to its end
   std::size_t row_ = 0;
   double after_job_ = 0;
 };

@@ -50,7 +50,7 @@ std::string csv_of(const Json& inputs, const Json& json) {
   return table.csv();
 }
 
-/// A row for each effect: the evidence, and when the closed forms take the effect into account.
+/// A row for each effect: the evidence, its value, and whether the closed forms take the effect into account.
 std::string effects_table(const Workload& workload, const Screen& screen) {
   TextTable table({{.head = "effect", .align = Align::left},
                    {.head = "evidence", .align = Align::left, .spare = 1},
