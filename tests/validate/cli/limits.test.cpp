@@ -3,7 +3,7 @@
 #include "support/command.hpp"
 #include "support/sanitized.hpp"
 
-// More memory or threads than the machine has, or than the user allows.
+// Commands that need more memory or threads than the machine has, or than the user allows.
 
 using detp::support::check_refused;
 using detp::support::Finished;
@@ -13,7 +13,7 @@ using detp::support::sanitized;
 
 namespace {
 
-/// Checks exit code 2: the memory or the threads do not suffice.
+/// Checks that a command without enough memory or threads ends with code 2 and one line on stderr.
 void check_short_of(const Finished& finished, const std::string& named) {
   CAPTURE(finished.err);
   CHECK(finished.signal == 0);

@@ -24,7 +24,7 @@ inline std::vector<sim::Disc> mixed_discs(std::uint64_t count) {
   return discs;
 }
 
-/// Alternately lines and segments, with lengths 0 to 2 and powers 0 to 3.
+/// Alternately unbounded lines and segments. Segments have lengths of 0 to 2, all rays powers of 0 to 3.
 inline std::vector<sim::Ray> mixed_rays(std::uint64_t count) {
   std::vector<sim::Ray> rays;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -57,7 +57,7 @@ inline Written run_and_read(const Arguments& problem, const std::string& techniq
   return written;
 }
 
-/// Every technique that guarantees all hits, with several parameters.
+/// Exact techniques, most with several parameters, as options of `detp run`.
 inline const std::vector<std::string>& exact_techniques() {
   static const std::vector<std::string> all{"",
                                             "--technique sphere-cache",
@@ -86,7 +86,7 @@ inline const std::vector<std::string>& exact_techniques() {
   return all;
 }
 
-/// Each exact technique once, with the parameters that the command finds best.
+/// Exact techniques, each with the parameters that `detp run` chooses.
 inline const std::vector<std::string>& best_techniques() {
   static const std::vector<std::string> all{"",
                                             "--technique sphere-cache",
