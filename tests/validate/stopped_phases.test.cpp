@@ -18,7 +18,6 @@ using sim::support::LoggedWork;
 
 constexpr std::uint64_t block = StopCheck::most_work;
 
-/// Logs the work, and requests a stop when `work` units have been done.
 class StopAfterWork {
  public:
   explicit StopAfterWork(std::uint64_t work)

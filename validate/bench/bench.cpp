@@ -24,7 +24,7 @@ JobRequest request_of(const BenchWorkload& workload, std::uint64_t seed) {
   return request;
 }
 
-/// A number roughly proportional to the time that a workload takes.
+/// Roughly proportional to the time of the workload.
 double effort(const BenchWorkload& workload) { return workload.rays + 3e4; }
 
 constexpr double share_of_job = 0.1;  ///< rough share of a workload's time for making scene and rays
@@ -53,8 +53,7 @@ class Benchmark {
   }
 
  private:
-  /// The part of the progress for workload number `place`. Expects that each remaining workload takes a time
-  /// proportional to its effort(), at the speed so far.
+  /// Expects that each remaining workload takes a time proportional to its effort(), at the speed so far.
   [[nodiscard]] sim::ReportPhase progress_of(std::size_t place) const {
     const double done = watch_.seconds();
     const double speed = effort_done_ > 0 ? done / effort_done_ : 1;
@@ -84,7 +83,7 @@ class Benchmark {
     return true;
   }
 
-  /// Runs the races on one workload. Returns false if a stop request ended them.
+  /// Returns false if a stop request ended the races.
   bool run(const BenchWorkload& workload) {
     if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return true;
     const Job job =

@@ -12,7 +12,6 @@
 namespace detp::validate {
 namespace {
 
-/// The smallest number of rounds for a meaningful median.
 constexpr int least_rounds = 3;
 
 class RaceRunner {
@@ -53,7 +52,7 @@ class RaceRunner {
                        first ? watch_.seconds() / std::max(1.0, before / step) : next.seconds.front()});
   }
 
-  /// Runs and times a competitor once. Returns false if a stop request ended the run.
+  /// Returns false if a stop request ended the run.
   bool run(CompetitorResult& result) {
     report(result);
     const sim::Stopwatch watch;

@@ -37,7 +37,6 @@ std::vector<sim::Field> fields_of(const BenchAxes& axes, const std::string& scen
   return {sim::Field::isotropic, sim::Field::photons};
 }
 
-/// Adds all workloads on one scene.
 void add_scene(BenchEffort effort, const BenchAxes& axes, const std::string& scene, const std::string& path,
                BenchSet& set) {
   const std::vector<Length> radii = axes.disc_radii.empty() ? default_radii(effort) : axes.disc_radii;

@@ -24,7 +24,7 @@ class Analyser {
  public:
   Analyser(const sim::Problem& problem, const AnalysisOptions& options) : problem_(problem), options_(options) {}
 
-  /// Runs and counts the candidates that are not in the analysis yet, one after another.
+  /// Candidates that are in the analysis already are not run again.
   void count(const std::vector<Analysed>& wanted) {
     const std::size_t first = all_.candidates.size();
     for (const Analysed& one : wanted)
@@ -71,7 +71,6 @@ class Analyser {
                        [&](const Analysed& one) { return one.candidate == candidate; });
   }
 
-  /// Reports the start of a run that is expected to take `seconds`, with `remaining` seconds after it.
   void report(std::size_t place, double seconds, double remaining) const {
     if (!options_.progress) return;
     const Analysed& one = all_.candidates[place];
@@ -95,7 +94,6 @@ class Analyser {
     return std::min(patience(), slowness_ * one.predicted->time.total());
   }
 
-  /// Expected seconds of all timed runs of the current candidates.
   [[nodiscard]] double expected_timing() const {
     double seconds = 0;
     for (std::size_t i = 0; i < all_.candidates.size(); ++i) {

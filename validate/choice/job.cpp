@@ -71,7 +71,6 @@ std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double 
   return discs;
 }
 
-/// True if the samples of a workload without a scene lie on the faces of the cube; false if they fill the cube.
 bool on_faces(const Workload& workload) { return workload.dimension < 2.5; }
 
 class JobMaker {
@@ -178,7 +177,7 @@ class JobMaker {
       job_.stream = std::make_unique<sim::PhotonSource>(scene_for_photons(), count, request_.seed, stop_);
   }
 
-  /// Measures the workload; if the rays are a stream, on the first block of rays.
+  /// Measures a stream on its first block of rays.
   Workload measure_rays_and_discs() {
     std::vector<sim::Ray> block;
     if (job_.stream) {

@@ -8,7 +8,7 @@
 namespace detp::validate {
 namespace {
 
-/// Number of rays or discs that is assumed before the scene has been read.
+/// Assumed number of rays or discs before the scene has been read.
 constexpr double usual = 1e5;
 
 }  // namespace

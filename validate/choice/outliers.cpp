@@ -31,7 +31,7 @@ double longest(const sim::Box& box) {
   return std::max({size.x, size.y, size.z});
 }
 
-/// The box of the centres; on each axis the lowest and the highest twentieth of the centres are left out.
+/// Leaves out the lowest and the highest twentieth of the centres on each axis.
 sim::Box central_box(const std::vector<sim::Disc>& discs) {
   const std::size_t left_out = discs.size() / 20;
   sim::Box box;

@@ -41,7 +41,6 @@ bool searches_ray_by_ray(Technique technique) {
   return technique == Technique::brute_force || record_of(technique).ray_by_ray;
 }
 
-/// The share of the rays that a candidate is counted on.
 double share_counted(const model::Ranked& ranked) {
   return searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
 }
@@ -51,7 +50,6 @@ struct Batch {
   Counts<double> counts;
 };
 
-/// The counts of a candidate: in one run on the sampled rays, and in runs on parts of these rays.
 struct Counted {
   Batch all;
   std::vector<Batch> batches = {};
@@ -61,7 +59,7 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
   const ChoiceQuestion& question = *experiment.choice;
   const auto taken =
       static_cast<std::size_t>(std::ceil(share_counted(ranked) * static_cast<double>(question.rays.size())));
-  // An evenly spaced sample: the last ray of each stride.
+  // An evenly spaced sample.
   std::vector<sim::Ray> rays;
   for (std::size_t i = 0; i < taken; ++i) rays.push_back(question.rays[(i + 1) * question.rays.size() / taken - 1]);
   bool stopped = false;
@@ -77,7 +75,6 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
   return counted;
 }
 
-/// True if the count for all rays is the sum of the counts for parts of the rays.
 bool adds_up_over_rays(std::string_view term) { return term != "culls" && term != "visits" && term != "placements"; }
 
 /// The count for all the question's rays, scaled from the sampled rays. The standard error is that between the batches,

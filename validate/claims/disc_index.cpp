@@ -25,7 +25,6 @@ namespace {
 constexpr double tolerance = 0.02;
 constexpr std::size_t lines_through_cells = 20'000;  ///< of each batch
 
-/// The counts of one batch of lines.
 struct Batch {
   double lines = 0;
   double hitting = 0;     ///< lines that hit the index's cube
@@ -50,7 +49,6 @@ sim::Box index_cube(const std::vector<sim::Disc>& discs) {
   return {box.low, box.low + std::max({size.x, size.y, size.z})};
 }
 
-/// Runs lines through S₀ with one technique, and counts those that hit the discs' cube.
 Batch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& discs, const Candidate& candidate, int part,
                 std::size_t count, int batch) {
   const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch))
@@ -133,7 +131,6 @@ Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& disc
           .observed = ratio(batches, &Batch::disc_tests, &Batch::lines)};
 }
 
-/// Predicts the tests per line from the nodes of an octree over the discs, without using the counted runs.
 Finding structural_tests(const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches, int depth) {
   const Counts<double> expected = structural_counts(discs, 1, {Technique::octree, OctreeParameters{depth}});
   return {.id = "octree-tests-structural",

@@ -11,7 +11,7 @@ namespace {
 
 using Run = std::vector<Finding> (*)(const Experiment&);
 
-/// Runs an experiment and adds its findings. Returns false if a stop request ended the experiment.
+/// Returns false if a stop request ended the experiment.
 bool add_findings(Run run, const Experiment& experiment, std::vector<Finding>& findings) {
   try {
     std::vector<Finding> found = run(experiment);

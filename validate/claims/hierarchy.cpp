@@ -19,7 +19,6 @@ namespace {
 
 constexpr double tolerance = 0.025;
 
-/// One count, and its claims.
 struct Quantity {
   std::string_view id;          ///< ends the id of the claim about the closed form
   std::string_view structural;  ///< ends the id of the claim about the structural counts
@@ -28,7 +27,6 @@ struct Quantity {
   bool per_line = true;  ///< true: proportional to the number of lines; false: counted on few_lines of the lines
 };
 
-/// The claims about one technique and engine.
 struct Subject {
   Technique technique;
   std::string id;
@@ -96,7 +94,6 @@ constexpr double few_lines = 0.125;
 /// Mean logarithms over a subject's candidates, one for each of its quantities.
 using Logs = std::vector<double>;
 
-/// The results of one set of samples and lines.
 struct SetResult {
   Logs counted, closed, structural;
 };
@@ -111,7 +108,6 @@ void add(Logs& logs, const Subject& subject, bool per_line, const Counts<double>
   }
 }
 
-/// The workload with the actual S₀ and number of lines of this problem.
 Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
   Workload workload = experiment.workload;
   workload.rays = static_cast<double>(problem.rays.size());
@@ -119,7 +115,7 @@ Workload workload_of(const Experiment& experiment, const sim::Problem& problem) 
   return workload;
 }
 
-/// Counts and predicts all candidates on one problem. Returns false if a stop was requested.
+/// Returns false if a stop was requested.
 bool run_lines(const Experiment& experiment, const Subject& subject, const sim::Problem& problem, bool per_line,
                SetResult& result) {
   const auto lines = static_cast<double>(problem.rays.size());

@@ -25,7 +25,7 @@ constexpr double disc_radius = 0.3;
 constexpr int most_levels = 3;
 constexpr std::size_t lines_of_each_batch = 100'000;
 
-/// Radius of S_i at the published Q.
+/// Of S_i at the published Q.
 double level_radius(int i) { return std::pow(model::published_ratio, static_cast<double>(i)); }
 
 /// A sphere of radius `reach` at a random place inside S₀, which is the unit sphere.
@@ -49,7 +49,6 @@ std::vector<sim::Disc> discs_inside(double radius, std::uint64_t seed) {
   return discs;
 }
 
-/// The spheres and discs of the claims.
 struct Bodies {
   std::vector<sim::Sphere> spheres;                          ///< of radius sphere_radius
   std::vector<sim::Disc> discs;                              ///< of radius disc_radius

@@ -58,7 +58,6 @@ double mean_log_rebuilds(const std::vector<model::SphereLevel>& levels, const Re
   return count > 0 ? sum / count : 0;
 }
 
-/// Counts the technique and predicts it by both forms and by the structural walk, for one Q on one set of samples.
 void compare(SetResult& result, std::size_t q, const Workload& workload, const sim::Problem& problem,
              const Experiment& experiment) {
   const SphereCacheParameters parameters = parameters_for(workload, ratios[q]);
@@ -90,7 +89,6 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
   result.time_ratio[q] = static_cast<double>(run.counts.cull_tests) / rays / walk.cull_tests;
 }
 
-/// The experiment's workload with the actual r₀ of this set of samples.
 Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
   Workload workload = experiment.workload;
   workload.sphere_radius = problem.enclosing.radius;
@@ -112,7 +110,7 @@ std::vector<SetResult> run_all(const Experiment& experiment, std::size_t lines) 
 
 using Columns = std::array<Logs, ratios.size()> SetResult::*;
 
-/// Geometric mean of the predictions over all Q and all sets: exp of the mean logarithm.
+/// Over all Q and all sets.
 double geometric_mean(const std::vector<SetResult>& sets, Columns columns, double Logs::*term) {
   double sum = 0;
   for (const SetResult& set : sets)

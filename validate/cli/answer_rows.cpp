@@ -6,7 +6,7 @@
 namespace detp::cli {
 namespace {
 
-/// The JSON value as text. Invalid UTF-8, for instance in a file name, is replaced.
+/// Replaces invalid UTF-8, which file names may contain.
 std::string text_of(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 /// The value of each input, or the list of its different values if it is not the same in all rows.

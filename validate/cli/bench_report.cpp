@@ -89,7 +89,6 @@ Json summary_json(const BenchResult& bench, const validate::BenchOptions& option
   return json;
 }
 
-/// Two cells: the name of a competitor and its seconds. Both are empty if there is no result.
 std::vector<TextCell> side_cells(const CompetitorResult* competitor_result, Style style) {
   if (competitor_result == nullptr) return {{}, {}};
   std::string name = parameters_of(competitor_result->competitor);
@@ -167,8 +166,7 @@ std::string to_text(const BenchResult& bench, const validate::BenchOptions& opti
   return table_text(bench, screen) + summary_text(bench, options, screen) + left_out_text(bench, missing, screen);
 }
 
-/// A row for each competitor of each race. `best` is "ours" in the row of our fastest technique and "embree" in that of
-/// Embree's fastest mode.
+/// `best` is "ours" in the row of our fastest technique, "embree" in that of Embree's fastest mode.
 std::string to_csv(const BenchResult& bench) {
   Table table(Columns{"scene", "field", "rays", "samples", "disc_radius", "threads"} + candidate_columns() +
               Columns{"call", "coherent", "seconds", "runs", "hits", "wrong_hits", "right_hits_by", "best"});

@@ -24,7 +24,7 @@ struct ChooseOptions {
   bool analyze = false;
 };
 
-/// Ranks the candidates. Returns the progress if a stop request ended the ranking, else nothing.
+/// Returns the progress if a stop request ended the ranking, else nothing.
 std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
@@ -46,7 +46,6 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs
   return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
 }
 
-/// The candidate with its structural counts and their price.
 model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const UnitCosts& costs,
                                   const std::stop_token& stop) {
   const Counts<double> counts =
@@ -54,8 +53,7 @@ model::Ranked assess_structurally(const validate::Job& job, const Candidate& can
   return {candidate, counts, price(counts, costs, candidate.technique), {}};
 }
 
-/// The prediction for a candidate that was not ranked, from its structural counts if `structural`, else from the closed
-/// form. Nothing if the candidate has none, or if a stop was requested.
+/// Nothing if the candidate has no structural counts (if `structural`) or closed form, or if a stop was requested.
 std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
                                        const UnitCosts& costs, const std::stop_token& stop) {
   try {
@@ -70,8 +68,8 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
   }
 }
 
-/// Ranks the candidates again, by structural counts. After a stop request, leaves the ranking unchanged and returns the
-/// number of candidates that had been counted; else returns nothing.
+/// After a stop request, leaves the ranking unchanged and returns the number of counted candidates; else returns
+/// nothing.
 std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const validate::Job& job, const UnitCosts& costs,
                                                  const std::stop_token& stop, const sim::ReportPhase& progress) {
   if (job.field != sim::Field::isotropic)
@@ -96,7 +94,6 @@ std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const val
   return std::nullopt;
 }
 
-/// The number of timed candidates, as the progress of a stopped analysis.
 sim::Progress measured(const validate::Analysis& analysis) {
   const auto done = std::count_if(analysis.candidates.begin(), analysis.candidates.end(),
                                   [](const validate::Analysed& one) { return one.seconds.has_value(); });

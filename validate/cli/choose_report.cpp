@@ -13,7 +13,6 @@
 namespace detp::cli {
 namespace {
 
-/// A row of the result: a candidate that was predicted or run or both.
 struct Row {
   Candidate candidate;
   const model::Ranked* predicted = nullptr;
@@ -107,7 +106,7 @@ Json to_json(const ChooseAnswer& answer) {
 
 namespace {
 
-/// Two cells: predicted time divided by that of the first candidate, "3.5", and its largest part, "ray-disc tests".
+/// Predicted time / that of the first candidate, and its largest part: "3.5", "ray-disc tests".
 std::vector<TextCell> comparison_cells(const ChooseAnswer& answer, const Row& row) {
   const CostBreakdown& time = row.predicted->time;
   return {{fmt::format("{:.3g}", time.total() / answer.ranking.front().time.total())}, {largest_part(time)}};
@@ -230,8 +229,6 @@ Json cells_of(const ChooseAnswer& answer, const Row& row) {
   return cells;
 }
 
-/// "choice" for the chosen candidate. "predicted choice" for the first candidate if an analysis chose another. Else
-/// "candidate".
 const char* role_of(const ChooseAnswer& answer, const Row& row, bool first) {
   if (row.chosen) return "choice";
   return first && answer.analysis ? "predicted choice" : "candidate";

@@ -28,7 +28,6 @@ std::uint64_t parse_seed(const std::string& text) {
   return seed;
 }
 
-/// Help whose lines fit the screen.
 class HelpFormatter final : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool positional) const override {

@@ -15,7 +15,6 @@ std::string why_not_measured(const validate::Analysis& analysis, const validate:
   return analysis.stopped ? "stopped before" : "not timed";
 }
 
-/// The predicted choice, and the candidate with the shortest measured time if that is another candidate.
 std::vector<const validate::Analysed*> to_explain(const validate::Analysis& analysis) {
   std::vector<const validate::Analysed*> runs{&analysis.candidates.front()};
   if (analysis.best && *analysis.best != 0) runs.push_back(&analysis.candidates[*analysis.best]);

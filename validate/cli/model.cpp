@@ -27,7 +27,6 @@ struct ModelOptions {
 
 using Answer = ModelAnswer(const ModelQuestion& question);
 
-/// The techniques whose results have values in addition to counts and times.
 const std::map<Technique, Answer*>& answers() {
   static const std::map<Technique, Answer*> all{{Technique::sphere_cache, sphere_cache_answer},
                                                 {Technique::sphere_cache_published, sphere_cache_answer},
@@ -92,7 +91,6 @@ const Columns& per_line() {
   return columns;
 }
 
-/// Columns of the values of sphere i.
 const Columns& of_one_sphere() {
   static const Columns columns{"i", "radius_i", "rays_i", "listed_i", "rebuilds_i", "rebuild_cost_i", "samples_i"};
   return columns;
@@ -110,8 +108,6 @@ Columns columns() {
          per_line() + outlook_columns() + count_columns() + unit_cost_columns() + of_one_sphere();
 }
 
-/// A row for each sphere, or one row if no spheres are listed. Every row has the values that do not depend on the
-/// sphere.
 std::vector<Json> cells_of(const Json& inputs, const Candidate& candidate, const Json& json) {
   Json shared = workload_cells(inputs);
   shared.update(candidate_cells(candidate));

@@ -63,7 +63,7 @@ void set_memory_limit(const std::string& size) {
   }
 }
 
-/// Runs the command and returns its result. If the command is stopped before it has a result, also says so on stderr.
+/// If the command is stopped before it has a result, also says so on stderr.
 Result result_of(const Command& command, const CommonOptions& common, const std::stop_token& stop) {
   try {
     return command.run(common, stop);

@@ -73,7 +73,7 @@ class ProgressLine::Display {
     while (!never.wait_for(lock, end, between_drawings, [&] { return end.stop_requested(); })) draw();
   }
 
-  /// The share of the phase that is done: computed from the work, or from the time if the work is unknown.
+  /// Computed from the work, or from the time if the work is unknown.
   [[nodiscard]] double share_of_phase() const {
     if (phase_.work > 0) return share_done(static_cast<double>(log_.total - work_before_) / phase_.work);
     return phase_.seconds > 0 ? share_done((clock_.seconds() - begun_) / phase_.seconds) : 0;

@@ -17,7 +17,7 @@ namespace {
 constexpr std::size_t widest_text = 120;
 constexpr std::string_view end_of_style = "\033[0m";
 
-/// The escape sequence of each Style.
+/// By Style.
 constexpr std::array<std::string_view, 6> codes{"", "\033[1m", "\033[32m", "\033[31m", "\033[33m", "\033[2m"};
 
 std::string_view environment(const char* name) {
@@ -38,7 +38,6 @@ bool shows_colours(int stream) {
   return isatty(stream) == 1 && environment("NO_COLOR").empty() && environment("TERM") != "dumb";
 }
 
-/// The escape sequence at the beginning of the text, or "" if there is none.
 std::string_view code_at(std::string_view text) {
   if (text.starts_with(end_of_style)) return end_of_style;
   for (const std::string_view code : codes)

@@ -48,7 +48,6 @@ struct Range {
   double step = 0;
   int decimals = 0;  ///< number of decimals of the values
 
-  /// start + i step, rounded to `decimals` decimals.
   [[nodiscard]] double value(double i) const {
     const std::string text = fmt::format("{:.{}f}", start + i * step, decimals);
     double value = 0;

@@ -55,8 +55,7 @@ std::string spaced(double count) {
 
 namespace {
 
-/// Throws std::invalid_argument if a number is missing, naming the option. (The library's messages do not name
-/// options.)
+/// Names the missing option, which the library's messages do not.
 void require_numbers(const validate::JobRequest& request) {
   const auto need = [](bool given, std::string_view what, std::string_view option) {
     if (!given) throw std::invalid_argument(fmt::format("without a scene, {} is needed: {}", what, option));

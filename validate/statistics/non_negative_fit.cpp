@@ -50,7 +50,7 @@ void move_to_joint_fit(const MatrixXd& a, const VectorXd& b, Fit& fit) {
   }
 }
 
-/// Fits with columns of length 1.
+/// Requires columns of length 1.
 VectorXd fit_unit_columns(const MatrixXd& a, const VectorXd& b) {
   Fit best{VectorXd::Zero(a.cols()), {}};
   double error = b.norm();

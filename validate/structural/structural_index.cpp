@@ -87,7 +87,7 @@ sim::Ray line_into(const sim::Box& box, const Entry& entry) {
   return line;
 }
 
-/// Evaluates P(node) for one node after another.
+/// P(node).
 class Crossing {
  public:
   explicit Crossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
@@ -104,7 +104,7 @@ class Crossing {
     return share * static_cast<double>(crossing) / static_cast<double>(lines_);
   }
 
-  /// Number of lines used by the last call; 0 if the node lies in S₀.
+  /// Of the last call; 0 if the node lies in S₀.
   [[nodiscard]] std::size_t lines() const { return lines_; }
 
  private:

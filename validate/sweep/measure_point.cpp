@@ -20,7 +20,6 @@ namespace {
 
 constexpr double least_rebuilds = 30;
 
-/// The counts of one candidate on all sets.
 struct Observed {
   std::vector<Counts<double>> counts;
   std::vector<std::vector<sim::SphereCounts>> spheres;
@@ -31,7 +30,6 @@ struct Observations {
   double sphere_radius = 0;  ///< radius of S₀, mean over the sets
 };
 
-/// Collects the rows of one candidate.
 class Rows {
  public:
   Rows(const SweepPoint& point, const Candidate& candidate) {
@@ -59,7 +57,6 @@ class Rows {
   std::vector<Deviation> rows_;
 };
 
-/// The values of the term with the name `wanted`, one for each set.
 std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_view wanted) {
   std::vector<double> values;
   for (const Counts<double>& counts : sets)
@@ -80,7 +77,6 @@ bool depends_on_lines(std::string_view term) {
   return term != "culls" && term != "visits" && term != "references" && term != "placements";
 }
 
-/// Adds a row for each count of the whole run.
 void compare_counts(Rows& rows, Form form, const Counts<double>& predicted,
                     const std::vector<Counts<double>>& counted) {
   for_each_term(predicted, [&](std::string_view term, double value) {
@@ -91,7 +87,7 @@ void compare_counts(Rows& rows, Form form, const Counts<double>& predicted,
   });
 }
 
-/// The counts by the paper's formulas, or nothing if the paper has none for the technique.
+/// Nothing if the paper has no formula for the technique.
 std::optional<Counts<double>> published_counts(const Workload& workload, const Candidate& candidate) {
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters)) {
     const std::int64_t k =
@@ -143,7 +139,7 @@ std::vector<Deviation> compare(const SweepPoint& point, const Workload& workload
   return std::move(rows).deviations();
 }
 
-/// Runs all candidates on one set. Returns false if a stop was requested.
+/// Returns false if a stop was requested.
 bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidates, std::uint64_t seed, int set,
                  const std::stop_token& stop, Observations& all) {
   const std::vector<sim::Disc> discs = point.discs(seed, set, stop);

@@ -32,7 +32,7 @@ std::uint64_t fingerprint(std::span<const SweepPoint> points) {
   return hash;
 }
 
-/// Predicted work of measuring a point, in units of sim::StopCheck.
+/// In units of sim::StopCheck.
 double predicted_work(const SweepPoint& point) {
   double work = 0;
   for (const Candidate& candidate : sweep_candidates(point))
@@ -40,7 +40,7 @@ double predicted_work(const SweepPoint& point) {
   return work * point.sets;
 }
 
-/// The checkpoint in the options, read from its file if the sweep is resumed; nothing if the options have none.
+/// The checkpoint is read from its file if the sweep is resumed.
 std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options,
                                         std::stop_token stop) {
   if (!options.checkpoint) return std::nullopt;
@@ -49,7 +49,6 @@ std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, cons
   return checkpoint;
 }
 
-/// Collects the measurements of all threads.
 class MeasurementCollector {
  public:
   MeasurementCollector(std::span<const SweepPoint> points, const SweepOptions& options)

@@ -38,7 +38,7 @@ struct Tree {
   BoxTreeParameters parameters;
 };
 
-/// The parameters of random tree number `number`, with n_P from 2^least to 2^most.
+/// n_P is from 2^least to 2^most.
 Tree random_tree(std::uint64_t seed, std::uint64_t number, double least, double most) {
   const auto first = sim::uniform4(seed, sim::Stream::tests, number);
   const auto second = sim::uniform4(seed, sim::Stream::tests, number, 1);

@@ -159,7 +159,6 @@ void print_nodes(const Cell& cell, bool edge, double radius, std::size_t discs, 
   fmt::print("{:.4f},{:.4f},{:.4f},", leaves / sets, leaves > 0 ? leaf_area / leaves / (all / sets) : 1, cost / all);
 }
 
-/// Prints the values for one shape of cell, for all radii and all m.
 void print_shape(const Cell& cell, bool edge, std::uint64_t& number) {
   for (int octave = -18; octave <= 2; ++octave) {
     for (const std::size_t discs : {2U, 3U, 4U, 5U, 6U})
@@ -168,7 +167,6 @@ void print_shape(const Cell& cell, bool edge, std::uint64_t& number) {
   }
 }
 
-/// Prints the values for all shapes of a cell that is cut across the first `axes` axes in turn.
 void print_shapes(std::size_t axes, bool edge, std::uint64_t& number) {
   Cell cell{{}, {1, 1, axes == 2 ? 0.0 : 1.0}, 0, axes};
   for (; cell.axis < axes; ++cell.axis) {

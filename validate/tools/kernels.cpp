@@ -131,7 +131,7 @@ struct Shapes {
 using Cull =
     std::function<void(const std::array<float, 3>& centre, float size, const stream::RayList&, stream::RayList&)>;
 
-/// The share of rays that a cull keeps, mean over 64 shapes.
+/// Mean over 64 shapes.
 double kept_share(const Cull& cull, const Shapes& tried, const stream::RayList& list, stream::RayList& inside) {
   double kept = 0;
   for (std::size_t i = 0; i < 64; ++i) {
@@ -141,7 +141,6 @@ double kept_share(const Cull& cull, const Shapes& tried, const stream::RayList& 
   return kept;
 }
 
-/// Shapes whose size makes the cull keep this share of the rays.
 Shapes shapes_keeping(double share, const Cull& cull, const stream::RayList& list, stream::RayList& inside) {
   Shapes found;
   std::mt19937 draw(3);
@@ -184,7 +183,6 @@ double best_packing(int count, std::size_t size, double share) {
                   packing_time(Packing::permute, count, size, share));
 }
 
-/// Adds a row: a cull that keeps a given share of the rays.
 void add_cull(const std::string& name, bool segments, const Level& level, double share, double flops, Scene& scene,
               const Cull& cull) {
   const stream::RayList list = scene.list(level.rays, segments);

@@ -118,13 +118,12 @@ namespace {
 /// About the number of floats that a loop processes in one measurement, so that it takes a few milliseconds.
 constexpr std::size_t floats_moved = std::size_t{1} << 24;
 
-/// Number of chains: vector multiply-adds in one iteration of MultiplyAndAdd.
+/// Vector multiply-adds in one iteration of MultiplyAndAdd.
 constexpr std::size_t chains = 14;
 
 /// Space behind an array and between arrays, so that they do not start at the same offset in a page.
 constexpr std::size_t gap = 80;
 
-/// Processor seconds of one call: the minimum over several measurements of `calls` calls each.
 template <class Work>
 double least_time(std::size_t calls, const Work& work) {
   double least = std::numeric_limits<double>::infinity();

@@ -45,7 +45,6 @@ constexpr std::array sample_counts{1'000UL, 10'000UL, 100'000UL, 1'000'000UL, 10
 constexpr std::array chain_steps{2,  3,  4,  5,  6,  7,  8,  10, 12, 14, 16, 18,
                                  20, 22, 24, 26, 28, 30, 32, 36, 40, 48, 56, 72};  // u, in units of 1/32
 
-/// The digit 0 … 89 as a character.
 char digit(long value) {
   const auto plain = static_cast<char>('#' + value);
   const auto place = static_cast<char>(plain < '?' ? plain : plain + 1);

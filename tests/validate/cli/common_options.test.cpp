@@ -4,7 +4,6 @@
 
 #include "support/command.hpp"
 
-/// Properties of every command.
 namespace detp::support {
 namespace {
 

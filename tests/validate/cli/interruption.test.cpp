@@ -9,7 +9,6 @@ namespace {
 /// 10¹⁰ tests on one thread, which take more than 1 s.
 const std::string long_run = "run @uniform --samples 100000 --rays 100000 --technique brute-force --threads 1 ";
 
-/// Checks that a stopped result is marked as partial. Returns its JSON.
 Json check_stopped(const Finished& finished) {
   CAPTURE(finished.err);
   CAPTURE(finished.out);
@@ -35,7 +34,6 @@ std::vector<Finished> interrupted(const std::vector<std::string>& lines, int sig
   return finished;
 }
 
-/// The result of a run that was searching when the signal came.
 Finished interrupted_search(int signal) {
   for (double after = 0.1;; after *= 2) {
     Finished finished = interrupted({long_run + "--format json"}, signal, after).front();

@@ -3,8 +3,6 @@
 #include "support/command.hpp"
 #include "support/sanitized.hpp"
 
-// Commands that need more memory or threads than the machine has, or than the user allows.
-
 using detp::support::check_refused;
 using detp::support::Finished;
 using detp::support::Json;
@@ -13,7 +11,6 @@ using detp::support::sanitized;
 
 namespace {
 
-/// Checks that a command without enough memory or threads ends with code 2 and one line on stderr.
 void check_short_of(const Finished& finished, const std::string& named) {
   CAPTURE(finished.err);
   CHECK(finished.signal == 0);

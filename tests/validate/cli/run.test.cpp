@@ -20,7 +20,6 @@ bool crosses(const sim::Ray& ray, const sim::Disc& disc, bool front_facing) {
   return glm::length(ray.origin + way * ray.direction - disc.centre) <= disc.radius;
 }
 
-/// Discs and rays in files, like a user's own data.
 struct OwnData {
   ScratchFolder folder;
   std::vector<sim::Disc> discs = mixed_discs(300);

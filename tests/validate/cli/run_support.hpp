@@ -9,7 +9,6 @@
 #include "detp/sim/geometry/directions.hpp"
 #include "support/command.hpp"
 
-/// Rays and discs like a user's own data, and the files that `detp run` writes for them.
 namespace detp::support {
 
 /// Discs of radii 0.02 to 0.2, about a cube of side 2.
@@ -36,7 +35,6 @@ inline std::vector<sim::Ray> mixed_rays(std::uint64_t count) {
   return rays;
 }
 
-/// The files that one run writes.
 struct Written {
   std::string per_disc;
   std::string pairs;
@@ -114,7 +112,6 @@ inline Written check_all_agree(const Arguments& problem,
   return truth;
 }
 
-/// The rows of a CSV file without its header.
 inline std::vector<std::string> rows_of(const std::string& csv) {
   std::istringstream lines(csv);
   std::vector<std::string> rows;

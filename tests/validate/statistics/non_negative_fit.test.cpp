@@ -15,7 +15,7 @@ using Numbers = std::vector<double>;
 
 namespace {
 
-/// A linear system: the matrix row by row, and the right side.
+/// Row by row, and the right side.
 struct System {
   Numbers a;
   std::size_t unknowns;

@@ -31,7 +31,6 @@ std::vector<sim::Disc> samples(sim::Body body, const glm::dvec3& shape) {
   return discs;
 }
 
-/// Sphere tests, listed rays and disc tests per line, for one batch of lines.
 std::array<double, 3> per_line(const std::vector<sim::Disc>& discs, const Candidate& candidate, int batch) {
   constexpr std::size_t lines = 4000;
   const auto rays =

@@ -16,7 +16,6 @@ using sim::support::ScratchFolder;
 
 namespace {
 
-/// Two points that are measured in a short time.
 std::vector<SweepPoint> small_points() { return {{3, 300, 0.05, 4, 40}, {2, 200, 0.2, 4, 40}}; }
 
 std::vector<double> numbers(const SweepResult& result) {
