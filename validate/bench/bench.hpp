@@ -27,7 +27,6 @@ struct BenchOptions {
   sim::ReportPhase progress = {};
 };
 
-/// The race on one workload.
 struct BenchEntry {
   BenchWorkload workload;
   double samples = 0;      ///< actual number of samples

@@ -26,7 +26,6 @@ using Competitor = std::variant<Candidate, EmbreeMode>;
 /// The parameters as text, or Embree's mode.
 [[nodiscard]] std::string parameters_of(const Competitor& competitor);
 
-/// The results of one competitor.
 struct CompetitorResult {
   Competitor competitor;
   std::vector<double> seconds = {};  ///< of each run, from discs and rays in memory to irradiance in memory

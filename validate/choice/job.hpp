@@ -57,7 +57,6 @@ struct JobRequest {
 /// The name of a workload without a scene: "uniform samples in a cube", or "… on the faces of a cube".
 [[nodiscard]] std::string_view name_of_numbers(const Workload& workload);
 
-/// Rays and discs, with their workload and warnings.
 struct Job {
   std::string name;  ///< "@tree", a file, or "uniform samples in a cube"
   std::vector<sim::Disc> discs;

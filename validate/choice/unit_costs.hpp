@@ -24,7 +24,6 @@ namespace detp::validate {
 /// of this cost each; the division into halves was not measured.
 [[nodiscard]] UnitCosts built_in_unit_costs();
 
-/// A run's counts and times.
 struct TimedRun {
   Technique technique = Technique::brute_force;
   Counts<double> counts = {};

@@ -13,7 +13,6 @@
 /// Claims: predictions of formulas, compared with counts.
 namespace detp::validate {
 
-/// A formula's value.
 struct Prediction {
   Form form;
   std::string source;  ///< equation of the paper, or "our derivation"
@@ -34,7 +33,6 @@ struct Finding {
   double seconds = 0;
 };
 
-/// One judged prediction.
 struct Claim {
   std::string id;  ///< "rebuild-time.corrected"
   std::string quantity;
@@ -64,7 +62,6 @@ struct ChoiceQuestion {
   std::vector<sim::Ray> rays;  ///< at least one
 };
 
-/// The input of an experiment.
 struct Experiment {
   Workload workload;                          ///< the formulas' input; the rays are lines
   std::vector<sim::Disc> discs;               ///< of a scene; if empty, uniform discs are drawn as the workload says

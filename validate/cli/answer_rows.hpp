@@ -17,7 +17,6 @@ struct AnswerRow {
   std::vector<Json> cells;  ///< the row or rows of the CSV table
 };
 
-/// The columns of the text table of several results.
 struct TextColumns {
   Columns inputs;   ///< inputs that differ between rows are columns; all other inputs are printed above the table
   Columns answers;  ///< always columns, if any row has them

@@ -10,7 +10,6 @@
 
 namespace detp::cli {
 
-/// The content of the result.
 struct ChooseAnswer {
   std::string title;  ///< first lines of the text: scene and rays
   Workload workload;

@@ -18,7 +18,6 @@ using Json = nlohmann::ordered_json;
 
 enum class ExitCode { done = 0, refuted = 1, bad_input = 2, stopped = 3, internal = 4 };
 
-/// Options of every command.
 struct CommonOptions {
   std::string format = "text";
   Colour colour = Colour::automatic;
@@ -29,7 +28,6 @@ struct CommonOptions {
   double time_limit = 0;  ///< seconds; 0: none
   std::optional<std::string> memory_limit;
 
-  /// The screen on which the result is shown.
   [[nodiscard]] Screen screen() const;
 };
 
@@ -58,7 +56,6 @@ struct Command {
 [[nodiscard]] Command scene_command(CLI::App& program);
 [[nodiscard]] Command bench_command(CLI::App& program);
 
-/// Prints a warning or a notice to stderr, unless quiet.
 void note(const CommonOptions& common, const std::string& message);
 
 }  // namespace detp::cli

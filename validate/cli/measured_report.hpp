@@ -19,7 +19,6 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
 /// errors.
 [[nodiscard]] std::string measured_lines(const ChooseAnswer& answer, const Screen& screen);
 
-/// The "choice" line.
 [[nodiscard]] std::string choice_text(const std::string& what, const Screen& screen);
 
 /// Appends `predicted_choice`, `best_measured`, `tried`, `regret`, `missed` and `stopped`.

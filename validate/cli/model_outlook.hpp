@@ -7,7 +7,6 @@
 /// accurate the estimates are.
 namespace detp::cli {
 
-/// Options of these results.
 struct OutlookOptions {
   std::optional<double> curvature;     ///< ∇²f/f of the density f of the hits, 1/length²
   std::optional<double> target_error;  ///< relative

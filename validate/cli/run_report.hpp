@@ -7,7 +7,6 @@
 
 namespace detp::cli {
 
-/// The results and times of one run.
 struct RunAnswer {
   Candidate candidate = {};
   Engine engine = Engine::simd;

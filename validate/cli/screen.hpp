@@ -44,7 +44,6 @@ enum class Style { plain, strong, good, bad, doubtful, faint };
 /// lines into which a line is broken, all except the first are indented. The result ends with a line feed.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
 
-/// Returns the explanation under a table: wrapped, in the faint style.
 [[nodiscard]] std::string legend(const Screen& screen, std::string_view text);
 
 }  // namespace detp::cli

@@ -11,7 +11,6 @@ namespace detp::cli {
 
 enum class Align { left, right };
 
-/// A column of a text table.
 struct TextColumn {
   std::string head = {};
   Align align = Align::right;

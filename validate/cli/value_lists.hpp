@@ -12,7 +12,6 @@
 /// Options with several values: one command line then makes a table with many rows.
 namespace detp::cli {
 
-/// The maximum number of rows of one command line.
 inline constexpr std::size_t most_rows = 20'000;
 
 /// The values of a list of numbers and ranges start:end:step: "1%,2%,4%", "0.3:0.9:0.05" or a mixture. The end of a
@@ -46,7 +45,6 @@ class ValueLists {
   CLI::Option* add(CLI::App& command, const std::string& option, Values values, Kind kind, Set set,
                    const std::string& help);
 
-  /// Adds an option with numbers and ranges of numbers.
   template <class Number>
   CLI::Option* add(CLI::App& command, const std::string& option, Values values, Number& number,
                    const std::string& help) {
@@ -55,7 +53,6 @@ class ValueLists {
         [option, &number](const std::string& value) { read_value(option, value, number); }, help);
   }
 
-  /// Adds an option whose values are among `names`.
   template <class Text>
   CLI::Option* add_word(CLI::App& command, const std::string& option, Values values, Text& word,
                         std::vector<std::string_view> names, const std::string& help) {
@@ -69,7 +66,6 @@ class ValueLists {
   /// more than most_rows combinations.
   [[nodiscard]] std::size_t rows();
 
-  /// Sets every option to its value in row number `row`.
   void choose_row(std::size_t row);
 
  private:

@@ -99,7 +99,6 @@ template <class T>
 /// The effects as cells of a table, two for each effect: "finite_paths" (true or false) and "finite_paths_evidence".
 [[nodiscard]] Json effect_cells(const Json& effects);
 
-/// Prints the notices and warnings of a job to stderr.
 void note_all(const CommonOptions& common, const validate::Job& job);
 
 /// The lines "scene" and "rays" of the text output.

@@ -12,7 +12,6 @@
 /// rebuilt. Integral geometry gives the expected number of rays in the list of a rebuilt sphere.
 namespace detp::validate {
 
-/// Expected counts of one sphere of the cache.
 struct ExpectedSphere {
   double rebuilds = 0;  ///< exact: the technique rebuilds the sphere at the same samples
   double tests = 0;     ///< ray-sphere tests of all rebuilds of the sphere, per ray

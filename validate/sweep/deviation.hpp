@@ -11,7 +11,6 @@
 /// Deviations of predicted from observed counts, over a sweep of workloads.
 namespace detp::validate {
 
-/// One count, predicted and observed.
 struct Deviation {
   int dimension = 3;
   double samples = 0;       ///< n_P
@@ -51,7 +50,6 @@ struct DeviationSummary {
   [[nodiscard]] bool met() const { return beyond == 0 && median <= goal.median; }
 };
 
-/// The accuracy goal of a quantity.
 [[nodiscard]] Goal goal_of(const Deviation& deviation);
 
 /// One summary for each technique, quantity and form, in the order of their first appearance.

@@ -18,8 +18,7 @@ inline constexpr std::array list_octaves{0.074, 0.152, 0.234, 0.322, 0.42, 0.515
 inline constexpr std::array list_disc_shares{0.0, 0.1, 0.25, 0.45, 0.65, 0.85, 1.0};  ///< d/r_i
 inline constexpr std::array list_outer_disc_shares{0.0, 0.05, 0.2};                   ///< d/r₀
 
-/// Counts the lines through the innermost of nested spheres that also cross all spheres around it, at some of its
-/// builds.
+/// Measures this share for the innermost of nested spheres, at some of its builds.
 class ListedShare {
  public:
   /// `radii` start with that of the outermost sphere, which stays around the origin if `fixed_outermost` is true.
