@@ -44,8 +44,7 @@ struct BenchSet {
 ///
 /// quick      @uniform, @tree, @courtyard, @cornell, bunny; radii of 1 and 4 %; 10³ and 10⁵ rays
 /// thorough   the same scenes and seven more meshes; radii of 0.5 … 16 %; 10³ … 10⁶ rays, but 10⁶ rays only with radii
-/// of
-///            0.5 and 2 %; @uniform with 10³, 10⁵ and 10⁶ samples
+///            of 0.5 and 2 %; @uniform with 10³, 10⁵ and 10⁶ samples
 ///
 /// Fields: isotropic lines, and photon paths if the scene has a light (@uniform has none). If `axes` names a scene,
 /// only that scene is run.

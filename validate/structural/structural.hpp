@@ -9,8 +9,7 @@
 
 namespace detp::validate {
 
-/// Structural rigor: the expected value of every count of a candidate, computed from the discs themselves, without
-/// rays.
+/// Structural rigor: the expected value of every count of a candidate, computed from the discs without rays.
 ///
 ///     octree, grid, bsp    builds the index and sums its nodes' surface areas (structural_index.cpp)
 ///     sphere cache         walks along the sorted samples (structural_walk.hpp)

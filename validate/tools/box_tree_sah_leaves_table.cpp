@@ -5,12 +5,11 @@
 //   build/box_tree_sah_leaves_table > model/hierarchy/box_tree_sah_leaves.inc
 //
 // Draws sets of m discs, uniform in a cell and with isotropic normals, and keeps the sets with discs in both halves of
-// the cell. Builds the binary tree of each set by the rule of sim/lists/simd/disc_tree.hpp. The kinds of cells are, in
-// order:
+// the cell. Builds the binary tree of each set by the rule of sim/lists/simd/disc_tree.hpp. The cells are, in order:
 //   cells on a face of a cube, in its volume, and at an edge (samples on two faces), each for all shapes of cell (the
 //   next cut is across x, y or z);
 //   square and cubic cells that the curve does not cut (the discs are split in the middle of an arbitrary order).
-// For each kind, each disc radius d = 2⁻⁹, 2^{-8.5} … 2 times the longest side, and each m = 2 … 6, prints
+// For each cell, each disc radius d = 2⁻⁹, 2^{-8.5} … 2 times the longest side, and each m = 2 … 6, prints
 //   the share of the sets that become a leaf,
 //   the mean area of the boxes of these leaves divided by that of all sets,
 //   the mean cost of the sets divided by the mean area of their boxes.

@@ -17,8 +17,7 @@
 //            500 ln m in two digits of base 90. There are four values of n a decade, because m doubles within little
 //            more than a decade of n if a ball just contains a cell of the curve
 //   chain    rebuilds m_i of a ball in a nest of the ratio 2^{-u}, for n = 10³ … 10⁷ by h from 0.5 in steps of 1/32,
-//   then
-//            by u: m_i = m_{i-1} + s exp(-b m_{i-1}/s) (1 - m_{i-1}/n), where m_{i-1} are the rebuilds of the next
+//            then by u: m_i = m_{i-1} + s exp(-b m_{i-1}/s) (1 - m_{i-1}/n), where m_{i-1} are the rebuilds of the next
 //            larger ball and s those of the ball alone; b is printed as the digit 90 b/(1 + b).
 //
 // Digits of base 90 are the characters from '#' on, without the question mark and the backslash.

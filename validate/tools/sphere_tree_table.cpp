@@ -8,8 +8,7 @@
 // mean square of the spheres' radii ρ, both multiplied by N^{2/D}, where N is the number of spheres:
 //   single   spheres around N runs of c = 2, 4, 8, 16, 32, 64, 256, 4096, 65536 samples each, by log₂N = 0, ¼, … 14
 //   nested   spheres that enclose spheres, divided by the values of spheres around the samples of the same runs:
-//   fan-out
-//            2, 4, 8, 16, each 1, 2, 4 and 8 levels above the leaves, by log₂N = 0, ½, … 12
+//            fan-out 2, 4, 8, 16, each 1, 2, 4 and 8 levels above the leaves, by log₂N = 0, ½, … 12
 //
 // If a tree would be too large, the value of the row or column before is used, in `single` multiplied by the last ratio
 // of the rows.
