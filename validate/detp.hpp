@@ -1,8 +1,7 @@
 #pragma once
 
-/// What a program needs that embeds detp: choose a technique for rays and discs, search them with it. The headers that
-/// these include are installed too, and those of single formulas (detp/model), scenes and rays (detp/sim) and claims
-/// (detp/validate).
+/// The header for a program that embeds detp: chooses a technique for rays and discs, and searches them with it.
+/// Headers of single formulas (detp/model), scenes and rays (detp/sim) and claims (detp/validate) are installed too.
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/choice/choose.hpp"

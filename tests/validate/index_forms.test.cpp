@@ -13,7 +13,7 @@
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "support/indexed.hpp"
 
-// Compares the closed forms of an index of discs with counts, in all its variants.
+// Compares the closed forms of octrees and grids with counts, for all variants of these indices.
 
 using namespace detp;
 
@@ -26,7 +26,7 @@ struct Case {
   double x;  ///< d/a
 };
 
-/// Discs in a cube whose side, when grown by d, is 1, and their workload.
+/// Discs, and their workload. The cube of their centres, grown by d on all sides, has side 1.
 struct Setting {
   explicit Setting(const Case& chosen) {
     const double d = std::ldexp(chosen.x, -chosen.depth);
@@ -40,7 +40,7 @@ struct Setting {
   Workload workload;
 };
 
-/// Checks that predicted over counted is within 3 % of 1. A prediction 6 % larger or smaller must fail.
+/// Checks that predicted / counted is within 3 % of 1, and that a prediction 6 % larger or smaller would not be.
 void check_close(const std::string& what, double predicted, double counted) {
   CAPTURE(what);
   CAPTURE(predicted / counted);
@@ -83,8 +83,8 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("statistical") {
-  // Per line that hits the cube; the lines go through a sphere that contains the cube. Seeds are fixed; 20 000 lines
-  // leave up to 1 % of noise, and a set of samples as much.
+  // The lines go through a sphere that contains the cube. Seeds are fixed. 20 000 lines cause up to 1 % of noise, and
+  // one set of samples causes up to 1 % too.
   TEST_CASE("tests and visits of every variant agree with counts, per line that hits the cube") {
     for (const Case& chosen : cases) {
       Setting setting(chosen);

@@ -2,18 +2,20 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// Units of work (sim::StopCheck) that searches report, for a display of progress. An accuracy of a fifth is enough.
+/// Predicts the units of work (sim::StopCheck) that a search reports, for a display of progress. An error of 20 % does
+/// not matter.
 namespace detp::validate {
 
-/// Units of work for the tests and steps of a search with these counts. A float engine over lists of rays reports 16
-/// tests as a unit; others report each test and step.
+/// Units of work of the tests and steps of a search with these counts. Techniques with lists of rays report 16 tests as
+/// one unit if their engine is simd. All other searches report each test, step and node as one unit.
 [[nodiscard]] inline double test_work(const Counts<double>& counts, Engine engine = Engine::simd) {
   const bool over_lists = counts.culls > 0 || counts.steps + counts.nodes == 0;
   if (engine == Engine::simd && over_lists) return tests(counts) / 16;
   return tests(counts) + counts.steps + counts.nodes;
 }
 
-/// Units of work that each search does regardless of the number of rays: sorting, building, starting lists and discs.
+/// Units of work of sorting the discs, building the index, and starting lists and discs. They do not depend on the
+/// number of rays.
 [[nodiscard]] inline double build_work(const Counts<double>& counts) {
   constexpr double sorting = 9;  // per disc
   constexpr double placing = 8;  // per disc and node

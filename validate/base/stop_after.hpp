@@ -8,7 +8,7 @@
 
 namespace detp::validate {
 
-/// Requests a stop after so many seconds, or as soon as `other` does.
+/// Requests a stop after `seconds`, or as soon as a stop is requested through `other`.
 class StopAfter {
  public:
   StopAfter(const std::stop_token& other, double seconds)

@@ -24,7 +24,7 @@ JobRequest request_of(const BenchWorkload& workload, std::uint64_t seed) {
   return request;
 }
 
-/// Roughly proportional to the time that a workload takes.
+/// Roughly proportional to the time of the workload.
 double effort(const BenchWorkload& workload) { return workload.rays + 3e4; }
 
 constexpr double share_of_job = 0.1;  ///< rough share of a workload's time for making scene and rays
@@ -53,8 +53,7 @@ class Benchmark {
   }
 
  private:
-  /// The workload's part of the progress. The remaining workloads are expected to take as long as those done, in
-  /// proportion to their rays plus a constant.
+  /// Expects that each remaining workload takes a time proportional to its effort(), at the speed so far.
   [[nodiscard]] sim::ReportPhase progress_of(std::size_t place) const {
     const double done = watch_.seconds();
     const double speed = effort_done_ > 0 ? done / effort_done_ : 1;
@@ -75,8 +74,8 @@ class Benchmark {
     };
   }
 
-  /// Skips a workload that is expected to have too many hits. The expectation is from a run with fewer rays, or from
-  /// the model.
+  /// If more than most_hits hits are expected, notes that the workload is skipped, and returns true. `expected` comes
+  /// from a run with fewer rays, or from the model.
   bool too_many_hits(const BenchWorkload& workload, double expected) {
     if (expected <= options_.most_hits) return false;
     result_.skipped.push_back(
@@ -84,7 +83,7 @@ class Benchmark {
     return true;
   }
 
-  /// False if a stop request ended it.
+  /// Returns false if a stop request ended the races.
   bool run(const BenchWorkload& workload) {
     if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return true;
     const Job job =
@@ -131,8 +130,8 @@ class Benchmark {
   BenchResult result_;
   double hits_per_ray_ = 0;
   sim::Stopwatch watch_;
-  double effort_done_ = 0;     ///< of the workloads that were not skipped
-  sim::ReportPhase progress_;  ///< of the workload
+  double effort_done_ = 0;     ///< sum of effort() over the workloads that were run
+  sim::ReportPhase progress_;  ///< progress callback of the current workload
 };
 
 }  // namespace

@@ -9,34 +9,33 @@
 #include "race.hpp"
 #include "workload.hpp"
 
-/// Benchmarks our techniques against peers over a set of workloads.
+/// Benchmarks our techniques and Embree over a set of workloads.
 namespace detp::validate {
 
 struct BenchOptions {
-  std::vector<Technique> techniques;     ///< our techniques to run; empty: all exact ones
+  std::vector<Technique> techniques;     ///< our techniques to run; empty: all exact techniques
   std::vector<EmbreeMode> embree_modes;  ///< at least one
   std::vector<int> threads = {1};        ///< each workload is run with each of these numbers of threads
   int repeats = 5;
-  double most_seconds = 2;  ///< seconds after which a race starts no further round, once it has had three
+  double most_seconds = 2;  ///< seconds after which no round of a race starts, once three rounds have ended
   double most_hits = 5e6;   ///< a workload is skipped if more hits are expected
-  /// a technique of ours is left out if its predicted time exceeds this many times our fastest prediction
+  /// a technique of ours is left out if its predicted time exceeds this many times our shortest predicted time
   double hopeless = 30;
-  double checkable = 2e7;  ///< largest rays x discs at which brute force decides which hits are right
+  double checkable = 2e7;  ///< largest product of rays and discs for which brute force determines the right hits
   std::uint64_t seed = 1;
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
 };
 
-/// The race on one workload.
 struct BenchEntry {
   BenchWorkload workload;
-  double samples = 0;      ///< actual number
-  double disc_radius = 0;  ///< length
+  double samples = 0;      ///< actual number of samples
+  double disc_radius = 0;  ///< in scene units
   int threads = 1;
   Technique judge = Technique::brute_force;  ///< the technique whose hits count as right
   Race race;
 
-  /// The fastest competitor of a side (ours or Embree); null if none of it has run.
+  /// Our fastest technique if `ours`, else Embree's fastest mode; null if none has run.
   [[nodiscard]] const CompetitorResult* best(bool ours) const;
 
   /// Embree's best time divided by our best time; 0 if either is unknown.
@@ -51,18 +50,18 @@ struct BenchSkip {
 struct BenchResult {
   std::vector<BenchEntry> entries;
   std::vector<BenchSkip> skipped;
-  std::size_t workloads = 0;  ///< requested
-  std::size_t done = 0;       ///< of them, the number raced to the end or skipped
+  std::size_t workloads = 0;  ///< number of requested workloads
+  std::size_t done = 0;       ///< number of workloads raced to the end or skipped
   bool stopped = false;       ///< a stop request came before the end
 };
 
 /// Runs a race on each workload. Throws as make_job does for a wrong scene or number.
 [[nodiscard]] BenchResult run_bench(std::span<const BenchWorkload> workloads, const BenchOptions& options);
 
-/// Six modes. All 60 modes were measured on seven workloads (CPU time, 10³ … 10⁵ rays): one of these six was the
-/// fastest on five workloads, within 1 % of the fastest on one, and 5 % behind on one where each mode ran only once.
-/// All 60 are close together: on discs the quality, the coherent flag and packets matter little. rtcOccluded, which
-/// keeps no nearest hit, is 1 to 5 % faster than rtcIntersect.
+/// Six modes. All 60 modes were measured on seven workloads (CPU time, 10³ … 10⁵ rays). The fastest of these six was
+/// the fastest of all modes on five workloads, at most 1 % slower than the fastest on one, and 5 % slower on one where
+/// each mode ran only once. The times of all 60 modes are close: on discs the quality, the coherent flag and packets
+/// matter little. rtcOccluded, which keeps no nearest hit, is 1 to 5 % faster than rtcIntersect.
 [[nodiscard]] std::vector<EmbreeMode> best_embree_modes();
 
 }  // namespace detp::validate

@@ -12,7 +12,6 @@
 namespace detp::validate {
 namespace {
 
-/// The smallest number of rounds for a meaningful median.
 constexpr int least_rounds = 3;
 
 class RaceRunner {
@@ -40,10 +39,11 @@ class RaceRunner {
   }
 
  private:
-  /// Reports the next run. A run without earlier measurements is expected to take as long as those before it.
+  /// Reports the next run. In the first round it is expected to take as long as the mean of the runs before it, later
+  /// as long as the competitor's first run.
   void report(const CompetitorResult& next) {
     if (!options_.progress) return;
-    constexpr double first_round = 0.8;  // share of the time; afterwards only the fastest continue
+    constexpr double first_round = 0.8;  // expected share of the time of the race
     const bool first = next.seconds.empty();
     const double step = first ? first_round / static_cast<double>(race_.results.size())
                               : (1 - first_round) / (2.0 * options_.finalists * std::max(1, options_.repeats - 1));
@@ -52,7 +52,7 @@ class RaceRunner {
                        first ? watch_.seconds() / std::max(1.0, before / step) : next.seconds.front()});
   }
 
-  /// One run. Returns whether it was completed.
+  /// Returns false if a stop request ended the run.
   bool run(CompetitorResult& result) {
     report(result);
     const sim::Stopwatch watch;
@@ -75,7 +75,7 @@ class RaceRunner {
     return true;
   }
 
-  /// The first-round time of the slowest finalist of a side.
+  /// The first-round time of the slowest finalist among our techniques if `ours`, else among Embree's modes.
   [[nodiscard]] double slowest_finalist(bool ours) const {
     std::vector<double> first;
     for (const CompetitorResult& result : race_.results)

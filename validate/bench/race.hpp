@@ -13,7 +13,7 @@
 /// A race: competitors take turns on the same rays and discs.
 namespace detp::validate {
 
-/// One of ours, or Embree in one of its modes.
+/// One of our techniques with parameters, or Embree in one of its modes.
 using Competitor = std::variant<Candidate, EmbreeMode>;
 
 [[nodiscard]] inline bool is_own_technique(const Competitor& competitor) {
@@ -26,19 +26,18 @@ using Competitor = std::variant<Candidate, EmbreeMode>;
 /// The parameters as text, or Embree's mode.
 [[nodiscard]] std::string parameters_of(const Competitor& competitor);
 
-/// The results of one competitor.
 struct CompetitorResult {
   Competitor competitor;
   std::vector<double> seconds = {};  ///< of each run, from discs and rays in memory to irradiance in memory
-  std::uint64_t hits = 0;            ///< over all discs
-  std::uint64_t wrong_hits = 0;      ///< RightHits::wrong, the largest value of any run
+  std::uint64_t hits = 0;            ///< hits on all discs in the last run
+  std::uint64_t wrong_hits = 0;      ///< RightHits::wrong_hits, the maximum over the runs
 
   [[nodiscard]] double median_seconds() const;
 };
 
 struct RaceOptions {
   int repeats = 5;          ///< maximum number of rounds
-  double most_seconds = 2;  ///< seconds after which no round starts, once there have been three
+  double most_seconds = 2;  ///< seconds after which no round starts, once three rounds have ended
   int finalists = 2;        ///< number of competitors of each side that run after the first round
   int threads = 1;
   std::stop_token stop = {};
@@ -47,14 +46,15 @@ struct RaceOptions {
 
 struct Race {
   std::vector<CompetitorResult> results;  ///< of all competitors that ran at least once, in the order of the input
-  bool complete = false;                  ///< all ran at least once
+  bool complete = false;                  ///< true if all competitors ran at least once
 };
 
 /// Runs all competitors in turn, round after round, so that a disturbance of the machine affects all alike. After the
-/// first round only the fastest of each side continue: a more exact time of a slower one would not change the result.
-/// Every run's hits are compared with the right hits, outside the timed section.
+/// first round, only the `finalists` fastest of our techniques and of Embree's modes continue, because a more accurate
+/// time of a slower competitor would not change the result. Every run's hits are compared with the right hits after the
+/// time has been taken.
 ///
-/// Uses the threads of the `embree` peer; their number should equal the one in the options.
+/// Embree uses the threads of `embree`; their number should equal options.threads.
 [[nodiscard]] Race race(const Job& job, const RightHits& right, const EmbreePeer& embree,
                         const std::vector<Competitor>& competitors, const RaceOptions& options);
 

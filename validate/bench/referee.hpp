@@ -16,11 +16,11 @@ struct RightHits {
   Technique judge = Technique::brute_force;
   std::vector<std::uint64_t> hits;
 
-  /// Sum over the discs of |hits - right hits|.
+  /// Sum of |others - right hits| over the discs.
   [[nodiscard]] std::uint64_t wrong_hits(std::span<const std::uint64_t> others) const;
 };
 
-/// The hits of brute force; if rays x discs exceeds `checkable`, those of the exact candidate. Nothing if stopped.
+/// The hits of brute force, or of the candidate `exact` if rays × discs exceeds `checkable`. Nothing if stopped.
 [[nodiscard]] std::optional<RightHits> right_hits(const Job& job, const Candidate& exact, double checkable,
                                                   const std::stop_token& stop = {});
 

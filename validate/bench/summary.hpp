@@ -7,22 +7,22 @@
 
 namespace detp::validate {
 
-/// Summary of many races against Embree: ratios of Embree's median time to ours.
+/// Summary of many races: ratios of Embree's shortest median time to our shortest median time.
 struct AgainstEmbree {
   int threads = 1;
   std::size_t races = 0;
   double geometric_mean = 0;
   double worst = 0;         ///< the smallest ratio
-  std::size_t worst_entry;  ///< the entry that has the smallest ratio
+  std::size_t worst_entry;  ///< index of the entry with the smallest ratio
 };
 
 /// Summary over the complete races with `threads` threads; nothing if there is none.
 [[nodiscard]] std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries, int threads);
 
-/// Whether all our techniques found the right hits in all races.
+/// True if all our techniques found the right hits in all races.
 [[nodiscard]] bool do_own_hits_agree(std::span<const BenchEntry> entries);
 
-/// Number of wrong hits, and of all hits, in all of Embree's runs.
+/// Number of wrong hits and of all hits of Embree, one run for each race and mode.
 struct WrongHits {
   std::uint64_t wrong = 0;
   std::uint64_t hits = 0;

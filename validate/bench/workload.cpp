@@ -11,7 +11,7 @@ constexpr std::array built_in{"@uniform", "@tree", "@courtyard", "@cornell"};
 constexpr std::array meshes{"stanford_bunny.obj", "stanford_dragon.ply", "sponza.ply",     "bedroom.ply",
                             "mountain.obj",       "tangerine_fine.ply",  "grove_fine.ply", "tree.obj"};
 
-/// A million rays are run at these radii only, because otherwise they would take most of the time.
+/// A million rays are run at these radii only, because at all radii they would take most of the time.
 constexpr double most_rays = 1e6;
 bool is_used_with_most_rays(const Length& radius) { return radius.value == 0.005 || radius.value == 0.02; }
 
@@ -37,7 +37,6 @@ std::vector<sim::Field> fields_of(const BenchAxes& axes, const std::string& scen
   return {sim::Field::isotropic, sim::Field::photons};
 }
 
-/// Adds all combinations on one scene.
 void add_scene(BenchEffort effort, const BenchAxes& axes, const std::string& scene, const std::string& path,
                BenchSet& set) {
   const std::vector<Length> radii = axes.disc_radii.empty() ? default_radii(effort) : axes.disc_radii;
@@ -68,7 +67,7 @@ BenchSet bench_set(BenchEffort effort, const BenchAxes& axes, const std::string&
     return set;
   }
   for (const char* scene : built_in)
-    // If only photon paths are requested, the scene without a light is left out.
+    // @uniform has no light. It is left out if only photon paths are requested.
     if (scene != std::string("@uniform") || axes.fields != std::vector{sim::Field::photons}) {
       BenchAxes own = axes;
       if (scene == std::string("@uniform")) own.fields.clear();

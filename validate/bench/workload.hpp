@@ -9,20 +9,20 @@
 /// The workloads of the benchmark.
 namespace detp::validate {
 
-/// One workload: a number of rays of a field against a number of discs on a scene.
+/// One workload: a number of rays of a field, and a number of discs on a scene.
 struct BenchWorkload {
-  std::string scene;  ///< as shown: "@tree", "stanford_bunny"
-  std::string path;   ///< as opened
+  std::string scene;  ///< name to show: "@tree", "stanford_bunny"
+  std::string path;   ///< built-in name or file to open
   sim::Field field = sim::Field::isotropic;
   std::optional<double> samples;  ///< default: one for each vertex of the scene
   Length disc_radius;
   double rays = 0;
 };
 
-/// Whether the two workloads differ in the number of rays only.
+/// True if the two workloads are equal, except perhaps in the number of rays.
 [[nodiscard]] bool same_but_rays(const BenchWorkload& a, const BenchWorkload& b);
 
-/// Lists of values; every combination is run. The effort fills in the empty lists.
+/// Lists of values, of which every combination is run. Empty lists stand for the values of the effort.
 struct BenchAxes {
   std::optional<std::string> scene;
   std::vector<sim::Field> fields;
@@ -43,11 +43,11 @@ struct BenchSet {
 /// The workloads of that effort, restricted to the values in `axes`. `folder` holds the meshes; empty if unknown.
 ///
 /// quick      @uniform, @tree, @courtyard, @cornell, bunny; radii of 1 and 4 %; 10³ and 10⁵ rays
-/// thorough   the same and seven more meshes; 0.5 … 16 %; 10³ … 10⁶ rays, the largest number at 0.5 and 2 % only;
-///            @uniform with 10³, 10⁵ and 10⁶ samples
+/// thorough   the same scenes and seven more meshes; radii of 0.5 … 16 %; 10³ … 10⁶ rays, but 10⁶ rays only with radii
+///            of 0.5 and 2 %; @uniform with 10³, 10⁵ and 10⁶ samples
 ///
-/// Fields: isotropic lines, and photon paths if there is a light (@uniform has none). If `axes` names a single scene,
-/// it is run with the effort's other lists.
+/// Fields: isotropic lines, and photon paths if the scene has a light (@uniform has none). If `axes` names a scene,
+/// only that scene is run.
 [[nodiscard]] BenchSet bench_set(BenchEffort effort, const BenchAxes& axes, const std::string& folder);
 
 }  // namespace detp::validate

@@ -17,14 +17,14 @@ namespace detp::validate {
 namespace {
 
 constexpr double least_patience = 0.02;  // seconds
-// expected number of candidates, for the progress: neighbours are added during the analysis
+// Expected number of candidates with the neighbours that are added during the analysis; only for the progress.
 constexpr std::size_t usually_tried = 16;
 
 class Analyser {
  public:
   Analyser(const sim::Problem& problem, const AnalysisOptions& options) : problem_(problem), options_(options) {}
 
-  /// Runs and counts the candidates that are not in the analysis yet, one after another.
+  /// Candidates that are in the analysis already are not run again.
   void count(const std::vector<Analysed>& wanted) {
     const std::size_t first = all_.candidates.size();
     for (const Analysed& one : wanted)
@@ -71,7 +71,6 @@ class Analyser {
                        [&](const Analysed& one) { return one.candidate == candidate; });
   }
 
-  /// Reports the start of a run that is expected to take `seconds`, with `remaining` seconds after it.
   void report(std::size_t place, double seconds, double remaining) const {
     if (!options_.progress) return;
     const Analysed& one = all_.candidates[place];
@@ -86,8 +85,8 @@ class Analyser {
 
   [[nodiscard]] double patience() const { return std::max(least_patience, options_.patience * fastest_); }
 
-  /// Expected seconds of a counting run: the measured ones if known, else the prediction times the slowness of this
-  /// machine in the runs so far; limited by the patience.
+  /// Expected seconds of a counting run: its measured seconds if it was run to its end. Else the predicted seconds
+  /// multiplied by slowness_, or patience() if that is less or there is no prediction.
   [[nodiscard]] double expected_counting(std::size_t place) const {
     if (place < first_seconds_.size() && std::isfinite(first_seconds_[place])) return first_seconds_[place];
     const Analysed& one = all_.candidates[place];
@@ -95,7 +94,6 @@ class Analyser {
     return std::min(patience(), slowness_ * one.predicted->time.total());
   }
 
-  /// Expected seconds of all timed runs of the current candidates.
   [[nodiscard]] double expected_timing() const {
     double seconds = 0;
     for (std::size_t i = 0; i < all_.candidates.size(); ++i) {
@@ -106,7 +104,7 @@ class Analyser {
     return seconds;
   }
 
-  /// Expected seconds of the remaining counting runs, and of all timed runs.
+  /// Expected seconds of the counting runs after number `place`, plus those of all timed runs.
   [[nodiscard]] double remaining_after_counting(std::size_t place) const {
     double seconds = expected_timing();
     for (std::size_t i = place + 1; i < all_.candidates.size(); ++i) seconds += expected_counting(i);

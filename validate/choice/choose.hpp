@@ -6,8 +6,8 @@
 
 namespace detp::validate {
 
-/// The technique that is predicted to find the hits of such rays and discs fastest, with its parameters: measure, then
-/// model::rank. Nothing is searched. Throws as make_problem does.
+/// The technique, with parameters, that is predicted to find the hits of these rays and discs fastest: the first of
+/// model::rank for the measured workload. Finds no hits. Throws as make_problem does.
 [[nodiscard]] Candidate choose(std::span<const sim::Ray> rays, std::span<const sim::Disc> discs,
                                const UnitCosts& costs = built_in_unit_costs());
 [[nodiscard]] Candidate choose(const sim::RaysView& rays, const sim::DiscsView& discs,

@@ -28,7 +28,7 @@ namespace {
 
 constexpr double rays_by_default = 100'000;
 
-/// A number of things of `bytes` bytes each, which must fit in memory.
+/// `count` as an integer. Throws unless `count` things of `bytes` bytes each fit in memory.
 std::size_t count_in_memory(std::string_view what, double count, std::size_t bytes) {
   require_count(fmt::format("number of {}", what), count, 1, 1e18);
   sim::require_memory(fmt::format("{} {}", count, what), count * static_cast<double>(bytes));
@@ -52,8 +52,8 @@ double longest_side(const sim::Box& box) {
 
 double absolute(const Length& length, double side) { return length.relative ? length.value * side : length.value; }
 
-/// Half the distance between samples: between neighbouring vertices, or between points spread over a surface or a
-/// volume.
+/// Half the distance between samples. The distance is the mean edge length of the mesh, or without edges that of points
+/// spread evenly over a surface or in a volume.
 double default_radius(const sim::Scene& scene, double side, double edge_length) {
   const double root = scene.mesh.triangles.empty() ? 1.0 / 3 : 0.5;
   const double spread = side / std::pow(static_cast<double>(scene.samples.size()), root);
@@ -71,7 +71,6 @@ std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double 
   return discs;
 }
 
-/// Whether the samples of a workload without a scene lie on the faces of the cube. Otherwise they fill it.
 bool on_faces(const Workload& workload) { return workload.dimension < 2.5; }
 
 class JobMaker {
@@ -178,7 +177,7 @@ class JobMaker {
       job_.stream = std::make_unique<sim::PhotonSource>(scene_for_photons(), count, request_.seed, stop_);
   }
 
-  /// Measures the workload; that of a stream on its first block.
+  /// Measures a stream on its first block of rays.
   Workload measure_rays_and_discs() {
     std::vector<sim::Ray> block;
     if (job_.stream) {
@@ -243,12 +242,12 @@ Workload workload_of_numbers(const JobRequest& request) {
   double d = request.disc_radius->value;
   double side = request.scene_side.value_or(0);
   if (request.disc_radius->relative) {
-    // Solves r₀ = s√3/2 + xs for s.
+    // Solves r₀ = s√3/2 + d for s, where d is the given share of s.
     if (!request.scene_side) side = *request.sphere_radius / (std::sqrt(0.75) + d);
     d *= side;
   }
   const double outer = request.sphere_radius.value_or(enclosing_radius(side, d));
-  // A disc as large as S₀ leaves no room for the samples' cube. Then uses the cube inscribed in S₀.
+  // If d >= r₀, no cube of samples has this r₀. Then uses the cube inscribed in S₀.
   if (!(side > 0)) side = (d < outer ? outer - d : outer) / std::sqrt(0.75);
   Workload workload =
       cube_workload(request.rays.value_or(rays_by_default), *request.samples, d, side, request.dimension.value_or(3));

@@ -26,7 +26,7 @@ struct Length {
 /// Reads "0.02" or "4%". Throws std::invalid_argument for anything else, and unless the length is > 0 and finite.
 [[nodiscard]] Length parse_length(std::string_view text);
 
-/// The user's request. Values that are not set are chosen, and the job reports them.
+/// The user's request. Values that are not set get the default below; the job has all values.
 struct JobRequest {
   std::optional<std::string> scene;      ///< built-in name or mesh file
   std::optional<std::string> disc_file;  ///< instead of a scene's samples
@@ -34,19 +34,19 @@ struct JobRequest {
   std::optional<double> rays;            ///< default 100 000
   std::optional<double> samples;         ///< default: one for each vertex of the scene; required without a scene
   std::optional<Length> disc_radius;     ///< default: half the distance between samples; required without a scene
-  std::optional<double> sphere_radius;   ///< without a scene: r₀, or …
-  std::optional<double> scene_side;      ///< … s
+  std::optional<double> sphere_radius;   ///< r₀, without a scene; either this or scene_side is required
+  std::optional<double> scene_side;      ///< s, without a scene
   std::optional<double> dimension;       ///< default: measured; without a scene: 3
   std::optional<double> sample_extent;
   std::optional<sim::Field> field;
   bool front_facing = false;
   std::uint64_t seed = 1;
-  /// Only the workload is needed. If there are more rays than a block (sim::default_block), only the first block is
-  /// made, and the workload is measured on it. Not for rays from a file.
+  /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
+  /// block of rays is made, and the workload is measured on this block. Has no effect on rays from a file.
   bool workload_only = false;
-  bool stream = false;  ///< keep rays that can be made by number out of memory if they fill more than a block
+  bool stream = false;  ///< if the rays are not from a file and fill more than a block, do not keep them in memory
 
-  /// Neither a scene nor a file: only the numbers of a workload.
+  /// True if the request has neither a scene nor a file, only the numbers of a workload.
   [[nodiscard]] bool numbers_alone() const { return !scene && !disc_file && !ray_file; }
 };
 
@@ -57,17 +57,16 @@ struct JobRequest {
 /// The name of a workload without a scene: "uniform samples in a cube", or "… on the faces of a cube".
 [[nodiscard]] std::string_view name_of_numbers(const Workload& workload);
 
-/// Rays and discs, with their workload and warnings.
 struct Job {
   std::string name;  ///< "@tree", a file, or "uniform samples in a cube"
   std::vector<sim::Disc> discs;
-  std::vector<sim::Ray> rays;                    ///< all of them; none if they are a stream; see workload_only
-  std::unique_ptr<const sim::RaySource> stream;  ///< makes rays by number; null if they are in memory
+  std::vector<sim::Ray> rays;                    ///< all rays; empty if they are a stream; see workload_only
+  std::unique_ptr<const sim::RaySource> stream;  ///< makes ray number i for any i; null if all rays are in memory
   sim::Field field = sim::Field::isotropic;
   std::size_t triangles = 0;
   Workload workload;  ///< measured on discs and rays (the path length of a stream on its first block)
   sim::Notices notices;
-  /// a few discs or rays that make the workload unrepresentative of the rest (outliers.hpp)
+  /// warnings of a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
   bool front_facing = false;
   double read_seconds = 0;  ///< time for reading or making scene and rays

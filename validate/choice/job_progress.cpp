@@ -8,7 +8,7 @@
 namespace detp::validate {
 namespace {
 
-/// Rays and discs that are expected before the scene has been read.
+/// Assumed number of rays or discs before the scene has been read.
 constexpr double usual = 1e5;
 
 }  // namespace
@@ -20,7 +20,8 @@ JobProgress::Part JobProgress::reading(const std::string& file) {
   return {bytes / static_cast<double>(sim::bytes_a_unit), 30e-9 * bytes};
 }
 
-/// A stream traces photons once to number their pieces; lines are made when they are needed.
+/// A stream of photon paths traces all photons once, to number their segments. A stream of lines makes nothing before
+/// its lines are needed.
 JobProgress::Part JobProgress::making(sim::Field field, double rays, bool stream) {
   if (field == sim::Field::photons) return {120 * rays, 4e-6 * rays};
   return stream ? Part{} : Part{rays, 1e-7 * rays};

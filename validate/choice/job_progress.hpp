@@ -8,7 +8,7 @@
 
 namespace detp::validate {
 
-/// Reports the progress of making a job. Each function starts a part of it.
+/// Reports the progress of making a job. Each function reports the start of one part of the work.
 class JobProgress {
  public:
   explicit JobProgress(sim::ReportPhase report) : report_(std::move(report)) {}
@@ -31,7 +31,7 @@ class JobProgress {
   void begin(const char* what, const Part& part, double later);
 
   sim::ReportPhase report_;
-  double done_ = 0;  ///< share that is done when the current part is finished
+  double done_ = 0;  ///< share of the whole work that is done when the current part is finished
 };
 
 }  // namespace detp::validate

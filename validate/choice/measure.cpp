@@ -41,7 +41,7 @@ std::vector<double> occupied_cells(std::span<const sim::Disc> discs, const std::
   return occupied;
 }
 
-/// Mean length of the rays inside the samples' box grown by the disc radius; 0 if all are unbounded lines.
+/// 0 if all rays are unbounded lines.
 double mean_path_length(const sim::Problem& problem, const sim::Box& box, double disc_radius,
                         const std::stop_token& stop) {
   sim::StopCheck check(stop, "measuring the rays");
@@ -56,7 +56,7 @@ double mean_path_length(const sim::Problem& problem, const sim::Box& box, double
   return segments ? sum / static_cast<double>(problem.rays().size()) : 0;
 }
 
-/// The root mean square of the radii; exactly the discs' radius if all have the same.
+/// Exactly the discs' radius if all have the same.
 double rms_radius(std::span<const sim::Disc> discs, sim::StopCheck& check) {
   double sum = 0;
   bool same = true;
@@ -102,9 +102,9 @@ Workload measure(const sim::Problem& problem, const SurfaceFacts& surface, const
                     .sample_distance = surface.edge_length,
                     .path_length = mean_path_length(problem, box, radius, stop),
                     .front_facing = problem.front_facing()};
-  // One sample, or all in one place: the box has no size, so use the discs' diameter.
+  // If all samples are at one point, their box has no size. Then uses a cube with the discs' diameter as side.
   if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
-  // from the samples' own box: a scene's samples need not fill the scene's box
+  // Computed from the samples' own box, because samples need not fill the scene's box.
   workload.sample_extent = sample_extent(workload);
   if (surface.area > 0) {
     const double weight = std::clamp(workload.dimension - 2, 0.0, 1.0);

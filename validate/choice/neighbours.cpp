@@ -7,7 +7,6 @@
 namespace detp::validate {
 namespace {
 
-/// A step down and a step up from a value.
 std::vector<ParameterValue> steps_from(const Parameter& parameter, const ParameterValue& value) {
   if (const auto* ratio = std::get_if<double>(&value)) return {(2 - parameter.step) * *ratio, parameter.step * *ratio};
   const auto number = std::get<std::int64_t>(value);
@@ -16,7 +15,7 @@ std::vector<ParameterValue> steps_from(const Parameter& parameter, const Paramet
           static_cast<std::int64_t>(std::llround(static_cast<double>(number) * parameter.step))};
 }
 
-/// Adds the candidate with another value, if that is in its range.
+/// Adds nothing if `value` is not in the parameter's range or not a change.
 void add(std::vector<Candidate>& all, Candidate candidate, const Parameter& parameter, const ParameterValue& value) {
   const ParameterValue now = parameter.get(candidate.parameters);
   try {

@@ -4,14 +4,14 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// Candidates that are worth trying besides the predicted ones.
+/// Candidates to try in addition to the ranked ones.
 namespace detp::validate {
 
-/// The exact techniques, with default parameters, that are not among these.
+/// The exact techniques that none of these candidates uses, with default parameters.
 [[nodiscard]] std::vector<Candidate> techniques_left_out(const std::vector<Candidate>& candidates);
 
-/// Candidates of the same technique with each parameter changed by the step of its record, within its range. A choice is
-/// changed only if the technique has no other parameter.
+/// Candidates of the same technique that differ in one parameter. Numbers are changed one step up and one step down
+/// (Parameter::step), within their range. A parameter with named choices is changed only if the technique has no other.
 [[nodiscard]] std::vector<Candidate> neighbours(const Candidate& candidate);
 
 }  // namespace detp::validate

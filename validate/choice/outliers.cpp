@@ -31,7 +31,7 @@ double longest(const sim::Box& box) {
   return std::max({size.x, size.y, size.z});
 }
 
-/// The box without the lowest and the highest twentieth of the centres on each axis.
+/// Leaves out the lowest and the highest twentieth of the centres on each axis.
 sim::Box central_box(const std::vector<sim::Disc>& discs) {
   const std::size_t left_out = discs.size() / 20;
   sim::Box box;
@@ -62,7 +62,7 @@ void warn_of_far_discs(std::span<const sim::Disc> discs, const std::vector<sim::
   sim::Box whole;
   sim::for_each_checked(discs, check, [&](const sim::Disc& disc) { whole.include(disc.centre); });
   const sim::Box centre = central_box(sampled);
-  const double reach = std::max(longest(centre), 2 * radius);  // if all discs are in one place, their own size
+  const double reach = std::max(longest(centre), 2 * radius);  // the discs' diameter if that is larger
   if (!(longest(whole) > far_boxes * reach)) return;
   std::size_t far = 0;
   sim::for_each_checked(discs, check, [&](const sim::Disc& disc) {

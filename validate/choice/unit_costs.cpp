@@ -8,8 +8,8 @@
 namespace detp::validate {
 namespace {
 
-/// Seconds per unit of a term that alone makes up a phase, Σ seconds / Σ counts, over the techniques that search ray by
-/// ray or over the others.
+/// Seconds per unit of a term that is the only term of its phase: Σ seconds / Σ counts. The sums are over the runs of
+/// techniques that search ray by ray if `ray_by_ray` is true, else over the runs of all other techniques.
 double simple_rate(std::span<const TimedRun> runs, bool ray_by_ray, double TimedRun::*seconds,
                    double Counts<double>::*term) {
   double time = 0;
@@ -30,7 +30,7 @@ UnitCosts built_in_unit_costs() {
           .index_test = 5.8e-9,
           .step = 1.5e-8,
           .node = 4.9e-8,
-          .listed = 0,  // included in the test: the fit cannot separate them
+          .listed = 0,  // included in cull_test: the fit cannot separate both
           .placement = 1.1e-7,
           .leaf = 1.1e-8,
           .sort = 1.1e-8,

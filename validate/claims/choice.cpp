@@ -16,18 +16,18 @@
 namespace detp::validate {
 namespace {
 
-/// The unit costs explain times only to a factor of 1.23 in the median. So a predicted count that is within 25 % of the
-/// observed one is not the main cause of a wrong predicted time.
+/// Observed counts multiplied by unit costs give times that are wrong by a factor of 1.23 in the median. So a predicted
+/// count within 25 % of the observed count is not the main cause of a wrong predicted time.
 constexpr double tolerance = 0.25;
 
-/// Techniques that process each ray separately are counted on a sample of the rays if they are predicted to take
-/// longer.
+/// Techniques that process each ray separately are counted on a sample of the rays if the predicted time for all rays
+/// is longer than this.
 constexpr double most_seconds = 3;
 
 std::size_t batches_of(std::size_t rays) { return std::min<std::size_t>(batch_count, rays); }
 
-/// Distributes all rays over the batches in short runs: neighbours (pieces of one photon's path) stay together, and
-/// each batch has rays from all over a sorted file.
+/// Distributes all rays over the batches in short runs of neighbouring rays. So the segments of one photon's path
+/// mostly stay together, and each batch has rays from all parts of a sorted file.
 std::vector<std::vector<sim::Ray>> distribute_over_batches(const std::vector<sim::Ray>& rays) {
   const std::size_t batches = batches_of(rays.size());
   const std::size_t run = std::clamp<std::size_t>(rays.size() / batches, 1, 64);
@@ -36,12 +36,11 @@ std::vector<std::vector<sim::Ray>> distribute_over_batches(const std::vector<sim
   return parts;
 }
 
-/// Whether the technique processes each ray separately, so that a sample of the rays needs that share of the tests.
+/// True if the technique processes each ray separately. A share of the rays then needs the same share of the tests.
 bool searches_ray_by_ray(Technique technique) {
   return technique == Technique::brute_force || record_of(technique).ray_by_ray;
 }
 
-/// The share of the rays that a candidate is counted on.
 double share_counted(const model::Ranked& ranked) {
   return searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
 }
@@ -51,7 +50,6 @@ struct Batch {
   Counts<double> counts;
 };
 
-/// The counts of a candidate: in one run over its rays, and in runs over parts of them.
 struct Counted {
   Batch all;
   std::vector<Batch> batches = {};
@@ -61,7 +59,7 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
   const ChoiceQuestion& question = *experiment.choice;
   const auto taken =
       static_cast<std::size_t>(std::ceil(share_counted(ranked) * static_cast<double>(question.rays.size())));
-  // An evenly spaced sample: the last ray of each stride.
+  // An evenly spaced sample.
   std::vector<sim::Ray> rays;
   for (std::size_t i = 0; i < taken; ++i) rays.push_back(question.rays[(i + 1) * question.rays.size() / taken - 1]);
   bool stopped = false;
@@ -77,11 +75,10 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
   return counted;
 }
 
-/// Whether the count is additive over parts of the rays.
 bool adds_up_over_rays(std::string_view term) { return term != "culls" && term != "visits" && term != "placements"; }
 
-/// The count for all the question's rays. The standard error is that between the batches, but at least that of as many
-/// independent events; infinite if there is a single ray.
+/// The count for all the question's rays, scaled from the sampled rays. The standard error is that between the batches,
+/// but at least that of independent events whose expected number is `predicted`; infinite if there is a single ray.
 Estimate observed(const Counted& counted, const CountTerm<double>& term, double predicted, double question_rays) {
   const double all = counted.all.counts.*term.term;
   if (!adds_up_over_rays(term.name)) return {all, 0};
@@ -94,7 +91,7 @@ Estimate observed(const Counted& counted, const CountTerm<double>& term, double 
   return estimate;
 }
 
-/// Whether the count is a claim: choose prices it, or it is the hits.
+/// True if the count is a claim: it is `hits`, or has a unit cost > 0 for this technique.
 bool is_claimed(const CountTerm<double>& term, Technique technique) {
   if (term.name == "sorted") return false;  // the number of discs, which is an input
   Counts<double> one;
@@ -153,7 +150,7 @@ double choice_work(const Experiment& experiment) {
   double work = 0;
   if (!experiment.choice) return work;
   for (const model::Ranked& ranked : model::rank(experiment.choice->workload, built_in_unit_costs()))
-    work += 2 * share_counted(ranked) * test_work(ranked.counts) +  // in one run, and in runs over parts of the rays
+    work += 2 * share_counted(ranked) * test_work(ranked.counts) +  // on all sampled rays, and on parts of them
             (1 + batch_count) * build_work(ranked.counts);
   return work;
 }

@@ -5,8 +5,10 @@
 namespace detp::validate {
 namespace {
 
-/// The tolerance is a share of the judged value. A value too large by o is refuted if o - tolerance (1 + o) exceeds the
-/// half width of the interval; one too small by o if o - tolerance (1 - o) does. `away` is 1 or -1.
+/// Relative error that makes the negative control wrong enough to be refuted: positive if `away` is 1 (the control is
+/// too large), negative if `away` is -1 (too small). The tolerance is a share of the control itself. A control that is
+/// too large by o is refuted if o - tolerance (1 + o) exceeds the half width of the interval. A control that is too
+/// small by o is refuted if o - tolerance (1 - o) exceeds this half width.
 double control_offset(const Claim& claim, const Finding& finding, double away) {
   const double one_count = finding.batches == 0 ? 1 / std::abs(claim.predicted) : 0;
   return away * (claim.detectable + one_count) / (1 - away * finding.tolerance);

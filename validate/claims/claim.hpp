@@ -13,7 +13,6 @@
 /// Claims: predictions of formulas, compared with counts.
 namespace detp::validate {
 
-/// A formula's value.
 struct Prediction {
   Form form;
   std::string source;  ///< equation of the paper, or "our derivation"
@@ -28,13 +27,12 @@ struct Finding {
   std::string parameters = {};  ///< "Q 0.65, k 9"; empty if the claim is about several candidates or none
   std::vector<Prediction> predictions = {};
   Estimate observed = {};
-  int batches = 0;       ///< independent batches behind the standard error; 0: exact
-  double tolerance = 0;  ///< relative deviation that still counts as agreement
+  int batches = 0;       ///< independent batches from which the standard error is computed; 0: `observed` is exact
+  double tolerance = 0;  ///< relative difference of prediction and observation that still counts as agreement
   std::uint64_t lines = 0;
   double seconds = 0;
 };
 
-/// One judged prediction.
 struct Claim {
   std::string id;  ///< "rebuild-time.corrected"
   std::string quantity;
@@ -46,11 +44,11 @@ struct Claim {
   Estimate observed = {};
   double relative_difference = 0;  ///< observed/predicted - 1
   double tolerance = 0;
-  double detectable = 0;  ///< relative deviation that would be refuted
+  double detectable = 0;  ///< relative error of the formula that would be refuted with a probability of 97 %
   Verdict verdict = Verdict::undecided;
-  /// Relative error of the negative control, with its sign. The control is the formula made wrong by the detectable
-  /// deviation (and by one count more if the observation is exact), in the direction away from the observation. In the
-  /// other direction, a slightly wrong formula would become right.
+  /// Relative error of the negative control, with its sign. The control is the prediction, changed by the detectable
+  /// error (and by one more count if the observation is exact), away from the observation. A change towards the
+  /// observation could make a slightly wrong prediction right.
   double control_offset = 0;
   double control = 0;
   Verdict control_verdict = Verdict::undecided;  ///< should be `refuted`
@@ -58,22 +56,21 @@ struct Claim {
   double seconds = 0;
 };
 
-/// The question that choose was asked. Its predictions are claims too.
+/// The input of `choose`. The predictions of `choose` for this input are claims too.
 struct ChoiceQuestion {
-  Workload workload;           ///< as choose measures it
+  Workload workload;           ///< as `choose` measures it
   std::vector<sim::Ray> rays;  ///< at least one
 };
 
-/// The input of an experiment.
 struct Experiment {
   Workload workload;                          ///< the formulas' input; the rays are lines
-  std::vector<sim::Disc> discs;               ///< of a scene; empty: uniform ones are drawn as the workload says
+  std::vector<sim::Disc> discs;               ///< of a scene; if empty, uniform discs are drawn as the workload says
   std::optional<ChoiceQuestion> choice = {};  ///< if the experiment is on a scene
   std::uint64_t seed = 1;
   std::stop_token stop = {};
 };
 
-/// Judges all predictions of all findings, with one budget for false verdicts in the whole run.
+/// Judges all predictions of all findings. The probability of any false verdict in the result is below `budget`.
 [[nodiscard]] std::vector<Claim> judge_all(const std::vector<Finding>& findings, double budget = 1e-3);
 
 }  // namespace detp::validate

@@ -25,7 +25,6 @@ namespace {
 constexpr double tolerance = 0.02;
 constexpr std::size_t lines_through_cells = 20'000;  ///< of each batch
 
-/// The counts of one batch of lines.
 struct Batch {
   double lines = 0;
   double hitting = 0;     ///< lines that hit the index's cube
@@ -43,14 +42,13 @@ double lines_that_hit(const std::vector<sim::Ray>& lines, const sim::Box& box) {
       lines.begin(), lines.end(), [&](const sim::Ray& line) { return !sim::ClippedRay(line).inside(box).empty(); }));
 }
 
-/// The cube that an octree subdivides: the index's box, with all sides as long as its longest.
+/// The cube that an octree subdivides: the index's box, with all sides made as long as the longest.
 sim::Box index_cube(const std::vector<sim::Disc>& discs) {
   const sim::Box box = sim::index_box(discs);
   const glm::dvec3 size = box.size();
   return {box.low, box.low + std::max({size.x, size.y, size.z})};
 }
 
-/// Runs lines through S₀ with one technique, and counts those that hit the discs' cube.
 Batch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& discs, const Candidate& candidate, int part,
                 std::size_t count, int batch) {
   const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch))
@@ -73,7 +71,7 @@ Estimate ratio(const std::vector<Batch>& batches, double Batch::*above, double B
   return batch_ratio(numerators, denominators);
 }
 
-/// Two small discs in opposite corners of a cube, so that almost only cells are counted.
+/// Cells per line, counted on a grid over two small discs in opposite corners of a cube.
 Finding cells_finding(const Experiment& experiment) {
   const sim::Stopwatch clock;
   const std::size_t lines = lines_per_batch(experiment, lines_through_cells);
@@ -95,14 +93,14 @@ Finding cells_finding(const Experiment& experiment) {
           .seconds = clock.seconds()};
 }
 
-/// If events are rare, all batches may see none. So raises the standard error to that of independent events, √(μ/N), if
-/// it is below.
+/// Raises the standard error to √(μ/N), that of independent events, if it is less. Rare events may occur in no batch,
+/// and the standard error between the batches is then 0.
 void allow_for_rare_events(Finding& finding) {
   const double least = std::sqrt(finding.predictions.back().value / static_cast<double>(finding.lines));
   finding.observed.standard_error = std::max(finding.observed.standard_error, least);
 }
 
-/// For uniform samples, whose cube lies inside S₀: tests per line that hits the cube, by the closed form.
+/// For uniform samples, whose cube lies inside S₀: predicts the tests per line that hits the cube by the closed form.
 Finding uniform_tests(const Workload& workload, const std::vector<Batch>& batches, int depth) {
   const double overlapped = model::index_cells(workload, std::ldexp(1.0, depth)).overlapped;
   return {.id = "octree-tests-per-line",
@@ -115,8 +113,9 @@ Finding uniform_tests(const Workload& workload, const std::vector<Batch>& batche
           .observed = ratio(batches, &Batch::disc_tests, &Batch::hitting)};
 }
 
-/// For a scene: tests per line through S₀. The cube of a flat scene extends outside S₀, so fewer lines hit it than its
-/// area predicts. P(line hits the cube) converts the paper's figure.
+/// For a scene: predicts the tests per line through S₀. The cube of a flat scene extends outside S₀, so fewer lines hit
+/// the cube than its area predicts. The paper's tests per line that hits the cube are multiplied by P(line hits the
+/// cube).
 Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches,
                     int depth) {
   const double side = index_cube(discs).size().x;
@@ -132,7 +131,6 @@ Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& disc
           .observed = ratio(batches, &Batch::disc_tests, &Batch::lines)};
 }
 
-/// Predicted by an octree built from the discs for this purpose only; the counted runs are not used.
 Finding structural_tests(const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches, int depth) {
   const Counts<double> expected = structural_counts(discs, 1, {Technique::octree, OctreeParameters{depth}});
   return {.id = "octree-tests-structural",

@@ -11,7 +11,7 @@ namespace {
 
 using Run = std::vector<Finding> (*)(const Experiment&);
 
-/// False if a stop request ended the experiment.
+/// Returns false if a stop request ended the experiment.
 bool add_findings(Run run, const Experiment& experiment, std::vector<Finding>& findings) {
   try {
     std::vector<Finding> found = run(experiment);
@@ -30,7 +30,7 @@ std::vector<Finding> all_findings(const Experiment& experiment, const sim::Repor
     const char* name;
     Run run;
     double (*work)(const Experiment&);
-    double unit_time;  ///< of a unit of its work, relative to the others': measured
+    double unit_time;  ///< measured time of a unit of the step's work, relative to that of "sphere cache"
   };
   constexpr std::array steps{Step{"predictions of the choice", choice_findings, choice_work, 3},
                              Step{"lines against spheres and discs", line_hit_findings, line_hit_work, 1},

@@ -6,10 +6,10 @@
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/base/progress.hpp"
 
-/// The experiments behind the claims. Each counts by simulation; none uses a formula to count.
+/// The experiments that test the claims. Each experiment counts by simulation, without using a formula.
 ///
-/// The seed determines all results; the number of threads does not affect them. After a stop request they return
-/// nothing, or throw sim::Stopped.
+/// The seed determines all results; the number of threads does not affect them. After a stop request, an experiment
+/// returns no findings, or throws sim::Stopped.
 namespace detp::validate {
 
 /// P(sphere), n_i and P(disc): lines through S₀ are tested against spheres and discs placed at random inside it.
@@ -21,11 +21,12 @@ namespace detp::validate {
 /// Counts of cell spheres, of the sphere tree and, by each engine, of the box tree.
 [[nodiscard]] std::vector<Finding> hierarchy_findings(const Experiment& experiment);
 
-/// Cells per line, ray-disc tests per line of an octree, and the hits of all discs.
+/// Cells per line of a grid, ray-disc tests per line of an octree, and hits per line.
 [[nodiscard]] std::vector<Finding> disc_index_findings(const Experiment& experiment);
 
-/// All counts that choose prices, and the hits, of each candidate that it ranks. model::rank predicts them from the
-/// question's workload; they are counted on the question's rays and discs. Nothing if there is no question.
+/// The hits, and all counts that have a unit cost, of each candidate of model::rank. model::rank predicts the counts
+/// from experiment.choice's workload. They are counted on experiment.choice's rays and experiment.discs. Returns
+/// nothing if experiment.choice is not set.
 [[nodiscard]] std::vector<Finding> choice_findings(const Experiment& experiment);
 
 /// Predicted work of each experiment, in units of sim::StopCheck, for a display of progress.
@@ -35,8 +36,8 @@ namespace detp::validate {
 [[nodiscard]] double disc_index_work(const Experiment& experiment);
 [[nodiscard]] double choice_work(const Experiment& experiment);
 
-/// The findings of all experiments, or of those finished before a stop request. Sets `done`, if not null, to their
-/// number.
+/// The findings of all experiments, or of the experiments that were finished before a stop request. Sets `done`, if not
+/// null, to the number of finished experiments.
 [[nodiscard]] std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress = {},
                                                 sim::Progress* done = nullptr);
 

@@ -19,24 +19,22 @@ namespace {
 
 constexpr double tolerance = 0.025;
 
-/// One count, and its claims.
 struct Quantity {
   std::string_view id;          ///< ends the id of the claim about the closed form
   std::string_view structural;  ///< ends the id of the claim about the structural counts
   std::string_view what;        ///< the count in words
   double Counts<double>::*term;
-  bool per_line = true;  ///< proportional to the number of lines; the others are counted on few lines
+  bool per_line = true;  ///< true: proportional to the number of lines; false: counted on few_lines of the lines
 };
 
-/// The claims about one technique and engine.
 struct Subject {
   Technique technique;
   std::string id;
   Engine engine;
   std::vector<Candidate> candidates;
-  std::string over;         ///< the candidates that the mean is over
+  std::string over;         ///< the candidates, in words; observations and predictions are means over them
   std::string_view source;  ///< source of the closed form
-  std::string_view bodies;  ///< whose areas the structural counts sum
+  std::string_view bodies;  ///< "spheres" or "boxes": the structural counts are sums over their areas
   std::vector<Quantity> quantities;
 };
 
@@ -48,7 +46,7 @@ constexpr Quantity nodes{"nodes-visited", "nodes-structural", "nodes visited", &
 constexpr Quantity discs_visited{"discs-visited", "visits-structural", "discs visited", &Counts<double>::visits, false};
 
 Subject cell_spheres(const Workload& workload) {
-  // Down to the smallest cells that a disc fits in, within the resolution of the curve.
+  // The deepest level whose cells are at least as wide as a disc; at most the curve's 16 levels.
   const double halvings = std::floor(std::log2(scene_side(workload) / (2 * workload.disc_radius)));
   const int deepest = static_cast<int>(std::clamp(halvings, 2.0, 16.0));
   return {Technique::cell_spheres,
@@ -73,7 +71,7 @@ Subject sphere_tree() {
           {sphere_tests, disc_tests}};
 }
 
-/// The trees that choose takes where there are as many rays as discs, or more (box_tree_rule).
+/// The trees that box_tree_rule gives if there are at least as many rays as discs.
 Subject box_tree(Engine engine) {
   return {Technique::box_tree,
           fmt::format("box-tree-{}", name(engine)),
@@ -89,18 +87,18 @@ std::vector<Subject> all_subjects(const Workload& workload) {
   return {cell_spheres(workload), sphere_tree(), box_tree(Engine::plain), box_tree(Engine::simd)};
 }
 
-/// Share of the lines on which nodes and visits are counted. With all lines hardly any list is empty.
+/// Share of the lines on which nodes and visits are counted. With all lines, hardly any list would be empty, and the
+/// claims would be trivial.
 constexpr double few_lines = 0.125;
 
 /// Mean logarithms over a subject's candidates, one for each of its quantities.
 using Logs = std::vector<double>;
 
-/// The results of one set of samples and lines.
 struct SetResult {
   Logs counted, closed, structural;
 };
 
-/// Adds one candidate to the quantities that are counted on all lines, or to those counted on few.
+/// Adds the logarithms of one candidate's counts per line, for the quantities whose `per_line` equals the argument.
 void add(Logs& logs, const Subject& subject, bool per_line, const Counts<double>& counts, double lines) {
   logs.resize(subject.quantities.size(), 0);
   for (std::size_t i = 0; i < logs.size(); ++i) {
@@ -110,7 +108,6 @@ void add(Logs& logs, const Subject& subject, bool per_line, const Counts<double>
   }
 }
 
-/// The workload with the actual S₀ and number of lines of this problem.
 Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
   Workload workload = experiment.workload;
   workload.rays = static_cast<double>(problem.rays().size());
@@ -118,7 +115,7 @@ Workload workload_of(const Experiment& experiment, const sim::Problem& problem) 
   return workload;
 }
 
-/// Counts and predicts all candidates on one problem. False if a stop was requested.
+/// Returns false if a stop was requested.
 bool run_lines(const Experiment& experiment, const Subject& subject, const sim::Problem& problem, bool per_line,
                SetResult& result) {
   const auto lines = static_cast<double>(problem.rays().size());
@@ -156,8 +153,8 @@ double geometric_mean(const std::vector<SetResult>& sets, Column column, std::si
   return std::exp(sum / static_cast<double>(sets.size()));
 }
 
-/// Geometric mean of the counts, divided by `below` if set. The standard error between sets is computed for the
-/// logarithm, and converted.
+/// Geometric mean of the counts over the sets, or of the ratios of counts to the predictions `below`. The standard
+/// error is that of the mean logarithm between sets, multiplied by the mean.
 Estimate counted(const std::vector<SetResult>& sets, std::size_t quantity, Column below = nullptr) {
   std::vector<double> logs;
   for (const SetResult& set : sets)
@@ -215,7 +212,7 @@ double hierarchy_work(const Experiment& experiment) {
   for (const Subject& subject : all_subjects(experiment.workload)) {
     const int runs = std::ranges::all_of(subject.quantities, &Quantity::per_line) ? 1 : 2;
     for (const Candidate& candidate : subject.candidates)
-      // The structures are built and looked at with some 40 units for a disc.
+      // Building a hierarchy and computing its structural counts takes about 40 units of work for each disc.
       work += test_work(model::predict(experiment.workload, candidate, subject.engine), subject.engine) +
               40.0 * runs * batch_count * experiment.workload.samples;
   }

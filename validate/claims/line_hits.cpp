@@ -18,14 +18,14 @@
 namespace detp::validate {
 namespace {
 
-constexpr int positions = 8;  ///< number of random places of each kind of sphere or disc
+constexpr int positions = 8;  ///< number of spheres or discs of each kind, at random places
 constexpr double tolerance = 0.015;
 constexpr double sphere_radius = 0.4;
 constexpr double disc_radius = 0.3;
 constexpr int most_levels = 3;
 constexpr std::size_t lines_of_each_batch = 100'000;
 
-/// Radius of S_i at the published Q.
+/// Of S_i at the published Q.
 double level_radius(int i) { return std::pow(model::published_ratio, static_cast<double>(i)); }
 
 /// A sphere of radius `reach` at a random place inside S₀, which is the unit sphere.
@@ -49,7 +49,6 @@ std::vector<sim::Disc> discs_inside(double radius, std::uint64_t seed) {
   return discs;
 }
 
-/// The spheres and discs of the claims.
 struct Bodies {
   std::vector<sim::Sphere> spheres;                          ///< of radius sphere_radius
   std::vector<sim::Disc> discs;                              ///< of radius disc_radius
@@ -65,7 +64,7 @@ Bodies bodies_inside(const Experiment& experiment) {
   return bodies;
 }
 
-/// Shares of one batch's lines that hit, each averaged over its bodies.
+/// Share of one batch's lines that hit a body, averaged over the bodies of each kind.
 struct Shares {
   double spheres = 0;
   double discs = 0;
@@ -78,8 +77,8 @@ double hits_of(const sim::Ray& line, const std::vector<Body>& bodies) {
       std::count_if(bodies.begin(), bodies.end(), [&](const Body& body) { return sim::hits(line, body); }));
 }
 
-/// All claims use the same lines, because drawing a line takes longer than testing it. So the claims are dependent,
-/// which the budget for false verdicts, a sum over the claims, allows for.
+/// All claims use the same lines, because drawing a line takes longer than testing it with a body. So the claims are
+/// not independent. The budget for false verdicts holds nevertheless, since it is a sum over the claims.
 std::vector<Shares> shares_of_batches(const Experiment& experiment, const Bodies& bodies, std::size_t lines) {
   return for_each_batch(experiment, [&](int batch) {
     const sim::LineField field({}, batch_seed(experiment, 1, batch));

@@ -7,7 +7,7 @@
 
 namespace detp::validate {
 
-/// The scene's discs; without a scene, set number `set` of uniform discs as the workload describes them.
+/// The scene's discs, or without a scene, set number `set` of uniform discs with the properties of the workload.
 [[nodiscard]] inline std::vector<sim::Disc> sample_discs(const Experiment& experiment, int set) {
   if (!experiment.discs.empty()) return experiment.discs;
   const Workload& workload = experiment.workload;

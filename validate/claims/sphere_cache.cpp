@@ -26,7 +26,7 @@ constexpr std::string_view over_ratios = "geometric mean over Q = 0.3, 0.5, 0.65
 constexpr double tolerance = 0.025;
 constexpr double least_rebuilds = 30;
 
-/// Mean logarithms of per-ray costs and of rebuilds for one Q: counted, or predicted by one of the two forms.
+/// Logarithms of the costs per ray and of rebuilds for one Q: counted, or predicted by one of the two forms.
 struct Logs {
   double rebuilds = 0;  ///< mean over the compared spheres
   double rebuild_time = 0;
@@ -44,7 +44,7 @@ SphereCacheParameters parameters_for(const Workload& workload, double ratio) {
   return {ratio, std::max<std::int64_t>(1, k), SampleOrder::lebesgue};
 }
 
-/// Mean of ln m_i over the spheres for which the corrected law expects at least 30 rebuilds. These are the same for
+/// Mean of ln m_i over the spheres for which the corrected law predicts at least 30 rebuilds: the same spheres for
 /// counts and predictions.
 template <class Rebuilds>
 double mean_log_rebuilds(const std::vector<model::SphereLevel>& levels, const Rebuilds& rebuilds) {
@@ -58,7 +58,6 @@ double mean_log_rebuilds(const std::vector<model::SphereLevel>& levels, const Re
   return count > 0 ? sum / count : 0;
 }
 
-/// Runs the technique, and the models of it, for one Q on one set of samples.
 void compare(SetResult& result, std::size_t q, const Workload& workload, const sim::Problem& problem,
              const Experiment& experiment) {
   const SphereCacheParameters parameters = parameters_for(workload, ratios[q]);
@@ -90,7 +89,6 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
   result.time_ratio[q] = static_cast<double>(run.counts.cull_tests) / rays / walk.cull_tests;
 }
 
-/// The workload with the actual S₀ of this set of samples.
 Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
   Workload workload = experiment.workload;
   workload.sphere_radius = problem.enclosing().radius;
@@ -112,7 +110,7 @@ std::vector<SetResult> run_all(const Experiment& experiment, std::size_t lines) 
 
 using Columns = std::array<Logs, ratios.size()> SetResult::*;
 
-/// Geometric mean of the predictions over the Q's and the sets: exp of the mean logarithm.
+/// Over all Q and all sets.
 double geometric_mean(const std::vector<SetResult>& sets, Columns columns, double Logs::*term) {
   double sum = 0;
   for (const SetResult& set : sets)
@@ -120,8 +118,8 @@ double geometric_mean(const std::vector<SetResult>& sets, Columns columns, doubl
   return std::exp(sum / static_cast<double>(sets.size() * ratios.size()));
 }
 
-/// Geometric mean of the counts over the Q's. The standard error between sets is computed for the logarithm, and
-/// converted.
+/// Geometric mean of the counts over all Q and all sets. The standard error is that of the mean logarithm between sets,
+/// multiplied by the mean.
 Estimate counted(const std::vector<SetResult>& sets, double Logs::*term) {
   std::vector<double> logs;
   for (const SetResult& set : sets) {
@@ -133,7 +131,7 @@ Estimate counted(const std::vector<SetResult>& sets, double Logs::*term) {
   return {std::exp(log.mean), std::exp(log.mean) * log.standard_error};
 }
 
-/// The number of spheres that the technique nests until no more fit.
+/// Compares k with the number of nested spheres of a run that stops only when no disc fits in the next sphere.
 Finding count_finding(const Experiment& experiment) {
   const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
   const auto ray = sim::LineField(sim::enclosing_sphere(discs), experiment.seed).lines(0, 1);
@@ -207,7 +205,8 @@ double sphere_cache_work(const Experiment& experiment) {
   for (const double ratio : ratios) {
     const SphereCacheParameters parameters = parameters_for(experiment.workload, ratio);
     const auto counts = model::predict(experiment.workload, {Technique::sphere_cache, parameters}, Engine::plain);
-    // The structural walk takes 8 lines for a sphere, 64 for the first 500 of each level, and 10 units for a line.
+    // The structural walk uses 64 lines for the first 500 rebuilds of each level, 8 for all later ones. A line takes 10
+    // units of work.
     const double lines =
         8 * counts.culls + 56 * std::min(counts.culls, 500.0 * static_cast<double>(parameters.spheres));
     work += test_work(counts, Engine::plain) + batch_count * (build_work(counts) + 10 * lines);

@@ -6,10 +6,10 @@
 namespace detp::cli {
 namespace {
 
-/// Converts to text. File names in it may be invalid UTF-8.
+/// Replaces invalid UTF-8, which file names may contain.
 std::string text_of(const Json& value) { return value.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
-/// For each input its value, or a list of its values if rows differ.
+/// The value of each input, or the list of its different values if it is not the same in all rows.
 Json shared_inputs(const std::vector<AnswerRow>& rows) {
   Json inputs = Json::object();
   if (rows.empty()) return inputs;

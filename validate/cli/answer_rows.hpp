@@ -10,17 +10,16 @@
 
 namespace detp::cli {
 
-/// One result of a command line that asks for several.
+/// The result for one combination of option values.
 struct AnswerRow {
   Json inputs;              ///< resolved inputs
-  Json answer;              ///< as in JSON
-  std::vector<Json> cells;  ///< rows of the CSV table, at least one
+  Json answer;              ///< the content of the JSON output
+  std::vector<Json> cells;  ///< the row or rows of the CSV table
 };
 
-/// The columns of the text table of several results.
 struct TextColumns {
-  Columns inputs;   ///< as columns if rows differ; above the table if all are the same
-  Columns answers;  ///< always as columns, if any row has them
+  Columns inputs;   ///< inputs that differ between rows are columns; all other inputs are printed above the table
+  Columns answers;  ///< always columns, if any row has them
   Screen screen;
 };
 
@@ -30,9 +29,9 @@ struct TextColumns {
   return problems.rows() * candidates.rows();
 }
 
-/// The results for all combinations, in order. prepare() makes the data that the rows of one problem share;
-/// answer(shared) makes the result of one row. After a stop request, returns the rows before it; throws sim::Stopped if
-/// there is none.
+/// The results for all combinations, in order. prepare() returns the data that the rows of one problem share.
+/// answer(shared) returns the result of one row. After a stop request, returns the rows that were finished, or throws
+/// sim::Stopped if no row was.
 template <class Prepare, class Answer>
 [[nodiscard]] std::vector<AnswerRow> answer_all(ValueLists& problems, ValueLists& candidates,
                                                 const std::stop_token& stop, Prepare prepare, Answer answer) {
@@ -54,9 +53,9 @@ template <class Prepare, class Answer>
   return rows;
 }
 
-/// The results in the three formats. A single one keeps its own form in JSON, and its text is the caller's; several are
-/// `rows` in JSON, each with inputs and answer, and a table in the text. `expected`: number of rows requested. If there
-/// are fewer, or the last one is marked as stopped, the command was stopped.
+/// The results in the three formats. Several rows are an array `rows` in JSON, each with inputs and answer, and a table
+/// in the text. A single row is not put in an array, and the caller writes its text. `expected` is the number of rows
+/// requested. The result is marked as stopped if `rows` has fewer rows, or if its last row is marked as stopped.
 [[nodiscard]] Result result_of(const std::vector<AnswerRow>& rows, std::size_t expected, const Columns& columns,
                                const TextColumns& text);
 

@@ -13,7 +13,6 @@
 namespace detp::cli {
 namespace {
 
-/// The option texts; parsed when the command runs.
 struct BenchCommand {
   std::string effort = "quick";
   std::optional<std::string> scene;
@@ -64,7 +63,6 @@ std::vector<Technique> techniques_of(const BenchCommand& command) {
   return techniques;
 }
 
-/// One thread and all cores, or the number of threads requested.
 std::vector<int> threads_of(const CommonOptions& common) {
   if (common.threads > 0) return {common.threads};
   const int cores = static_cast<int>(std::thread::hardware_concurrency());

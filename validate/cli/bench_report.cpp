@@ -71,8 +71,7 @@ Json embree_json(const AgainstEmbree& summary, const BenchResult& bench) {
           {"worst_row", worst_json(bench.entries[summary.worst_entry])}};
 }
 
-/// The summary for the first number of threads at the top level, as the contract requires, and for each number in a
-/// list.
+/// `against_embree` has the summary for the first number of threads, and in `by_threads` the summaries for all numbers.
 Json summary_json(const BenchResult& bench, const validate::BenchOptions& options) {
   Json all = Json::array();
   for (const int threads : options.threads)
@@ -90,7 +89,6 @@ Json summary_json(const BenchResult& bench, const validate::BenchOptions& option
   return json;
 }
 
-/// A contestant and its seconds.
 std::vector<TextCell> side_cells(const CompetitorResult* competitor_result, Style style) {
   if (competitor_result == nullptr) return {{}, {}};
   std::string name = parameters_of(competitor_result->competitor);
@@ -168,7 +166,7 @@ std::string to_text(const BenchResult& bench, const validate::BenchOptions& opti
   return table_text(bench, screen) + summary_text(bench, options, screen) + left_out_text(bench, missing, screen);
 }
 
-/// Marks the best technique of each race: `best` is "ours" or "embree".
+/// `best` is "ours" in the row of our fastest technique, "embree" in that of Embree's fastest mode.
 std::string to_csv(const BenchResult& bench) {
   Table table(Columns{"scene", "field", "rays", "samples", "disc_radius", "threads"} + candidate_columns() +
               Columns{"call", "coherent", "seconds", "runs", "hits", "wrong_hits", "right_hits_by", "best"});

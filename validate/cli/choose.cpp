@@ -24,7 +24,7 @@ struct ChooseOptions {
   bool analyze = false;
 };
 
-/// Ranks the candidates. Returns the progress if a stop request ended it.
+/// Returns the progress if a stop request ended the ranking, else nothing.
 std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
@@ -46,7 +46,6 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs
   return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
 }
 
-/// A candidate with structural counts, from the structures built from the discs.
 model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const UnitCosts& costs,
                                   const std::stop_token& stop) {
   const Counts<double> counts =
@@ -54,7 +53,7 @@ model::Ranked assess_structurally(const validate::Job& job, const Candidate& can
   return {candidate, counts, price(counts, costs, candidate.technique), {}};
 }
 
-/// The prediction for a candidate that was not ranked; nothing if neither a closed form nor its structure gives one.
+/// Nothing if the candidate has no structural counts (if `structural`) or closed form, or if a stop was requested.
 std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
                                        const UnitCosts& costs, const std::stop_token& stop) {
   try {
@@ -69,8 +68,8 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
   }
 }
 
-/// Ranks again by structural counts. After a stop request the ranking is unchanged, and the result is the number of
-/// candidates that had been counted.
+/// After a stop request, leaves the ranking unchanged and returns the number of counted candidates; else returns
+/// nothing.
 std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const validate::Job& job, const UnitCosts& costs,
                                                  const std::stop_token& stop, const sim::ReportPhase& progress) {
   if (job.field != sim::Field::isotropic)
@@ -95,7 +94,6 @@ std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const val
   return std::nullopt;
 }
 
-/// Progress of running and timing the candidates.
 sim::Progress measured(const validate::Analysis& analysis) {
   const auto done = std::count_if(analysis.candidates.begin(), analysis.candidates.end(),
                                   [](const validate::Analysed& one) { return one.seconds.has_value(); });
@@ -128,7 +126,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     answer.title = describe_numbers(answer.workload);
   } else {
     const ProgressLine progress(common);
-    const double share_of_job = options.analyze || structural ? 0.3 : 1;  // before the work is known
+    const double share_of_job = options.analyze || structural ? 0.3 : 1;  // a guess
     const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);
     answer.workload = job.workload;

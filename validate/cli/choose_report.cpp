@@ -13,7 +13,6 @@
 namespace detp::cli {
 namespace {
 
-/// A row of the result: a candidate that was predicted or run or both.
 struct Row {
   Candidate candidate;
   const model::Ranked* predicted = nullptr;
@@ -21,7 +20,7 @@ struct Row {
   bool chosen = false;
 };
 
-/// In the order of the ranking; with an analysis, then the others that were tried.
+/// Rows in the order of the ranking. After an analysis, the other candidates that were tried follow.
 std::vector<Row> rows_of(const ChooseAnswer& answer) {
   std::vector<Row> rows;
   if (!answer.analysis) {
@@ -107,7 +106,7 @@ Json to_json(const ChooseAnswer& answer) {
 
 namespace {
 
-/// "3.5 times longer, mostly ray-disc tests".
+/// Predicted time / that of the first candidate, and its largest part: "3.5", "ray-disc tests".
 std::vector<TextCell> comparison_cells(const ChooseAnswer& answer, const Row& row) {
   const CostBreakdown& time = row.predicted->time;
   return {{fmt::format("{:.3g}", time.total() / answer.ranking.front().time.total())}, {largest_part(time)}};
@@ -230,7 +229,6 @@ Json cells_of(const ChooseAnswer& answer, const Row& row) {
   return cells;
 }
 
-/// "choice"; with an analysis also "predicted choice" if another candidate was measured to be faster.
 const char* role_of(const ChooseAnswer& answer, const Row& row, bool first) {
   if (row.chosen) return "choice";
   return first && answer.analysis ? "predicted choice" : "candidate";

@@ -10,7 +10,6 @@
 
 namespace detp::cli {
 
-/// The content of the result.
 struct ChooseAnswer {
   std::string title;  ///< first lines of the text: scene and rays
   Workload workload;
@@ -27,7 +26,7 @@ struct ChooseAnswer {
 [[nodiscard]] Json to_json(const ChooseAnswer& answer);
 [[nodiscard]] std::string to_text(const ChooseAnswer& answer, const Screen& screen);
 
-/// A row for each candidate in the order of the ranking, for other candidates that were tried, and for the paper's
+/// A row for each ranked candidate, then for each other candidate that was tried, and for the candidate of the paper's
 /// rule. The workload's columns come from the resolved inputs.
 [[nodiscard]] std::string to_csv(const ChooseAnswer& answer, const Json& inputs);
 

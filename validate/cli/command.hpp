@@ -11,14 +11,13 @@
 #include "detp/sim/base/progress.hpp"
 #include "screen.hpp"
 
-/// What the commands share: their options, and the form of their results.
+/// The options of every command, and the form of their results.
 namespace detp::cli {
 
 using Json = nlohmann::ordered_json;
 
 enum class ExitCode { done = 0, refuted = 1, bad_input = 2, stopped = 3, internal = 4 };
 
-/// Options of every command.
 struct CommonOptions {
   std::string format = "text";
   Colour colour = Colour::automatic;
@@ -29,19 +28,18 @@ struct CommonOptions {
   double time_limit = 0;  ///< seconds; 0: none
   std::optional<std::string> memory_limit;
 
-  /// The screen on which the result is shown.
   [[nodiscard]] Screen screen() const;
 };
 
-/// A command's result in the three formats. `main` adds the JSON envelope (schema, provenance), and marks the result of
-/// a stopped command.
+/// A command's result in the three formats. run_program() adds the JSON envelope (schema, provenance), and marks the
+/// result of a stopped command.
 struct Result {
   Json inputs;
   Json json;
   std::string text;
   std::string csv;
   ExitCode code = ExitCode::done;
-  /// progress, if a stop request ended the command; the result is then partial
+  /// the progress if a stop request ended the command, so that the result is partial; else nothing
   std::optional<sim::Progress> stopped = {};
 };
 
@@ -58,7 +56,6 @@ struct Command {
 [[nodiscard]] Command scene_command(CLI::App& program);
 [[nodiscard]] Command bench_command(CLI::App& program);
 
-/// Prints a warning or a notice to stderr, unless quiet.
 void note(const CommonOptions& common, const std::string& message);
 
 }  // namespace detp::cli

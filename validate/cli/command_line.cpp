@@ -18,7 +18,7 @@
 namespace detp::cli {
 namespace {
 
-/// Up to 2⁶⁴ - 1, which a double cannot represent.
+/// Parses an integer up to 2⁶⁴ - 1, which a double cannot represent.
 std::uint64_t parse_seed(const std::string& text) {
   std::uint64_t seed = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
@@ -28,7 +28,6 @@ std::uint64_t parse_seed(const std::string& text) {
   return seed;
 }
 
-/// Help whose lines fit the screen.
 class HelpFormatter final : public CLI::Formatter {
  public:
   std::string make_option(const CLI::Option* option, bool positional) const override {
@@ -91,7 +90,7 @@ CommandLine::CommandLine()
       commands_{model_command(program_),    choose_command(program_), run_command(program_),
                 validate_command(program_), scene_command(program_),  bench_command(program_)} {
   program_.set_version_flag("--version", "detp " DETP_VERSION);
-  // if exactly 1 were required, an unknown command would be reported as a missing one
+  // 0 is allowed, because otherwise the parser would report an unknown command as a missing command.
   program_.require_subcommand(0, 1);
   const auto formatter = std::make_shared<HelpFormatter>();
   program_.formatter(formatter);
@@ -114,7 +113,7 @@ const Command& CommandLine::parse(int argc, char** argv) {
   }
   if (arguments.empty()) throw std::invalid_argument(fmt::format("a command is needed: {}", names()));
   if (!arguments.front().starts_with('-')) require_command(arguments.front());
-  std::reverse(arguments.begin(), arguments.end());  // as the parser wants them
+  std::reverse(arguments.begin(), arguments.end());  // the parser expects the reverse order
   program_.parse(std::move(arguments));
   for (const Command& command : commands_)
     if (command.app->parsed()) return command;

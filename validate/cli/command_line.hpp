@@ -6,20 +6,20 @@
 
 namespace detp::cli {
 
-/// The parser of the command line. Parsing sets the options, and does nothing else.
+/// The parser of the command line. Parsing only sets the options.
 class CommandLine {
  public:
   CommandLine();
   CommandLine(const CommandLine&) = delete;  // the parsers point into this object
   CommandLine& operator=(const CommandLine&) = delete;
 
-  /// The command that the arguments name, ready to run. Throws CLI::ParseError for bad usage, and if help or the
-  /// version is requested; std::invalid_argument for an empty argument and if no command is named.
+  /// Sets the options and returns the command that the arguments name. Throws CLI::ParseError for bad usage, and if
+  /// help or the version is requested. Throws std::invalid_argument for an empty argument, and if no command is named.
   [[nodiscard]] const Command& parse(int argc, char** argv);
 
   [[nodiscard]] const CommonOptions& common() const { return common_; }
 
-  /// The error in words; for an unknown option, with the option that is probably meant.
+  /// The error message. For an unknown option, the message suggests the option that is probably meant.
   [[nodiscard]] std::string message(const CLI::ParseError& error) const;
 
   /// Prints the help or the version that the error represents, and returns 0. For other errors returns their exit code,
@@ -28,7 +28,7 @@ class CommandLine {
 
  private:
   [[nodiscard]] std::string names() const;
-  /// Throws std::invalid_argument for what is no command.
+  /// Throws std::invalid_argument if `name` is not a command.
   void require_command(const std::string& name) const;
 
   CLI::App program_;

@@ -12,11 +12,11 @@
 namespace detp::cli {
 namespace {
 
-/// The signal that ends the wait for signals when the program ends. Its default action is to do nothing, so nobody else
-/// needs it.
+/// The signal that ends the thread's wait for signals in the destructor. No other code needs this signal, because its
+/// default action is to do nothing.
 constexpr int wake_up = SIGURG;
 
-constexpr double longest = 1e9;  // seconds: can be added to a clock's time without overflow
+constexpr double longest = 1e9;  // seconds: no overflow when added to a clock's time
 
 bool is_ignored(int signal) {
   struct sigaction action {};

@@ -8,8 +8,8 @@
 namespace detp::cli {
 
 /// Turns Ctrl-C (SIGINT), SIGTERM, SIGHUP or the end of a time limit into a stop request, so that a command can print
-/// its results so far. A second signal ends the program at once. If SIGHUP was ignored when the program started
-/// (nohup), it stays ignored.
+/// its results so far. A second signal ends the program at once. SIGHUP stays ignored if it was ignored when the
+/// program started (nohup).
 ///
 /// Must be created before any other thread, because threads inherit the signal mask.
 class Interruption {

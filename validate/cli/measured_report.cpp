@@ -15,7 +15,6 @@ std::string why_not_measured(const validate::Analysis& analysis, const validate:
   return analysis.stopped ? "stopped before" : "not timed";
 }
 
-/// The predicted choice, and the fastest candidate if that is another one and has a prediction.
 std::vector<const validate::Analysed*> to_explain(const validate::Analysis& analysis) {
   std::vector<const validate::Analysed*> runs{&analysis.candidates.front()};
   if (analysis.best && *analysis.best != 0) runs.push_back(&analysis.candidates[*analysis.best]);

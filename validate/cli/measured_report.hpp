@@ -5,22 +5,20 @@
 
 namespace detp::cli {
 
-/// Head of the columns that a table of candidates has in addition to the predictions: counted, measured, predicted over
-/// measured.
+/// The columns of a table of candidates after those of the predictions: counted, measured, predicted / measured.
 [[nodiscard]] std::vector<TextColumn> measured_table_columns();
 [[nodiscard]] std::vector<TextCell> measured_cells(const validate::Analysed& run);
 
 /// Appends the results of a candidate's run: `counted`, `measured_seconds`, …, or the reason why it was not measured.
 void add_measured(Json& json, const validate::Analysis& analysis, const validate::Analysed& run);
 
-/// The ratios predicted over counted and over measured, as in `missed`: empty if the candidate was not predicted or not
-/// timed.
+/// The ratios of PredictionError, as in `missed`. Empty if the candidate was not predicted, not counted or not timed.
 [[nodiscard]] Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs);
 
-/// The lines "choice", "regret" and "missed": the measured winner, and the errors of the prediction.
+/// The lines "choice", "regret" and "missed": the candidate with the shortest measured time, and the prediction's
+/// errors.
 [[nodiscard]] std::string measured_lines(const ChooseAnswer& answer, const Screen& screen);
 
-/// The "choice" line.
 [[nodiscard]] std::string choice_text(const std::string& what, const Screen& screen);
 
 /// Appends `predicted_choice`, `best_measured`, `tried`, `regret`, `missed` and `stopped`.

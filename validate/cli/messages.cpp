@@ -34,7 +34,7 @@ void shorten(std::string& message, std::string_view piece) {
 void prepare_streams() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  // open() returns the lowest free number. The direction is wrong on purpose, so that using the stream fails.
+  // open() returns the lowest free number. Reading stdin, and writing to stdout or stderr, then fail on purpose.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }

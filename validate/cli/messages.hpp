@@ -6,11 +6,12 @@
 
 #include "command.hpp"
 
-/// Output to the standard streams except results, and its errors.
+/// Output to the standard streams, and its errors.
 namespace detp::cli {
 
-/// Turns a closed pipe and the file size limit into errors of the write; by default they would end the program. Also
-/// prevents that a closed stdin, stdout or stderr becomes the first file that is opened. Must be called first.
+/// Makes writes to a closed pipe, or beyond the file size limit, return errors instead of ending the program. If stdin,
+/// stdout or stderr is closed, reserves its number, so that no opened file gets it. Must be called before any file is
+/// opened.
 void prepare_streams();
 
 /// Writes to stdout. Throws sim::FileError with the system's reason.
@@ -25,7 +26,7 @@ void write_error(std::string_view text);
 /// Writes the message to stderr as one line of at most 500 characters, made safe to show. Returns the code.
 int fail(ExitCode code, std::string message);
 
-/// The message, with each argument or part of an argument that it repeats made safe to show and truncated after 60
+/// The message, in which each repeated argument, or part of an argument, is made safe to show and truncated after 60
 /// characters.
 [[nodiscard]] std::string with_short_arguments(std::string message, std::span<char* const> arguments);
 

@@ -27,7 +27,6 @@ struct ModelOptions {
 
 using Answer = ModelAnswer(const ModelQuestion& question);
 
-/// Techniques whose results have parts in addition to counts and times.
 const std::map<Technique, Answer*>& answers() {
   static const std::map<Technique, Answer*> all{{Technique::sphere_cache, sphere_cache_answer},
                                                 {Technique::sphere_cache_published, sphere_cache_answer},
@@ -92,7 +91,6 @@ const Columns& per_line() {
   return columns;
 }
 
-/// Columns of values of one sphere; their names end in its number i.
 const Columns& of_one_sphere() {
   static const Columns columns{"i", "radius_i", "rays_i", "listed_i", "rebuilds_i", "rebuild_cost_i", "samples_i"};
   return columns;
@@ -110,7 +108,6 @@ Columns columns() {
          per_line() + outlook_columns() + count_columns() + unit_cost_columns() + of_one_sphere();
 }
 
-/// A row for each sphere in the list, or one row if there is none. Values common to all are in each row.
 std::vector<Json> cells_of(const Json& inputs, const Candidate& candidate, const Json& json) {
   Json shared = workload_cells(inputs);
   shared.update(candidate_cells(candidate));
@@ -153,7 +150,7 @@ Measured measure(const ModelOptions& options, const CommonOptions& common, const
 AnswerRow answer_row(const ModelOptions& options, const Measured& measured, const UnitCosts& costs,
                      std::int64_t levels) {
   const Technique technique = options.candidate.technique_or(Technique::sphere_cache);
-  (void)options.candidate.fixed_parameters(technique);  // refuses foreign parameters
+  (void)options.candidate.fixed_parameters(technique);  // throws for parameters of other techniques
   const Form form = choice_named<Form>(options.form).value();
   AnswerRow row{measured.inputs, {{"technique", name(technique)}}, {}};
   row.inputs["form"] = options.form;

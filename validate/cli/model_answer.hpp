@@ -25,8 +25,8 @@ struct ModelAnswer {
 
 [[nodiscard]] ModelAnswer sphere_cache_answer(const ModelQuestion& question);
 
-/// For any technique with a closed form: parameters, times by part, counts. Parameters that are not set are the best at
-/// the unit costs.
+/// For any technique with a closed form: parameters, times by part, counts. Parameters that are not set get the values
+/// with the least predicted time at the unit costs.
 [[nodiscard]] ModelAnswer technique_answer(const ModelQuestion& question);
 
 /// As technique_answer, plus the spheres of each level.
@@ -36,7 +36,7 @@ struct ModelAnswer {
 [[nodiscard]] ModelAnswer octree_answer(const ModelQuestion& question);
 [[nodiscard]] ModelAnswer grid_answer(const ModelQuestion& question);
 
-/// Throws std::invalid_argument if the published form is requested and the paper has none.
+/// Throws std::invalid_argument if the published form is requested but the paper has none for the technique.
 void refuse_published(const ModelQuestion& question);
 
 }  // namespace detp::cli

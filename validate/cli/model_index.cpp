@@ -22,7 +22,7 @@ Json published_octree(const ModelQuestion& question, int depth) {
           {"balanced_time", model::published::balanced_octree_time(w, depth, question.costs.index_test)}};
 }
 
-/// Values per line that hits the index's box.
+/// The index's results by the corrected form. "per line" means per line that hits the index's box.
 Json corrected_index(const ModelQuestion& question, double parts, const Counts<double>& counts, double bytes) {
   const model::Cells cells = model::index_cells(question.workload, parts);
   const double references = question.workload.samples * cells.overlapped;

@@ -28,7 +28,7 @@ void add_uniform_field(const Workload& w, const OutlookOptions& options, Json& j
     json["rays_for_deviation"] = model::rays_for_deviation(*options.target_error, {w.disc_radius}, {w.sphere_radius});
 }
 
-/// Of the mean density of hits among all rays.
+/// Adds the errors of estimates of a density with the given curvature. The density is the mean of the hits of all rays.
 void add_curved_field(const Workload& w, const OutlookOptions& options, Json& json) {
   const double area = std::numbers::pi * w.disc_radius * w.disc_radius;
   const double density = model::expected_hits(w) / w.samples / w.rays / area;

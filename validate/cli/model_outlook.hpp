@@ -7,7 +7,6 @@
 /// accurate the estimates are.
 namespace detp::cli {
 
-/// Options of these results.
 struct OutlookOptions {
   std::optional<double> curvature;     ///< ∇²f/f of the density f of the hits, 1/length²
   std::optional<double> target_error;  ///< relative
@@ -18,8 +17,9 @@ struct OutlookOptions {
 /// Names of the results, in their order.
 [[nodiscard]] const Columns& outlook_columns();
 
-/// The orders of growth if known; the deviation in a uniform field if a disc fits S₀; the error for a curved density if
-/// a curvature is set; and the rays for the target error. Throws std::invalid_argument for options out of range.
+/// The orders of growth if they are known; the deviation of irradiance in a uniform field if a disc fits in S₀; the
+/// error for a curved density if a curvature is set; the numbers of rays for the target error if that is set. Throws
+/// std::invalid_argument for options out of range.
 [[nodiscard]] Json outlook(const ModelQuestion& question, const Parameters& parameters, const OutlookOptions& options);
 
 }  // namespace detp::cli

@@ -87,7 +87,6 @@ Json corrected_cache(const ModelQuestion& question, const SphereCacheParameters&
           {"counts", to_json(counts)}};
 }
 
-/// Adds parameters, time by part and counts to the levels.
 ModelAnswer with_spheres(const ModelQuestion& question, const Parameters& parameters, Json levels) {
   const Candidate candidate{question.technique, parameters};
   const Counts<double> counts = model::predict(question.workload, candidate, question.options.engine);

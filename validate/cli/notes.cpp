@@ -14,7 +14,7 @@ void note(const CommonOptions& common, const std::string& message) {
   if (common.quiet) return;
   const Screen screen = screen_of(STDERR_FILENO, common.colour);
   const bool warning = message.starts_with("warning: ");
-  const char* const wipe = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";  // a line of progress
+  const char* const wipe = isatty(STDERR_FILENO) == 1 ? "\r\033[K" : "";  // erases the progress line
   write_error(wipe + styled(screen, warning ? Style::doubtful : Style::plain, escaped(message)) + "\n");
 }
 

@@ -7,14 +7,15 @@
 #include <string>
 #include <string_view>
 
-/// One rule for every number on the command line: a decimal number, with nothing around it. (CLI11 would also accept
-/// 0x10, inf and " 5".)
+/// Every number on the command line is a decimal number without anything around it. (CLI11 would also accept 0x10, inf
+/// and " 5".)
 namespace detp::cli {
 
 /// Throws std::invalid_argument, naming the option, unless the text is a decimal number in the range of doubles.
 [[nodiscard]] double parse_number(std::string_view option, std::string_view text);
 
-/// Reads a whole number from least to most: "1000" or "1e3". Throws as parse_number does.
+/// Reads a whole number, "1000" or "1e3". Throws as parse_number does, and for a number that is not whole or is outside
+/// [least, most].
 [[nodiscard]] std::int64_t parse_whole(std::string_view option, std::string_view text,
                                        std::int64_t least = std::numeric_limits<std::int64_t>::min(),
                                        std::int64_t most = std::numeric_limits<std::int64_t>::max());
@@ -34,7 +35,8 @@ void read_value(std::string_view option, std::string_view text, std::optional<T>
   read_value(option, text, value.emplace());
 }
 
-/// An option with one number: double, int or std::int64_t, or an optional one. It must outlive the parser.
+/// Adds an option with one number. `value` is a double, int or std::int64_t, or a std::optional of these, and must
+/// outlive the parser.
 template <class Number>
 CLI::Option* add_number(CLI::App& command, const std::string& option, Number& value, const std::string& help) {
   return command

@@ -12,8 +12,8 @@ struct Output {
   std::optional<std::string> path;
 };
 
-/// Checks the outputs before any work. Throws sim::FileError if a file cannot be written, and std::invalid_argument if
-/// two options name the same place, however they spell it.
+/// Throws sim::FileError if a file cannot be written, and std::invalid_argument if two options name the same file, even
+/// by different paths.
 void check_outputs(std::initializer_list<Output> outputs);
 
 }  // namespace detp::cli

@@ -37,7 +37,7 @@ Json envelope(const std::string& command, const CommonOptions& common, int threa
   return json;
 }
 
-/// Throws if a number is NaN or infinite, which JSON cannot represent: this is a bug, not an error in the input.
+/// Throws std::logic_error if a number is NaN or infinite, which JSON cannot represent. Such a number is a bug.
 void require_finite_numbers(const Json& json) {
   if (json.is_number_float() && !std::isfinite(json.get<double>()))
     throw std::logic_error("a result is not a finite number");
@@ -63,7 +63,7 @@ void set_memory_limit(const std::string& size) {
   }
 }
 
-/// If a command is stopped before it has a result, also reports this on stderr.
+/// If the command is stopped before it has a result, also says so on stderr.
 Result result_of(const Command& command, const CommonOptions& common, const std::stop_token& stop) {
   try {
     return command.run(common, stop);
@@ -91,7 +91,7 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   if (common.format == "json") {
     const Json json = envelope(command.app->get_name(), common, threads, result);
     require_finite_numbers(json);
-    // A file's name may be invalid UTF-8, but JSON must be valid.
+    // Invalid UTF-8, for instance in a file's name, is replaced, because JSON must be valid.
     print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", common);
   } else {
     print(common.format == "csv" ? result.csv : safe_text(result.text, common.screen().colour), common);

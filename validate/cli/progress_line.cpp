@@ -23,11 +23,11 @@ namespace {
 
 constexpr std::chrono::milliseconds between_drawings{100};
 constexpr double first_drawing = 0.3;  // seconds: shorter work shows nothing
-constexpr double least_share = 0.005;  // before this share is done, no time left is shown
+constexpr double least_share = 0.005;  // the time left is shown only from this share on
 constexpr double sure = 0.8;           // share of the predicted work up to which the prediction is trusted
 
-/// The share of a phase that is done, from the share of its predicted work or time. It always increases, and reaches 1
-/// only at the end of the phase, even if there is more work than predicted.
+/// The share of a phase that is done. `work` is the work or time so far, divided by the predicted work or time of the
+/// phase. The result increases with `work` and stays below 1, even if there is more work than predicted.
 double share_done(double work) { return work <= sure ? work : 1 - (1 - sure) * sure / work; }
 
 }  // namespace
@@ -73,7 +73,7 @@ class ProgressLine::Display {
     while (!never.wait_for(lock, end, between_drawings, [&] { return end.stop_requested(); })) draw();
   }
 
-  /// From the work; from the time if the work is unknown.
+  /// Computed from the work, or from the time if the work is unknown.
   [[nodiscard]] double share_of_phase() const {
     if (phase_.work > 0) return share_done(static_cast<double>(log_.total - work_before_) / phase_.work);
     return phase_.seconds > 0 ? share_done((clock_.seconds() - begun_) / phase_.seconds) : 0;
@@ -105,8 +105,8 @@ class ProgressLine::Display {
   sim::Phase phase_;
   std::uint64_t work_before_ = 0;  ///< work before this phase
   double begun_ = 0;               ///< start of the phase, seconds
-  double share_ = 0;               ///< of the whole work; it does not decrease
-  std::deque<Moment> moments_;     ///< of the latter half of the time
+  double share_ = 0;               ///< share of the whole work that is done; it does not decrease
+  std::deque<Moment> moments_;     ///< of the second half of the elapsed time
   bool drawn_ = false;
   std::jthread drawing_;
 };

@@ -15,8 +15,9 @@ namespace detp::cli {
 /// Shows the current phase, the share of the work done and the time left on the last line of a terminal. Shows nothing
 /// if stderr is not a terminal, or with --quiet. The destructor erases the line. Several threads may use one object.
 ///
-/// Between phase reports, the share advances with the work that StopCheck counts. The time left is computed from the
-/// speed in the second half of the elapsed time. So errors in the predicted work of earlier phases soon have no effect.
+/// Between reports of phases, the share advances with the work that StopCheck counts. The time left is computed from
+/// the speed in the second half of the elapsed time, so errors in the predicted work of earlier phases soon have no
+/// effect.
 class ProgressLine {
  public:
   explicit ProgressLine(const CommonOptions& common);

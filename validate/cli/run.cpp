@@ -68,8 +68,6 @@ void write_per_disc(const std::string& path, const sim::Outcome& outcome, const 
   file.commit();
 }
 
-/// Checks the options for output files before the run. Throws if several rows would write their hits to the same file,
-/// if --standard-error is set without --per-disc, or if two options name the same file.
 void check_files(const RunOptions& options, const CommonOptions& common, std::size_t rows) {
   if (rows > 1 && (options.per_disc || options.pairs))
     throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
@@ -78,8 +76,7 @@ void check_files(const RunOptions& options, const CommonOptions& common, std::si
   check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
 }
 
-/// Writes the files of --per-disc and --pairs. Each file is written completely or not at all. Returns the progress if a
-/// stop request ended the run or the writing, and nothing otherwise.
+/// Returns the progress if a stop request ended the run or the writing, else nothing.
 std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnswer& answer, const CommonOptions& common,
                                         const std::stop_token& stop) {
   const sim::Outcome& outcome = answer.run.outcome;
@@ -99,8 +96,8 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnsw
   return std::nullopt;
 }
 
-/// Whether all rows can read their rays in blocks. The photon map cannot: it accesses rays in any order, so it needs
-/// all of them in memory.
+/// True if all rows can read their rays in blocks. The photon map needs all rays in memory, because it accesses them in
+/// any order.
 bool can_stream(CandidateOptions& options, std::size_t rows) {
   for (std::size_t row = 0; row < rows; ++row) {
     options.lists.choose_row(row);
@@ -126,8 +123,8 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Com
   return answer;
 }
 
-/// Divides the progress among the rows of a table. The expected time of a problem is a constant (for the scene and the
-/// index) plus a term proportional to its number of rays.
+/// Divides the progress among the rows of a table. A scene with its rays is expected to take a constant time (for scene
+/// and index) plus a term proportional to the number of rays.
 class RowProgress {
  public:
   RowProgress(RunOptions& options, const CommonOptions& common) : candidates_(options.candidate.lists.rows()) {
@@ -138,7 +135,6 @@ class RowProgress {
     }
   }
 
-  /// The progress callback for making the next problem.
   sim::ReportPhase job(sim::ReportPhase whole) {
     const double begin = row_ < candidates_ ? 0 : ends_[row_ / candidates_ - 1];
     const double length = ends_[row_ / candidates_] - begin;
@@ -146,7 +142,6 @@ class RowProgress {
     return sim::part_of(std::move(whole), begin / ends_.back(), after_job_ / ends_.back());
   }
 
-  /// The progress callback for the next row of the problem.
   sim::ReportPhase next(sim::ReportPhase whole) {
     const double each = (ends_[row_ / candidates_] - after_job_) / static_cast<double>(candidates_);
     const double begin = after_job_ + each * static_cast<double>(row_++ % candidates_);
@@ -157,7 +152,7 @@ class RowProgress {
   static constexpr double share_of_job = 0.3;
 
   std::size_t candidates_;
-  std::vector<double> ends_;  ///< summed expected times up to the end of each problem
+  std::vector<double> ends_;  ///< for each problem: the sum of the expected times up to its end
   std::size_t row_ = 0;
   double after_job_ = 0;
 };

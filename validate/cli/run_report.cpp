@@ -35,7 +35,7 @@ double hits_per_disc(const sim::Outcome& outcome) {
   return static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size());
 }
 
-/// The counts that the closed form predicts. Returns nothing if the candidate has no closed form.
+/// Nothing if the candidate has no closed form.
 std::optional<Counts<double>> prediction(const Workload& workload, const Candidate& candidate, Engine engine) {
   if (!model::has_closed_form(candidate.technique)) return {};
   try {
@@ -55,8 +55,7 @@ void add_stops(const Workload& workload, const Candidate& candidate, Json& json)
   json["k_best"] = stops.best;
 }
 
-/// The estimated hits of all rays after a stopped run. Returns nothing if no rays are finished, or if the finished rays
-/// are not representative of all rays.
+/// Nothing if no rays are finished, or if the finished rays are not representative of all rays.
 std::optional<sim::HitEstimate> estimate(const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   if (!answer.random_rays || outcome.batches.rays == 0) return std::nullopt;
@@ -136,14 +135,13 @@ Json cells_of(const Json& inputs, const Candidate& candidate, const Json& json) 
   return cells;
 }
 
-/// The median and half the range of the timed runs, as text. Empty if there were fewer than two.
+/// Empty if there were fewer than two timed runs.
 std::string repeats_text(const Timing& timing) {
   if (timing.all.size() < 2) return "";
   const auto [least, most] = std::minmax_element(timing.all.begin(), timing.all.end());
   return fmt::format("; median of {} runs, ± {:.1g} (half their range)", timing.all.size(), 0.5 * (*most - *least));
 }
 
-/// The definition of a count in words.
 std::string_view meaning(std::string_view term) {
   static const std::map<std::string_view, std::string_view> meanings{
       {"cull_tests", "tests of a ray in a list against a sphere or box"},
@@ -161,7 +159,6 @@ std::string_view meaning(std::string_view term) {
   return meanings.at(term);
 }
 
-/// A table of the non-zero counts, with the closed form's predictions and the definitions.
 std::string counts_table(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
   const auto predicted = prediction(job.workload, answer.candidate, answer.engine);
   TextTable table({{.head = "count", .align = Align::left},

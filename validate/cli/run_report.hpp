@@ -7,19 +7,18 @@
 
 namespace detp::cli {
 
-/// The results and times of one run.
 struct RunAnswer {
   Candidate candidate = {};
   Engine engine = Engine::simd;
   TimedRun run = {};
   Timing timing = {};
   int repeat = 0;            ///< timed runs requested
-  bool random_rays = false;  ///< true for rays of a random field: the first ones are representative of all
+  bool random_rays = false;  ///< true for rays of a random field: the first rays are representative of all rays
 };
 
-/// Hits, counts and seconds; and the closed forms' predictions for the same workload, if there are any. A stopped run
-/// has no `hits` and no irradiance, but `hits_so_far` (of the finished rays or discs) and, if these are random rays,
-/// `hits_estimate` for all rays.
+/// Hits, counts and seconds, and the predictions of the candidate's closed form if it has one. A stopped run has no
+/// `hits` and no irradiance. It has `hits_so_far`, the hits of the finished rays or discs, and if random rays were
+/// finished, `hits_estimate` for all rays.
 [[nodiscard]] AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer);
 
 [[nodiscard]] Columns run_columns();

@@ -33,7 +33,6 @@ void write_mesh(const std::string& path, const validate::JobRequest& request, co
   sim::write_ply(path, scene.mesh, stop);
 }
 
-/// One row: the workload, its measured properties, effects and warnings.
 std::string csv_of(const Json& inputs, const Json& json) {
   const Columns columns{"triangles", "box_x", "box_y", "box_z", "distance_over_radius", "read_seconds"};
   Json row = workload_cells(inputs);
@@ -50,7 +49,6 @@ std::string csv_of(const Json& inputs, const Json& json) {
   return table.csv();
 }
 
-/// A row for each effect: the evidence, and when the closed forms take the effect into account.
 std::string effects_table(const Workload& workload, const Screen& screen) {
   TextTable table({{.head = "effect", .align = Align::left},
                    {.head = "evidence", .align = Align::left, .spare = 1},

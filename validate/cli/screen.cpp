@@ -38,7 +38,6 @@ bool shows_colours(int stream) {
   return isatty(stream) == 1 && environment("NO_COLOR").empty() && environment("TERM") != "dumb";
 }
 
-/// The code at the beginning of the text; empty if there is none.
 std::string_view code_at(std::string_view text) {
   if (text.starts_with(end_of_style)) return end_of_style;
   for (const std::string_view code : codes)

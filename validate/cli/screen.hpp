@@ -4,10 +4,10 @@
 #include <string>
 #include <string_view>
 
-/// The output stream's properties: its width in columns, and whether it shows colours. Text is formatted for them.
+/// The width in columns of the output stream, and whether it shows colours. Text is formatted accordingly.
 namespace detp::cli {
 
-/// The values of --color: when text is coloured.
+/// The value of --color: text is coloured if the stream shows colours, always, or never.
 enum class Colour { automatic, always, never };
 
 struct Screen {
@@ -20,9 +20,9 @@ struct Screen {
 
 /// The properties of a stream, for instance STDOUT_FILENO.
 ///
-/// If the stream is a terminal, the width is the terminal's. Otherwise it is the value of the environment variable
-/// COLUMNS, if that is a whole number of at least 1. Otherwise the width is unlimited, so tables in files and pipes
-/// keep all their columns.
+/// If the stream is a terminal, the width is that of the terminal. Otherwise the width is the value of the environment
+/// variable COLUMNS if that is a whole number of at least 1. Otherwise the width is unlimited, so tables in files and
+/// pipes keep all their columns.
 ///
 /// With Colour::automatic, only a terminal shows colours. It shows none if NO_COLOR is set and not empty, or if TERM is
 /// "dumb". Colour::always and Colour::never apply to any stream.
@@ -40,11 +40,10 @@ enum class Style { plain, strong, good, bad, doubtful, faint };
 /// The width of a text in columns: the number of its UTF-8 characters, without the escape sequences of colours.
 [[nodiscard]] std::size_t columns_of(std::string_view text);
 
-/// Breaks each line of a text between words into lines of at most `width` columns; a longer word stays whole. Indents
-/// all of these lines but the first. The result ends with a line feed.
+/// Breaks each line of a text between words into lines of at most `width` columns; a longer word stays whole. Of the
+/// lines into which a line is broken, all except the first are indented. The result ends with a line feed.
 [[nodiscard]] std::string wrapped(std::string_view text, std::size_t width, std::size_t indent = 0);
 
-/// Returns the explanation under a table: wrapped, in the faint style.
 [[nodiscard]] std::string legend(const Screen& screen, std::string_view text);
 
 }  // namespace detp::cli

@@ -4,10 +4,10 @@
 
 namespace detp::cli {
 
-/// The two numbers of spheres k that a user may want for a sphere cache of ratio Q.
+/// Two numbers of spheres k for a sphere cache of ratio Q.
 struct SphereStops {
-  std::int64_t max = 0;   ///< the form's own k: the number of spheres that can hold a disc
-  std::int64_t best = 0;  ///< the fastest by that form; 0 if max is 0
+  std::int64_t max = 0;   ///< number of spheres that can hold a disc, by the published or the corrected form
+  std::int64_t best = 0;  ///< number of spheres with the least predicted time, by the same form; 0 if max is 0
 };
 
 /// Throws as model::sphere_count and model::best_stop do.

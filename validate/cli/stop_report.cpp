@@ -18,7 +18,7 @@ std::string after(const sim::Progress& progress) {
   return fmt::format("after {} of {} {}", progress.done, progress.of, progress.unit);
 }
 
-/// A CSV table with additional columns, which have the same value in every row.
+/// The additional columns have the same values in every row.
 std::string with_columns(const std::string& csv, const std::string& names, const std::string& fields) {
   if (csv.empty()) return names + "\n" + fields + "\n";
   std::istringstream lines(csv);

@@ -6,10 +6,11 @@
 /// Results of commands that a stop request ended.
 namespace detp::cli {
 
-/// The result of a command that was stopped before it had any: its progress, and its options.
+/// The result of a command that was stopped before it had results: its progress and its options.
 [[nodiscard]] Result stopped_result(const CLI::App& command, const sim::Stopped& stopped);
 
-/// Marks the result as partial in all formats, with the progress of the work. `seconds`: from the stop request to now.
+/// Marks the result as partial in all formats, with the progress of the work. `seconds` is the time since the stop
+/// request.
 ///
 /// JSON: `stopped_after` {`done`, `of`, `unit`} and `stop_seconds`; text: a first line; CSV: the columns
 /// `stopped_after`, `stopped_of` and `stopped_unit` in every row.

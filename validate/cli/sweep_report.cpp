@@ -76,7 +76,7 @@ std::string to_text(const std::vector<DeviationSummary>& summaries, const Screen
                 "over that of the sphere around them, i: number of a nested sphere.");
 }
 
-/// A row in the table of the claims. Uses the claims' column names for values with the same meaning.
+/// Values that claims have too are in the claims' columns.
 Json cells_of(const Deviation& row) {
   Json cells{{"scene", row.dimension == 3 ? "uniform samples in a cube" : "uniform samples on the faces of a cube"},
              {"field", name(sim::Field::isotropic)},

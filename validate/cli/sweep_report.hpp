@@ -6,14 +6,14 @@
 
 namespace detp::cli {
 
-/// Columns of a comparison in addition to those of a claim.
+/// The columns of a sweep's comparison that a claim does not have.
 [[nodiscard]] Columns sweep_columns();
 
 /// Adds a sweep to a command's result: a summary for each quantity ("sweep" in JSON, a table in the text), and every
 /// comparison as a row of the table.
 void report_sweep(const validate::SweepResult& sweep, const Screen& screen, Table& table, Result& result);
 
-/// Writes the comparisons as CSV, one row for each count, with the predictions of both forms rounded to five digits.
+/// Writes the comparisons as CSV, one row for each count, with both forms' predictions. Rounds numbers to five digits.
 /// Throws sim::FileError.
 void write_sweep_rows(const std::string& path, const std::vector<validate::Deviation>& deviations);
 

@@ -29,7 +29,6 @@ std::string csv_field(const Json& value) {
   return std::isfinite(number) ? fmt::format("{}", number) : "";
 }
 
-/// A cell as text: floating-point numbers with six digits.
 std::string text_field(const Json& row, const std::string& column) {
   if (!row.contains(column)) return "";
   const Json& value = row[column];

@@ -7,7 +7,7 @@
 #include "command.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 
-/// Results as one tidy table, whose columns are declared once.
+/// Results as a table with declared columns.
 namespace detp::cli {
 
 using Columns = std::vector<std::string>;
@@ -32,9 +32,9 @@ class Table {
   std::vector<std::vector<Json>> rows_;
 };
 
-/// Rows as text: first each input that is the same in all rows; below, in aligned columns, the inputs that differ and
-/// the results. If the table is too wide for the screen, results are left out, the last ones first, and a last line
-/// names them.
+/// Rows as text. The first lines have each input that is the same in all rows. A table with the other inputs and the
+/// results follows. If the table is wider than the screen, results are left out, the last columns first, and a last
+/// line names the columns that were left out.
 [[nodiscard]] std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers,
                                        const Screen& screen);
 
@@ -50,7 +50,7 @@ class Table {
 /// The columns of effect_cells().
 [[nodiscard]] const Columns& effect_columns();
 
-/// Null if the number is not finite: a relative error is unknown if all observations are zero.
+/// The number, or null if it is not finite. A relative error, for instance, is not finite if all observations are zero.
 [[nodiscard]] inline Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
 /// A list of texts as one cell, separated by "; ".

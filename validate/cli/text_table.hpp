@@ -11,11 +11,10 @@ namespace detp::cli {
 
 enum class Align { left, right };
 
-/// A column of a text table.
 struct TextColumn {
   std::string head = {};
   Align align = Align::right;
-  int spare = 0;           ///< 0: the column is always shown; otherwise columns with larger values are left out first
+  int spare = 0;           ///< 0: always shown; otherwise left out before columns with a smaller value
   std::string group = {};  ///< heading above neighbouring columns of the same group
 };
 

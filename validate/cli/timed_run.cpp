@@ -12,14 +12,14 @@
 namespace detp::cli {
 namespace {
 
-/// In units of sim::StopCheck; 0 where there is no closed form of the candidate.
+/// Predicted work of a run, in units of sim::StopCheck; 0 if the candidate has no closed form.
 double predicted_work(const Workload& workload, const Candidate& candidate, Engine engine) {
   const auto work = [&](const Candidate& one) {
     return validate::search_work(model::predict(workload, one, engine), engine);
   };
   try {
     if (model::has_closed_form(candidate.technique)) return work(candidate);
-  } catch (const std::invalid_argument&) {  // of these parameters
+  } catch (const std::invalid_argument&) {  // no closed form for these parameters
   }
   return 0;
 }
@@ -30,7 +30,7 @@ TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim
                  const sim::ReportPhase& progress) {
   const double work = progress ? predicted_work(job.workload, candidate, options.engine) : 0;
   const double block = job.stream ? static_cast<double>(sim::default_block(job.discs.size())) : job.workload.rays;
-  const double each = std::min(1.0, block / job.workload.rays);  // the share of a block of rays
+  const double each = std::min(1.0, block / job.workload.rays);  // a block's share of the rays
   const auto show = [&](double done) {
     if (progress) progress({std::string(name(candidate.technique)), done, std::min(1.0, done + each), each * work});
   };

@@ -8,12 +8,12 @@
 
 namespace detp::cli {
 
-/// A run over all rays of a job, which are in memory or a stream.
+/// A run over all rays of a job. The rays are in memory or a stream.
 struct TimedRun {
   sim::Outcome outcome;
   double prepare_seconds = 0;      ///< time for checking rays and discs, and for S₀
   double read_seconds = 0;         ///< time for making the rays of a stream
-  std::size_t rays_in_memory = 0;  ///< maximum number at a time
+  std::size_t rays_in_memory = 0;  ///< maximum number of rays in memory at a time
 };
 
 [[nodiscard]] TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim::RunOptions& options,
@@ -28,8 +28,8 @@ struct Timing {
   [[nodiscard]] double total() const { return prepare + phases.total(); }
 };
 
-/// The timed runs: the counting run itself, or `repeat` others that only find hits. Returns the median run; for an even
-/// number, the slower of the two in the middle, so that its phases are those of a single run.
+/// Times `repeat` runs without counting; if `repeat` is 0, returns the times of the counting run. The phases returned
+/// are those of the run with the median time, or for an even number of runs, of the slower of the two middle runs.
 [[nodiscard]] Timing time_runs(const validate::Job& job, const Candidate& candidate, const TimedRun& counted,
                                int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress);
 

@@ -15,7 +15,7 @@ namespace detp::cli {
 /// not finite.
 [[nodiscard]] UnitCosts parse_unit_costs(const std::string& text, const UnitCosts& otherwise);
 
-/// As JSON, with the same names.
+/// The unit costs as JSON, under the names of --costs.
 [[nodiscard]] nlohmann::ordered_json to_json(const UnitCosts& costs);
 
 /// The names of the costs that are 0: "t, u".

@@ -31,7 +31,6 @@ struct ValidateOptions {
   std::optional<std::string> sweep_rows;
 };
 
-/// By default 20 000 samples uniform in a cube of side 2, discs of radius 0.02.
 validate::Experiment uniform_experiment(validate::JobRequest request, const std::stop_token& stop, Json& inputs) {
   if (request.front_facing || request.field == sim::Field::photons)
     throw std::invalid_argument("--front-facing and --field photons take a scene or --discs; numbers alone mean lines");
@@ -47,8 +46,8 @@ validate::Experiment uniform_experiment(validate::JobRequest request, const std:
   return experiment;
 }
 
-/// The choice's question is the one that choose would make from the same options. The other claims are about lines: as
-/// many as the number of rays, if it is set.
+/// `choice` has the workload and rays of `choose` with the same options. The other claims are about isotropic lines: as
+/// many as the requested rays, or default_lines.
 validate::Experiment scene_experiment(const validate::JobRequest& request, const CommonOptions& common,
                                       const std::stop_token& stop, Result& result) {
   validate::Job job = validate::make_job(request, stop);
@@ -96,7 +95,6 @@ Json claim_json(const Claim& claim) {
           {"seconds", claim.seconds}};
 }
 
-/// A field of the text; "?" if the number is unknown.
 std::string known_text(double number, const char* shape) {
   return std::isfinite(number) ? fmt::format(fmt::runtime(shape), number) : "?";
 }
@@ -134,7 +132,6 @@ std::string to_text(const std::vector<Claim>& claims, const Screen& screen) {
                 "published: the paper's formula, corrected: ours; only a corrected one that is refuted is an error.");
 }
 
-/// What each claim is about.
 std::string quantities(const std::vector<Claim>& claims, const Screen& screen) {
   std::vector<std::pair<std::string, std::string>> rows;
   std::size_t width = 0;
@@ -150,7 +147,7 @@ std::string quantities(const std::vector<Claim>& claims, const Screen& screen) {
   return text;
 }
 
-/// ", 2 to 10 %,"; empty if unknown.
+/// ", 2 to 10 %,"; empty if no control has a finite relative error.
 std::string range_of_controls(const std::vector<Claim>& claims) {
   double least = INFINITY;
   double most = 0;
@@ -229,7 +226,6 @@ validate::SweepOptions sweep_options(const ValidateOptions& options, const Commo
   return sweep;
 }
 
-/// Checks the files before any work.
 void check_files(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   Output checkpoint{"--checkpoint", std::nullopt};
   if (options.sweep.checkpoint) checkpoint.path = options.sweep.checkpoint->string();

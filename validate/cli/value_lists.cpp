@@ -46,9 +46,8 @@ struct Range {
   double start = 0;
   double end = 0;
   double step = 0;
-  int decimals = 0;  ///< of all values
+  int decimals = 0;  ///< number of decimals of the values
 
-  /// Rounded to that number of decimals, in the shortest form of the double.
   [[nodiscard]] double value(double i) const {
     const std::string text = fmt::format("{:.{}f}", start + i * step, decimals);
     double value = 0;

@@ -22,13 +22,13 @@ std::vector<std::string_view> technique_names() {
 
 std::string known_techniques() { return fmt::format("{}", fmt::join(technique_names(), ", ")); }
 
-/// A parameter that several techniques have, as one option, with its meaning for each of them.
+/// The option for a parameter that one or more techniques have. `help` has its meaning for each of these techniques.
 struct SharedParameter {
   const Parameter* parameter;
   std::string help;
 };
 
-/// All parameters by name, in the order of the techniques.
+/// All parameters in the order of the techniques, one for each name.
 std::vector<SharedParameter> shared_parameters() {
   std::vector<SharedParameter> all;
   for (const TechniqueRecord& record : technique_records)
@@ -55,7 +55,7 @@ std::string spaced(double count) {
 
 namespace {
 
-/// The library does not know options: here the message names the one that is missing.
+/// Names the missing option, which the library's messages do not.
 void require_numbers(const validate::JobRequest& request) {
   const auto need = [](bool given, std::string_view what, std::string_view option) {
     if (!given) throw std::invalid_argument(fmt::format("without a scene, {} is needed: {}", what, option));

@@ -22,21 +22,21 @@ class WorkloadOptions {
 
   ValueLists lists;  ///< of the options that may have many values
 
-  /// The request of the current row. Throws std::invalid_argument for options that do not go together and, if
-  /// `complete`, for missing numbers of a workload without a scene.
+  /// The request of the current row. Throws std::invalid_argument for options that exclude each other. If `complete`,
+  /// also throws if a number of a workload without a scene is missing.
   [[nodiscard]] validate::JobRequest request(const CommonOptions& common, bool complete = true) const;
 
  private:
   validate::JobRequest request_;
 };
 
-/// The innermost sphere of a sphere cache whose k is not set.
+/// The number of spheres k of a sphere cache if --spheres is not a number.
 enum class SphereStop {
-  max,  ///< at the form's own k
-  best  ///< the k at which it is fastest, by the model
+  max,  ///< SphereStops::max
+  best  ///< SphereStops::best
 };
 
-/// The options for a technique and its parameters; those that are not set are chosen. The parser keeps pointers to this
+/// The options for a technique and its parameters. Commands choose what is not set. The parser keeps pointers to this
 /// object.
 class CandidateOptions {
  public:
@@ -51,13 +51,14 @@ class CandidateOptions {
   std::optional<SphereStop> stop;  ///< used instead of the number of spheres
   Engine engine = Engine::simd;
 
-  /// The technique of that name, or `otherwise`. Throws std::invalid_argument for an unknown one, listing the known.
+  /// The technique that the option names, or `otherwise` if it is not set. Throws std::invalid_argument for an unknown
+  /// name, listing the known names.
   [[nodiscard]] Technique technique_or(Technique otherwise) const;
 
-  /// The technique's parameters that are set. Throws std::invalid_argument for a parameter that it does not have.
+  /// The parameters that are set. Throws std::invalid_argument for a parameter that the technique does not have.
   [[nodiscard]] model::FixedParameters fixed_parameters(Technique technique) const;
 
-  /// The value of a parameter of that type, if it is set.
+  /// The value of the parameter, which has the type T, or nothing if it is not set.
   template <class T>
   [[nodiscard]] std::optional<T> given(std::string_view parameter) const {
     const auto found = given_.find(parameter);
@@ -80,7 +81,7 @@ class CandidateOptions {
 /// Resolved inputs of a workload without a scene.
 [[nodiscard]] Json numbers_json(const Workload& workload);
 
-/// A count for JSON: a whole number without a decimal point.
+/// A count for JSON, written without a decimal point.
 [[nodiscard]] inline Json whole(double count) { return static_cast<std::int64_t>(count); }
 template <class T>
 [[nodiscard]] Json to_json(const Counts<T>& counts) {
@@ -95,10 +96,9 @@ template <class T>
 /// The workload's deviations from the basic model that the closed forms take into account.
 [[nodiscard]] Json effects_json(const Workload& workload);
 
-/// The effects as cells of a table: "finite_paths" (true or false) and "finite_paths_evidence" of each effect.
+/// The effects as cells of a table, two for each effect: "finite_paths" (true or false) and "finite_paths_evidence".
 [[nodiscard]] Json effect_cells(const Json& effects);
 
-/// Prints the notices and warnings of a job to stderr.
 void note_all(const CommonOptions& common, const validate::Job& job);
 
 /// The lines "scene" and "rays" of the text output.

@@ -19,7 +19,7 @@ struct Fit {
   std::vector<Index> free;
 };
 
-/// The least-squares fit of the free unknowns without sign constraint; the others are 0.
+/// The least-squares fit of the free unknowns, whatever their signs; all other unknowns are 0.
 VectorXd joint_fit(const MatrixXd& a, const VectorXd& b, const std::vector<Index>& free) {
   VectorXd x = VectorXd::Zero(a.cols());
   if (!free.empty()) x(free) = a(Eigen::all, free).colPivHouseholderQr().solve(b);
@@ -31,7 +31,7 @@ VectorXd joint_fit(const MatrixXd& a, const VectorXd& b, const std::vector<Index
 void move_to_joint_fit(const MatrixXd& a, const VectorXd& b, Fit& fit) {
   for (;;) {
     const VectorXd goal = joint_fit(a, b, fit.free);
-    auto first = fit.free.end();  // the first to become 0
+    auto first = fit.free.end();  // the first unknown to become 0
     double step = 1;
     for (auto i = fit.free.begin(); i != fit.free.end(); ++i) {
       if (goal[*i] > 0) continue;
@@ -50,7 +50,7 @@ void move_to_joint_fit(const MatrixXd& a, const VectorXd& b, Fit& fit) {
   }
 }
 
-/// Fits with columns of length 1.
+/// Requires columns of length 1.
 VectorXd fit_unit_columns(const MatrixXd& a, const VectorXd& b) {
   Fit best{VectorXd::Zero(a.cols()), {}};
   double error = b.norm();

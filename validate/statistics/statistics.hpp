@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-/// Verdicts by equivalence. A formula agrees if the data show that it is close; it is not enough that they fail to show
-/// that it is wrong.
+/// Verdicts by tests of equivalence: a formula agrees only if the data show that its error is within the tolerance.
+/// Data that merely fail to show an error do not suffice.
 namespace detp::validate {
 
 enum class Verdict { agrees, refuted, undecided };
@@ -19,23 +19,22 @@ struct Estimate {
   double standard_error = 0;
 };
 
-/// The quantile: a share `share` (0 … 1) of the values lies below it. Interpolates linearly between the two nearest
-/// values. Throws std::invalid_argument if there are no values.
+/// The quantile, which is larger than a share `share` (0 … 1) of the values. Interpolates linearly between the two
+/// nearest values. Throws std::invalid_argument if there are no values.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
-/// The middle value; of an even number of values, the mean of the two in the middle.
+/// The middle value, or the mean of the two middle values if their number is even.
 [[nodiscard]] inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
 /// Mean and standard error of at least 2 independent, equally long batches. Throws std::invalid_argument for fewer.
 [[nodiscard]] Estimate batch_means(std::span<const double> batches);
 
-/// Ratio of two sums over the same batches, with its standard error by the delta method (linearised).
+/// Ratio of two sums over the same batches, with the standard error of the ratio by the delta method (linearised).
 [[nodiscard]] Estimate batch_ratio(std::span<const double> numerators, std::span<const double> denominators);
 
-/// Half width of the interval, in standard errors, that keeps the probability of any false verdict in a run below
-/// `budget`. The budget is shared evenly over `comparisons` (Bonferroni): z with 2 (1 - Φ(z)) = budget / comparisons.
-/// With few batches the standard error is itself uncertain: Φ is then replaced by Student's t with `batches` - 1
-/// degrees of freedom.
+/// Half width z, in standard errors, of the intervals that keep the probability of any false verdict in a run below
+/// `budget`. The budget is shared evenly over `comparisons` (Bonferroni): 2 (1 - Φ(z)) = budget / comparisons. Φ is the
+/// distribution of Student's t with `batches` - 1 degrees of freedom, because the standard error is itself uncertain.
 [[nodiscard]] double interval_width(double budget, int comparisons, int batches);
 
 /// Compares predicted with observed.

@@ -39,7 +39,7 @@ Counts<double> structural_counts(const sim::Problem& problem, double rays, const
 Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Valid<Candidate>& candidate,
                                  const std::stop_token& stop, bool front_facing, Engine engine) {
   const sim::Sphere enclosing = sim::enclosing_sphere(discs, stop);
-  const double farthest = glm::distance(discs[0].centre, enclosing.centre);  // sets the slack for rays that start in S₀
+  const double farthest = glm::distance(discs[0].centre, enclosing.centre);  // of ray origins: sets the slack
   return structural_counts(sim::make_problem_without_rays(discs, farthest, false, stop), rays, candidate, stop,
                            front_facing, engine);
 }

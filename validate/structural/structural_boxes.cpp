@@ -13,8 +13,8 @@ namespace {
 using sim::stream::TreeNode;
 using std::numbers::pi;
 
-/// A line of one class: its slopes, and the place at which it crosses the parallelogram of listed lines; each from -1
-/// to 1.
+/// A line of one class: its slopes a and b, and the place (u, v) in the rectangle of listed lines at which it crosses
+/// the rectangle; each number from -1 to 1.
 struct PoolLine {
   double a, b, u, v;
   double weight;  ///< weight of its direction: (1 + a² + b²)^{-2}
@@ -22,7 +22,8 @@ struct PoolLine {
 
 constexpr std::size_t pool_size = 4096;
 
-/// A lattice in four dimensions whose projections are evenly distributed too (Roberts's sequence).
+/// Lines from a sequence of points in four dimensions whose projections are evenly distributed too (Roberts's
+/// sequence).
 std::vector<PoolLine> make_pool() {
   constexpr double root = 1.1673039782614187;  // x⁵ = x + 1
   std::vector<PoolLine> pool;
@@ -42,8 +43,8 @@ std::vector<PoolLine> make_pool() {
 
 using Triple = std::array<double, 3>;
 
-/// Whether the line x = p + a z, y = q + b z crosses the box around the origin, whose projections along x and y it
-/// crosses.
+/// True if the line x = p + a z, y = q + b z crosses the box around the origin. Requires that the line crosses the
+/// projections of the box along x and along y.
 bool crosses(double p, double a, double q, double b, const Triple& half, int x, int y, int z) {
   const auto between = [&](double at, double slope, double most, double sign) {
     return slope == 0 ? sign * half[z] : (sign * std::copysign(most, slope) - at) / slope;
@@ -53,7 +54,7 @@ bool crosses(double p, double a, double q, double b, const Triple& half, int x, 
   return low <= high;
 }
 
-/// Share of the lines listed for a box that cross the sphere around the origin.
+/// Of the lines that are listed for a box, the share that crosses the sphere of that radius around the origin.
 double share_through(double radius, const Triple& centre, const Triple& half, std::size_t lines, Engine engine) {
   static const std::vector<PoolLine> pool = make_pool();
   double all = 0;
@@ -89,7 +90,7 @@ double BoxCrossing::operator()(const TreeNode& box) const {
   const double squares = half[0] * half[0] + half[1] * half[1] + half[2] * half[2];
   const double missing = engine_ == Engine::simd ? std::log(4.0 / 3) / pi * squares : 0;
   const double share = 2 / (pi * outer_ * outer_) * (products + missing);
-  // A listed line passes within (h_x + h_z, h_y + h_z) of the centre; the same holds with each axis as z.
+  // A listed line of class z crosses the plane through the centre within (h_x + h_z, h_y + h_z) of the centre.
   double reach = 0;
   for (int z = 0; z < 3; ++z)
     reach = std::max(reach, std::hypot(half[(z + 1) % 3] + half[z], half[(z + 2) % 3] + half[z]));
@@ -111,7 +112,7 @@ Counts<double> structural_box_tree(const sim::Problem& problem, const Lines& lin
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const TreeNode& node = tree.nodes[i];
     const double listed = i == 0 ? 1 : crossing(node);
-    check.after(pool_size);  // maximum number of lines
+    check.after(pool_size);  // at most as many lines were used for the node
     if (i > 0) counts.listed += listed;
     const auto count = static_cast<double>(node.count);
     // A node's children are tested, and a leaf's discs visited, if the node's list holds at least one ray of the block.

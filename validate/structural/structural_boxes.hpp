@@ -7,36 +7,38 @@
 /// Expected counts of a box tree, computed from its boxes without rays.
 namespace detp::validate {
 
-/// Share of the isotropic lines through S₀ that the cull of a box lists. The plain engine lists the lines that cross the
-/// box, P = F/(4π r₀²). The simd engine (cull_box of sim/lists/simd/kernels-inl.hpp) lists some more.
+/// P, the share of the isotropic lines through S₀ that the cull of a box lists. The plain engine lists the lines that
+/// cross the box, P = F/(4π r₀²). The simd engine (cull_box of sim/lists/simd/kernels-inl.hpp) lists these lines and
+/// some that miss the box.
 ///
-/// A line of the class of axis z, x = p + a z and y = q + b z, is listed by the simd engine if
+/// The simd engine lists a line of the class of axis z, x = p + a z and y = q + b z, with |a|, |b| <= 1, if
 ///
 ///     |p + a c_z - c_x| <= h_x + |a| h_z    and    |q + b c_z - c_y| <= h_y + |b| h_z
 ///
-/// For one direction these lines cross a plane of constant z in a parallelogram of the area
+/// For one direction (a, b), the listed lines cross a plane of constant z in a rectangle of the area
 ///
 ///     4 (h_x + |a| h_z)(h_y + |b| h_z)
 ///
-/// Multiplied by the cosine (1 + a² + b²)^{-1/2} this is the area perpendicular to the lines. The directions are
-/// integrated with dω = da db (1 + a² + b²)^{-3/2}. The result is summed over the three classes, and divided by the
-/// measure 2π · π r₀² of the lines through S₀:
+/// This area times the cosine (1 + a² + b²)^{-1/2} is the area perpendicular to the lines. Integrating it over the
+/// directions, dω = da db (1 + a² + b²)^{-3/2}, summing over the three classes, and dividing by the measure 2π · π r₀²
+/// of the lines through S₀ gives
 ///
 ///     P = [F/4π + (2 ln(4/3)/π²) (h_x² + h_y² + h_z²)] / r₀²
 ///
 ///   where  F   surface of the box, 8 (h_x h_y + h_y h_z + h_z h_x)
 ///
-/// Proof: with w = (1 + a² + b²)^{-2}, integrals over [-1, 1]² are ∫∫w = 2√2 atan(1/√2), ∫∫|a|w = π/2 - √2 atan(1/√2),
-/// so that the coefficient of h_x h_y is π in all, and ∫∫|ab|w = ln(4/3). The first term counts the lines that cross
-/// the box, the second the lines that are listed but miss the box: 9 % for a cube.
+/// Proof: let w = (1 + a² + b²)^{-2}. Over [-1, 1]², ∫∫w = 2√2 atan(1/√2), ∫∫|a|w = π/2 - √2 atan(1/√2) and
+/// ∫∫|ab|w = ln(4/3). So the coefficients of h_x h_y of the three classes add up to π. The first term of P counts the
+/// lines that cross the box, the second the listed lines that miss the box: 9 % more for a cube.
 ///
-/// If listed lines could miss S₀, the share that does not is integrated over a fixed set of lines.
+/// If some listed lines may miss S₀, P is multiplied by the share that crosses S₀, integrated over a fixed set of
+/// lines.
 ///
 /// Source     our derivation.
-/// Accuracy   exact inside S₀; elsewhere the error of the share is at most 1 %.
+/// Accuracy   exact if all listed lines cross S₀; else the error of the share is at most 1 %.
 class BoxCrossing {
  public:
-  /// Lengths are in the frame's units. Boxes are grown by the margin.
+  /// Lengths are in the frame's units. Each box is grown by `margin` on all sides.
   BoxCrossing(double outer_radius, double margin, Engine engine = Engine::simd);
 
   [[nodiscard]] double operator()(const sim::stream::TreeNode& box) const;

@@ -18,17 +18,19 @@
 ///     disc_tests = n_R Σ_discs P(innermost sphere)
 ///     P(sphere) = (r/r₀)² × share of the lines through the sphere that also cross S₀
 ///
-/// The sums are over all spheres of the hierarchy, each built once. Each sphere lies in its parent's, so its list holds
-/// exactly the rays that cross both the sphere and S₀. The share is 1 for a sphere inside S₀, else both_hit_share. Hits
-/// are left at 0. For a box tree (structural_boxes.hpp) the same sums are taken over boxes, except that the root is not
-/// tested. `culls` are the nodes that get a list: at least one ray of a block is in the parent's list.
+/// The sums are over all spheres of the hierarchy, each built once. Each sphere lies in its parent sphere, so its list
+/// holds exactly the rays that cross both the sphere and S₀. The share is 1 for a sphere inside S₀, else
+/// both_hit_share. Hits are left at 0. For a box tree (structural_boxes.hpp) the same sums are over boxes, except that
+/// the root is not tested. `culls` is the expected number of nodes that get a list. A node gets a list if its parent's
+/// list holds a ray.
 ///
 /// Source     our derivation.
 /// Valid      lines of the measure μ_ℓ through S₀; discs of any radii.
 /// Accuracy   exact, except for sphere-tree if a sphere extends outside S₀. Boxes, fan-out 4, leaf 16: @uniform, @tree,
 ///            @courtyard, @cornell, 2000 and 50 000 samples, d 0.25, 1 and 4 % of the scene's side, 400 000 lines.
-///            Deviations (median, largest), which include the lines' noise (0.44, 2.3 % of hits): tests of boxes 0.25,
-///            0.71 %; rays listed 0.29, 0.84 %; tests of discs 0.31, 1.1 %; nodes tested 0.00, 0.81 %.
+///            Median and largest deviation of expected from observed counts, which include the noise of the lines (0.44
+///            and 2.3 % of hits): tests of boxes 0.25, 0.71 %; rays listed 0.29, 0.84 %; tests of discs 0.31, 1.1 %;
+///            nodes tested 0.00, 0.81 %.
 /// Throws     std::invalid_argument for another technique, or parameters out of range; sim::Stopped if a stop was
 ///            requested.
 namespace detp::validate {
@@ -42,7 +44,7 @@ class Crossing {
   [[nodiscard]] double operator()(const sim::Sphere& sphere) const {
     const double ratio = sphere.radius / enclosing_.radius;
     const double between = glm::distance(sphere.centre, enclosing_.centre);
-    // The tolerance of 1e-9 is for rounding: a sphere as large as S₀ does not extend outside it.
+    // The tolerance 1e-9 allows for rounding, so that S₀ itself counts as inside S₀.
     if (between + sphere.radius <= enclosing_.radius * (1 + 1e-9)) return std::min(1.0, ratio * ratio);
     return ratio * ratio * model::both_hit_share(enclosing_.radius, sphere.radius, between);
   }
@@ -74,13 +76,13 @@ Counts<double> cell_spheres(const sim::Problem& problem, const CellSpheresParame
   return counts;
 }
 
-/// The probability that a list holds at least one of `rays` rays, if each is in it with the probability `share`.
+/// The probability that a list holds at least one of `rays` rays, if each ray is in the list with probability `share`.
 double holds_a_ray(double share, double rays) { return share < 1 ? -std::expm1(rays * std::log1p(-share)) : 1; }
 
-/// Sums over the children of nodes.
+/// Sums over the children of all nodes of one level.
 struct OverChildren {
   double share = 0;    ///< Σ P(parent)
-  double reached = 0;  ///< Σ of the probabilities that the parent's list holds a ray
+  double reached = 0;  ///< Σ probability that the parent's list holds a ray
 };
 
 OverChildren over_children(const std::vector<double>& crossed, std::size_t children, int in_a_parent, double rays) {
@@ -93,7 +95,7 @@ OverChildren over_children(const std::vector<double>& crossed, std::size_t child
   return sums;
 }
 
-/// Counts per ray, except for the lists made and the discs visited, which are those of all rays.
+/// Counts per ray, except `culls` and `visits`, which are the numbers of lists made and discs visited for all rays.
 Counts<double> sphere_tree(const sim::Problem& problem, double rays, const SphereTreeParameters& parameters,
                            const std::stop_token& stop) {
   sim::StopCheck check(stop, "counting spheres");

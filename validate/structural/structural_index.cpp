@@ -23,13 +23,14 @@
 ///
 ///   where  F   surface area of the node, or of the part of a grid's cell inside the grid's box
 ///
-/// The share is 1 for a node inside S₀. For a node that extends outside, it is integrated over some lines of a fixed
-/// pool, moved to go through the node; larger nodes use more lines. References and placements are exact.
+/// The share is 1 for a node inside S₀. For a node that extends outside S₀, the share is integrated over lines of a
+/// fixed pool, moved so that they go through the node; larger nodes use more lines. References and placements are
+/// exact.
 ///
 /// Source     eq (3), summed over the structure: the surface-area heuristic.
 /// Valid      lines of the measure μ_ℓ through S₀; discs of any radii.
-/// Throws     std::invalid_argument for a technique without an index, and for an octree whose nodes are not visited
-///            once each (restart, neighbour links); as sim::run does for parameters out of range and for an index that
+/// Throws     std::invalid_argument for an octree traversal that may visit a node more than once for a ray, or skips
+///            nodes (restart, neighbour links); as sim::run does for parameters out of range and for an index that
 ///            would not fit in memory.
 namespace detp::validate {
 namespace {
@@ -41,8 +42,8 @@ constexpr std::uint64_t pool_seed = 1;
 
 double area_of(const glm::dvec3& size) { return 2 * (size.x * size.y + size.y * size.z + size.z * size.x); }
 
-/// A line that enters a box: numbers from 0 to 1 that select the face and the place on it, and the inward direction for
-/// a face across the third axis, cosine-distributed.
+/// A line that enters any box. The numbers (0 … 1) select the face of the box and the place on the face. `inwards` is
+/// the inward direction, cosine-distributed, for a face perpendicular to the third axis.
 struct Entry {
   double face;
   double first;
@@ -62,8 +63,8 @@ std::vector<Entry> make_pool() {
   return pool;
 }
 
-/// The ray of that entry into a box. Entries are uniform by area over the box's surface, so the lines have the measure
-/// μ_ℓ of those that meet the box.
+/// The line that enters this box as `entry` says. Places are uniform over the area of the box's surface and directions
+/// are cosine-distributed, so the lines have the measure μ_ℓ of the lines that meet the box.
 sim::Ray line_into(const sim::Box& box, const Entry& entry) {
   const glm::dvec3 size = box.size();
   double pick = entry.face * area_of(size);
@@ -86,7 +87,7 @@ sim::Ray line_into(const sim::Box& box, const Entry& entry) {
   return line;
 }
 
-/// Evaluates P(node) for one node after another.
+/// P(node).
 class Crossing {
  public:
   explicit Crossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
@@ -103,7 +104,7 @@ class Crossing {
     return share * static_cast<double>(crossing) / static_cast<double>(lines_);
   }
 
-  /// Number of lines used for the last node.
+  /// Of the last call; 0 if the node lies in S₀.
   [[nodiscard]] std::size_t lines() const { return lines_; }
 
  private:
@@ -113,7 +114,7 @@ class Crossing {
   std::size_t lines_ = 0;
 };
 
-/// Counts of an index. `inspect(visit)` calls visit for each of its nodes.
+/// Expected counts of an index. `inspect(visit)` calls `visit` for each node of the index.
 template <class Inspect>
 Counts<double> index_counts(const sim::Problem& problem, double rays, double Counts<double>::*visited,
                             const std::stop_token& stop, const Inspect& inspect) {

@@ -7,7 +7,7 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/technique/technique.hpp"
 
-/// The function that computes the structural counts of each technique. Parameters have been checked and belong to the
+/// The function that computes the structural counts of each technique. Callers pass checked parameters of the same
 /// technique.
 namespace detp::validate {
 
@@ -21,14 +21,14 @@ struct Lines {
   }
 };
 
-/// Expected counts of a search, hits left out. Throws sim::Stopped if a stop was requested.
+/// Returns the expected counts of a search, without hits. Throws sim::Stopped if a stop was requested.
 using StructuralCounts = Counts<double>(const sim::Problem& problem, const Lines& lines, const Parameters& parameters,
                                         const std::stop_token& stop);
 
 struct StructuralModel {
   Technique technique;
   StructuralCounts* counts = nullptr;
-  std::string_view why_none = {};  ///< reason, if there are no counts
+  std::string_view why_none = {};  ///< reason why `counts` is null
 };
 
 [[nodiscard]] const StructuralModel& structural_model(Technique technique);

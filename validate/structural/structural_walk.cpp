@@ -18,8 +18,8 @@ constexpr std::size_t ancestors = 32;
 constexpr std::size_t pool_size = 32768;
 constexpr std::uint64_t pool_seed = 1;
 
-/// Lines through the unit sphere, in the measure of lines. They are used for integration, not to count hits. Made once:
-/// drawing them takes longer than a walk of few samples.
+/// Isotropic lines through the unit sphere, used to integrate. Made once, because drawing them takes longer than a walk
+/// along few samples.
 const std::vector<sim::Ray>& line_pool() {
   static const std::vector<sim::Ray> pool = sim::LineField({}, pool_seed).lines(0, pool_size);
   return pool;
@@ -33,7 +33,7 @@ bool crosses(const glm::dvec3& point, const glm::dvec3& direction, const sim::Sp
 
 struct Level {
   sim::Sphere sphere;
-  double listed = 1;  ///< expected share of the rays of S₀
+  double listed = 1;  ///< expected share of all rays that are in the sphere's list
 };
 
 class Walk {
@@ -70,15 +70,15 @@ class Walk {
     ExpectedSphere& expected = expected_.spheres[i - 1];
     expected.rebuilds += 1;
     expected.tests += levels_[i - 1].listed;
-    // The first rebuilds use more lines each; with many rebuilds the errors cancel.
+    // The first 500 rebuilds use more lines each. If there are many more rebuilds, the errors average out.
     const std::size_t lines = expected.rebuilds < 500 ? 64 : 8;
     const double ratio = levels_[i].sphere.radius / levels_[0].sphere.radius;
     levels_[i].listed = ratio * ratio * share_listed(i, lines);
     expected.listed += levels_[i].listed;
   }
 
-  /// Share of the lines through S_i that also cross the spheres around it, including S₀ (S_i may extend outside it).
-  /// Uses the next lines of the pool, moved to go through S_i.
+  /// Share of the lines through S_i that also cross the spheres around S_i. S₀ is one of them, since S_i may extend
+  /// outside S₀. Uses the next lines of the pool, moved so that they go through S_i.
   double share_listed(std::size_t i, std::size_t lines) {
     const sim::Sphere& sphere = levels_[i].sphere;
     const std::size_t outermost = i > ancestors ? i - ancestors : 0;
@@ -86,7 +86,7 @@ class Walk {
     for (std::size_t n = 0; n < lines; ++n) {
       const sim::Ray& line = pool_[next_++ % pool_size];
       const glm::dvec3 point = sphere.centre + sphere.radius * line.origin;
-      std::size_t around = i;  // one past the next sphere to test
+      std::size_t around = i;  // the line crosses all tested spheres, around … i - 1
       while (around > outermost && crosses(point, line.direction, levels_[around - 1].sphere)) --around;
       listed += around == outermost ? 1 : 0;
       check_.after(i - around + 1);

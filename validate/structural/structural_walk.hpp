@@ -8,15 +8,14 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/geometry.hpp"
 
-/// Expected counts of the sphere cache, computed from the samples alone. When a sphere is rebuilt does not depend on
-/// the rays, and integral geometry gives the number of rays that it then holds.
+/// Expected counts of the sphere cache, computed from the samples alone. The samples determine when a sphere is
+/// rebuilt. Integral geometry gives the expected number of rays in the list of a rebuilt sphere.
 namespace detp::validate {
 
-/// Expected counts of one sphere of the cache.
 struct ExpectedSphere {
-  double rebuilds = 0;  ///< exact: the walk is the technique's own
-  double tests = 0;     ///< ray-sphere tests of all its builds, per ray
-  double listed = 0;    ///< rays listed by all its builds, per ray
+  double rebuilds = 0;  ///< exact: the technique rebuilds the sphere at the same samples
+  double tests = 0;     ///< ray-sphere tests of all rebuilds of the sphere, per ray
+  double listed = 0;    ///< rays listed by all rebuilds of the sphere, per ray
 };
 
 struct ExpectedWalk {
@@ -27,15 +26,16 @@ struct ExpectedWalk {
 
 /// Walks the discs along the Morton curve as the sphere cache does, O(k n_P).
 ///
-/// A list's expected length, per ray, is (r_i/r₀)² times the share of lines through S_i that also cross the spheres
-/// around it. At each rebuild this share is integrated over a few lines of a fixed pool, moved to go through S_i in its
-/// current place, against the 32 next larger spheres.
+/// The expected share of the rays in the list of S_i is (r_i/r₀)² times the share of the lines through S_i that also
+/// cross the spheres around S_i. At each rebuild the second share is estimated from 8 or 64 lines of a fixed pool,
+/// moved so that they go through S_i. The lines are tested with the 32 next larger spheres only.
 ///
 /// Valid      isotropic lines through S₀, all discs of one radius.
-/// Accuracy   counted on 5000 samples in a cube and on its faces, d/r₀ = 0.011, Q 0.3 … 0.9, 6 × 40 000 lines: T_R
-///            within 0.35 %, T_I within 0.33 % (the lines' noise: 0.1 and 0.4 %). On 20 000 samples of @tree, @cornell
+/// Accuracy   5000 samples in a cube and on its faces, d/r₀ = 0.011, Q 0.3 … 0.9, counts of 6 × 40 000 lines: T_R
+///            within 0.35 %, T_I within 0.33 % (noise of the lines: 0.1 and 0.4 %). 20 000 samples of @tree, @cornell
 ///            and three meshes, Q 0.5 … 0.9, 4 × 10 000 lines: T_R within 2.1 %, T_I within 5 %. The largest deviation
-///            (@tree) is the lines' noise: over 24 × 10 000 other lines the ratios are 1.000 ± 0.004 and 1.008 ± 0.008.
+///            (@tree) is noise: with 24 × 10 000 other lines, expected / counted T_R and T_I are 1.000 ± 0.004 and
+///            1.008 ± 0.008.
 /// Throws     sim::Stopped if a stop was requested.
 [[nodiscard]] ExpectedWalk structural_walk(std::span<const sim::Disc> discs, const sim::Sphere& enclosing,
                                            const SphereCacheParameters& parameters, const std::stop_token& stop = {});

@@ -8,18 +8,17 @@
 #include "detp/model/vocabulary/form.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
-/// Deviations of the formulas from counts, over a sweep of workloads.
+/// Deviations of predicted from observed counts, over a sweep of workloads.
 namespace detp::validate {
 
-/// One count, predicted and observed.
 struct Deviation {
   int dimension = 3;
   double samples = 0;       ///< n_P
   double disc_share = 0;    ///< d/r₀
   std::string technique;    ///< "sphere-cache"
   std::string parameters;   ///< "Q 0.65, k 9"
-  std::string quantity;     ///< a term of Counts for the whole run, or "m_i" or "L_i" of one sphere
-  std::int64_t sphere = 0;  ///< i; 0 for the whole run
+  std::string quantity;     ///< name of a term of Counts, or "m_i" or "L_i" of sphere i
+  std::int64_t sphere = 0;  ///< i; 0 for a term of Counts
   Form form = Form::corrected;
   double predicted = 0;
   Estimate observed;  ///< mean over sets of samples, with its standard error
@@ -28,11 +27,10 @@ struct Deviation {
   [[nodiscard]] double relative_error() const { return observed.standard_error / observed.mean; }
 };
 
-/// The accuracy required of a quantity: the largest relative deviations allowed, of any comparison and of the median
-/// one.
+/// The largest relative deviations allowed.
 struct Goal {
-  double worst = 0;
-  double median = 0;
+  double worst = 0;   ///< of any comparison
+  double median = 0;  ///< median over the comparisons
 };
 
 /// All comparisons of one quantity of one technique with one form of the formulas.
@@ -43,7 +41,7 @@ struct DeviationSummary {
   Goal goal;
   std::size_t compared = 0;  ///< comparisons with a small enough standard error
   std::size_t noisy = 0;     ///< comparisons left out, because their standard error exceeds a quarter of the goal
-  std::size_t beyond = 0;    ///< comparisons that exceed the goal by more than three standard errors
+  std::size_t beyond = 0;    ///< comparisons whose deviation exceeds goal.worst by more than three standard errors
   double median = 0;         ///< of |predicted/observed - 1|, like all fields below
   double p95 = 0;
   double worst = 0;
@@ -52,7 +50,6 @@ struct DeviationSummary {
   [[nodiscard]] bool met() const { return beyond == 0 && median <= goal.median; }
 };
 
-/// The accuracy goal of a quantity.
 [[nodiscard]] Goal goal_of(const Deviation& deviation);
 
 /// One summary for each technique, quantity and form, in the order of their first appearance.

@@ -20,7 +20,6 @@ namespace {
 
 constexpr double least_rebuilds = 30;
 
-/// The counts of one candidate on all sets.
 struct Observed {
   std::vector<Counts<double>> counts;
   std::vector<std::vector<sim::SphereCounts>> spheres;
@@ -31,7 +30,6 @@ struct Observations {
   double sphere_radius = 0;  ///< radius of S₀, mean over the sets
 };
 
-/// Collects the rows of one candidate.
 class Rows {
  public:
   Rows(const SweepPoint& point, const Candidate& candidate) {
@@ -59,7 +57,6 @@ class Rows {
   std::vector<Deviation> rows_;
 };
 
-/// The values of one term over the sets.
 std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_view wanted) {
   std::vector<double> values;
   for (const Counts<double>& counts : sets)
@@ -69,7 +66,8 @@ std::vector<double> column(const std::vector<Counts<double>>& sets, std::string_
   return values;
 }
 
-/// Raises the standard error to that of `events` independent events, if it is smaller: few sets may agree by chance.
+/// Raises the standard error to that of `events` independent events if it is less, since a few sets may agree by
+/// chance.
 Estimate allow_for_few(Estimate estimate, double events) {
   if (events > 0) estimate.standard_error = std::max(estimate.standard_error, estimate.mean / std::sqrt(events));
   return estimate;
@@ -79,7 +77,6 @@ bool depends_on_lines(std::string_view term) {
   return term != "culls" && term != "visits" && term != "references" && term != "placements";
 }
 
-/// Adds a row for each count of the whole run.
 void compare_counts(Rows& rows, Form form, const Counts<double>& predicted,
                     const std::vector<Counts<double>>& counted) {
   for_each_term(predicted, [&](std::string_view term, double value) {
@@ -90,7 +87,7 @@ void compare_counts(Rows& rows, Form form, const Counts<double>& predicted,
   });
 }
 
-/// The paper's counts, if it has a formula for them.
+/// Nothing if the paper has no formula for the technique.
 std::optional<Counts<double>> published_counts(const Workload& workload, const Candidate& candidate) {
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters)) {
     const std::int64_t k =
@@ -142,7 +139,7 @@ std::vector<Deviation> compare(const SweepPoint& point, const Workload& workload
   return std::move(rows).deviations();
 }
 
-/// Runs all candidates on one set. Returns false if a stop was requested.
+/// Returns false if a stop was requested.
 bool observe_set(const SweepPoint& point, const std::vector<Candidate>& candidates, std::uint64_t seed, int set,
                  const std::stop_token& stop, Observations& all) {
   const std::vector<sim::Disc> discs = point.discs(seed, set, stop);

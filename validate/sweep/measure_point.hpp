@@ -8,10 +8,9 @@
 
 namespace detp::validate {
 
-/// Runs every candidate of a point on all its sets, and compares counts with the formulas: one row for each count, and
-/// one for m_i and L_i of each sphere with at least 30 rebuilds.
-///
-/// A function of the seed and the point. Returns nothing if a stop was requested.
+/// Runs every candidate of a point on all sets of the point. Returns one comparison of formula and count for each term
+/// of Counts, and for m_i and for L_i of each sphere with at least 30 rebuilds. The result depends only on the point
+/// and the seed. Returns nothing if a stop was requested.
 [[nodiscard]] std::vector<Deviation> measure_point(const SweepPoint& point, std::uint64_t seed,
                                                    const std::stop_token& stop);
 

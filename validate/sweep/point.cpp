@@ -18,7 +18,8 @@ constexpr double side = 2;
 constexpr std::array disc_shares{1e-4, 1e-3, 1e-2, 0.05, 0.2};
 constexpr std::array ratios{0.3, 0.5, 0.65, 0.8, 0.9};
 
-/// Numbers of sets and lines for a number of samples. With few samples, sets differ much, so there are more of them.
+/// The numbers of sets and lines for a number of samples. There are more sets if they have few samples, because such
+/// sets differ more from each other.
 struct Amount {
   double samples;
   int sets;
@@ -28,7 +29,8 @@ struct Amount {
 constexpr std::array amounts{Amount{1e7, 2, 1500}, Amount{1e6, 4, 2000}, Amount{1e5, 16, 500}, Amount{1e4, 64, 300},
                              Amount{1e3, 256, 250}};
 
-/// Candidates with more tests on one set are left out: they take too long, and would be far too slow to be chosen.
+/// Candidates with more predicted work on one set (tests, nodes and steps) are left out. They take too long to count,
+/// and are far too slow to be chosen.
 constexpr double most_tests = 1e9;
 
 std::vector<Candidate> caches(const SweepPoint& point) {
@@ -55,7 +57,7 @@ std::vector<Candidate> indices(const SweepPoint& point) {
   return candidates;
 }
 
-/// Hierarchies whose cells go down to as many levels as leave several samples in a cell.
+/// Hierarchies. Cell spheres have as many levels as leave several samples in each of the smallest cells.
 std::vector<Candidate> hierarchies(const SweepPoint& point) {
   const int levels = std::clamp(static_cast<int>(std::log2(point.samples) / point.dimension) - 1, 1, 6);
   return {{Technique::cell_spheres, CellSpheresParameters{levels}},
@@ -64,8 +66,8 @@ std::vector<Candidate> hierarchies(const SweepPoint& point) {
           {Technique::sphere_tree, SphereTreeParameters{8, 16}}};
 }
 
-/// Every leaf size, each with one of the fan-outs. The pairs change from point to point, so that the points together
-/// cover all of them.
+/// A box tree for each leaf size, with one of the fan-outs. The fan-out of a leaf size changes from point to point, so
+/// that the points together cover all pairs of fan-out and leaf size.
 std::vector<Candidate> box_trees(const SweepPoint& point) {
   constexpr std::array fan_outs{2, 4, 8, 16};
   constexpr std::array leaves{1, 4, 16, 64, 256};

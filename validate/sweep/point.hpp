@@ -12,7 +12,7 @@
 /// The workloads on which the formulas are compared with counts: uniform samples in a cube of side 2 or on its faces.
 namespace detp::validate {
 
-/// One workload of the sweep, and how many sets and lines are simulated.
+/// One workload of the sweep, and the numbers of sets and lines to simulate.
 struct SweepPoint {
   int dimension = 3;
   double samples = 0;     ///< n_P
@@ -24,15 +24,16 @@ struct SweepPoint {
   [[nodiscard]] Workload workload() const;
   [[nodiscard]] std::vector<sim::Disc> discs(std::uint64_t seed, int set, const std::stop_token& stop = {}) const;
 
-  /// Its name, from its place in the sweep: "D=3 n=1000 d/r0=0.01".
+  /// The name of the point, unique in the sweep: "D=3 n=1000 d/r0=0.01".
   [[nodiscard]] std::string name() const;
 };
 
-/// n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3. The largest come first, so that two cores finish at about the same time.
+/// All points: n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3. Points with most samples come first, so that all threads
+/// finish at about the same time.
 [[nodiscard]] std::vector<SweepPoint> sweep_points();
 
-/// The candidates run on a point: sphere caches at five Q, and indices and hierarchies at two resolutions, and
-/// box trees of five leaf sizes. Candidates with more than 10⁹ tests on one set are left out.
+/// The candidates to run on a point: sphere caches with five Q, indices and hierarchies with two resolutions, box trees
+/// with five leaf sizes. Candidates with more than 10⁹ predicted tests, nodes and steps on one set are left out.
 [[nodiscard]] std::vector<Candidate> sweep_candidates(const SweepPoint& point);
 
 }  // namespace detp::validate

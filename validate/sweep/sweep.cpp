@@ -17,8 +17,7 @@
 namespace detp::validate {
 namespace {
 
-/// A hash (FNV-1a) of the points, their numbers of sets and lines, and the value of every formula; it changes with any
-/// of them.
+/// A hash (FNV-1a) of the points, of their numbers of sets and lines, and of the value of every formula on them.
 std::uint64_t fingerprint(std::span<const SweepPoint> points) {
   std::uint64_t hash = 14695981039346656037ULL;
   const auto mix = [&hash](double value) { hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211ULL; };
@@ -41,7 +40,7 @@ double predicted_work(const SweepPoint& point) {
   return work * point.sets;
 }
 
-/// The checkpoint that the options name, already read if the sweep is to be resumed.
+/// The checkpoint is read from its file if the sweep is resumed.
 std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options,
                                         std::stop_token stop) {
   if (!options.checkpoint) return std::nullopt;
@@ -50,7 +49,6 @@ std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, cons
   return checkpoint;
 }
 
-/// Collects the measurements of all threads.
 class MeasurementCollector {
  public:
   MeasurementCollector(std::span<const SweepPoint> points, const SweepOptions& options)
@@ -66,7 +64,7 @@ class MeasurementCollector {
     if (options.progress) options.progress({fmt::format("{} workloads", points.size() - resumed_), 0, 1, work});
   }
 
-  /// The next point to measure, largest first; null if none is left or a stop was requested.
+  /// The next point to measure, in their order; null if none is left or a stop was requested.
   [[nodiscard]] const SweepPoint* next_point() {
     const std::scoped_lock lock(mutex_);
     while (next_ < points_.size() && measured_.contains(points_[next_].name())) ++next_;

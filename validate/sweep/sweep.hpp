@@ -16,27 +16,27 @@ namespace detp::validate {
 struct SweepOptions {
   std::uint64_t seed = 1;
   std::optional<std::filesystem::path> checkpoint{};  ///< written, atomically, after each point
-  bool resume = false;  ///< reuse the measurements in the checkpoint, which may be missing
+  bool resume = false;  ///< reuse the measurements in the checkpoint; a missing file has none
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
 };
 
 struct SweepResult {
   std::vector<Deviation> deviations;  ///< by point, in the order of the points
-  std::size_t points = 0;             ///< requested
-  std::size_t measured = 0;           ///< of the requested points; fewer if the sweep was stopped
-  std::size_t resumed = 0;            ///< read from the checkpoint
+  std::size_t points = 0;             ///< number of requested points
+  std::size_t measured = 0;           ///< number of points with results, < points if the sweep was stopped
+  std::size_t resumed = 0;            ///< number of points read from the checkpoint
 };
 
-/// Measures the points in parallel, one thread for each, in their order. The same seed gives the same result, whether
-/// or not the sweep was resumed.
+/// Measures the points in parallel, each on one thread, and starts them in their order. The same seed gives the same
+/// result, whether or not the sweep was resumed.
 ///
 /// Throws sim::FileError if the checkpoint cannot be read or written, is malformed, or was made with another seed or
 /// another version of the sweep. The checkpoint is then left unchanged.
 [[nodiscard]] SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options = {});
 
-/// Throws as run_sweep does for the checkpoint that the options name, without measuring anything; and sim::Stopped
-/// within 0.1 s of a stop request.
+/// Checks the checkpoint in the options without measuring anything. Throws as run_sweep does for the checkpoint, and
+/// sim::Stopped within 0.1 s of a stop request.
 void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& options);
 
 }  // namespace detp::validate

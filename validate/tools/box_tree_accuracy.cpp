@@ -1,10 +1,11 @@
-// Compares the closed form of the box tree (model/box_tree.hpp) with structural counts of random sets of samples.
+// Compares the closed form of the box tree (model/hierarchy/box_tree.hpp) with structural counts of random samples.
 //
 //   cmake --build build --target box_tree_accuracy && build/box_tree_accuracy [seed]
 //
-// Each tree has its own set of samples, uniform in a cube (D = 3) or on its faces (D = 2), and its own disc radius,
-// fan-out, leaf size and number of rays, all drawn at random. Prints deviations from the counts of that set, and from
-// the mean counts over several sets that hold 2¹⁷ samples together: with few samples, sets differ much.
+// Each tree has its own samples, uniform in a cube (D = 3) or on its faces (D = 2), and its own disc radius, fan-out,
+// leaf size and number of rays, all drawn at random. Prints the deviations of the closed form from the counts of one
+// set of samples, and from the mean counts over several sets with 2¹⁷ samples in total, since sets of few samples
+// differ much.
 
 #include <fmt/format.h>
 
@@ -37,7 +38,7 @@ struct Tree {
   BoxTreeParameters parameters;
 };
 
-/// Random tree number `number`, with n_P from 2^least to 2^most.
+/// n_P is from 2^least to 2^most.
 Tree random_tree(std::uint64_t seed, std::uint64_t number, double least, double most) {
   const auto first = sim::uniform4(seed, sim::Stream::tests, number);
   const auto second = sim::uniform4(seed, sim::Stream::tests, number, 1);

@@ -1,17 +1,18 @@
-// Makes model/hierarchy/box_tree_sah_leaves.inc: which small nodes of a box tree the builder makes leaves, with one
-// disc per leaf.
+// Makes model/hierarchy/box_tree_sah_leaves.inc: the share of the small nodes of a box tree that the builder makes
+// leaves, for trees with one disc a leaf.
 //
 //   cmake --build build --target box_tree_sah_leaves_table
 //   build/box_tree_sah_leaves_table > model/hierarchy/box_tree_sah_leaves.inc
 //
-// Draws sets of m discs, uniform in a cell and with isotropic normals, and keeps the sets with discs in both halves.
-// Builds their binary tree by the rule of sim/lists/simd/disc_tree.hpp. Prints, for cells on a face of a cube, then in
-// its volume, then at an edge (samples on two faces), for each shape of cell (the next cut is across x, y or z), then
-// for square and cubic cells that the curve does not cut (their discs are split in the middle of an arbitrary order),
-// and each disc radius d = 2⁻⁹, 2^{-8.5} … 2 times the longest side, for m = 2 … 6:
+// Draws sets of m discs, uniform in a cell and with isotropic normals, and keeps the sets with discs in both halves of
+// the cell. Builds the binary tree of each set by the rule of sim/lists/simd/disc_tree.hpp. The cells are, in order:
+//   cells on a face of a cube, in its volume, and at an edge (samples on two faces), each for all shapes of cell (the
+//   next cut is across x, y or z);
+//   square and cubic cells that the curve does not cut (the discs are split in the middle of an arbitrary order).
+// For each cell, each disc radius d = 2⁻⁹, 2^{-8.5} … 2 times the longest side, and each m = 2 … 6, prints
 //   the share of the sets that become a leaf,
-//   the mean area of the boxes of these leaves over that of all sets,
-//   the mean cost over the mean area.
+//   the mean area of the boxes of these leaves divided by that of all sets,
+//   the mean cost of the sets divided by the mean area of their boxes.
 // Takes some minutes.
 
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ constexpr int sets = 40'000;
 
 struct SmallDisc {
   Triple centre;
-  Triple reach;  ///< half the sides of its box
+  Triple reach;  ///< half the sides of the disc's box
 };
 
 struct Box {
@@ -60,8 +61,8 @@ struct Box {
 struct Cell {
   Triple low;
   Triple side;
-  std::size_t axis;  ///< the next cut is across it
-  std::size_t axes;  ///< that are cut in turn; 0: none
+  std::size_t axis;  ///< the axis across which the next cut is
+  std::size_t axes;  ///< number of axes that are cut in turn; 0: the cell is not cut
 
   [[nodiscard]] Cell half(bool upper) const {
     Cell cell = *this;
@@ -79,7 +80,7 @@ struct Built {
   bool leaf;
 };
 
-/// The number of discs in the cell's lower half, which are moved to the front.
+/// Moves the discs in the cell's lower half to the front, and returns their number.
 std::size_t divide(const Cell& cell, std::span<SmallDisc> discs) {
   if (cell.axes == 0) return discs.size() / 2;
   const double middle = cell.low[cell.axis] + cell.side[cell.axis] / 2;
@@ -127,7 +128,7 @@ SmallDisc random_disc(const Cell& cell, bool edge, double radius, std::uint64_t 
     disc.centre[axis] = cell.side[axis] * place[axis];
     disc.reach[axis] = radius * std::sqrt(1 - normal[axis] * normal[axis]);
   }
-  if (edge) {  // on the lower face across x or z, by their areas
+  if (edge) {  // on the lower face across x or z, with probabilities proportional to the areas of both faces
     const double of_x = cell.side[1] * cell.side[2];
     const double of_z = cell.side[0] * cell.side[1];
     disc.centre[turn[2] * (of_x + of_z) < of_x ? 0 : 2] = 0;
@@ -157,7 +158,6 @@ void print_nodes(const Cell& cell, bool edge, double radius, std::size_t discs, 
   fmt::print("{:.4f},{:.4f},{:.4f},", leaves / sets, leaves > 0 ? leaf_area / leaves / (all / sets) : 1, cost / all);
 }
 
-/// Prints the nodes of one shape of cell.
 void print_shape(const Cell& cell, bool edge, std::uint64_t& number) {
   for (int octave = -18; octave <= 2; ++octave) {
     for (const std::size_t discs : {2U, 3U, 4U, 5U, 6U})
@@ -166,7 +166,6 @@ void print_shape(const Cell& cell, bool edge, std::uint64_t& number) {
   }
 }
 
-/// Prints the shapes of cells that are cut across so many axes in turn.
 void print_shapes(std::size_t axes, bool edge, std::uint64_t& number) {
   Cell cell{{}, {1, 1, axes == 2 ? 0.0 : 1.0}, 0, axes};
   for (; cell.axis < axes; ++cell.axis) {

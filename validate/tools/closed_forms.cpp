@@ -1,4 +1,4 @@
-/// Times the closed forms: nanoseconds for one evaluation.
+/// Measures the time of one evaluation of each closed form.
 
 #include <benchmark/benchmark.h>
 

@@ -7,11 +7,11 @@
 #include "listed_rays_table.hpp"
 #include "sample_walk.hpp"
 
-/// Counted reference values for the tests of the model: rebuilds and listed rays of some spheres of some caches, with
-/// other seeds than those of the tables.
+/// Counted reference values for the tests of the model: rebuilds and listed rays of some spheres of some caches. The
+/// seeds differ from those of the tables.
 namespace detp::tables {
 
-/// {D, n_P, d/r₀, Q, i, m_i, share of the rays through S_i that its list has}
+/// Prints rows {D, n_P, d/r₀, Q, i, m_i, share of the rays through S_i that are in the list of S_i}.
 inline void print_counted_spheres() {
   constexpr std::uint64_t seed = 31'000'000;
   for (const int dimension : {2, 3})

@@ -21,7 +21,7 @@ double flops() {
   return measured;
 }
 
-/// Bandwidth for that working set; measured once, then remembered.
+/// Bandwidth for a working set of `bytes` bytes. Each bandwidth is measured only once.
 double bandwidth(double (*measure)(std::size_t), std::size_t bytes) {
   static std::map<std::pair<double (*)(std::size_t), std::size_t>, double> known;
   const auto [place, is_new] = known.try_emplace({measure, bytes});
@@ -54,7 +54,7 @@ std::vector<Row>& rows() {
   return all;
 }
 
-/// Keeps the best repeat of each row, and prints it when the row is complete.
+/// Keeps the shortest time of each row over its repeats, and prints the row after its last repeat.
 class BestOfRepeats final : public benchmark::BenchmarkReporter {
  public:
   bool ReportContext(const Context&) override {

@@ -1,10 +1,11 @@
-/// Compares the times of the float kernels of sim/stream with the machine's limits, for lists of lines and of segments
-/// that just fit each cache level.
+/// Compares the times of the float kernels of sim/lists/simd with the machine's limits, for lists of lines and of
+/// segments that just fit each cache level.
 ///
-/// Each row holds the best of the repeats (CPU time): nanoseconds per test; bytes and operations per second; the time
-/// that the machine's limits allow, and its share of the measured time. Limits are measured at the start
-/// (machine_peak): operations at peak_flops; bytes at the load_bandwidth of that working set; for culls also the
-/// packing of those vectors that keep a lane. The limit is the largest of the three, not their sum.
+/// Each row has, for the repeat with the shortest CPU time: nanoseconds per test; bytes and operations per second; the
+/// limit, which is the least time that the machine needs; and the limit's share of the measured time. The limit is the
+/// largest of four times: operations at peak_flops, loads at load_bandwidth and stores at store_bandwidth of the
+/// working set, and for culls the packing of those vectors that keep a lane. The rates are measured at the start
+/// (machine_peak).
 
 #include <benchmark/benchmark.h>
 
@@ -36,9 +37,9 @@ struct Level {
 };
 constexpr Level levels[] = {{"L1", 512}, {"L2", 12'288}, {"L3", 262'144}, {"memory", 4'194'304}};
 
-// Floating-point operations of one test in kernels-inl.hpp. A multiply-add counts as two; a comparison, minimum or
-// maximum as one; operations that only change signs as none. Operations of load_rays are on doubles, which count as
-// two.
+// Floating-point operations of one test in kernels-inl.hpp. A multiply-add counts as two operations, a comparison,
+// minimum or maximum as one. Changes of sign do not count. load_rays works on doubles, whose operations count as two
+// each.
 constexpr double box_flops[] = {12, 14};
 constexpr double sphere_flops[] = {20, 22};
 constexpr double disc_flops[] = {33, 42};
@@ -47,7 +48,7 @@ constexpr double load_flops = 2 * 30;
 double tested_bytes(bool segments) { return segments ? 6 * sizeof(float) : 4 * sizeof(float); }
 int arrays(bool segments) { return segments ? 7 : 5; }
 
-/// Discs of 1 % in the unit cube, and lines around them or segments of these lines: the content of the lists.
+/// Discs of radius 0.01 in the unit cube, lists of lines through the sphere around them, or of segments of such lines.
 class Scene {
  public:
   explicit Scene(bool segments)
@@ -61,8 +62,8 @@ class Scene {
     load_rays(rays_, frame_, lists_);
   }
 
-  /// A list of `size` rays of class 0 in the order in which they were loaded; starts again from the first if there are
-  /// too few.
+  /// A list of `size` rays of class 0, in the order in which they were loaded. If there are fewer than `size` rays,
+  /// they are repeated.
   stream::RayList list(std::size_t size, bool segments) {
     stream::RayList list = memory_.allocate(size, segments);
     list.size = size;
@@ -118,8 +119,8 @@ class Scene {
   stream::RayLists lists_;
 };
 
-/// Number of boxes (spheres) of one size at random places. They are used in turn, so that branch prediction cannot
-/// learn the outcome.
+/// Number of boxes or spheres of one size at random places. Calls use them in turn, so that branch prediction cannot
+/// learn the results.
 constexpr std::size_t shapes = 1024;
 
 struct Shapes {
@@ -130,7 +131,7 @@ struct Shapes {
 using Cull =
     std::function<void(const std::array<float, 3>& centre, float size, const stream::RayList&, stream::RayList&)>;
 
-/// The mean share of rays that are kept.
+/// Mean over 64 shapes.
 double kept_share(const Cull& cull, const Shapes& tried, const stream::RayList& list, stream::RayList& inside) {
   double kept = 0;
   for (std::size_t i = 0; i < 64; ++i) {
@@ -140,7 +141,6 @@ double kept_share(const Cull& cull, const Shapes& tried, const stream::RayList& 
   return kept;
 }
 
-/// Shapes of such a size that this share of the rays is kept.
 Shapes shapes_keeping(double share, const Cull& cull, const stream::RayList& list, stream::RayList& inside) {
   Shapes found;
   std::mt19937 draw(3);
@@ -160,7 +160,7 @@ Shapes shapes_keeping(double share, const Cull& cull, const stream::RayList& lis
   return found;
 }
 
-/// The share of vectors that keep at least one ray. A list's ray numbers rise, so those of one vector are consecutive.
+/// The share of vectors of which the cull keeps at least one ray. Kept rays stay in the order of the list.
 double kept_vectors(const Cull& cull, const Shapes& tried, const stream::RayList& list, stream::RayList& inside) {
   const std::size_t n = vector_length();
   std::size_t kept = 0;
@@ -183,12 +183,11 @@ double best_packing(int count, std::size_t size, double share) {
                   packing_time(Packing::permute, count, size, share));
 }
 
-/// Adds the row of a cull.
 void add_cull(const std::string& name, bool segments, const Level& level, double share, double flops, Scene& scene,
               const Cull& cull) {
   const stream::RayList list = scene.list(level.rays, segments);
   stream::RayList inside = scene.make_list(level.rays);
-  // Shares are measured on a list of medium length; any part of the rays would do.
+  // Shares are measured on the first part of the list, because they are the same for any part.
   stream::RayList sample = list;
   sample.size = std::min<std::size_t>(list.size, 12'288);
   const Shapes tried = shapes_keeping(share, cull, sample, inside);

@@ -10,24 +10,25 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "sample_walk.hpp"
 
-/// The share of the lines through a sphere of the cache that also cross all spheres around it, averaged over its
-/// builds.
+/// The share of the lines through a sphere of the cache that do not cross all spheres around it, averaged over the
+/// builds of the sphere: these rays are missing in the sphere's list.
 namespace detp::tables {
 
 inline constexpr std::array list_octaves{0.074, 0.152, 0.234, 0.322, 0.42, 0.515, 0.62, 0.737, 1.0, 1.32, 1.74, 2.32};
 inline constexpr std::array list_disc_shares{0.0, 0.1, 0.25, 0.45, 0.65, 0.85, 1.0};  ///< d/r_i
 inline constexpr std::array list_outer_disc_shares{0.0, 0.05, 0.2};                   ///< d/r₀
 
-/// Counts lines through the innermost of nested spheres, at some of its builds.
+/// Measures this share for the innermost of nested spheres, at some of its builds.
 class ListedShare {
  public:
-  /// `radii` from the outermost inwards. The outermost sphere stays around the origin if `fixed_outermost`.
+  /// `radii` start with that of the outermost sphere, which stays around the origin if `fixed_outermost` is true.
   ListedShare(std::vector<double> radii, double disc_radius, bool fixed_outermost)
       : radii_(std::move(radii)), fixed_(fixed_outermost ? 1 : 0) {
     for (std::size_t i = fixed_; i < radii_.size(); ++i) balls_.push_back(std::max(0.0, radii_[i] - disc_radius));
   }
 
-  /// Counts over about `builds` builds of the walk, with `lines` lines each.
+  /// Counts at about `builds` random builds of the innermost sphere in a walk along the samples, with `lines` lines
+  /// each.
   void walk(const Points& samples, double builds, int lines) {
     const double share = std::min(1.0, builds / moves(samples, balls_).back());
     NestedBalls nest(balls_);
@@ -51,7 +52,7 @@ class ListedShare {
     for (int n = 0; n < lines; ++n) {
       const sim::Ray& line = pool[next_++ % pool.size()];
       const glm::dvec3 point = nest.centre(balls_.size() - 1) + radii_.back() * line.origin;
-      std::size_t outer = radii_.size() - 1;  // the sphere just inside the next one to test
+      std::size_t outer = radii_.size() - 1;  // the line crosses all tested spheres, from this one on
       while (outer > 0) {
         const glm::dvec3 centre = outer > fixed_ ? nest.centre(outer - 1 - fixed_) : glm::dvec3{0.0};
         if (!crosses(point, line.direction, centre, radii_[outer - 1])) break;
@@ -68,8 +69,8 @@ class ListedShare {
   double crossing_ = 0, laid_ = 0;
 };
 
-/// A sphere of radius r and the spheres around it, each 2^octaves times as large as the next, up to `largest`;
-/// outermost first.
+/// The radii of a sphere and of the spheres around it, outermost first. Each radius up to `largest` is 2^octaves times
+/// the next.
 inline std::vector<double> spheres_around(double radius, double octaves, double largest) {
   std::vector<double> radii;
   for (double r = radius; r <= largest; r *= std::exp2(octaves)) radii.push_back(r);
@@ -77,8 +78,8 @@ inline std::vector<double> spheres_around(double radius, double octaves, double 
   return radii;
 }
 
-/// Prints the table for spheres deep in the scene: the mean over three sets whose sizes differ by a third of a halving,
-/// without S₀.
+/// Prints the table for spheres deep in the scene, without S₀. Each value is the mean over three sets of samples, of
+/// which each has 2^{-D/3} times as many samples as the one before.
 inline void print_deep_lists() {
   constexpr std::uint64_t seed = 900;
   for (const int dimension : {2, 3})

@@ -22,8 +22,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, 16>;
 
-/// Fourteen independent chains of multiply-adds: more than two units with a latency of four cycles can process at once.
-/// (They start with different values, because the compiler would merge equal chains.)
+/// Fourteen independent chains of multiply-adds, more than two units with a latency of four cycles can process at once.
+/// The chains start with different values, because the compiler would merge equal chains.
 float MultiplyAndAdd(std::size_t times) {
   const Lanes lanes;
   const auto x = hn::Set(lanes, 0.75F);
@@ -65,7 +65,8 @@ void StoreAll(float* to, std::size_t size) {
   }
 }
 
-/// from, to: `arrays` arrays, each of which starts `stride` floats after the one before.
+/// Packs `arrays` arrays of `size` floats. In `from` and `to`, each array starts `stride` floats after the array before
+/// it.
 template <Packing packing, int arrays>
 std::size_t pack(const float* from, float* to, std::size_t size, std::size_t stride, const std::uint8_t* bits) {
   const Lanes lanes;
@@ -114,16 +115,15 @@ HWY_EXPORT(Instructions);
 
 namespace {
 
-/// About the number of floats that a loop processes in one measurement, which takes a few milliseconds.
+/// About the number of floats that a loop processes in one measurement, so that it takes a few milliseconds.
 constexpr std::size_t floats_moved = std::size_t{1} << 24;
 
-/// Multiply-adds in one iteration of MultiplyAndAdd.
+/// Vector multiply-adds in one iteration of MultiplyAndAdd.
 constexpr std::size_t chains = 14;
 
 /// Space behind an array and between arrays, so that they do not start at the same offset in a page.
 constexpr std::size_t gap = 80;
 
-/// Processor seconds of one call: the minimum over several measurements of `calls` calls each.
 template <class Work>
 double least_time(std::size_t calls, const Work& work) {
   double least = std::numeric_limits<double>::infinity();

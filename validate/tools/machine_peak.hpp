@@ -2,17 +2,18 @@
 
 #include <cstddef>
 
-/// Peak rates of this machine, measured by loops that do nothing else. CPU time, the minimum of several repeats.
+/// Peak rates of this machine, measured by loops that do nothing else, in CPU time. Each is the best of several
+/// repeats.
 namespace detp::benchmarks {
 
 /// Floating-point operations per second: independent fused multiply-adds of floats, which count as two operations each.
 [[nodiscard]] double peak_flops();
 
-/// Bytes per second when an array of `bytes` bytes is loaded (or stored) repeatedly.
+/// Bytes per second if an array of `bytes` bytes is loaded, or stored, repeatedly.
 [[nodiscard]] double load_bandwidth(std::size_t bytes);
 [[nodiscard]] double store_bandwidth(std::size_t bytes);
 
-/// How the kept lanes are moved together before they are stored.
+/// The way in which the kept lanes of a vector are moved together before they are stored.
 enum class Packing {
   compress,  ///< one Compress for each array
   permute    ///< one Compress of the lane numbers, then a permutation of each array

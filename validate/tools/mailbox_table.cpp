@@ -1,4 +1,4 @@
-// Makes model/disc_index/index_mailbox_table.inc: how many lines meet the cells that a disc overlaps.
+// Makes model/disc_index/index_mailbox_table.inc: the share of lines that meet the cells that a disc overlaps.
 //
 //   cmake --build build --target mailbox_table && build/mailbox_table > model/disc_index/index_mailbox_table.inc
 //

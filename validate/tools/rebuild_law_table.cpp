@@ -1,25 +1,24 @@
-// Makes model/sphere_cache/rebuild_law_tables.inc and model/sphere_cache/listed_rays_tables.inc: how often the spheres
-// of a cache are rebuilt along the Morton curve (the paper: Lebesgue curve), and which share of their rays they list.
+// Makes model/sphere_cache/rebuild_law_tables.inc and model/sphere_cache/listed_rays_tables.inc: the number of rebuilds
+// of the spheres of a cache along the Morton curve (in the paper: Lebesgue curve), and the share of the rays through a
+// sphere that are missing in its list.
 //
 //   cmake --build build --target rebuild_law_table
 //   build/rebuild_law_table rebuilds > model/sphere_cache/rebuild_law_tables.inc      (fifteen minutes)
 //   build/rebuild_law_table coarse       (five minutes: only the second of the tables of rebuilds)
 //   build/rebuild_law_table lists > model/sphere_cache/listed_rays_tables.inc         (ten minutes)
-//   build/rebuild_law_table counted      (half a minute: the rows of tests/model/sphere_cache.test.cpp)
+//   build/rebuild_law_table counted      (half a minute: rows of tests/model/sphere_cache/sphere_cache.test.cpp)
 //
 // Walks as the sphere cache does, with samples uniform in the cube [-1, 1]³ (D = 3) or on its faces (D = 2), sorted
-// along the curve. A ball is centred at a sample, and kept while it and the balls around it contain the next samples.
-// The tables of rebuilds are for D = 2 and then D = 3; h = log₂(2/ρ) is the number of halvings from the cube's side to
-// the radius ρ:
+// along the curve. A ball is centred at a sample, and stays there while this ball and all balls around it contain the
+// next samples. Each table of rebuilds has values for D = 2, then for D = 3; m is the number of rebuilds, n the number
+// of samples, ρ the ball's radius, and h = log₂(2/ρ) the number of halvings from the cube's side to ρ:
 //   single   ln(m/n) of small balls alone, by 32 phases φ of h, in rows of λ 2^{Dφ} = 2⁻⁹ … 2¹³, λ = n ρ^D/extent
 //   coarse   ln m of large balls alone, for n = 10³, 10^3¼ … 10⁷ by h from -1 to 4.5 in steps of 1/64; printed as
-//            500 ln m in two digits of base 90. There are four columns a decade, because where a ball just contains a
-//            cell of the curve, its count doubles within little more than a decade of n
-//   chain    for n = 10³ … 10⁷ by h from 0.5 in steps of 1/32, then by u (log₂ of the ratio to the ball around): the
-//            rebuilds of a ball inside a nest of the ratio 2^{-u}. If s are the ball's rebuilds when alone, it is
-//            rebuilt
-//            with each of the m_{i-1} rebuilds of the ball around it, and for a share exp(-b m_{i-1}/s) (1 - m_{i-1}/n)
-//            of s besides; b is printed as the digit 90 b/(1 + b).
+//            500 ln m in two digits of base 90. There are four values of n a decade, because m doubles within little
+//            more than a decade of n if a ball just contains a cell of the curve
+//   chain    rebuilds m_i of a ball in a nest of the ratio 2^{-u}, for n = 10³ … 10⁷ by h from 0.5 in steps of 1/32,
+//            then by u: m_i = m_{i-1} + s exp(-b m_{i-1}/s) (1 - m_{i-1}/n), where m_{i-1} are the rebuilds of the next
+//            larger ball and s those of the ball alone; b is printed as the digit 90 b/(1 + b).
 //
 // Digits of base 90 are the characters from '#' on, without the question mark and the backslash.
 
@@ -45,7 +44,6 @@ constexpr std::array sample_counts{1'000UL, 10'000UL, 100'000UL, 1'000'000UL, 10
 constexpr std::array chain_steps{2,  3,  4,  5,  6,  7,  8,  10, 12, 14, 16, 18,
                                  20, 22, 24, 26, 28, 30, 32, 36, 40, 48, 56, 72};  // u, in units of 1/32
 
-/// The digit 0 … 89 as a character.
 char digit(long value) {
   const auto plain = static_cast<char>('#' + value);
   const auto place = static_cast<char>(plain < '?' ? plain : plain + 1);
@@ -54,7 +52,7 @@ char digit(long value) {
 
 double balls(const Points& walk, double radius) { return moves(walk, {radius}).front(); }
 
-/// Sets of samples, `in_all` samples in total: the fewer in each set, the more sets.
+/// Sets of `samples` samples each, with about `in_all` samples in total; 1 to 400 sets.
 std::vector<Points> sets_of(int dimension, std::size_t samples, std::size_t in_all) {
   std::vector<Points> sets;
   for (std::size_t set = 0; set < std::clamp<std::size_t>(in_all / samples, 1, 400); ++set)
@@ -62,8 +60,8 @@ std::vector<Points> sets_of(int dimension, std::size_t samples, std::size_t in_a
   return sets;
 }
 
-/// ln(m/n) of a ball alone. The ball is at most 1/8 of the cube's side, so that the cube's faces matter little, and
-/// there are at least 2²⁰ samples.
+/// ln(m/n) of a ball alone. The ball's radius is at most 1/8 of the cube's side, so that the cube's faces matter
+/// little. There are at least 2²⁰ samples.
 class SingleBall {
  public:
   double log_share(int dimension, int row, int phase) {
@@ -108,7 +106,8 @@ void print_coarse() {
     }
 }
 
-/// The rebuilds that remain of those of each ball alone, by the ball's size and the ratio of its nest.
+/// The table `chain`: for each size of ball and each ratio of the nest, the rebuilds that the ball has besides those of
+/// the next larger ball.
 class Chain {
  public:
   Chain(int dimension, std::size_t samples)
@@ -129,7 +128,7 @@ class Chain {
     for (int step = 0; step < steps_; ++step) {
       fmt::print("\"");
       for (std::size_t u = 0; u < chain_steps.size(); ++u) {
-        int known = step;  // the largest balls have none around them: they use the values of the next smaller ones
+        int known = step;  // the largest balls are in no larger ball, so they get the values of the next smaller ones
         while (outer_[static_cast<std::size_t>(known)][u] == 0 && known + 1 < steps_) ++known;
         fmt::print("{}", character(static_cast<std::size_t>(known), u));
       }
@@ -140,10 +139,11 @@ class Chain {
 
  private:
   static constexpr int first_step = phases / 2;
-  /// Halvings of the largest ball that a cache can have inside S₀; S₀ has the radius √3/2 of the side.
+  /// log₂(side/r₀), since S₀ has the radius r₀ = side √3/2: the halvings h of any ball inside S₀ are at least this
+  /// many.
   static constexpr double least_halvings = 0.2075;
 
-  /// Number of steps: up to 4.5 halvings; for the largest number of samples, on to balls with less than one sample.
+  /// Number of steps. They go up to h = 4.5, or for the largest number of samples, to balls with less than one sample.
   static int steps_of(int dimension, std::size_t samples) {
     const int half_halvings = samples < sample_counts.back() ? 9 : dimension == 3 ? 20 : 26;
     return half_halvings * phases / 2 + 1 - first_step;
@@ -152,7 +152,7 @@ class Chain {
   static double halvings(int step) { return (first_step + step) / double(phases); }
   static double radius(int step) { return side * std::exp2(-halvings(step)); }
 
-  /// Adds a nest. Its largest ball is at least one step of its ratio (to half a step) smaller than S₀.
+  /// Adds the counts of a nest with the ratio 2^{-u}. Its largest ball is at least half a step of u smaller than S₀.
   void add_nest(const Points& walk, std::size_t u, int offset) {
     const int apart = chain_steps[u];
     int first = offset - first_step;

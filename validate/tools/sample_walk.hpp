@@ -5,13 +5,13 @@
 #include "detp/sim/geometry/lebesgue.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 
-/// Shared by the programs that make the tables of the sphere cache: samples along the curve, and balls moved along
-/// them.
+/// Samples in the order of the Morton curve, and balls that move along these samples. Shared by the programs that make
+/// the tables of the sphere cache.
 namespace detp::tables {
 
 using Points = std::vector<glm::dvec3>;
 
-/// Side of the samples' cube, and the volume or area that the samples fill.
+/// Side of the samples' cube. extent_of() is the volume (D = 3) or area (D = 2) that the samples fill.
 inline constexpr double side = 2;
 inline double extent_of(int dimension) { return dimension == 3 ? 8 : 24; }
 
@@ -28,15 +28,16 @@ inline Points sorted_samples(int dimension, std::size_t count, std::uint64_t see
   return walk;
 }
 
-/// Balls nested around the samples, the outermost first. Each keeps its place while it and all balls around it contain
-/// the next samples.
+/// Nested balls that follow the samples, the outermost first. A ball keeps its place while this ball and all balls
+/// around it contain the next samples.
 class NestedBalls {
  public:
   explicit NestedBalls(const std::vector<double>& radii) : centres_(radii.size()) {
     for (const double radius : radii) squares_.push_back(radius * radius);
   }
 
-  /// Index of the outermost ball that moves to this sample; the number of balls if none does.
+  /// Moves to this sample all balls that must move. Returns the index of the outermost of them, or the number of balls
+  /// if none moves.
   std::size_t visit(const glm::dvec3& sample) {
     std::size_t i = 0;
     if (visited_)

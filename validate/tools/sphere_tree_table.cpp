@@ -4,14 +4,14 @@
 //   cmake --build build --target sphere_tree_table && build/sphere_tree_table > model/hierarchy/sphere_tree_tables.inc
 //
 // Builds sphere trees, without rays, over discs of radius 0 at samples uniform in a cube of side 1 (D = 3) or on its
-// faces (D = 2). Takes some minutes. Prints, for D = 2 and then D = 3, first the squared mean and then the mean square
-// of the spheres' radii ρ, both times N^{2/D}:
+// faces (D = 2). Takes some minutes. Each table has values for D = 2, then for D = 3: first the squared mean, then the
+// mean square of the spheres' radii ρ, both multiplied by N^{2/D}, where N is the number of spheres:
 //   single   spheres around N runs of c = 2, 4, 8, 16, 32, 64, 256, 4096, 65536 samples each, by log₂N = 0, ¼, … 14
-//   nested   spheres that enclose spheres, relative to those of a tree around the same runs alone: fan-out 2, 4, 8, 16,
-//            each 1, 2, 4 and 8 levels above the leaves, by log₂N = 0, ½, … 12
+//   nested   spheres that enclose spheres, divided by the values of spheres around the samples of the same runs:
+//            fan-out 2, 4, 8, 16, each 1, 2, 4 and 8 levels above the leaves, by log₂N = 0, ½, … 12
 //
-// If a tree would be too large, the row or column before is used instead; for `single`, times the last ratio of the
-// rows.
+// If a tree would be too large, the value of the row or column before is used, in `single` multiplied by the last ratio
+// of the rows.
 
 #include <fmt/format.h>
 
@@ -31,7 +31,7 @@ using namespace detp::sim;
 
 constexpr std::uint64_t seed = 20261121;
 constexpr double most_samples = 0x1p20;
-constexpr double no_radius = 1e-12;  // of the discs; almost 0
+constexpr double no_radius = 1e-12;  // disc radius, almost 0
 
 struct Samples {
   std::vector<Disc> discs;
@@ -52,8 +52,8 @@ struct Moments {
   double square = 0;
 };
 
-/// Moments of one level of a tree, averaged over several sets of samples. Each node is weighted by its number of
-/// samples (the last node may hold fewer).
+/// Moments of the radii of one level of a tree, averaged over several sets of samples. Each sphere is weighted by its
+/// number of samples, because the last sphere may have fewer.
 Moments radii(int dimension, double runs, std::size_t in_a_run, const SphereTreeParameters& tree, std::size_t level) {
   const auto count = static_cast<std::size_t>(std::round(runs * static_cast<double>(in_a_run)));
   const auto sets = static_cast<std::size_t>(std::clamp(0x1p19 / static_cast<double>(count), 2.0, 64.0));
@@ -106,8 +106,8 @@ void print_single(int dimension) {
   print(rows, "{:.4f},");
 }
 
-/// Mean size of a level's spheres, divided by that of spheres around runs of the same samples alone. The runs have at
-/// least 64 samples.
+/// Moments of a level's spheres, divided by those of spheres made directly around the samples of the same runs. Runs
+/// have at least 64 samples.
 std::vector<Moments> nested_row(int dimension, int fan_out, std::size_t level) {
   const auto spread = static_cast<std::size_t>(std::pow(fan_out, level));
   const std::size_t leaf = std::max<std::size_t>(2, 64 / spread);

@@ -1,6 +1,6 @@
 // Measures the default unit costs of validate/choice/unit_costs.cpp. Times every technique on uniform samples and
-// isotropic lines, over radii, counts and parameters, on one thread, in processor time. Prints the unit costs fitted to
-// the runs, and how well they explain the times. With `list` as argument it also lists the runs.
+// isotropic lines, for several radii, numbers and parameters, on one thread, in processor time. Prints the unit costs
+// fitted to the runs, and the ratios of computed to measured times. With an argument (`list`), also lists the runs.
 //
 //   cmake --build build --target unit_costs_table && build/unit_costs_table
 
@@ -42,7 +42,7 @@ std::vector<Candidate> candidates(double radius, double outer, double pairs) {
 constexpr double longest = 0.1;  ///< seconds: runs that take longer are left out
 
 /// The phases of a run in processor time, which other processes do not affect. The processor time of the whole run is
-/// divided in proportion to the phases' wall-clock times.
+/// divided among the phases in proportion to their wall-clock times.
 sim::Phases run_alone(const sim::Problem& problem, const Candidate& candidate) {
   const sim::ProcessorStopwatch watch;
   sim::Phases phases = sim::run(problem, candidate, {.count = false}).seconds;

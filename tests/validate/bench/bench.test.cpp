@@ -15,7 +15,7 @@ CompetitorResult competitor_result(const Competitor& competitor, std::vector<dou
   return {.competitor = competitor, .seconds = std::move(seconds), .hits = 100, .wrong_hits = wrong};
 }
 
-/// A race in which ours took 1 s and Embree's best mode `embree` seconds.
+/// A race in which our fastest technique took 1 s, and Embree's fastest mode `embree` seconds.
 BenchEntry entry(double embree, int threads = 1) {
   BenchEntry made;
   made.threads = threads;
@@ -102,7 +102,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("the sets: their workloads, and those that are missing without the meshes") {
     const BenchSet quick = bench_set(BenchEffort::quick, {}, "");
-    CHECK(quick.workloads.size() == 28);  // 7 scenes with fields, 2 radii, 2 numbers of rays
+    CHECK(quick.workloads.size() == 28);  // 7 pairs of scene and field, 2 radii, 2 numbers of rays
     CHECK(quick.missing.size() == 1);
     const BenchSet thorough = bench_set(BenchEffort::thorough, {}, "/nowhere");
     CHECK(thorough.missing.size() == 8);

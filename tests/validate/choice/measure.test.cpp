@@ -62,7 +62,7 @@ TEST_SUITE("known answer") {
     const std::vector<sim::Ray> rays{{}};
     const Workload w = validate::measure(sim::make_problem(rays, discs), {.area = 24, .edge_length = 0.03});
     CHECK(sample_distance(w) == 0.03);
-    const double weight = w.dimension - 2;  // interpolates between the area and the box's volume by the dimension
+    const double weight = w.dimension - 2;  // of the box's volume; the area has 1 - weight
     CHECK(sample_extent(w) == doctest::Approx(std::pow(8, weight) * std::pow(24, 1 - weight)).epsilon(1e-3));
   }
 }

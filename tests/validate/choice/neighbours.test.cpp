@@ -20,7 +20,7 @@ TEST_SUITE("known answer") {
     const auto left_out = techniques_left_out({{Technique::grid, GridParameters{3}}, {}});
     CHECK(contains(left_out, {Technique::bsp, BspParameters{}}));
     CHECK(contains(left_out, {Technique::bvh, BvhParameters{}}));
-    // except the two in the ranking and the two that are not exact
+    // all techniques except the two in the ranking and the two that are not exact
     CHECK(left_out.size() == all_techniques.size() - 4);
     for (const Candidate& candidate : left_out) CHECK(record_of(candidate.technique).exact);
   }

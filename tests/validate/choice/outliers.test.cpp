@@ -27,7 +27,6 @@ std::vector<std::string> warnings_of(const std::vector<sim::Disc>& discs) {
   return outlier_warnings(sim::make_problem(rays, discs));
 }
 
-/// Checks that there is one warning, and that it contains these texts.
 void check_one(const std::vector<std::string>& warnings, const std::vector<std::string>& named) {
   REQUIRE(warnings.size() == 1);
   CAPTURE(warnings[0]);

@@ -11,7 +11,6 @@ using namespace detp;
 
 namespace {
 
-/// Runs whose times equal exactly their counts times the unit costs.
 std::vector<validate::TimedRun> exact_runs(const UnitCosts& costs) {
   std::vector<validate::TimedRun> runs;
   for (std::uint64_t i = 0; i < 40; ++i) {

@@ -32,7 +32,6 @@ Experiment lines_in_a_cube() {
   return asking(discs, sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, 4000));
 }
 
-/// Segments in a corner of the scene that has no discs.
 Experiment rays_where_nothing_is() {
   auto discs = discs_in_cube();
   std::erase_if(discs, [](const sim::Disc& disc) { return disc.centre.x > 0.5; });
@@ -42,7 +41,7 @@ Experiment rays_where_nothing_is() {
   return asking(std::move(discs), std::move(rays));
 }
 
-/// The finding of that count, which must exist.
+/// Fails the test if there is none.
 const Finding& of(const std::vector<Finding>& findings, const model::Ranked& ranked, const std::string& term) {
   const std::string id = "choice." + std::string(name(ranked.candidate.technique)) + "." + term;
   CAPTURE(id);

@@ -80,6 +80,6 @@ TEST_SUITE("statistical") {
   }
 
   TEST_CASE("… also with the samples on the faces of a cube") {
-    check_claims(2, 40'000);  // with half as many samples, sets differ too much to decide all claims
+    check_claims(2, 40'000);  // sets of 20 000 samples differ too much to decide all claims
   }
 }

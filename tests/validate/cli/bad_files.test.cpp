@@ -17,7 +17,7 @@ Refusal as_scene(const std::string& path, const std::string& named) {
   return {Arguments{"scene", path} + words("--rays 10"), named};
 }
 
-/// Refusals of a disc file, and of a ray file together with good discs.
+/// Makes command lines that must be refused: with a bad disc file, or with good discs and a bad ray file.
 struct Tables {
   ScratchFolder folder;
   std::string discs = folder.file("good.csv", disc_header + "0,0,0,0,0,1,1\n1,0,0,0,0,1,1\n");

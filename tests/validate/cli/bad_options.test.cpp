@@ -5,7 +5,7 @@
 namespace detp::support {
 namespace {
 
-/// The line, followed by each of the values in turn.
+/// Refusals of the line with each of the values at its end.
 std::vector<Refusal> each(const std::string& line, const std::vector<std::string>& values, const std::string& named) {
   std::vector<Refusal> refusals;
   for (const std::string& value : values) refusals.emplace_back(words(line) + Arguments{value}, named);
@@ -18,7 +18,7 @@ const std::string numbers = "model --samples 1000 --disc-radius 0.01 --scene-sid
 const std::vector<std::string> no_length{"0", "-1", "nan", "inf", "-inf", "x", "1e999"};
 const std::vector<std::string> no_count{"0", "-1", "nan", "inf", "1.5", "1e300", "x", "10k"};
 
-// For further options that are parsed in the same way.
+// Fewer bad values, for other options that are parsed in the same way.
 const std::vector<std::string> no_length_either{"0", "nan", "1e999"};
 const std::vector<std::string> no_count_either{"0", "1.5", "1e300"};
 

@@ -167,7 +167,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("with --analyze the measured winner is the choice, and the prediction's errors are reported") {
-    // Unit costs with which brute force has by far the shortest prediction.
+    // With these unit costs, brute force has by far the shortest predicted time.
     const std::string line =
         "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze "
         "--costs t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";
@@ -188,7 +188,7 @@ TEST_SUITE("end to end") {
   TEST_CASE("an analysis that is stopped says after how many candidates, and ends with code 3") {
     const std::string line =
         "choose @uniform --samples 100000 --rays 100000 --threads 1 --analyze --costs "
-        "t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";  // brute force first: more than a second
+        "t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";  // starts with brute force, which takes more than 1 s
     const Finished finished = stopped_in_time(
         line, [](const Finished& one) { return one.out.find("\nstopped   after 0 of ") != std::string::npos; });
     CHECK(finished.code == 3);

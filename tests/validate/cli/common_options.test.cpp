@@ -4,13 +4,12 @@
 
 #include "support/command.hpp"
 
-/// Properties of every command.
 namespace detp::support {
 namespace {
 
 struct Example {
   std::string line;
-  std::vector<std::string> keys;  ///< keys that the contract promises, besides the envelope
+  std::vector<std::string> keys;  ///< keys that the JSON output must have, besides the envelope
 };
 
 const std::vector<Example>& examples() {
@@ -28,7 +27,7 @@ const std::vector<Example>& examples() {
   return all;
 }
 
-/// The result of `validate`, run only once: its experiments take most of a second.
+/// The result of `validate`. Run only once, because its experiments take most of a second.
 const Finished& claims() {
   static const Finished finished = detp("validate --samples 100 --rays 320 --format json --seed 7 --threads 2");
   return finished;
@@ -38,7 +37,7 @@ Finished json_of(const Example& example) {
   return example.line.starts_with("validate") ? claims() : detp(example.line + " --format json --seed 7 --threads 2");
 }
 
-/// Exit code 0, or 1: `validate` may find a formula refuted.
+/// True if the exit code is 0, or 1, since `validate` may find a formula refuted.
 bool answered(const Finished& finished) { return finished.code == 0 || finished.code == 1; }
 
 }  // namespace

@@ -6,10 +6,9 @@
 namespace detp::support {
 namespace {
 
-/// 10¹⁰ tests on one thread: more than a second.
+/// 10¹⁰ tests on one thread, which take more than 1 s.
 const std::string long_run = "run @uniform --samples 100000 --rays 100000 --technique brute-force --threads 1 ";
 
-/// Checks that a stopped result is marked as partial, so that nobody takes it for complete.
 Json check_stopped(const Finished& finished) {
   CAPTURE(finished.err);
   CAPTURE(finished.out);
@@ -22,7 +21,8 @@ Json check_stopped(const Finished& finished) {
   return json;
 }
 
-/// Runs all lines at once. Sends each the signal `after` seconds after all handle signals.
+/// Runs all lines at the same time. Sends the signal to each process `after` seconds after all processes handle
+/// signals.
 std::vector<Finished> interrupted(const std::vector<std::string>& lines, int signal, double after) {
   std::vector<std::unique_ptr<Process>> processes;
   for (const std::string& line : lines) processes.push_back(std::make_unique<Process>(words(line)));
@@ -34,7 +34,6 @@ std::vector<Finished> interrupted(const std::vector<std::string>& lines, int sig
   return finished;
 }
 
-/// A run that was searching when the signal came.
 Finished interrupted_search(int signal) {
   for (double after = 0.1;; after *= 2) {
     Finished finished = interrupted({long_run + "--format json"}, signal, after).front();
@@ -138,7 +137,7 @@ TEST_SUITE("end to end") {
     Process process(words("model --samples 10 --disc-radius 0.1 --scene-side 1 --output " + pipe));
     process.wait_until_it_listens();
     process.send(SIGINT);
-    // a different signal: of two equal ones, the second might be lost while the first is pending
+    // A different signal, because a second SIGINT might be lost while the first is pending.
     process.send(SIGTERM);
     CHECK(process.finish().code == 130);
   }

@@ -3,8 +3,6 @@
 #include "support/command.hpp"
 #include "support/sanitized.hpp"
 
-// More memory or threads than the machine has, or than the user allows.
-
 using detp::support::check_refused;
 using detp::support::Finished;
 using detp::support::Json;
@@ -13,7 +11,6 @@ using detp::support::sanitized;
 
 namespace {
 
-/// Checks exit code 2: the memory or the threads do not suffice.
 void check_short_of(const Finished& finished, const std::string& named) {
   CAPTURE(finished.err);
   CHECK(finished.signal == 0);

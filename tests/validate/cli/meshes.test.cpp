@@ -2,7 +2,6 @@
 
 #include "run_support.hpp"
 
-/// Scenes from files, including files that are made to break programs.
 namespace detp::support {
 namespace {
 

@@ -59,7 +59,7 @@ TEST_SUITE("known answer") {
       CHECK(json.at("spheres").back().at("radius").get<double>() >= disc);
       double rebuild_time = 0;
       double listed = rays;
-      // rays that cross the enclosing sphere; the tests lie between this number and the listed rays
+      // Rays that cross the next larger sphere. The number of tests lies between the listed rays and this number.
       double around = rays;
       for (const Json& sphere : json.at("spheres")) {
         const int i = sphere.at("i");

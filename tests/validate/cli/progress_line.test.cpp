@@ -41,7 +41,7 @@ TEST_SUITE("end to end") {
   }
 }
 
-TEST_SUITE("statistical") {  // for its length
+TEST_SUITE("statistical") {  // because it takes long
   TEST_CASE("progress on a terminal never goes back, seldom stands still and tells the time left") {
     for (const std::string line :
          {"validate --rays 200000", "run @tree --rays 3000000 --technique sphere-cache --threads 1",

@@ -11,7 +11,7 @@ namespace {
 
 using sim::support::ScratchFolder;
 
-/// The contract's definition of a hit, coded as simply as possible.
+/// The definition of a hit (validate/cli/README.md), coded as simply as possible.
 bool crosses(const sim::Ray& ray, const sim::Disc& disc, bool front_facing) {
   const double slope = glm::dot(ray.direction, disc.normal);
   if (slope == 0 || (front_facing && slope > 0)) return false;
@@ -20,7 +20,6 @@ bool crosses(const sim::Ray& ray, const sim::Disc& disc, bool front_facing) {
   return glm::length(ray.origin + way * ray.direction - disc.centre) <= disc.radius;
 }
 
-/// Discs and rays in files, like a user's own data.
 struct OwnData {
   ScratchFolder folder;
   std::vector<sim::Disc> discs = mixed_discs(300);
@@ -196,7 +195,7 @@ TEST_SUITE("end to end") {
       CHECK(simd.json.at("inputs").at("engine") == "simd");
       CHECK(plain.json.at("seconds").at("search").get<double>() > 0);
     }
-    // The plain lists hold the rays that cross the spheres; those of the float kernels hold a few more.
+    // Lists of the plain engine hold exactly the rays that cross the spheres, lists of the simd engine a few more.
     const std::string cache =
         "run @uniform --samples 2000 --rays 20000 --technique sphere-cache --ratio 0.6 --spheres 6";
     const Json plain = result_of(cache + " --engine plain").at("counts");
@@ -273,9 +272,9 @@ TEST_SUITE("statistical") {
     const double r0 = json.at("inputs").at("sphere_radius");
     const double per_line = 20000 * d * d / (2 * r0 * r0);
     const double expected = 200000 * per_line;
-    // Lines are independent, but the hits of one line are not. A line meets at most as many discs, of mean projected
-    // area pi d^2/2, as there are along the longest chord of the cube of side 2. So the variance of a line's hits is
-    // below its mean times 1 + that number.
+    // Lines are independent, but the hits of one line are not. A disc has the mean projected area pi d^2/2. So the
+    // expected hits of a line are at most on_longest_chord, those along the longest chord of the cube of side 2. The
+    // variance of a line's hits is below its mean times (1 + on_longest_chord).
     const double on_longest_chord = 20000 / 8.0 * 2 * std::sqrt(3.0) * std::numbers::pi * d * d / 2;
     const double standard_error = std::sqrt(expected * (1 + on_longest_chord));
     const double hits = json.at("hits");

@@ -9,7 +9,6 @@
 #include "detp/sim/geometry/directions.hpp"
 #include "support/command.hpp"
 
-/// Rays and discs like a user's own data, and the files that `detp run` writes for them.
 namespace detp::support {
 
 /// Discs of radii 0.02 to 0.2, about a cube of side 2.
@@ -24,7 +23,7 @@ inline std::vector<sim::Disc> mixed_discs(std::uint64_t count) {
   return discs;
 }
 
-/// Alternately lines and segments, with lengths 0 to 2 and powers 0 to 3.
+/// Alternately unbounded lines and segments. Segments have lengths of 0 to 2, all rays powers of 0 to 3.
 inline std::vector<sim::Ray> mixed_rays(std::uint64_t count) {
   std::vector<sim::Ray> rays;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -36,7 +35,6 @@ inline std::vector<sim::Ray> mixed_rays(std::uint64_t count) {
   return rays;
 }
 
-/// The files that one run writes.
 struct Written {
   std::string per_disc;
   std::string pairs;
@@ -57,7 +55,7 @@ inline Written run_and_read(const Arguments& problem, const std::string& techniq
   return written;
 }
 
-/// Every technique that guarantees all hits, with several parameters.
+/// Exact techniques, most with several parameters, as options of `detp run`.
 inline const std::vector<std::string>& exact_techniques() {
   static const std::vector<std::string> all{"",
                                             "--technique sphere-cache",
@@ -86,7 +84,7 @@ inline const std::vector<std::string>& exact_techniques() {
   return all;
 }
 
-/// Each exact technique once, with the parameters that the command finds best.
+/// Exact techniques, each with the parameters that `detp run` chooses.
 inline const std::vector<std::string>& best_techniques() {
   static const std::vector<std::string> all{"",
                                             "--technique sphere-cache",
@@ -114,7 +112,6 @@ inline Written check_all_agree(const Arguments& problem,
   return truth;
 }
 
-/// The rows of a CSV file without its header.
 inline std::vector<std::string> rows_of(const std::string& csv) {
   std::istringstream lines(csv);
   std::vector<std::string> rows;

@@ -12,7 +12,7 @@ namespace {
 using sim::support::content_of;
 using sim::support::ScratchFolder;
 
-/// Runs detp in a shell, with words before it and redirections after it.
+/// Runs detp in a shell. `before` stands before the command, `after` after its arguments.
 struct Shell {
   ScratchFolder folder;
 

@@ -105,7 +105,7 @@ TEST_SUITE("end to end") {
   TEST_CASE("choose --analyze: CSV has JSON's lists of candidates that were tried and abandoned, and of errors") {
     const auto rows = csv_of(
         "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze "
-        // with these costs brute force has by far the shortest prediction
+        // With these costs, brute force has by far the shortest predicted time.
         "--costs t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1");
     int tried = 0;
     int missed = 0;

@@ -9,7 +9,7 @@ namespace detp::support {
 TEST_SUITE("end to end") {
   TEST_CASE("on a scene, choose's predictions are claims too, and exit code 1 means that one is refuted" *
             doctest::test_suite("long")) {
-    // Photon paths in a box: choose predicts the tests and hits of isotropic lines, half of those that occur.
+    // Photon paths in a box: choose predicts the tests and hits of isotropic lines, about half of the counted numbers.
     const std::string scene = " @cornell --samples 300 --rays 3200 --disc-radius 4%";
     const Finished finished = detp("validate" + scene + " --format json");
     const Json claims = finished.json().at("claims");

@@ -5,7 +5,6 @@
 namespace detp::support {
 namespace {
 
-/// A strip of triangles near the origin, and one far away.
 std::string mesh_with_a_stray_triangle() {
   std::string mesh;
   for (int i = 0; i < 200; ++i) mesh += "v " + std::to_string(i % 20) + " " + std::to_string(i / 20) + " 0\n";

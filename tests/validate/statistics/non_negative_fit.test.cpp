@@ -15,7 +15,7 @@ using Numbers = std::vector<double>;
 
 namespace {
 
-/// A matrix by rows, and the right side.
+/// Row by row, and the right side.
 struct System {
   Numbers a;
   std::size_t unknowns;
@@ -38,7 +38,7 @@ struct System {
 
   [[nodiscard]] Numbers fit() const { return validate::non_negative_fit(a, unknowns, b); }
 
-  /// Aᵀ(b - A x) as cosines: divided by the lengths of the column and of b.
+  /// The elements of Aᵀ(b - A x), each divided by the lengths of its column and of b.
   [[nodiscard]] Numbers gains(const Numbers& x) const {
     const Numbers left = rest(x);
     const double length_of_b = error(Numbers(unknowns, 0));
@@ -96,8 +96,8 @@ TEST_SUITE("known answer") {
     const Numbers x = system.fit();
     check_near(x, {11. / 73, 9. / 73, 0});
     CHECK(system.error(x) == Approx(std::sqrt(1. / 73)));
-    // A simpler method fits all, drops the most negative unknown, and fits the rest again until none is negative. It
-    // would drop the first unknown first.
+    // A simpler method fits all unknowns, drops the most negative one, and fits the rest again until none is negative.
+    // That method drops the first unknown first, and gets the following fit.
     CHECK(system.error({0, 0.28, 0}) == Approx(std::sqrt(0.08)));
     CHECK(system.gains({0, 0.28, 0})[0] > 0.01);
   }
@@ -118,7 +118,7 @@ TEST_SUITE("identity") {
     support::RandomNumbers random(12);
     for (int run = 0; run < 3000; ++run) {
       System system = random_system(random);
-      if (run % 3 == 0)  // the last column becomes a copy of the first, or the sum of two
+      if (run % 3 == 0)  // the last column becomes a copy of the first column, or a sum of two
         for (std::size_t i = 0; i < system.b.size(); ++i)
           system.a[(i + 1) * system.unknowns - 1] = system.at(i, 0) + (run % 2) * system.at(i, system.unknowns / 2);
       CAPTURE(run);

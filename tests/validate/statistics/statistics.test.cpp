@@ -14,7 +14,7 @@ using namespace detp::validate;
 
 namespace {
 
-/// Sum of 12 uniform numbers minus 6: mean 0, standard deviation 1.
+/// The sum of 12 uniform numbers, minus 6. Its mean is 0, its standard deviation 1.
 double nearly_normal(std::uint64_t seed, std::uint64_t index) {
   double sum = -6;
   for (std::uint64_t part = 0; part < 3; ++part)
@@ -87,7 +87,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("statistical") {
-  // 20 000 experiments: the binomial standard deviation of the share outside a 5 % interval is 0.0015.
+  // With 20 000 experiments, the binomial standard deviation of the share of misses is 0.0015.
   TEST_CASE("an interval of 95 % misses the truth in 5 % of experiments") {
     const double width = interval_width(0.05, 1, 32);
     int missed = 0;

@@ -92,7 +92,7 @@ TEST_SUITE("bad input") {
 }
 
 TEST_SUITE("statistical") {
-  // Seeds are fixed. If discs are clustered, a line meets many or none: 150 000 lines leave up to 1 % of noise.
+  // Seeds are fixed. 150 000 lines cause up to 1 % of noise, because a line meets many clustered discs or none.
   constexpr double rays = 150'000;
 
   void check_scene(const std::string& scene, double radius) {

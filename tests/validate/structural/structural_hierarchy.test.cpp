@@ -31,7 +31,6 @@ std::vector<sim::Disc> samples(sim::Body body, const glm::dvec3& shape) {
   return discs;
 }
 
-/// Sphere tests, copies and disc tests per line, of one batch of lines.
 std::array<double, 3> per_line(const std::vector<sim::Disc>& discs, const Candidate& candidate, int batch) {
   constexpr std::size_t lines = 4000;
   const auto rays =
@@ -92,7 +91,7 @@ TEST_SUITE("statistical") {
           const Estimate observed = batch_means(counted[term]);
           CAPTURE(term);
           CAPTURE(observed.mean / predicted[term]);
-          // Student's t with 15 degrees of freedom exceeds 5 only once in 6000 cases.
+          // |Student's t| with 15 degrees of freedom exceeds 5 only once in 6000 cases.
           CHECK(std::abs(observed.mean - predicted[term]) <= 5 * observed.standard_error);
           CHECK_MESSAGE(std::abs(observed.mean - 1.05 * predicted[term]) > 5 * observed.standard_error,
                         "a formula wrong by 5 % must be refuted");

@@ -44,8 +44,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("statistical") {
-  /// Structural divided by counted T_R and T_I. All ratios share the lines' noise, so averages over several sets of
-  /// lines.
+  /// Structural / counted T_R and T_I, averaged over several sets of lines, since one set causes noise in both.
   struct Agreement {
     double rebuild = 0;
     double intersect = 0;
@@ -67,7 +66,7 @@ TEST_SUITE("statistical") {
     return {expected.cull_tests * all / cull_tests, expected.disc_tests * all / disc_tests};
   }
 
-  // Seeds are fixed. 4 × 40 000 lines have 0.2 % of noise in T_R, 0.4 % in T_I (standard errors over 6 sets).
+  // Seeds are fixed. 4 × 40 000 lines cause 0.2 % of noise in T_R and 0.4 % in T_I (standard errors over 6 sets).
   void check(sim::Body body) {
     const auto discs = sim::uniform_discs(body, 2, 5000, 0.02, 3);
     for (const double ratio : {0.3, 0.5, 0.65, 0.8, 0.9}) {
@@ -86,7 +85,7 @@ TEST_SUITE("statistical") {
     check(sim::Body::cube_faces);
   }
 
-  // 8 × 5000 lines leave about 1 % of noise: few of the lines through S0 come near the tree's samples.
+  // 8 × 5000 lines cause about 1 % of noise, because few of the lines through S0 come near the tree's samples.
   TEST_CASE("structural sphere tests are within 2 % of the counts in two scenes, a tree and a box") {
     for (const std::string name : {"@tree", "@cornell"}) {
       const sim::Scene scene = sim::open_scene({name, 5000, 1});

@@ -16,7 +16,6 @@ using sim::support::ScratchFolder;
 
 namespace {
 
-/// Two points that are small enough to be measured at once.
 std::vector<SweepPoint> small_points() { return {{3, 300, 0.05, 4, 40}, {2, 200, 0.2, 4, 40}}; }
 
 std::vector<double> numbers(const SweepResult& result) {
@@ -116,7 +115,7 @@ TEST_SUITE("checkpoint") {
     SweepOptions options{.checkpoint = folder.path("sweep.json")};
     const auto both = small_points();
     CHECK(numbers(run_sweep(both, options)) == numbers(whole));
-    // Truncated after the first point, as if it had been interrupted before the second.
+    // The file is truncated after the first point, as if the sweep had been interrupted before the second point.
     std::string content = content_of(folder.path("sweep.json"));
     const std::size_t second = content.find(",\"" + both[0].name() + "\"");
     REQUIRE(second != std::string::npos);  // names are kept in alphabetical order: "D=2 …" comes first

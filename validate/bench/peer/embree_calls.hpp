@@ -6,8 +6,8 @@
 #include <cstddef>
 #include <iterator>
 
-/// Overloads of Embree's calls, selected by the kind of ray: RTCRay (rtcOccluded) or RTCRayHit (rtcIntersect), single
-/// or in packets of 8 or 16.
+/// Overloads of Embree's calls, selected by the type of the ray: RTCRay for rtcOccluded, RTCRayHit for rtcIntersect, or
+/// packets of 8 or 16 of these.
 namespace detp::validate::embree {
 
 /// The ray, or packet of rays, in a call's argument.

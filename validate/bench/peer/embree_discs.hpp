@@ -23,10 +23,10 @@ using EmbreeOwned = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree
 /// Throws std::runtime_error, with Embree's error number, if an Embree call of this thread has failed.
 void require_no_embree_error(RTCDevice device);
 
-/// A device that builds with `threads` threads. They have been started before it is returned.
+/// A device that builds with `threads` threads. The threads have been started when the function returns.
 [[nodiscard]] EmbreeOwned<RTCDevice> make_embree_device(int threads);
 
-/// A committed scene of oriented discs in single precision; primitive i is disc i. It calls the filter of the context.
+/// A committed scene of oriented discs in single precision. Primitive i is disc i. Queries call the context's filter.
 [[nodiscard]] EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs,
                                                        EmbreeQuality quality, const std::stop_token& stop = {});
 

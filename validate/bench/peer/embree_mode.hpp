@@ -6,11 +6,11 @@
 /// The ways to make Embree find all hits.
 namespace detp::validate {
 
-/// A filter rejects every hit, so both kinds of query visit every hit. They differ in the order in which nodes are
-/// visited (nearest first, or any) and in what a ray stores.
+/// A filter rejects every hit, so both kinds of query visit every hit. The queries differ in the order of visiting
+/// nodes (nearest first, or any order) and in what a ray stores.
 enum class EmbreeQuery { intersect, occluded };
 
-/// Number of rays in a call.
+/// Number and form of the rays in a call.
 enum class EmbreeRays {
   one,               ///< rtcIntersect1
   packet_8,          ///< rtcIntersect8

@@ -9,14 +9,14 @@
 
 namespace detp::validate {
 
-/// Converts rays to Embree's, in single precision. Embree's rays only go forwards, so a line, unbounded both ways,
-/// becomes a ray that starts in front of all discs.
+/// Converts rays to Embree's rays, in single precision. Embree's rays only go forwards. So a line, which is unbounded
+/// both ways, becomes a ray that starts in front of all discs and ends behind them.
 class EmbreeRayMaker {
  public:
   /// `around` must contain all discs.
   explicit EmbreeRayMaker(const sim::Sphere& around) : around_(around) {}
 
-  /// The part of a ray that can hit a disc: its origin, and its end as a distance along the ray.
+  /// The part of a ray that can hit a disc: its origin, and its length.
   struct RaySegment {
     glm::vec3 origin;
     float end;

@@ -9,7 +9,7 @@
 namespace detp::validate {
 namespace {
 
-/// Data that Embree passes to the filter. Embree's own context must come first.
+/// Data that Embree passes to the filter. Embree's own context must be the first member.
 struct FilterData {
   RTCIntersectContext context;
   const sim::Ray* rays;
@@ -22,9 +22,9 @@ struct FilterData {
 };
 static_assert(std::is_standard_layout_v<FilterData>);
 
-/// Records every hit and rejects it, so that the search continues: Embree's documentation recommends the context's
-/// filter for collecting all hits of a ray. Rays may arrive in other packets and another order than they were sent, so
-/// a ray is identified by its id.
+/// Records every hit, and rejects the hit so that the search continues. Embree's documentation recommends the context's
+/// filter for collecting all hits of a ray. Rays may arrive in other packets, and in another order, than they were
+/// sent. So a ray is identified by its id.
 void collect_and_refuse(const RTCFilterFunctionNArguments* arguments) {
   const auto& collecting = *reinterpret_cast<const FilterData*>(arguments->context);
   if (arguments->N == 1) {
@@ -45,8 +45,8 @@ constexpr std::size_t stream = 64;
 
 }  // namespace
 
-/// Writes the rays from `first` on into a packet. Lanes from `count` on are made inactive in the way that streams
-/// require: their rays end before they start.
+/// Writes `count` rays from number `first` on into a packet. The other lanes are inactive as streams require: their
+/// rays end before they start.
 template <class Packet>
 void EmbreeTracer::write_packet(std::size_t first, std::size_t count, Packet& packet) const {
   auto& rays = embree::ray_of(packet);

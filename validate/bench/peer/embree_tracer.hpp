@@ -9,7 +9,7 @@
 
 namespace detp::validate {
 
-/// The sums of one disc. Both are in one cache line, so a hit touches only one.
+/// The sums of one disc. They lie together, so that a hit touches only one cache line.
 struct DiscTally {
   double power = 0;
   std::uint32_t hits = 0;

@@ -26,8 +26,8 @@ class FlushDenormals {
 #endif
 };
 
-/// Stores four floats at once, to an address divisible by 16. Embree loads them as a vector of four; its documentation
-/// warns that four single stores would stall that load.
+/// Stores four floats at once, to an address divisible by 16. Embree loads the four floats as a vector. Its
+/// documentation warns that four single stores would stall this load.
 inline void store_four(float* to, float a, float b, float c, float d) {
 #if defined(__SSE2__)
   _mm_store_ps(to, _mm_setr_ps(a, b, c, d));

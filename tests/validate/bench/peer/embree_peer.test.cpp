@@ -13,7 +13,7 @@ using namespace detp::validate;
 
 namespace {
 
-// Not a multiple of a packet or a stream, and more than one block of rays for each thread.
+// Number of rays: not a multiple of a packet or a stream, and more than one block.
 constexpr std::uint64_t odd_count = 4096 + 1003;
 
 struct Data {
