@@ -68,6 +68,8 @@ inline const std::vector<std::string>& exact_techniques() {
                                             "--technique cell-spheres --depth 16",
                                             "--technique sphere-tree",
                                             "--technique sphere-tree --fan-out 2 --leaf 1",
+                                            "--technique box-tree",
+                                            "--technique box-tree --fan-out 16 --leaf 3",
                                             "--technique octree",
                                             "--technique octree --depth 0",
                                             "--technique octree --depth 5",
@@ -80,7 +82,8 @@ inline const std::vector<std::string>& exact_techniques() {
                                             "--technique grid --cells 1",
                                             "--technique grid --cells 37",
                                             "--technique bvh",
-                                            "--technique bvh --quality medium"};
+                                            "--technique bvh --quality medium",
+                                            "--technique ray-map"};
   return all;
 }
 
@@ -90,10 +93,12 @@ inline const std::vector<std::string>& best_techniques() {
                                             "--technique sphere-cache",
                                             "--technique cell-spheres",
                                             "--technique sphere-tree",
+                                            "--technique box-tree",
                                             "--technique octree",
                                             "--technique bsp",
                                             "--technique grid",
-                                            "--technique bvh"};
+                                            "--technique bvh",
+                                            "--technique ray-map"};
   return all;
 }
 
