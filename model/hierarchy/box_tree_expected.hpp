@@ -38,13 +38,14 @@ struct LevelNodes {
 /// The expected nodes for each of cell_kinds(dimension, samples), up to the last kind that has nodes. Samples are
 /// uniform in a cube of side 1 (dimension 3) or on its faces (2).
 ///
-/// A cell of m samples is a node if both its halves hold samples and no ancestor is a leaf. That probability is
+/// A cell of m samples is a node if no ancestor is a leaf and, for m > leaf, both its halves hold samples. The
+/// probability that no ancestor is a leaf is
 ///
 ///     a(m) = Σ_s P(s) a'(m + s) (1 - q'(m + s))
 ///
 ///   where  P(s)    binomial probability of s samples in the other half of the parent
 ///          q(m)    probability that a node of m samples is a leaf
-///          a', q'  a and q of the parent
+///          a', q'  a and q of the parent; q' = 0 for s = 0 and m > leaf, since the parent is then no node
 ///
 /// Every node of m <= leaf samples is a leaf, and some nodes of m <= 64 are (box_tree_sah_leaves.hpp).
 ///

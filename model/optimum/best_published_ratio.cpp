@@ -113,7 +113,7 @@ class Search {
     found(spheres, x, jet.value - std::abs(jet.slope) * (right - left));
   }
 
-  /// The value at which the tangents at both ends of a part meet. T is not smaller anywhere on the part.
+  /// A lower bound on T in a part, in which T is convex: the value where the tangents at the part's two ends meet.
   static double tangents_meet(const Jet& left, const Jet& right, double width) {
     const double along = (right.value - left.value - right.slope * width) / (left.slope - right.slope);
     return left.value + left.slope * along;

@@ -216,7 +216,8 @@ class Search {
   BestRatio best_;
 };
 
-/// The largest k with r_k >= d, at most `most`. Q must not be at a step, or must be just above it.
+/// The largest k with r_k >= d, at most `most`. If Q is just below a step of k (ln Q within 1e-12, relative, of its
+/// value at the step), the result is 1 too large.
 std::int64_t last_stop(const Valid<Workload>& workload, double ratio, std::int64_t most) {
   const double exact = std::log(workload.disc_radius / workload.sphere_radius) / std::log(ratio);
   return static_cast<std::int64_t>(std::min(static_cast<double>(most), std::floor(exact * (1 + 1e-12))));

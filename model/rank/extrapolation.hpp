@@ -43,9 +43,10 @@ void uncounted_octree(const Valid<Workload>& workload, const Parameters& paramet
 void uncounted_grid(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
 
 /// The reasons why the counts that `predict` returns for the candidate are extrapolated: a short text for each input
-/// that is outside its range, such as "d over r0 1e-05 below 0.0001". Empty if the counts are not extrapolated.
+/// outside the range that was compared with counts (see above), such as "d over r0 1e-05 below 0.0001". Empty if the
+/// counts are not extrapolated.
 ///
-/// Throws std::invalid_argument for a workload or parameters out of range.
+/// Throws std::invalid_argument for an invalid workload or invalid parameters.
 [[nodiscard]] std::vector<std::string> extrapolations(const Valid<Workload>& workload,
                                                       const Valid<Candidate>& candidate);
 

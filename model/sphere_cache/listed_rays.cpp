@@ -93,7 +93,8 @@ double near_outermost(int dimension, double log_lambda, double outer_disc, doubl
   return added * rest * std::min(1.0, 2 * (shallow_to - depth));
 }
 
-/// H on a grid of (size of the inner sphere, reach of the offset), both relative to the outer sphere, in [0, 1].
+/// A table of H(r_i/r_l, reach_l/r_l), the mean share in unsorted_listed_share. Both arguments are in [0, 1]; values
+/// between the grid's points are interpolated.
 class OffsetShares {
  public:
   OffsetShares() {

@@ -13,8 +13,8 @@ namespace detp::model {
 inline constexpr double least_ratio = 0.02;
 inline constexpr double most_ratio = 0.98;
 
-/// Ends of the intervals, slightly off the steps: by 4e-12 of ln Q. There plain arithmetic gives the right k (see
-/// sphere_count), and T is within 1e-10 of its value at the step.
+/// Ends of the intervals, slightly off the steps: ln Q is 1 ± 4e-12 times its value at the step. At these ends, plain
+/// arithmetic gives the right k (see sphere_count), and T is within 1e-10 of its value at the step.
 class StepPieces {
  public:
   /// Throws std::invalid_argument for a workload out of range or d >= r₀: then there is no sphere.

@@ -10,7 +10,8 @@
 
 namespace detp::sim {
 
-/// Limits the memory of the data that a reader keeps of one file: checks the size of each vector before it grows.
+/// Limits the memory of the data that a reader keeps of one file: before a vector grows, checks the total size of all
+/// vectors.
 class KeptMemory {
  public:
   explicit KeptMemory(const std::string& path) : what_("what is kept of " + shown_path(path)) {}

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// If the sum of n unit normals is shorter than least_sum n, the sum is a residue of cancellation.
+/// If the sum of n unit normals is shorter than n·least_sum, the normals count as cancelling: the sum is only rounding.
 constexpr double least_sum = 1e-6;
 
 /// The sum of the unit normals of the corners at a position.

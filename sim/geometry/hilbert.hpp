@@ -20,10 +20,11 @@ namespace detp::sim {
 ///
 ///     corner' = corner ^ rotated(start(w))      axis' = axis + 1 + turn(w)  (mod 3)
 ///
-///   where  start(w)  the corner at which octant w is entered, in the curve's own axes:
-///                    g(2 ⌊(w-1)/2⌋), g the Gray code; 0 for w = 0
-///          turn(w)   the axis along which the curve leaves octant w: number of trailing ones of w, or of w - 1 if w is
-///                    even; 0 for w = 0
+///   where  rotated(c)  the three bits of c, rotated left by axis + 1 places
+///          start(w)    the corner at which octant w is entered, in the curve's own axes:
+///                      g(2 ⌊(w-1)/2⌋), g the Gray code; 0 for w = 0
+///          turn(w)     the axis along which the curve leaves octant w: number of trailing ones of w, or of w - 1 if w
+///                      is even; 0 for w = 0
 ///
 /// Along the Hilbert curve a sphere cache is rebuilt 0.76 to 0.89 times as often as along the Morton curve (Q 0.5 …
 /// 0.8, a volume and two scenes of 10⁵ samples), one sphere 0.65 to 0.84 times (10⁶ samples): sim/geometry/README.md.

@@ -11,8 +11,8 @@
 namespace detp::sim {
 namespace {
 
-/// Two sides, or two costs, whose ratio is closer to 1 than this count as equal. So rounding and the slack do not
-/// affect the tree: the same discs always give the same tree.
+/// Two sides, or two costs, count as equal if the smaller one is at least this share of the larger one. Then rounding
+/// and the slack do not affect the tree: the same discs always give the same tree.
 constexpr double clear = 1 - 1e-9;
 
 using Discs = std::vector<std::uint32_t>;

@@ -167,9 +167,9 @@ class PhotonMap {
   PhotonTree tree_{3, cloud_};
 };
 
-/// Bytes of the photons, of their numbers in the order of nanoflann's tree, of its nodes, and of the outcome. A leaf
-/// holds at most 10 photons. On average it holds 5 to 6 if repeated halving splits evenly spread photons, and fewer if
-/// they are concentrated.
+/// Bytes of the photons, of the indices by which nanoflann's tree orders them, of the tree's nodes, and of the outcome.
+/// A leaf holds at most 10 photons. On average it holds 5 to 6 if repeated halving splits evenly spread photons, and
+/// fewer if they are concentrated.
 double map_bytes(const Problem& problem) {
   constexpr double in_a_leaf = 5.5;
   constexpr double node = sizeof(PhotonTree::Node);

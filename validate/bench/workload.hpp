@@ -40,7 +40,8 @@ struct BenchSet {
   std::vector<std::string> missing;  ///< the reason for each workload that was left out
 };
 
-/// The workloads of that effort, restricted to the values in `axes`. `folder` holds the meshes; empty if unknown.
+/// The workloads of that effort. Each list in `axes` that is not empty replaces the effort's values. `folder` holds the
+/// meshes; empty if unknown.
 ///
 /// quick      @uniform, @tree, @courtyard, @cornell, bunny; radii of 1 and 4 %; 10³ and 10⁵ rays
 /// thorough   the same scenes and seven more meshes; radii of 0.5 … 16 %; 10³ … 10⁶ rays, but 10⁶ rays only with radii

@@ -17,7 +17,7 @@ namespace detp::validate {
 namespace {
 
 constexpr double least_patience = 0.02;  // seconds
-// Expected number of candidates with the neighbours that are added during the analysis; only for the progress.
+// Expected number of candidates, including the neighbours that are added during the analysis. Used only for progress.
 constexpr std::size_t usually_tried = 16;
 
 class Analyser {

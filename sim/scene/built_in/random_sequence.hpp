@@ -4,7 +4,8 @@
 
 namespace detp::sim::built_in {
 
-/// A sequence of uniform random numbers for building a scene. The seed is fixed, so the scene is always the same.
+/// A sequence of uniform random numbers for building a scene. Equal seeds give equal sequences, so a scene with a fixed
+/// seed is always the same.
 class RandomSequence {
  public:
   explicit RandomSequence(std::uint64_t seed) : seed_(seed) {}

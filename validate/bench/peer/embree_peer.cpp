@@ -18,7 +18,7 @@ using Tallies = std::vector<DiscTally>;
 using Range = oneapi::tbb::blocked_range<std::size_t>;
 
 /// Number of rays or discs that one thread processes at a time: small enough to balance the load and to react to a stop
-/// request, and a multiple of the rays of a stream.
+/// request, and a multiple of the number of rays in a stream.
 constexpr std::size_t block = 4096;
 
 sim::Sphere sphere_around(RTCScene scene) {
