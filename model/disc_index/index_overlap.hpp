@@ -61,8 +61,9 @@ struct PlaneCrossings {
 /// Crossings if the centres are uniform along the axis. `planes` is the expected number of planes that cross the disc.
 [[nodiscard]] PlaneCrossings uniform_crossings(double planes, Insertion insertion);
 
-/// Crossings of all planes of the axis. The planes at the index's ends cross no disc. Exact up to x = 64, except that
-/// uniform centres have the weights of endless cells. Above x = 64, all values are those of endless cells.
+/// Crossings summed over the planes of the axis, without the planes at the index's ends, which cross no disc. Exact for
+/// x <= 64, except that the weights of uniform centres are those of infinitely many cells. For x > 64, or more than
+/// 10¹⁵ cells, all values are those of uniform centres and infinitely many cells, with at most cells - 1 planes.
 [[nodiscard]] PlaneCrossings crossings(const IndexAxis& axis, Centres centres, Insertion insertion);
 
 /// A run of neighbouring slabs of an axis. A slab is the space between neighbouring planes. The values hold for one

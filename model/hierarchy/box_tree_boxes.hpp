@@ -7,7 +7,7 @@
 
 namespace detp::model::box_tree {
 
-/// How an engine lists rays for a box: it grows the box on all sides by `margin`, a multiple of the cube's side.
+/// How an engine lists rays for a box: it grows the box on all sides by `margin`, in units of the cube's side.
 struct Listing {
   Engine engine = Engine::simd;
   double margin = 0;

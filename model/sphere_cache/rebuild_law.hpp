@@ -18,22 +18,23 @@
 /// F_D → 1 for λ → 0: each sample starts a ball. F_D ∝ 1/λ for λ → ∞. Then m is ρ^{-D} times a factor that is periodic
 /// in log ρ and varies by a factor of two; it jumps where the ball just contains a cell of the curve.
 ///
-/// The cube's faces affect balls larger than a sixteenth of the cube. The counts of such balls, in a cube or on its
-/// faces, are tabulated separately, for four values of n per decade: with more samples a count jumps at a smaller ball,
-/// and interpolation between whole decades would smooth the jumps. Compared with 355 such spheres of nests (r_i from
-/// 0.3 of the side, random n_P 10³ … 10⁶ and Q, samples that the table was not made from), the deviations (median, 95th
-/// percentile, largest) of m_1 are 0.4, 1.9, 3.5 % (D = 2) and 0.6, 3.1, 8.1 % (D = 3). Those of m_i, i > 1, are 1.1,
-/// 4.7, 5.9 % and 1.2, 4.0, 10.0 %. The mean noise of the counts is 0.6 %.
+/// The cube's faces affect balls of radius ρ > s/16. The counts of such balls, in a cube or on its faces, have a table
+/// of their own, with four values of n per decade. The radius at which a count jumps decreases as n increases, so
+/// interpolation between whole decades would smooth the jumps. The table was compared with 355 such balls in nested
+/// spheres (r_i from 0.3 s; random Q, and random n_P from 10³ to 10⁶; other samples than those of the table). The
+/// deviations (median, 95th percentile, largest) of m_1 are 0.4, 1.9, 3.5 % (D = 2) and 0.6, 3.1, 8.1 % (D = 3). Those
+/// of m_i, i > 1, are 1.1, 4.7, 5.9 % and 1.2, 4.0, 10.0 %. The mean noise of the counts is 0.6 %.
 ///
-/// Nested balls. S_i is rebuilt whenever S_{i-1} is, and also at a share of the rebuilds that S_i would have alone:
+/// Nested balls. S_i is rebuilt whenever S_{i-1} is. At the samples where S_{i-1} stays, S_i also has a share w of the
+/// rebuilds that it would have there alone:
 ///
 ///     m_i = m_{i-1} + s_i (1 - m_{i-1}/n) w      w = exp(-b m_{i-1}/s_i)
 ///
 ///   where  s_i            rebuilds of S_i alone
 ///          m_{i-1}/s_i    the crowding
-///          w              share of the s_i rebuilds that remain at samples at which S_{i-1} stays. If S_i moved in
-///                        equal steps independent of S_{i-1}, b would be about ½. Both follow the same curve, so b
-///                        depends on the ratio of the balls, on their phase and on λ
+///          w              share that remains of the rebuilds that S_i alone would have where S_{i-1} stays. If S_i
+///                        moved in equal steps independent of S_{i-1}, b would be about ½. Both follow the same curve,
+///                        so b depends on the ratio of the balls, on their phase and on λ
 ///
 /// If the ratio is close to 1, the distance between samples matters: a ball that is only slightly smaller than the ball
 /// around it is rebuilt alone only if a sample falls between the two. So w is proportional to the logarithm of the
@@ -79,7 +80,8 @@ void require_rebuild_law(SampleOrder order);
 /// Throws     std::invalid_argument for a number out of range.
 [[nodiscard]] double own_rebuild_share(double dimension, const Ball& ball, double octaves, double crowding);
 
-/// m_i, computed from the rebuilds of S_i alone, those of S_{i-1}, and w. Between m_{i-1} and n.
+/// m_i, from the formula above: `alone` is s_i, `outer` is m_{i-1}, `own_share` is w, `samples` is n. The result is at
+/// least m_{i-1} and at most n.
 [[nodiscard]] double nested_rebuilds(double alone, double outer, double own_share, double samples);
 
 }  // namespace detp::model

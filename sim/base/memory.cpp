@@ -34,7 +34,8 @@ double resource_limit(int resource) {
   return known && limit.rlim_cur != RLIM_INFINITY ? static_cast<double>(limit.rlim_cur) : no_limit;
 }
 
-/// The limit in a file; no_limit if there is no file, or no positive number in it (but "max").
+/// The limit in a file. Returns no_limit if the file does not exist or holds no positive number. (A group without a
+/// limit has the word "max" in its file.)
 double limit_in(const std::filesystem::path& path) {
   std::ifstream file(path);
   double limit = 0;

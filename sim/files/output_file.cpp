@@ -16,7 +16,8 @@ namespace {
 
 constexpr std::size_t buffer_size = 1 << 16;
 
-/// Opens a nameless file in the target's folder. Returns -1 if the system has none, or no way to name it later.
+/// Opens a file without a name in the target's folder. Returns -1 if the file system does not support such files, or if
+/// the file could not be named later (no /proc).
 int open_unnamed(const std::string& target) {
   const std::string folder = target.substr(0, target.rfind('/') + 1);
   if (::access("/proc/self/fd", X_OK) != 0) return -1;

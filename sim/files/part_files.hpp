@@ -9,8 +9,8 @@ namespace detp::sim {
 /// Creates a part file in the folder of `target`; sets `name` to its path. Returns a descriptor, or -1 with errno set.
 [[nodiscard]] int create_part_file(const std::string& target, std::string& name);
 
-/// Makes an open nameless file a part file in the folder of `target`, and sets `name` to its path. On failure returns
-/// false with errno set.
+/// Gives an open file without a name a new name in the folder of `target`, and adds it to the part files. Sets `name`
+/// to its path. On failure returns false with errno set.
 [[nodiscard]] bool name_part_file(int descriptor, const std::string& target, std::string& name);
 
 /// Moves the part file to the target. On failure returns false with errno set; the file is then still a part file.

@@ -4,7 +4,7 @@
 
 #include "geometry.hpp"
 
-/// The one definition of what hits what. Every technique decides by these predicates, so all find the same pairs.
+/// Decides whether a ray hits a disc or a sphere. Every technique uses these predicates, so all find the same pairs.
 namespace detp::sim {
 
 /// Whether the ray meets the closed sphere.

@@ -40,8 +40,8 @@ struct VerticalLine {
   }
 };
 
-/// Adds the depth at which the line meets the triangle. Corners are relative to the centre of the box's top. Upright
-/// triangles are ignored.
+/// Adds the depth at which the line meets the triangle, if any. Corners are relative to the centre of the box's top.
+/// Vertical triangles are ignored.
 void add_intersection(VerticalLine& line, const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c) {
   if (line.x < std::min({a.x, b.x, c.x}) || line.x > std::max({a.x, b.x, c.x})) return;
   if (line.z < std::min({a.z, b.z, c.z}) || line.z > std::max({a.z, b.z, c.z})) return;

@@ -19,8 +19,8 @@ namespace detp::sim {
 /// it is dropped if it starts outside this sphere. A photon has at most 1000 pieces, so that an albedo of 1 terminates.
 ///
 /// The result depends on the seed alone, not on the number of threads. Throws std::invalid_argument for a scene without
-/// light, triangles or box, for an albedo outside [0, 1], for a light that is not finite or has no area, and if 1000 +
-/// 100 count photons gave too few pieces. Throws Stopped if a stop was requested.
+/// light, triangles or box, for an albedo outside [0, 1], for a light that is not finite or has no area, and if
+/// 1000 + 100 · `count` photons gave too few pieces. Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
                                             const std::stop_token& stop = {});
 

@@ -50,7 +50,7 @@ void require_non_zero(const std::string& what, const glm::dvec3& vector) {
     throw std::invalid_argument(fmt::format("{} must be non-zero (got {} {} {})", what, vector.x, vector.y, vector.z));
 }
 
-/// Throws an error that says what is wrong with the ray, and has the ray's number. Returns if nothing is wrong.
+/// Throws std::invalid_argument with the ray's number and the reason if the ray is invalid.
 void refuse_unsound(const Ray& ray, std::uint64_t number, double most_power) {
   const std::string who = fmt::format("ray {}: ", number);
   require_coordinates(who + "origin", ray.origin);

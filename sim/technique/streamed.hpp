@@ -33,9 +33,10 @@ struct StreamedOutcome {
 /// Runs a candidate over any number of rays. The result is that of `run`, bit for bit (hits, irradiance, pairs), for
 /// any block size. The index over the discs is built once.
 ///
-/// A stop request also ends the making of rays; the result is then that of the first rays. Throws as make_problem and
-/// run do. There may be more than 2³² rays, unless pairs are requested. Throws std::length_error, naming the bytes,
-/// before the memory budget would be exceeded. The memory of pairs (8 bytes each) is checked again after each block.
+/// A stop request also ends the making of rays; the result then covers only the first rays, without pairs. Throws as
+/// make_problem and run do. There may be more than 2³² rays, unless pairs are requested. Throws std::length_error,
+/// naming the bytes, before the memory budget would be exceeded. The memory of pairs (8 bytes each) is checked again
+/// after each block.
 [[nodiscard]] StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& source,
                                            const Valid<Candidate>& candidate, const StreamOptions& options = {});
 

@@ -123,7 +123,8 @@ inline Arguments operator+(Arguments left, const Arguments& right) {
   return left;
 }
 
-/// Runs the line with a time limit of 0.1 s, doubled (up to about 10 s) until far_enough(result) is true.
+/// Runs the line with a time limit of 0.1 s. Doubles the limit (up to about 10 s) until far_enough(result) is true or
+/// the command ends before its limit.
 template <class FarEnough>
 Finished stopped_in_time(const std::string& line, const FarEnough& far_enough) {
   for (double limit = 0.1;; limit *= 2) {

@@ -53,7 +53,8 @@ model::Ranked assess_structurally(const validate::Job& job, const Candidate& can
   return {candidate, counts, price(counts, costs, candidate.technique), {}};
 }
 
-/// Nothing if the candidate has no structural counts (if `structural`) or closed form, or if a stop was requested.
+/// The prediction from structural counts if `structural`, otherwise from the closed form. Returns nothing if the
+/// candidate has no such prediction, if its index does not fit in memory, or if a stop was requested.
 std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
                                        const UnitCosts& costs, const std::stop_token& stop) {
   try {

@@ -12,7 +12,8 @@ namespace detp::cli {
 /// Appends the results of a candidate's run: `counted`, `measured_seconds`, …, or the reason why it was not measured.
 void add_measured(Json& json, const validate::Analysis& analysis, const validate::Analysed& run);
 
-/// The ratios of PredictionError, as in `missed`. Empty if the candidate was not predicted, not counted or not timed.
+/// PredictionError as JSON members, with the names that they have under `missed` in the output. An empty object if the
+/// candidate was not predicted, not counted or not timed.
 [[nodiscard]] Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs);
 
 /// The lines "choice", "regret" and "missed": the candidate with the shortest measured time, and the prediction's

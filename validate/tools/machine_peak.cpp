@@ -22,7 +22,7 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, 16>;
 
-/// Fourteen independent chains of multiply-adds, more than two units with a latency of four cycles can process at once.
+/// Fourteen independent chains of multiply-adds. Eight would keep two units with a latency of four cycles busy.
 /// The chains start with different values, because the compiler would merge equal chains.
 float MultiplyAndAdd(std::size_t times) {
   const Lanes lanes;

@@ -231,7 +231,8 @@ HWY_INLINE Decision decide(const RayVector<segments>& rays, const SpreadDisc<k>&
     possible = hn::And(possible, hn::Ge(within, hn::Neg(disc.ends)));
   }
   if constexpr (front_facing) {
-    // The direction is ±(a, b, 1). The ray arrives in front if the direction's product with the normal is negative.
+    // The direction has the sense of (a, b, 1), or of -(a, b, 1) if the top bit of the id is set. The ray arrives in
+    // front if the dot product of its direction and the normal is negative.
     const Floats falls = hn::BitCast(lanes, hn::Load(WordLanes{}, rays.id));
     const Mask in_front = hn::Lt(hn::Xor(facing, hn::And(falls, hn::SignBit(lanes))), hn::Zero(lanes));
     // If a hit is certain, so is its face. Uncertain hits are decided again anyway.

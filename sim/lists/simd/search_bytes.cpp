@@ -33,7 +33,7 @@ double list_bytes(const SearchSize& size, const ListCapacity& lists) {
   return sizeof(float) * floats_per_ray(size) * (rays * lists.all + beside);
 }
 
-/// The larger of two peaks: during the search, with its blocks, and after the search, with the outcome instead.
+/// The larger of two peaks: during the search (with the blocks of rays) and after it (with the outcome, no blocks).
 double searching_bytes(const SearchSize& size, double tree, double lists) {
   constexpr double outcome = sizeof(std::uint64_t) + sizeof(double);
   const double a_disc =

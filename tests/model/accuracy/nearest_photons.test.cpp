@@ -105,7 +105,7 @@ TEST_SUITE("known answer") {
     const double tolerance = 4 * estimates.error_of_mean() + 0.02 * std::abs(expected.bias);
     CHECK(std::abs(estimates.mean() - 1.5 - expected.bias) < tolerance);
     CHECK_MESSAGE(std::abs(estimates.mean() - 1.5 - 1.4 * expected.bias) > tolerance, "a bias 40 % off must show");
-    // The curvature adds k²(∇²f)²/(32π²n²f⁴) times the variance to the variance: less than a thousandth.
+    // The curvature raises the variance by a share of k²(∇²f)²/(32π²n²f⁴): less than a thousandth.
     CHECK(std::abs(estimates.variance() - expected.variance) < 4.5 * estimates.error_of_variance());
     CHECK_MESSAGE(std::abs(estimates.variance() - 1.2 * expected.variance) > 4.5 * estimates.error_of_variance(),
                   "20 % off must show");

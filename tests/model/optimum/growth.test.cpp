@@ -29,7 +29,8 @@ Workload workload(int j, double dimension, DiscRule disc) {
   return cube_workload(1e6, samples, disc == DiscRule::fixed ? 0.2 : std::exp2(-j - 1), 1, dimension);
 }
 
-/// p: the slope of log(T/(log n_P)^q) over log n_P, by least squares; n_P spans four decades from about 10⁸.
+/// The power p in T ∝ n_P^p (log n_P)^q, q = `logarithms`: the slope of log(T/(log n_P)^q) over log n_P, by least
+/// squares, for n_P over four decades from about 10⁸.
 double fitted_power(const GrowthCase& fitted, int logarithms, const std::function<double(const Workload&)>& time) {
   const int first = fitted.dimension < 3 ? 13 : 9;
   const int last = fitted.dimension < 3 ? 20 : 14;
@@ -94,7 +95,7 @@ TEST_SUITE("reference value") {
     };
     CHECK(std::abs(fitted(Technique::sphere_cache, 0) - 1.0 / 3) > 0.2);
     CHECK(std::abs(fitted(Technique::grid, 0)) > 0.2);
-    // In volumes a plain octree has no factor log n_P: divided by log n_P, its time grows less than n^(1/3).
+    // In volumes a plain octree's time has no factor log n_P: divided by log n_P, it grows more slowly than n^(1/3).
     const GrowthCase volume{};
     const auto octree = [](const Workload& at) { return best_time(Technique::octree, at); };
     CHECK(fitted_power(volume, 1, octree) < 1.0 / 3 - 0.03);

@@ -21,8 +21,8 @@ Json check_stopped(const Finished& finished) {
   return json;
 }
 
-/// Runs all lines at the same time. Sends the signal to each process `after` seconds after all processes handle
-/// signals.
+/// Runs all lines at the same time. Waits until every process is ready to handle signals, waits `after` more seconds,
+/// and sends the signal to every process.
 std::vector<Finished> interrupted(const std::vector<std::string>& lines, int signal, double after) {
   std::vector<std::unique_ptr<Process>> processes;
   for (const std::string& line : lines) processes.push_back(std::make_unique<Process>(words(line)));
