@@ -20,6 +20,7 @@ namespace detp::model {
 [[nodiscard]] double uniform_field_deviation(double rays, DiscRadius disc, SphereRadius outer);
 
 /// n_R = (1 - p)/(p σ²): the number of rays at which uniform_field_deviation is σ > 0. Not rounded to a whole number.
+/// Throws std::invalid_argument unless σ > 0, finite, and 0 < d <= r₀.
 [[nodiscard]] double rays_for_deviation(double deviation, DiscRadius disc, SphereRadius outer);
 
 /// A density of photons on a surface around a point: each of n photons lands with density f, in 1/area.
@@ -40,16 +41,18 @@ struct DensityError {
   [[nodiscard]] double mean_square() const { return saturated(variance + static_cast<long double>(bias) * bias); }
 };
 
-/// Source: our derivation, by Taylor expansion of f over the disc, compared with counts in
-/// tests/model/accuracy/estimate_error.test.cpp. Throws std::invalid_argument unless n, f and h are > 0 and all numbers
-/// are finite.
+/// Variance and bias for n photons and radius h. Source: our derivation, by Taylor expansion of f over the disc,
+/// compared with counts in tests/model/accuracy/estimate_error.test.cpp. Throws std::invalid_argument unless n, f and h
+/// are > 0 and all numbers are finite.
 [[nodiscard]] DensityError density_error(const SmoothDensity& density, double photons, double radius);
 
-/// h with h⁶ = 32 f/(nπ(∇²f)²): the radius with the smallest mean square error. This error ∝ n^{-2/3}. Throws
-/// std::invalid_argument as density_error does, and for ∇²f = 0: without curvature a larger disc is always better.
+/// h with h⁶ = 32 f/(nπ(∇²f)²): the radius with the smallest mean square error, which is proportional to
+/// n^{-2/3}. Throws std::invalid_argument as density_error does, and for ∇²f = 0: without curvature a larger disc is
+/// always better.
 [[nodiscard]] double best_density_radius(const SmoothDensity& density, double photons);
 
 /// n for a relative root mean square error ε at the best radius: n = (3/2)^{3/2} |∇²f| / (√32 π f² ε³).
+/// Throws std::invalid_argument unless f, ε > 0, ∇²f is not 0, and all are finite.
 [[nodiscard]] double photons_for_error(const SmoothDensity& density, double relative_error);
 
 }  // namespace detp::model

@@ -11,25 +11,24 @@
 ///          k     photons searched for, 3 … n
 ///          r_k   distance of the k-th nearest, length
 ///
-/// The share of the density within r_k has the distribution Beta(k, n - k + 1). If f is even the share is π r_k² f, so
-/// with p = (k - 1)/n
+/// Let x be the probability that a photon lands within r_k. It has the distribution Beta(k, n - k + 1), so
+/// E[1/x] = n/(k - 1) and E[1/x²] = n(n - 1)/((k - 1)(k - 2)). If f is uniform, x = π r_k² f. This gives exactly
 ///
 ///     E[unbiased] = f       E[plain] = f k/(k - 1)       variance of unbiased = f² (1 - p)/(k - 2)
 ///
-/// exactly: García, Ureña, Sbert, CGF 2012 (the bias); our derivation by E[1/x] = n/(k - 1) and
-/// E[1/x²] = n(n - 1)/((k - 1)(k - 2)). With curvature the share is A(f + A ∇²f/8π), A = π r_k², so 1/A exceeds f/share
-/// by ∇²f/(8πf) for any share. To leading order, curvature adds this times (k - 1)/n to the bias of the unbiased
-/// estimate, and this times k/n to that of the plain estimate.
+/// with p = (k - 1)/n. Sources: García, Ureña, Sbert, CGF 2012 (the bias); our derivation (the variance). With
+/// curvature x = A(f + A ∇²f/8π), A = π r_k², so 1/A exceeds f/x by ∇²f/(8πf) for any x. To leading order, curvature
+/// adds (k - 1)/n ∇²f/(8πf) to the bias of the unbiased estimate, and k/n ∇²f/(8πf) to that of the plain estimate.
 ///
-/// At equal mean count k = nπh²f the disc has variance f²/k and bias k∇²f/(8πnf). The unbiased estimate has k/(k - 2)
-/// times this variance and (k - 1)/k times this bias. The best mean square errors of both agree to leading order,
-/// f² 3/(2k). But r_k adapts to f, while the disc's radius is fixed.
+/// A disc that expects the same number of photons, k = nπh²f, has variance f²/k and bias k∇²f/(8πnf). The unbiased
+/// estimate has k/(k - 2) times this variance and (k - 1)/k times this bias. The best mean square errors of both agree
+/// to leading order, f² 3/(2k). But r_k adapts to f, while the disc's radius is fixed.
 ///
-/// Validity   even density around the point up to r_k, except for its curvature: k∇²f/(8πnf²) far below 1, no edge of
-///            the surface within r_k. n is fixed; for a Poisson number of photons p = 0.
-/// Counted    in tests/model/accuracy/nearest_photons.test.cpp. Even field, k = 10, 30, 100: variances within 1.5 %,
-///            standard errors 0.8 to 1.3 %. Parabolic density, k = 200 of 2000, ten times the test's replicates: bias
-///            1.5 % off, standard error 1.3 % (the next order is 2 %); variance 1.3 % off, standard error 0.6 %.
+/// Validity   density uniform around the point up to r_k, except for its curvature: k∇²f/(8πnf²) far below 1, no edge
+///            of the surface within r_k. n is fixed; for a Poisson number of photons p = 0.
+/// Counted    in tests/model/accuracy/nearest_photons.test.cpp. Uniform density, k = 10, 30, 100: variances within 1.5
+///            %, standard errors 0.8 to 1.3 %. Parabolic density, k = 200 of 2000, ten times the test's replicates:
+///            bias 1.5 % off, standard error 1.3 % (the next order is 2 %); variance 1.3 % off, standard error 0.6 %.
 namespace detp::model {
 
 /// Variance and bias of the unbiased estimate. Throws std::invalid_argument unless f > 0, n and k are whole numbers,

@@ -171,8 +171,9 @@ TreeCounts tree_counts(int dimension, const Valid<Workload>& workload, double sa
                        int leaf, Engine engine) {
   constexpr double far = 1e60;  // a larger or smaller radius makes no difference
   const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
-  // 64 units in the last place of floats next to 1 (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
-  // of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not matter.
+  // The margin is 64 units in the last place of floats next to 1 (sim/lists/simd/frame.hpp). The frame scales r₀ to [½,
+  // 1) by a power of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not
+  // matter.
   const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
   const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
   const CrossingProbability crossing(workload, side);
@@ -212,8 +213,8 @@ Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxT
   }
   const int fan_out = std::min(parameters.fan_out, box_tree_most_children);
   const int leaf = std::min(parameters.leaf, box_tree_largest_leaf);
-  // Leaves larger than box_tree_largest_leaf: as many nodes as for leaves of that size and proportionally fewer
-  // samples.
+  // A tree with larger leaves than box_tree_largest_leaf has the nodes of a tree with leaves of that size and
+  // proportionally fewer samples.
   const double in_one = static_cast<double>(parameters.leaf) / leaf;
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
   const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);

@@ -7,7 +7,7 @@
 /// If P(node) is the share of the rays in the node's list,
 ///
 ///     tests of boxes = n_R Σ_inner P(node) children        listed = n_R Σ P(node)
-///     disc tests     = n_R Σ_leaves P(node) discs          P of the root is 1
+///     disc tests     = n_R Σ_leaves P(node) discs          P of the root is 1; its rays are not listed
 ///
 /// This is exact if the tree is known (validate/structural_boxes.hpp). If only the workload's numbers are known, the
 /// model follows the builder's decisions level by level, on the tree expected for random samples:
@@ -29,10 +29,10 @@
 ///
 ///     1 - (1 - n s ln(1 - p))^{-1/s}        1 - (1 - p)^n for s = 0
 ///
-/// A wide node joins f - 1 inner nodes: its top, and those below the top that have the largest boxes. The model takes
-/// the least deep ones instead. Let X be the number of inner nodes at most j levels below the top, including the top:
-/// E[min(f - 1, X)] of them are joined. X is taken as normal. Its mean and variance are those of a branching process: a
-/// half of an inner node is an inner node with the probability of its level.
+/// With fan-out f, a wide node joins f - 1 inner nodes: its top, and those below the top that have the largest boxes.
+/// The model takes the least deep ones instead. Let X be the number of inner nodes at most j levels below the top,
+/// including the top: E[min(f - 1, X)] of them are joined. X is taken as normal. Its mean and variance are those of a
+/// branching process: a half of an inner node is an inner node with the probability of its level.
 ///
 /// For D between 2 and 3, the logarithms of the counts are interpolated.
 namespace detp::model {

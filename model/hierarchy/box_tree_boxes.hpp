@@ -24,7 +24,8 @@ struct MeanBox {
 /// The mean box around m isotropic discs in a cell.
 ///
 /// Along an axis where the samples' coordinates x are uniform in [0, L], the box ends at L + d - y. Here y is the
-/// smallest of m values (L - x) + (d - reach), with reach = d √(1 - u²), u uniform in [0, 1]:
+/// smallest of m values (L - x) + (d - reach). A disc extends along the axis from its centre by reach = d √(1 - u²),
+/// with u uniform in [0, 1]. So
 ///
 ///     E[y] = ∫₀^{L+d} (1 - G(y))^m dy      G(y) = (1/L) ∫ P(d - reach < v) dv, over v from y - L (or 0) to y
 ///

@@ -87,8 +87,8 @@ class SurfaceKinds {
   }
 
   void add_face(int halvings) {
-    // After the last cell of the cube that is halved into this kind: across z if `halvings` is even, else across y.
-    // The first four kinds never occur.
+    // The kind comes after the last cell of the cube that is halved into it. That cell is halved across z if `halvings`
+    // is even, else across y. The first four kinds never occur.
     const int place = std::max(1, halvings % 2 == 0 ? 6 * halvings - 2 : 6 * halvings);
     keys_.push_back({-1, place,
                      CellKind{.share = std::ldexp(1.0, -halvings) / 6,

@@ -7,10 +7,10 @@
 /// The cells from which the box tree is made.
 ///
 /// The builder (sim/lists/simd/disc_tree.hpp) splits the discs where the Morton curve (the paper: Lebesgue curve)
-/// leaves a cell: first the cube of the samples across x, then its halves across y, then z, x, … The smallest cells of
-/// the curve have 1/1024 of the cube's side, or 1/64 if there are fewer than 8192 samples. The builder splits the discs
-/// of such a cell in the middle of an arbitrary order. This model splits them at random: both halves have the sides of
-/// the cell. Lengths here are multiples of the cube's side.
+/// goes from one half of a cell to the other. The cube of the samples is halved across x, its halves across y, then
+/// z, x, … The smallest cells of the curve have 1/1024 of the cube's side, or 1/64 if there are fewer than 8192
+/// samples. The builder splits the discs of such a cell in the middle of an arbitrary order. This model splits them at
+/// random: both halves have the sides of the cell. Lengths here are multiples of the cube's side.
 namespace detp::model::box_tree {
 
 /// A kind of cells that have the same size and touch the samples' surface in the same way.

@@ -39,7 +39,8 @@ void binomial(double trials, double share, int last, std::vector<double>& out) {
   for (int k = start; k > 0 && out[k] > 1e-14; --k) out[k - 1] = out[k] * (k / ((trials - k + 1) * odds));
 }
 
-/// a(m) of one kind of cells; multiplied by the number of cells until all terms are added. Empty: all are nodes.
+/// a(m) of one kind of cells (box_tree_expected.hpp); until the terms of all parents are added, times the number of
+/// cells. Empty if all cells are nodes.
 using NodeProbabilities = std::vector<double>;
 
 class ExpectedLevels {
@@ -182,7 +183,8 @@ class ExpectedLevels {
     return split;
   }
 
-  /// Adds nodes of about `discs` discs. `leaves` is the share of leaves, `leaf_boxes` their share of the boxes.
+  /// Adds nodes of about `discs` discs. `leaves` is the share of leaves, `leaf_boxes` their share of all surface
+  /// and volume.
   static void add(LevelNodes& nodes, double cells, double discs, const MeanBox& box, double leaves, double leaf_boxes) {
     if (leaves > 0) {
       const double size = leaf_boxes / leaves;
@@ -204,8 +206,8 @@ class ExpectedLevels {
     const double expected = samples_ * child.share;
     const double rest = 1 - child.share;
     const double sibling = rest > 0 ? std::min(1.0, (parent.share - child.share) / rest) : 1;
-    // Computed once, for the child's expected number of discs. For other numbers it is shifted: the sibling has the
-    // rest.
+    // The sibling's number of discs is distributed over the discs outside the child. This distribution is computed
+    // once, for the child's expected number of discs, and shifted for other numbers.
     const int first = std::max(1, static_cast<int>(expected - deviations * std::sqrt(expected)));
     const int last = most_of(expected);
     const double others = std::floor(samples_ - expected);

@@ -5,7 +5,8 @@
 namespace detp::model {
 
 /// Parameters of a box tree that suit the workload. A node has 4 children. A leaf has 64 discs if there are fewer rays
-/// than discs (building the tree then takes longer than searching it), 8 discs from 64 rays per disc on, else 16.
+/// than discs (building the tree then takes longer than searching it), 8 discs if there are at least 64 rays per
+/// disc, else 16.
 ///
 /// A rule of thumb, measured on seven workloads of 10³ … 10⁶ rays and discs. With leaves twice or half as large, a run
 /// took 1.0 to 1.2 times as long; with leaves four times or a quarter as large, up to 1.8 times.

@@ -44,7 +44,7 @@ int most_discs(double expected) {
   return static_cast<int>(std::clamp(expected + deviations * std::sqrt(expected) + 10, 28.0, 1.0 * largest_sah_leaf));
 }
 
-// Of nodes with 2 … 6 discs: share, box and cost (validate/tools/box_tree_sah_leaves_table.cpp).
+// A table for nodes with 2 … 6 discs: share, box and cost (validate/tools/box_tree_sah_leaves_table.cpp).
 constexpr int most_in_table = 6;
 constexpr std::size_t small_row = 3 * (most_in_table - 1);
 constexpr std::size_t small_radii = 21;              // d over the cell's longest side, 2⁻⁹, 2^{-8.5} … 2

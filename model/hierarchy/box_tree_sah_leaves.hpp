@@ -35,13 +35,15 @@ struct SahLeaves {
 ///          c_l, c_r      costs of the children. A node's cost is m A if it is a leaf, else m A + Z
 ///
 /// The mean of Z is computed from the smallest cells upwards, from the mean boxes of m discs and the binomial
-/// distribution of discs over the halves. Z is taken as normal around this mean, with the standard deviation
+/// distribution of discs over the halves. Z is taken as normal around this mean, with the standard deviation (a factor
+/// with a condition in brackets applies only under this condition)
 ///
 ///     σ = 0.215 A m^0.7 (A_0/A)^0.35 · 1.1 (D = 2) · 1.13 (leaf > 1) · (1 + 1.2 p (1 - p)) (leaf = 1)
 ///
 ///   where  A_0   area if the discs were points;   p   share of the children with two discs that become leaves
 ///
-/// These leaves have smaller boxes than other nodes, by the share 0.3 σ φ(z)/(Φ(z) A (m - 1.6)), z = E[Z]/σ.
+/// These leaves have smaller boxes than other nodes, by the share 0.3 σ φ(z)/(Φ(z) A (m - 1.6)), where z = E[Z]/σ and
+/// φ, Φ are the density and the distribution function of the standard normal.
 ///
 /// For nodes of 2 … 6 discs, with one disc per leaf, Z is far from normal. Their shares, boxes and costs are tabulated
 /// by d over the cell's side and the shape of the cell (validate/tools/box_tree_sah_leaves_table.cpp).

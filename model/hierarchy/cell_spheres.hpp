@@ -4,8 +4,8 @@
 
 /// Spheres anchored to the cells of an octree: a cache whose costs are known exactly.
 ///
-/// S_i belongs to the cell of side s_i = s/2^i that holds the sample. Its centre is the cell's; its radius is
-/// r_i = s_i√3/2 + d, so it contains the discs of all samples in the cell.
+/// S_i belongs to the cell of side s_i = s/2^i that holds the current sample. Its centre is the cell's; its
+/// radius is r_i = s_i√3/2 + d, so it contains the discs of all samples in the cell.
 ///
 /// Nested: the centres of a cell and of its child are s_{i+1}√3/2 apart, half the child's diagonal. The radii differ by
 /// the same length: r_i - r_{i+1} = (s_i - s_{i+1})√3/2 = s_{i+1}√3/2. So S_{i+1} lies in S_i and touches it from
@@ -25,7 +25,8 @@ namespace detp::model {
 
 /// Expected number of non-empty cells at level i, for samples uniform in the cube: 8^i (1 - (1 - 8^{-i})^{n_P}).
 ///
-/// Accuracy   4 ulp (expm1, log1p).   Throws  std::invalid_argument unless 0 <= level <= 300.
+/// Accuracy   4 ulp (expm1, log1p).
+/// Throws     std::invalid_argument unless n_P is a whole number 1 … 1e18 and 0 <= level <= 300.
 [[nodiscard]] double occupied_cell_spheres(double samples, int level);
 
 /// m_i: expected number of cells of level i that hold a sample.
@@ -34,13 +35,13 @@ namespace detp::model {
 ///
 ///   where  p   share of the samples in the cell
 ///
-/// Workload::sample_extent is 0, D = 3: p is the share of the box's volume in the cell; in a cube this is the formula
-/// above. D = 2: p is the share of the area of the box's faces in the cell; in a cube the cells at one, two and three
-/// faces have 1, 2 and 3 times 4^{-i}/6. If a side of the box is not a whole number of cells, the last cell is cut. For
-/// D between 2 and 3: the geometric interpolation of both.
+/// If Workload::sample_extent is 0, for D = 3 p is the share of the box's volume in the cell; in a cube this is the
+/// formula above. For D = 2 p is the share of the area of the box's faces in the cell; in a cube the cells at one, two
+/// and three faces have p = 1, 2 and 3 times 4^{-i}/6. If a side of the box is not a whole number of cells, the last
+/// cell is cut. For D between 2 and 3: the geometric interpolation of both.
 ///
-/// Workload::sample_extent is a volume V or an area A: the sum is over V/s_i³ or 1.5 A/s_i² equal cells (as many as a
-/// random surface of area A crosses), at least 1 and at most 8^i.
+/// If Workload::sample_extent is a volume V or an area A, the sum is over V/s_i³ or 1.5 A/s_i² equal cells (as many as
+/// a random surface of area A crosses), at least 1 and at most 8^i.
 ///
 /// Source     our derivation.
 /// Accuracy   1e-14 in a cube and on its faces; with sample_extent: an estimate.
@@ -50,8 +51,8 @@ namespace detp::model {
 /// n_i: n_R times crossing_probability of S_i, n_R (r_i/r₀)² for lines.
 [[nodiscard]] double rays_in_cell_sphere(const Valid<Workload>& workload, int level);
 
-/// Expected counts with spheres at levels 1 … depth. Each sphere's list is culled once from its parent's list. Each
-/// disc is tested against the list of the innermost sphere.
+/// Expected counts with spheres at levels 1 … k, k = depth. Each sphere's list is culled once from its parent's list.
+/// Each disc is tested against the list of the innermost sphere.
 ///
 ///     T_R = t Σ_{i=1..k} m_i n_{i-1},  n_0 = n_R      T_I = u n_P n_k
 ///

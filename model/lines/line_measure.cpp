@@ -63,8 +63,8 @@ struct Node {
 const auto& nodes() {
   static const auto table = [] {
     constexpr double step = 0.4;
-    constexpr int first = -98;  // the integrand is proportional to e^τ if a = b, …
-    constexpr int last = 66;    // … and to e^{-3τ/2} if c ≠ a + b: below 1e-17 outside
+    constexpr int first = -98;  // the integrand decays at least as e^τ (slowest if a = b) …
+    constexpr int last = 66;    // … and at least as e^{-3τ/2} (slowest if c ≠ a + b): it is below 1e-17 outside
     std::array<Node, last - first + 1> all;
     for (int i = first; i <= last; ++i) {
       const double v = 1 / (1 + std::exp(-step * i));

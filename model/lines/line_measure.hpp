@@ -47,13 +47,14 @@ namespace detp::model {
 ///     segments   P = min(1, (V + ℓF/4) / V_box)
 ///
 ///   where  V, F    volume and surface area of the body
-///          V_box   volume of the samples' box grown by d;   ℓ   mean length of the rays inside this box
+///          V_box   volume of the samples' box grown by d on all sides;   ℓ   mean length of the rays inside this box
 ///
 /// Source     eq (3); for segments our derivation: a segment with uniform origin meets a body if its origin lies in the
 ///            body or if it enters through the body's surface, where the flux of segments is ℓ/(4 V_box) per area.
 /// Valid      segments: origins uniform in the box, isotropic directions. Real paths start and end on surfaces: expect
 ///            errors of tens of percent.
 /// Accuracy   1.1e-16.
+/// Throws     std::invalid_argument unless V, F >= 0, both finite.
 [[nodiscard]] double crossing_probability(const Valid<Workload>& workload, double volume, double area);
 
 /// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².
@@ -61,7 +62,7 @@ namespace detp::model {
 /// Half as many if only rays that arrive at a disc's front count. (Our derivation: reversing all rays exchanges front
 /// and back and does not change the isotropic measure.)
 ///
-/// Valid      half: for isotropic directions only. Photons mostly arrive on the side of the light.
+/// Valid      the half for fronts: isotropic directions only. Photons mostly arrive on the side of the light.
 /// Accuracy   1.1e-16.
 [[nodiscard]] double expected_hits(const Valid<Workload>& workload);
 
@@ -70,7 +71,8 @@ namespace detp::model {
 ///     share = ∫₀¹ lens(c √(1-μ²); a, b) dμ / (π b²)
 ///
 ///   where  a, b   radii of A and B, length;   c   distance of their centres, length
-///          lens   area common to two circles of radii a, b: the spheres projected along a direction
+///          lens   lens(x; a, b): area common to two circles of radii a, b with centres x apart, which are the spheres
+///                 projected along a direction
 ///          μ      cosine between the direction and the line of centres, uniform in [0, 1]
 ///
 /// Integrated by parts, with s = c√(1-μ²), p = |a-b|, q = min(c, a+b), this becomes an integral over the common chord

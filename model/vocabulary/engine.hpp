@@ -20,9 +20,9 @@ template <>
 inline constexpr std::array<std::string_view, 2> choice_names<Engine>{"plain", "simd"};
 
 /// Number of rays in a block. The simd engine searches all discs block by block. The lists of a block (20 or 28 bytes a
-/// ray) should stay in the second-level cache while they are culled. 2¹⁵ rays for up to 2¹³ discs, where most culls are
-/// near the root; 2¹⁷ rays for more than 2¹⁴ discs. (Blocks of 2¹³ rays took 1.1 to 2 times as long. For some thousand
-/// discs, blocks of 2¹⁷ rays took 1.3 times as long.)
+/// ray) should stay in the second-level cache while they are culled. A block has 2¹⁵ rays for up to 2¹³ discs,
+/// because most culls are then near the root, 2¹⁷ rays for more than 2¹⁴ discs, and 2¹⁶ rays between. (Blocks of 2¹³
+/// rays took 1.1 to 2 times as long. For some thousand discs, blocks of 2¹⁷ rays took 1.3 times as long.)
 [[nodiscard]] constexpr std::size_t rays_in_block(std::size_t discs) {
   constexpr std::size_t least = std::size_t{1} << 15;
   constexpr std::size_t most = std::size_t{1} << 17;

@@ -11,7 +11,8 @@ namespace detp {
 [[nodiscard]] std::size_t edit_distance(std::string_view a, std::string_view b);
 
 /// For a message about an unknown name: "; did you mean octree?". Empty if the nearest name's edit distance from the
-/// word is more than 3, or more than a third of the word's length (rounded up).
+/// word is more than 3, or more than a third of the word's length (rounded up), or if the word has more than 40
+/// letters.
 [[nodiscard]] std::string did_you_mean(std::string_view word, std::span<const std::string_view> names);
 
 }  // namespace detp

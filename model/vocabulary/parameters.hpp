@@ -44,8 +44,8 @@ struct SphereTreeParameters {
   bool operator==(const SphereTreeParameters&) const = default;
 };
 
-/// A tree of axis-aligned boxes around cells of the curve, which are joined where that lowers the expected cost. Lists
-/// of rays are culled down the tree.
+/// A tree of axis-aligned boxes around the discs of the curve's cells. A cell whose halves would cost more than the
+/// cell is not split. Lists of rays are culled down the tree.
 struct BoxTreeParameters {
   int fan_out = 4;  ///< maximum number of children of a node
   int leaf = 16;    ///< maximum number of samples in a leaf, unless splitting would cost more

@@ -56,7 +56,7 @@ std::string cut_escaped_character(std::string_view& text) {
   return piece.valid && is_safe(piece.point) ? std::string(bytes) : escape_of(bytes);
 }
 
-/// Width of one piece on the screen: an escape has one column per byte, everything else one column.
+/// Columns of one piece on the screen: four for each escaped byte, one for any other character.
 std::size_t width(const std::string& shown) { return shown.front() == '\\' ? shown.size() : 1; }
 
 }  // namespace

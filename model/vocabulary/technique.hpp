@@ -180,8 +180,8 @@ void check(const Own& parameters) {
     if (std::holds_alternative<Own>(record.defaults)) return check(Candidate{record.technique, parameters});
 }
 
-/// Variants for tests on few samples: the technique with all parameters `small`; then that variant with one parameter
-/// changed, to its smallest whole number or to each of its choices.
+/// Variants for tests on few samples. In the first, every parameter has its value `small`. Each other one differs from
+/// the first in one parameter: a whole number has its smallest value, a choice any of its other values.
 [[nodiscard]] std::vector<Candidate> small_variants(Technique technique);
 
 }  // namespace detp

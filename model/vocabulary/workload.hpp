@@ -22,12 +22,13 @@ struct Workload {
   bool front_facing = false;   ///< only rays that arrive at a disc's front count as hits
 };
 
-/// Throws std::invalid_argument if a number is out of its range, or r₀ or the longest side is not in 1e-90 … 1e90.
+/// Throws std::invalid_argument if a number is out of its range, if r₀ or the longest side is not in 1e-90 … 1e90, or
+/// if the extent is above 1e270.
 void check(const Workload& workload);
 
-/// Volume (D = 3) or area (D <= 2) that the samples fill; for D between 2 and 3 their geometric interpolation. Largest
-/// relative error over 10⁶ workloads (tests/model/hard_cases): 4.4e-16. Of sample_distance: 3.4e-16; of
-/// enclosing_radius: 2.8e-16.
+/// The extent that the samples fill: the workload's value if it is set, else the box's volume (D = 3) or the area of
+/// its faces (D <= 2), for D between 2 and 3 the geometric interpolation of both. Largest relative error over 10⁶
+/// workloads (tests/model/hard_cases): 4.4e-16. Of sample_distance: 3.4e-16; of enclosing_radius: 2.8e-16.
 [[nodiscard]] double sample_extent(const Workload& workload);
 
 /// Mean distance between neighbouring samples: the workload's value if it is set, else (extent / n_P)^(1/D).
