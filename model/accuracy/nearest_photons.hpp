@@ -26,8 +26,8 @@
 ///
 /// Validity   density uniform around the point up to r_k, except for its curvature: k∇²f/(8πnf²) far below 1, no edge
 ///            of the surface within r_k. n is fixed; for a Poisson number of photons p = 0.
-/// Counted    in tests/model/accuracy/nearest_photons.test.cpp. Uniform density, k = 10, 30, 100: variances within 1.5
-///            %, standard errors 0.8 to 1.3 %. Parabolic density, k = 200 of 2000, ten times the test's replicates:
+/// Counted    in tests/model/accuracy/nearest_photons.test.cpp. Uniform density, k = 10, 30, 100: variances within
+///            1.5 %, standard errors 0.8 to 1.3 %. Parabolic density, k = 200 of 2000, ten times the test's replicates:
 ///            bias 1.5 % off, standard error 1.3 % (the next order is 2 %); variance 1.3 % off, standard error 0.6 %.
 namespace detp::model {
 

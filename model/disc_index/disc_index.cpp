@@ -17,8 +17,8 @@ Counts<double> leaf_counts(const Valid<Workload>& workload, const Cells& cells, 
           .hits = expected_hits(workload)};
 }
 
-/// Grid cells that a ray steps through: counts the cells' parts inside the discs' box, by their mean surface and
-/// volume.
+/// Expected number of grid cells that a ray steps through, from the mean surface and volume of the cells' parts inside
+/// the discs' box.
 double steps_of_ray(const Valid<Workload>& workload, const Cells& cells) {
   std::array<double, 3> length = workload.box;
   for (double& side : length) side += 2 * std::min(workload.disc_radius, 1e99);  // so that the volume does not overflow

@@ -29,8 +29,9 @@ namespace detp::model {
 ///                  restart                  n_R [(k + 1) P_k O_k + Σ_{l=1..k} l P_l (8 O_{l-1} - O_l)]
 ///     placements   n_P Σ_{l=1..k} E_l
 ///
-///   where  O_l   occupied_cells of level l (index_cells.hpp). 8 O_{l-1} - O_l octants of this level are omitted; a
-///                descent to an omitted octant visits l nodes.
+///   where  E_l, P_l   E and P(cell) for the cells of level l
+///          O_l        occupied_cells of level l (index_cells.hpp). 8 O_{l-1} - O_l octants of this level are omitted;
+///                     a descent to an omitted octant visits l nodes
 ///
 /// Limits     no node empty: 2^{k+1} - 1 nodes per line top-down, (k + 1) 2^k with restarts (the paper's k 2^k does not
 ///            count the root).

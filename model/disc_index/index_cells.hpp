@@ -15,8 +15,8 @@ struct Cells {
   Insertion insertion = Insertion::exact;
   /// E: expected number of cells that a disc overlaps. No disc crosses the outermost planes of the index
   double overlapped = 1;
-  /// S: see faces_seen. S a² is the surface area of a convex body that as many lines meet as meet at least one of the
-  /// cells that a disc overlaps (S = 6 for one cell)
+  /// S (faces_seen): a convex body of surface area S a² is met by as many lines as meet at least one of the cells that
+  /// a disc overlaps (S = 6 for one cell)
   double seen = 6;
   double crossing = 0;  ///< P(cell), for all rays of the workload
   double meeting = 0;   ///< P(at least one of the cells that a disc overlaps), for all rays
@@ -38,17 +38,18 @@ struct Cells {
 ///            E is up to 6 % too small, and disc tests with mailboxes up to 13 % too many.
 [[nodiscard]] Cells index_cells(const Valid<Workload>& workload, double parts, Insertion insertion = Insertion::exact);
 
-/// Cells that hold at least one disc:
+/// Expected number of cells that hold at least one disc:
 ///
 ///     Σ_cells 1 - (1 - q)^n_P
 ///
-///   where  q   probability that a disc overlaps the cell: its part of the terms of E. Along each axis, either the
+///   where  q   probability that a disc overlaps the cell, the cell's part of E. Along each axis, either the disc's
 ///              centre lies in the cell's slab, or the disc reaches into the slab. q is smaller at the index's ends
 ///
 /// Accuracy   counted as for E: within 2.7 % (median 0.2 %); with d > side/4 up to 13 % too few.
 ///
-/// Samples on surfaces with an extent A of their own: R (1 - exp(-n_P E/R)), as if all R cells that a random surface
-/// crosses were equally likely. R = min(C, 1.5 A/a²), where C is the number of all cells. This is only an estimate.
+/// If the samples lie on surfaces with an extent A of their own, the result is R (1 - exp(-n_P E/R)), as if all R cells
+/// that a random surface crosses were equally likely. R = min(C, 1.5 A/a²), where C is the number of all cells. This is
+/// only an estimate.
 [[nodiscard]] double occupied_cells(const Valid<Workload>& workload, const Cells& cells);
 
 }  // namespace detp::model

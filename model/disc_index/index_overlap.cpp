@@ -44,7 +44,7 @@ PlaneCrossings crossings_at(double distance, Insertion insertion) {
           2 * two_pi_squared * Rule::integrate(mean_reach_around, 0, k)};
 }
 
-/// Share of the lines along an axis that pierce the disc at most u d beyond its centre, minus ½.
+/// Share of the lines along an axis that pierce the disc at most `distance` disc radii beyond its centre, minus ½.
 double pierced_up_to(double distance) {
   const double u = std::min(1.0, std::abs(distance));
   const double share =

@@ -50,7 +50,7 @@ class ConvexPart {
     return jet;
   }
 
-  /// The minimum of T on [low, high], if T' has different signs at the ends: Newton's method on T'.
+  /// The x at which T is smallest on [low, high], if T' has different signs at the ends: Newton's method on T'.
   [[nodiscard]] double minimum(double low, double high) const {
     const auto slope = [&](double x) {
       const Jet jet = at(x);

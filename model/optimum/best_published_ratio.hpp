@@ -6,8 +6,8 @@
 
 /// The radius ratio at which the paper's T = T_R + T_I is smallest, with a certified bound.
 ///
-/// k = ⌈log_Q(d/r₀)⌉ = j on an interval (Q_{j-1}, Q_j]. Each interval is also cut where a sphere's m_i reaches n_P, at
-/// Q = n_P^{-1/(3J)}. On each part, with x = ln Q,
+/// k = ⌈log_Q(d/r₀)⌉ is j on the interval (Q_{j-1}, Q_j], where Q_j = (d/r₀)^{1/j}. Each interval is also cut where
+/// m_J = n_P for some sphere J, at Q = n_P^{-1/(3J)}. On each part, with x = ln Q,
 ///
 ///     T(x) = t n_R [ Σ_{i=1..J} e^{-(i+2)x} + n_P Σ_{i=J+1..j} e^{2(i-1)x} ] + u n_R n_P e^{2jx}
 ///

@@ -44,8 +44,9 @@ class CacheTimes {
     return time;
   }
 
-  /// The fastest number of spheres among 1 … last; spheres = 0 if last = 0. Stops early if T without disc tests reaches
-  /// `time_limit`; the result is then slower than `time_limit`.
+  /// The fastest number of spheres among 1 … last; spheres = 0 if last = 0. T without disc tests grows with the number.
+  /// The search ends when it reaches the best T so far, or `time_limit`. In the second case the result is slower than
+  /// `time_limit`, and not necessarily the fastest.
   [[nodiscard]] BestRatio best_stop(double ratio, std::int64_t last, double time_limit) const {
     BestRatio best{ratio, 0, 0};
     if (last >= 1)
@@ -247,7 +248,8 @@ BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitC
   const CacheTimes times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   BestRatio best;
-  // The ratios were chosen one after another. Each one minimises the mean square excess over the best T that remains.
+  // The ratios were chosen one after another. Each one minimises the mean square excess over the best T that the ratios
+  // up to it leave.
   for (const double ratio : {0.575, 0.47, 0.765, 0.425, 0.49, 0.6, 0.455, 0.635}) {
     const BestRatio stop = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), HUGE_VAL);
     if (best.spheres == 0 || stop.time < best.time) best = stop;

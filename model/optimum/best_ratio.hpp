@@ -46,7 +46,7 @@ inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 [[nodiscard]] BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                             std::int64_t most_spheres = 40);
 
-/// The fastest number of spheres k for a given Q, at least 1 (if a sphere holds a disc) and at most 4096.
+/// The fastest number of spheres k for a given Q, 1 … 4096; 0 if no sphere holds a disc.
 [[nodiscard]] BestRatio best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio);
 
 /// The fastest Q, from 0.02 to 0.98, for a given k (k = 0 … 9e18). If r_k < d for all these Q, the result is Q = 0.98.

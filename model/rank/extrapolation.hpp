@@ -9,8 +9,8 @@
 
 /// Detects predictions outside the range in which their formula was compared with counts.
 ///
-/// Compared with counts (validate/sweep/results.md): isotropic lines through S₀, samples uniform in a cube or on its
-/// faces, n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3, and the parameters below.
+/// The formulas were compared with counts (validate/sweep/results.md) for isotropic lines through S₀, samples uniform
+/// in a cube or on its faces, n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3, and the parameters below.
 ///
 ///     sphere-cache (both)   Q 0.3 … 0.9, at most as many spheres as can hold a disc, samples sorted
 ///     cell-spheres          depth 1 … 6
@@ -19,7 +19,8 @@
 ///                           leaf 1 … 256
 ///     octree, grid          depth 1 … 7, 2 … 128 cells a side
 ///
-/// Brute force always tests n_R n_P pairs, and so does a sphere cache without spheres.
+/// Brute force always tests n_R n_P pairs, and so does a sphere cache without spheres: their counts are never
+/// extrapolations.
 namespace detp::model {
 
 /// Collects reasons: a short text for each input that is outside its range.

@@ -7,7 +7,7 @@
 
 namespace detp::model {
 
-/// Keeps the fastest of the parameters passed to `consider`, if they are within the limits.
+/// Keeps the fastest of the parameters passed to `consider`, without those that need too many references.
 template <class P>
 class Fastest {
  public:

@@ -9,7 +9,7 @@ namespace detp::model {
 namespace {
 
 constexpr double slow_factor = 3;  // stop when a time is this many times the smallest
-constexpr double ripple = 1.4;     // maximum factor between the best of the steps and the minimum
+constexpr double ripple = 1.4;     // the minimum is within this factor of the best step
 constexpr int most_tried = 64;     // largest number of cell counts tried in that range
 
 }  // namespace

@@ -18,7 +18,7 @@ struct ProcessorCache {
 ///     between      sphere cache if the rays of S_k fit the processor's cache, else index of discs
 ///
 /// Source     sections 5 and 3; the paper took the limits of X from measurements of one scene in 2006.
-/// Throws     std::invalid_argument for a workload out of range.
+/// Throws     std::invalid_argument for a workload or cache out of range.
 [[nodiscard]] Candidate paper_rule(const Valid<Workload>& workload, const ProcessorCache& cache = {});
 
 }  // namespace detp::model

@@ -21,7 +21,7 @@
 namespace detp::model {
 namespace {
 
-/// The candidate's parameters, which its check covers.
+/// The candidate's parameters, valid because the candidate was checked.
 template <class P>
 Valid<P> checked_parameters(const Valid<Candidate>& candidate) {
   return Valid<P>(candidate, std::get<P>(candidate.parameters));

@@ -25,7 +25,7 @@ struct SearchLimits {
 struct FixedParameters {
   std::vector<std::pair<std::string_view, ParameterValue>> values = {};
 
-  /// The value of a parameter of that type, if it is fixed.
+  /// The fixed value of the parameter with this name; nullopt if it is not fixed. T must be the type of the value.
   template <class T>
   [[nodiscard]] std::optional<T> value(std::string_view name) const {
     for (const auto& [parameter, value] : values)

@@ -8,7 +8,8 @@
 ///
 /// S_i is centred at the sample for which it was rebuilt. The spheres around it were centred at this sample or at an
 /// earlier one, so S_i may extend outside them, and outside S₀ near the edge of the scene. Rays that cross S_i but miss
-/// one of the spheres around it are not listed (the discs that S_i serves do not need them). So L_i = n_i g_i.
+/// one of the spheres around it are not listed (the discs that S_i serves do not need them). So L_i = n_i g_i with
+/// a share g_i <= 1.
 namespace detp::model {
 
 /// n_i: rays that cross a sphere of radius r inside S₀.
@@ -26,7 +27,7 @@ namespace detp::model {
 ///
 ///   where  deep      share lost far inside S₀
 ///          shallow   share lost near S₀, where S_i extends outside S₀, and fewer spheres are around S_i
-///          λ         samples in a cube of side r_i, n r_i^D/extent;   u   log₂(1/Q)
+///          λ         samples in a cube of side r_i, n_P r_i^D/extent;   u   log₂(1/Q)
 ///          λ'        λ of the samples with which `shallow` was tabulated
 ///
 /// If d = r_i, or for λ → 0, S_i and the spheres next to it are all rebuilt for each sample: 1 - g → 0.
@@ -52,7 +53,7 @@ struct EnclosingSphere {
 ///
 ///     g_i = √(Π_l h_l · min_l h_l)       h_l = c_l + (1 - c_l) H(r_i/r_l, reach_l/r_l)
 ///
-///   where  l     S₀ and the next spheres around S_i, six in all
+///   where  l     each of the spheres in `around`: the next ones around S_i, at most six, with S₀ if it is among them
 ///          c_l   share of the rebuilds of S_i that also rebuild S_l, so that both have the same centre: m_l/m_i
 ///          H     both_hit_share averaged over a centre uniform in the disc of radius reach_l
 ///

@@ -164,8 +164,8 @@ double large_ball_b(int dimension, double log_lambda, double halvings, double oc
              place - static_cast<double>(column));
 }
 
-/// b of a small ball, from the column of 10⁷ samples: interpolated between the two halvings of the ball's phase that
-/// are around the halvings at which a ball has this λ.
+/// b of a small ball, from the column of 10⁷ samples. In this column, balls with this λ have `same_lambda` halvings. b
+/// is interpolated between the next smaller and the next larger number of halvings with the ball's phase.
 double small_ball_b(int dimension, double log_lambda, double halvings, double octaves) {
   constexpr double least = coarse_to - 0.5;
   const double same_lambda = (7 * log2_of_10 - log_extent(dimension) - log_lambda) / dimension;

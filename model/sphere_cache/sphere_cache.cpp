@@ -147,7 +147,7 @@ Counts<double> sphere_cache_counts(const Valid<Workload>& workload, const Valid<
   double tests = 0;
   double copies = 0;
   double rebuilds = 0;
-  // Groups of `largest` spheres each, but smaller ones towards `to`, where r_i - d goes to 0.
+  // Adds groups of `largest` spheres each, but smaller groups towards `to`, where r_i - d goes to 0.
   const auto add_groups = [&](std::int64_t from, std::int64_t to) {
     const std::int64_t largest = (to - from - 1) / most_groups + 1;
     for (std::int64_t i = from; i < to;) {

@@ -28,9 +28,9 @@ namespace detp::model::published {
 
 /// m_i = Q^{-3i}: how often S_i is rebuilt (eqs 10, 11, 17). Saturates at the largest double.
 ///
-/// Far off: the formula uses r_i instead of r_i - d, uses the radius instead of the side of a cell, ignores the jumps
-/// of the curve, and holds only for samples in a volume. The counted rebuilds were 0.7 to 35 000 times min(n_P, m_i) in
-/// a volume (most where r_i is near d), and 0.1 to 3100 times on surfaces (validate/sweep/results.md). See
+/// The formula is far off. It uses r_i instead of r_i - d and the radius instead of the side of a cell, ignores the
+/// jumps of the curve, and holds only for samples in a volume. The counted rebuilds were 0.7 to 35 000 times min(n_P,
+/// m_i) in a volume (most where r_i is near d), and 0.1 to 3100 times on surfaces (validate/sweep/results.md). See
 /// rebuild_law.hpp.
 [[nodiscard]] double rebuilds(RadiusRatio ratio, std::int64_t i);
 

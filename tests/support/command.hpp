@@ -188,7 +188,8 @@ inline bool has_no_number(const std::string& text) {
   return std::regex_search(text, no_number);
 }
 
-/// A result without the values that differ from run to run: times and the number of threads.
+/// A result without the values that differ from run to run: measured times, what follows from them, and the number of
+/// threads.
 inline Json without_times(const Json& json) {
   if (!json.is_structured()) return json;
   Json rest = json.is_array() ? Json::array() : Json::object();

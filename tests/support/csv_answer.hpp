@@ -11,7 +11,7 @@ namespace detp::support {
 
 using CsvRow = std::map<std::string, std::string>;
 
-/// The fields of each record. Fails the test if a quote is not closed.
+/// The fields of each record. Fails the test if a quote is not closed, or if the last line does not end.
 inline std::vector<std::vector<std::string>> csv_records(const std::string& csv) {
   std::vector<std::vector<std::string>> records;
   std::string field;

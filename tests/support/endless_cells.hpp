@@ -4,8 +4,8 @@
 
 #include "detp/model/disc_index/index_overlap.hpp"
 
-/// Number of endless cubic cells that a uniformly placed isotropic disc overlaps, x = d/a: the limit for an index with
-/// many small cells.
+/// Mean number of cells that a uniformly placed isotropic disc overlaps in an endless grid of cubic cells: the limit
+/// for an index with many small cells. x = d/a; index_overlap.hpp introduces d, a and h_i.
 namespace detp::support {
 
 /// Cells that the disc overlaps: 1 + (3π/2) x + (3π/2) x². Each plane of the grid that crosses the disc adds a cell,

@@ -80,7 +80,7 @@ inline const std::array families{
     Family{.name = "not unit", .cosine_low = -12, .from_low = -1, .from_high = 9, .unit = 0.99e-12},
 };
 
-/// A direction with |n·D| = cosine; if that is less than 1e-17, parallel to the plane within rounding.
+/// A direction D with |normal·D| = cosine. For a cosine below 1e-17, D is parallel to the plane within rounding.
 inline glm::dvec3 slanting(RandomSequence& random, const glm::dvec3& normal, double cosine) {
   const auto [u, v] = sim::basis_around(normal);
   const double angle = random.between(0, 2 * std::numbers::pi);
@@ -93,8 +93,8 @@ struct DiscCase {
   sim::Disc disc;
 };
 
-/// A ray towards the rim of the disc (one in four: anywhere on it). If it is a segment, it ends near the disc's plane,
-/// near the disc, or far from it.
+/// A ray towards the rim of the disc, or, in one of four cases, towards any point of the disc. If it is a segment, it
+/// ends near the disc's plane, near the disc, or far from it.
 inline sim::Ray hard_ray(const Family& family, RandomSequence& random, const sim::Disc& disc) {
   const double cosine = std::min(1.0, random.magnitude(family.cosine_low, family.cosine_high));
   const glm::dvec3 direction = slanting(random, disc.normal, cosine);

@@ -17,8 +17,9 @@ struct HardScene {
   std::vector<sim::Ray> rays;
 };
 
-/// Two discs of radius 1/8 fix the scene's box to `centre` ± 1, so that repeated halving gives planes between cells.
-/// The other discs have their centre, or a point of their rim, within rounding of one, two or three such planes.
+/// A disc whose centre, or a point of whose rim, is within rounding of up to three planes between cells. hard_scene
+/// adds two discs of radius 1/8 that fix the scene's box to `centre` ± 1 (times `scale`), so that repeated halving of
+/// the box gives these planes.
 inline sim::Disc disc_at_cells(RandomSequence& random, const glm::dvec3& centre, double scale) {
   const auto on_plane = [&](double x) { return std::floor(8 * x) / 4 - 1 + random.rounding_offset() * 1e2; };
   sim::Disc disc;

@@ -13,8 +13,8 @@ using Exact = boost::multiprecision::cpp_bin_float_100;
 
 /// |value - exact| / |exact|, or |value| if exact is 0; infinite if the value is not finite.
 ///
-/// If exact exceeds the largest double, that double is right. Below the smallest normal double, where doubles are
-/// evenly spaced, a value within one spacing is right: 0.
+/// If exact exceeds the largest double, the value is compared with the largest double. If exact is below the smallest
+/// normal double, where doubles are evenly spaced, the error of a value within one spacing is 0.
 inline double relative_error(double value, Exact exact) {
   using Limits = std::numeric_limits<double>;
   static const Exact largest = Limits::max();

@@ -40,8 +40,9 @@ class Sample {
   std::vector<double> values_;
 };
 
-/// The share of an even density within the k-th nearest of n photons. The share outside is the k-th largest of n
-/// uniform numbers, which is a product of k factors: each is the largest of the n - i numbers that are left.
+/// The share of a uniform density within the distance of the k-th nearest of n photons. The share outside is the k-th
+/// largest of n uniform numbers. It is a product of k factors, each distributed as the largest of n - i uniform
+/// numbers.
 double share_within(int n, int k, std::uint64_t seed, std::uint64_t replicate) {
   double outside = 0;
   for (int i = 0; i < k; ++i) {

@@ -17,8 +17,8 @@ namespace {
 std::vector<Candidate> draw_candidates(Draw& draw) {
   const double ratio = draw.ratio();
   const auto order = draw.whole(0, 3) > 0 ? SampleOrder::lebesgue : SampleOrder::none;
-  // Some of these numbers of spheres are far larger than the number of spheres that can hold a disc. At most 1000, to
-  // save time.
+  // Some of these numbers of spheres are far larger than the number of spheres that can hold a disc. They are at most
+  // 1000, to save time.
   const std::int64_t spheres =
       draw.whole(0, 7) > 0 ? draw.whole(1, 40) : std::min<std::int64_t>(draw.index(ratio), 1000);
   return {{Technique::brute_force, BruteForceParameters{}},

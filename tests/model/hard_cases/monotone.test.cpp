@@ -15,7 +15,7 @@ using namespace detp::hard_cases;
 
 namespace {
 
-/// x or a larger value: by one ulp, or by up to a factor of 10, but at most `most`.
+/// The double after x, or x times a factor of up to 11; at most `most`.
 double larger(double x, double most, Draw& draw) {
   const double more = draw.whole(0, 2) == 0 ? std::nextafter(x, most) : x * (1 + draw.log_uniform(1e-16, 10));
   return std::min(more, most);
