@@ -171,8 +171,8 @@ TreeCounts tree_counts(int dimension, const Valid<Workload>& workload, double sa
                        int leaf, Engine engine) {
   constexpr double far = 1e60;  // a larger or smaller radius makes no difference
   const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
-  // The margin is 64 units in the last place of floats next to 1 (sim/lists/simd/frame.hpp). The frame scales r₀ to
-  // [½, 1) by a power of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not
+  // The margin is 64 · 2⁻²⁴ in units of the frame (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
+  // of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not
   // matter.
   const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
   const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});

@@ -19,12 +19,13 @@
 ///   where  P   share of the rays that cross a node's sphere. Lines: F(node)/F(S₀), times both_hit_share if the sphere
 ///              extends outside S₀. Segments: crossing_probability
 ///
-/// This is exact if the spheres are known (validate/structural_hierarchy.hpp). If only the workload's numbers are
-/// known, the areas F of the spheres are estimated. On a level of N nodes over runs of c = leaf f^l samples
+/// This is exact if the spheres are known (validate/structural/structural_hierarchy.cpp). If only the workload's
+/// numbers are known, the areas F of the spheres are estimated. On a level of N nodes over runs of c = leaf f^l samples
 ///
 ///     mean F = 4π (<ρ²> + 2d <ρ> + d²)      <ρ²> = a² N^{-2/D} R(N, c) K(f, l)
 ///
-///   where  ρ   radius of a node's sphere minus d, length. <ρ>² has the form of <ρ²>, with an R and a K of its own
+///   where  ρ   radius of a node's sphere minus d, length; <> is the mean over the level. <ρ>² has the form of <ρ²>,
+///   with an R and a K of its own
 ///          a   side of the cube that has the samples' volume (D = 3), or that has their area on its faces (D = 2)
 ///          R   factor for spheres around runs of c samples, not nested. On surfaces R grows with ln N without limit:
 ///              the curve has 4^j jumps of size 2^{-j} a, so the jumps of each size add the same to Σ ρ²

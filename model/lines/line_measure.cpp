@@ -29,8 +29,8 @@ long double crossing(const Valid<Workload>& workload, long double volume, long d
   return std::min(1.0L, (volume + workload.path_length * area / 4) / space);
 }
 
-/// The integral over s, the distance of the circles' centres: its limits p < q, and the integrand's next zero f >= q.
-/// The differences are computed from a, b and c without cancellation.
+/// The integral over s, the distance of the circles' centres, runs from p to q > p. The integrand's next zero is at
+/// f >= q. The differences are computed from a, b and c without cancellation.
 struct Range {
   long double p;         // |a - b|
   long double q;         // min(c, a + b)

@@ -62,7 +62,7 @@ namespace detp::model {
 /// Half as many if only rays that arrive at a disc's front count. (Our derivation: reversing all rays exchanges front
 /// and back and does not change the isotropic measure.)
 ///
-/// Valid      the half for fronts: isotropic directions only. Photons mostly arrive on the side of the light.
+/// Valid      the factor ½ for fronts: isotropic directions only. Photons mostly arrive on the side of the light.
 /// Accuracy   1.1e-16.
 [[nodiscard]] double expected_hits(const Valid<Workload>& workload);
 

@@ -45,8 +45,8 @@ class CacheTimes {
   }
 
   /// The fastest number of spheres among 1 … last; spheres = 0 if last = 0. T without disc tests grows with the number.
-  /// The search ends when it reaches the best T so far, or `time_limit`. In the second case the result is slower than
-  /// `time_limit`, and not necessarily the fastest.
+  /// Stops when this part of T reaches the best T so far, or `time_limit`. In the second case the result is slower than
+  /// `time_limit`, and may not be the fastest.
   [[nodiscard]] BestRatio best_stop(double ratio, std::int64_t last, double time_limit) const {
     BestRatio best{ratio, 0, 0};
     if (last >= 1)

@@ -23,7 +23,8 @@
 ///   where  n_i   expected rays in S_i: n_R P(hit S_i)
 ///          L_i   expected rays listed for S_i, mean over its builds;   g_i   listed_share
 ///          L'_i  length of that list, mean over the builds of S_{i+1};   L"_k   mean over the discs. Both exceed L, by
-///                at most 4 % and 8 %, because long lists are used for longer than short ones. Fitted to counted walks
+///                at most 4 % and 8 %, because long lists are used for longer than short ones. 0.6 and 0.25 are fitted
+///                to counted walks
 namespace detp::model {
 
 /// One sphere of the cache.

@@ -20,8 +20,8 @@ inline constexpr std::size_t longest_quote = 60;
 /// The text escaped, truncated after `longest_quote` characters, and in double quotes.
 [[nodiscard]] std::string quoted(std::string_view text);
 
-/// A file's path, escaped. If it has more than 200 characters, "..." replaces as many characters after
-/// the first 60 as are too many; the end of the path stays.
+/// A file's path, escaped. If it has more than 200 characters, "..." replaces some after the first 60,
+/// so that about 200 remain.
 [[nodiscard]] std::string shown_path(std::string_view path);
 
 }  // namespace detp

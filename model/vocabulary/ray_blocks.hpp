@@ -14,9 +14,9 @@ struct RayBlocks {
 
   [[nodiscard]] double count() const { return whole + (last > 0 ? 1 : 0); }
 
-  /// Expected number of blocks for which a list holds at least one ray. A list holds each ray independently, with a
-  /// probability that is a gamma variable over the lists: `probability` is its mean, `spread` its variance over its
-  /// squared mean.
+  /// Expected number of blocks for which a list holds at least one ray. A list holds each ray independently, with the
+  /// same probability. This probability differs from list to list as a gamma variable: `probability` is its mean,
+  /// `spread` its variance over its squared mean.
   [[nodiscard]] double with_any(double probability, double spread = 0) const {
     const double hits = probability < 1 ? -std::log1p(-probability) : 1e300;
     const auto any = [&](double rays) {
