@@ -43,7 +43,7 @@ namespace detp::model {
                                                                  const OctreeParameters& deepest,
                                                                  const IndexVariant& variant = {});
 
-/// Expected counts of an octree of one depth.
+/// Expected counts of an octree of one depth. Throws as octree_counts_by_depth does.
 [[nodiscard]] Counts<double> octree_counts(const Valid<Workload>& workload, const OctreeParameters& parameters,
                                            const IndexVariant& variant = {});
 
@@ -54,6 +54,7 @@ namespace detp::model {
 ///   where  m_i   cells along axis i;   L_i   side of the samples' box grown by d on both sides; rays are clipped to it
 ///
 /// Accuracy   as for the octree; steps within 1.2 %.
+/// Throws     std::invalid_argument for a workload or number of cells out of range.
 [[nodiscard]] Counts<double> grid_counts(const Valid<Workload>& workload, const GridParameters& parameters,
                                          const IndexVariant& variant = {});
 

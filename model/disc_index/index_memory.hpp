@@ -21,6 +21,7 @@ struct IndexLayout {
 /// Accuracy   within 2.1 % of the measured bytes (median 0.3 %; cases as in index_cells.hpp).
 ///
 /// Does not include neighbour links. Building needs up to twice these bytes, plus lists of the nodes being split.
+/// Throws std::invalid_argument for a workload, parameters or a layout out of range.
 [[nodiscard]] double octree_bytes(const Valid<Workload>& workload, const OctreeParameters& parameters,
                                   const IndexVariant& variant = {}, const IndexLayout& layout = {});
 
@@ -28,6 +29,7 @@ struct IndexLayout {
 /// bytes more.
 ///
 /// Accuracy   within 2 % of the measured bytes (median 0.1 %).
+/// Throws     as octree_bytes does.
 [[nodiscard]] double grid_bytes(const Valid<Workload>& workload, const GridParameters& parameters,
                                 const IndexVariant& variant = {}, const IndexLayout& layout = {});
 

@@ -25,7 +25,7 @@
 ///     mean F = 4π (<ρ²> + 2d <ρ> + d²)      <ρ²> = a² N^{-2/D} R(N, c) K(f, l)
 ///
 ///   where  ρ   radius of a node's sphere minus d, length; <> is the mean over the level. <ρ>² has the form of <ρ²>,
-///   with an R and a K of its own
+///              with an R and a K of its own
 ///          a   side of the cube that has the samples' volume (D = 3), or that has their area on its faces (D = 2)
 ///          R   factor for spheres around runs of c samples, not nested. On surfaces R grows with ln N without limit:
 ///              the curve has 4^j jumps of size 2^{-j} a, so the jumps of each size add the same to Σ ρ²
@@ -50,12 +50,12 @@ struct TreeLevel {
 /// The levels from the root down to the leaves.
 ///
 /// Valid      samples uniform over a volume or surfaces that fill their box; 1 <= n_P <= 1e18.
-/// Errors     std::invalid_argument for a workload or parameters out of range.
+/// Throws     std::invalid_argument for a workload or parameters out of range.
 /// Accuracy   see sphere_tree_counts.
 [[nodiscard]] std::vector<TreeLevel> sphere_tree_levels(const Valid<Workload>& workload,
                                                         const Valid<SphereTreeParameters>& parameters);
 
-/// Expected counts of the sphere tree.
+/// Expected counts of the sphere tree. Throws as sphere_tree_levels does.
 ///
 /// Accuracy   compared with the structural counts of samples in a cube and on its faces, f 2 … 16, leaves of 1 … 100, d
 ///            0.1 … 2 sample distances. Deviations (median, 95th percentile, largest) for n_P 20 000 … 200 000 (882

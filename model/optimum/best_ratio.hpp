@@ -46,10 +46,12 @@ inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 [[nodiscard]] BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                             std::int64_t most_spheres = 40);
 
-/// The fastest number of spheres k for a given Q, 1 … 4096; 0 if no sphere holds a disc.
+/// The fastest number of spheres k for a given Q, 1 … 4096; 0 if no sphere holds a disc. Throws as
+/// sphere_count and best_ratio_and_stop do.
 [[nodiscard]] BestRatio best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio);
 
 /// The fastest Q, from 0.02 to 0.98, for a given k (k = 0 … 9e18). If r_k < d for all these Q, the result is Q = 0.98.
+/// Throws as best_ratio_and_stop does, and std::invalid_argument for k out of range.
 [[nodiscard]] BestRatio best_ratio_for(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                        std::int64_t spheres);
 

@@ -4,8 +4,8 @@
 
 #include "registry.hpp"
 
-/// The size of an index with the smallest time; nullopt if every size exceeds the limits. Throws std::invalid_argument
-/// for a workload out of range.
+/// The size of an index with the smallest time; nullopt if every size exceeds the limits, or if the search was stopped
+/// before the first size was tried. Throws std::invalid_argument for a workload out of range.
 namespace detp::model {
 
 /// Depth of the fastest octree, searched top-down. Tries all depths; predicts each level once.

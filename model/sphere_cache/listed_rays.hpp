@@ -58,7 +58,8 @@ struct EnclosingSphere {
 ///          H     both_hit_share averaged over a centre uniform in the disc of radius reach_l
 ///
 /// If the lost rays of different spheres were independent, the product would be right; if they were nested, the
-/// minimum. The formula is the geometric mean of both. Source: our derivation. Accuracy: not measured.
+/// minimum. The formula is the geometric mean of both. Source: our derivation. Accuracy: not measured. Throws
+/// std::invalid_argument unless m_i > 0, all other numbers are >= 0, and all are finite.
 [[nodiscard]] double unsorted_listed_share(double radius, double rebuilds, const std::vector<EnclosingSphere>& around);
 
 }  // namespace detp::model

@@ -81,7 +81,7 @@ void require_rebuild_law(SampleOrder order);
 [[nodiscard]] double own_rebuild_share(double dimension, const Ball& ball, double octaves, double crowding);
 
 /// m_i, from the formula above: `alone` is s_i, `outer` is m_{i-1}, `own_share` is w, `samples` is n. The result is at
-/// least m_{i-1} and at most n.
+/// least m_{i-1} and at most n. Throws std::invalid_argument for a number out of range.
 [[nodiscard]] double nested_rebuilds(double alone, double outer, double own_share, double samples);
 
 }  // namespace detp::model

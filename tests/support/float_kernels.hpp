@@ -27,7 +27,7 @@ struct Kernel {
       return a * b + c;
   }
 
-  /// The values that decide whether the ray hits the disc.
+  /// The values that decide whether the ray hits the disc. sim/lists/simd/floats.md explains the symbols.
   struct Disc {
     Real rim;      ///< |V| - d|φ|: <= 0 for hits
     Real facing;   ///< φ

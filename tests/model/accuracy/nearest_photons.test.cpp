@@ -133,7 +133,7 @@ TEST_SUITE("identity") {
       const double photons = std::round(photons_for_nearest_error(density, error));
       const double k = best_nearest_photons(density, photons);
       const double reached = std::sqrt(nearest_photons_error(density, photons, k).mean_square()) / density.value;
-      // photons_for_nearest_error neglects p = k/n. Rounding k to a whole number has only a second-order effect.
+      // photons_for_nearest_error neglects p, about k/n. Rounding k to a whole number has only a second-order effect.
       CHECK(reached == doctest::Approx(error).epsilon(0.005 + k / photons));
     }
   }

@@ -17,8 +17,8 @@ struct Sums {
   Exact innermost;
 };
 
-/// Computes the sums in closed form. Each is two geometric sums: up to the last j with Q^{-3j} <= n_P, and beyond it. j
-/// is estimated and then corrected.
+/// Computes the sums in closed form. Each has two parts: up to the last j with Q^{-3j} <= n_P, and beyond it. j is
+/// estimated and then corrected.
 Sums closed_sums(double samples, double ratio, std::int64_t k) {
   const Exact q = ratio;
   const auto sparse = [&](const Exact& radius) { return radius * radius * radius * samples >= 1; };

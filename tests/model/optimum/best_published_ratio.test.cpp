@@ -25,7 +25,7 @@ struct Question {
   UnitCosts costs;
 };
 
-/// d/r₀ 1e-4 … 0.3, and costs that differ by up to a factor of a thousand.
+/// Random workloads with d/r₀ 1e-4 … 0.3, and costs t and u that differ by up to a factor of a thousand.
 std::vector<Question> questions(int number) {
   support::RandomNumbers random(41);
   std::vector<Question> all;

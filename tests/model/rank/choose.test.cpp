@@ -38,7 +38,8 @@ double total(const Workload& w, const Candidate& candidate) {
   return price(predict(w, candidate), costs, candidate.technique).total();
 }
 
-/// Workloads and costs from their whole ranges: rank returns, all results are finite, and the work is bounded.
+/// Checks for random workloads and costs, from their whole ranges, that rank returns, that all results are finite, and
+/// that the work is bounded.
 void check_rank(int runs, std::uint64_t seed) {
   support::RandomNumbers random(seed);
   const auto now_and_then = [&](double share) { return random.uniform(0, 1) < share; };

@@ -198,8 +198,8 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("large balls between the table's entries: m_1 agrees with counts over other sets of samples") {
-    // Within 2 %, except for two rows with D = 3. The table has no column for their number of samples, and m jumps
-    // between the two nearest columns.
+    // The deviation is at most 2 %, except for two rows with D = 3. For the number of samples of these rows the table
+    // has no column, and m jumps between the two nearest columns.
     struct Counted {
       double dimension, samples, disc, ratio, rebuilds;  // in a cube of side 2; noise 0.1 to 1.9 %
       double within = 0.02;                              // the noise and the table's own error of 1 %
