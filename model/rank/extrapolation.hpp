@@ -12,7 +12,7 @@
 /// The formulas were compared with counts (validate/sweep/results.md) for isotropic lines through S₀, samples uniform
 /// in a cube or on its faces, n_P 10³ … 10⁷, d/r₀ 10⁻⁴ … 0.2, D 2 and 3, and the parameters below.
 ///
-///     sphere-cache (both)   Q 0.3 … 0.9, at most as many spheres as can hold a disc, samples sorted
+///     sphere-cache (both)   Q 0.3 … 0.9, k at most the published sphere_count, samples sorted
 ///     cell-spheres          depth 1 … 6
 ///     sphere-tree           fan-out 4 … 8, leaf 4 … 16
 ///     box-tree              n_P 2¹⁰ … 2²⁰, d 2⁻¹⁰ … 2³ sample distances and up to 0.16 of the side; fan-out 2 … 16,

@@ -5,8 +5,9 @@
 
 #include "sphere_count.hpp"
 
-/// The intervals of Q between the steps of k. The steps are at Q_j = (d/r₀)^{1/j}, where r_j = d. The published T_I has
-/// its minima, all equal, at these Q_j (the paper's text on its fig 12 calls them peaks).
+/// The intervals of Q between the steps of k. The steps are at Q_j = (d/r₀)^{1/j}, where r_j = d. With the k of
+/// eq (6), T_I has its minima, all equal, at these Q_j (the paper's text on its fig 12 calls them peaks). With the k of
+/// eq (7), which rounds up, T_I has its maxima there.
 namespace detp::model {
 
 /// The range of Q that is searched.
