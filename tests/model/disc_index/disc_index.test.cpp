@@ -190,7 +190,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("two cells a side: a disc in the middle overlaps 1 + 3 (π/2) x f and more, f the share of inner planes") {
     const Workload w = in_box({7, 7, 7});
-    const Cells cells = index_cells(w, 2);  // side 4; disc centres are in 7 of 8
+    const Cells cells = index_cells(w, 2);  // cells of side 4; the centres lie in the middle 7 of 8 units
     const double plane = pi / 2 * (0.5 / 4) * (4.0 / 7);
     CHECK(cells.overlapped == Approx(1 + 3 * plane + 3 * plane * plane / (pi / 2)).epsilon(1e-14));
     CHECK(cells.crossing == Approx(6 * 16 / (4 * pi * 1e4)).epsilon(1e-14));

@@ -19,7 +19,7 @@ namespace {
 const Workload in_volume = cube_workload(1e6, 1e6, 0.001, 2);
 const Workload on_faces = cube_workload(1e6, 1e6, 0.001, 2, 2);
 
-/// m/n of a ball alone, so small that the cube's faces do not affect it.
+/// m/n of a single ball that is so small that the cube's faces do not affect it.
 double small_ball_share(double dimension, double lambda, double phase) {
   return single_rebuilds(dimension, 1e300, {lambda, 20 + phase}) / 1e300;
 }
@@ -245,7 +245,7 @@ TEST_SUITE("known answer") {
     const double share_within = 4 * 3.14159265 / 3 * std::pow(radius / 2, 3);
     CHECK(in_volume.samples - single_rebuilds(in_volume, radius, SampleOrder::none) ==
           Approx(in_volume.samples * share_within).epsilon(0.02));
-    // Half the distances in a unit cube are below 0.6616.
+    // In a unit cube, half of all pairs of points are closer than 0.6616.
     CHECK(single_rebuilds(in_volume, 2 * 0.66160, SampleOrder::none) == Approx(5e5).epsilon(0.01));
   }
 
