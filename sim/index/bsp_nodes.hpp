@@ -46,8 +46,9 @@ struct BspNodes {
 ///          v              cost of visiting a node: a quarter of the parameter `leaf`, so that a cube whose discs are
 ///                         much smaller than the cube is split exactly if it holds more than `leaf` discs
 ///
-/// A node is not split if all its discs are in both halves, for instance if they coincide. Placing the planes by the
-/// heuristic too, at the best of 15 places along each axis, saves disc tests but no time (sim/index/experiments.md).
+/// Whatever the costs, a node is not split at level `depth`, or if it has at most `leaf` discs. The rule never splits a
+/// node all of whose discs are in both halves, for instance because they coincide. Placing the planes by the heuristic
+/// too, at the best of 15 places along each axis, saves disc tests but no time (sim/index/experiments.md).
 ///
 /// Throws Stopped if a stop was requested, and std::length_error, naming the bytes, if the tree would exceed the memory
 /// budget.

@@ -34,8 +34,9 @@ class Searcher {
   Searcher(const DiscsView& discs, const Candidate& candidate, std::optional<double> farthest = {},
            bool front_facing = false, const RunOptions& options = {});
 
-  /// Finds the hits of the rays, as run does. Returns the scratch's outcome, valid until its next search. Counts and
-  /// seconds are those of the search alone. Throws as run does, and std::invalid_argument if a ray starts too far away.
+  /// Finds the hits of the rays, as run does. Returns scratch.outcome, which is valid until the scratch's next search.
+  /// Counts and seconds are those of the search alone. Throws as run does, and std::invalid_argument if a ray starts
+  /// too far away.
   const Outcome& search(std::span<const Ray> rays, SearchScratch& scratch, RunOptions options = {}) const;
   const Outcome& search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options = {}) const;
 
