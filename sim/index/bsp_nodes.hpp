@@ -7,7 +7,8 @@
 
 namespace detp::sim {
 
-/// A node. An inner node's children are adjacent, the lower part first; a leaf has references to discs.
+/// A node. An inner node's children are adjacent in the array of nodes, the lower part first. A leaf has references to
+/// discs.
 struct BspNode {
   double plane = 0;         ///< coordinate of an inner node's plane along the axis
   std::uint32_t first = 0;  ///< first child, or first reference

@@ -23,7 +23,7 @@ struct LeafCube {
   return cube;
 }
 
-/// Number of the octant that contains the leaf, in the node whose octants are `levels_below` levels above the leaves.
+/// Number, in its parent, of the octant that contains the leaf and is `levels_below` levels above the leaves.
 [[nodiscard]] inline unsigned octant_of(const Leaf& leaf, int levels_below) {
   unsigned octant = 0;
   for (int axis = 0; axis < 3; ++axis) octant |= static_cast<unsigned>(leaf[axis] >> levels_below & 1) << axis;

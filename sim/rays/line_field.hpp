@@ -16,8 +16,8 @@ namespace detp::sim {
 /// (seed, i) alone.
 class LineField {
  public:
-  /// Throws std::invalid_argument unless the radius is > 0, and the radius and the sizes of the centre's coordinates
-  /// are at most 1e100.
+  /// Throws std::invalid_argument unless the radius is > 0, and the radius and the centre's coordinates are at most
+  /// 1e100 in absolute value.
   LineField(const Sphere& sphere, std::uint64_t seed);
 
   /// Line number `index`: unbounded, of power 1. Its origin is its point nearest to the sphere's centre.

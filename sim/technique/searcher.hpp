@@ -25,8 +25,9 @@ struct SearchScratch {
 class Searcher {
  public:
   /// Borrows the discs, which must outlive the searcher; copies them if a normal must be normalised. No ray may start
-  /// farther than `farthest` from the centre of the discs' S₀ (default: 1000 radii of S₀). Of the options, only the
-  /// engine, the threads and the stop token matter here. Throws as make_problem and run do; Stopped on a stop request.
+  /// farther than `farthest` from the centre of S₀, the sphere around all discs (default: 1000 radii of S₀). Of the
+  /// options, only the engine, the threads and the stop token matter here. Throws as make_problem and run do; Stopped
+  /// on a stop request.
   Searcher(std::span<const Disc> discs, const Candidate& candidate, std::optional<double> farthest = {},
            bool front_facing = false, const RunOptions& options = {});
 

@@ -18,7 +18,7 @@ struct StreamOptions {
 struct StreamedOutcome {
   Outcome outcome;           ///< over all rays; pairs have the rays' numbers in the source
   double read_seconds = 0;   ///< time for making or reading the rays, not in outcome.seconds
-  double check_seconds = 0;  ///< time for checking rays and discs and for S₀; not in outcome.seconds either
+  double check_seconds = 0;  ///< time for checking rays and discs and computing S₀; not in outcome.seconds
   std::size_t block = 0;     ///< rays in memory at a time
   double bytes = 0;          ///< predicted peak memory, including discs, a block of rays and the pairs found
 };
