@@ -8,8 +8,8 @@ namespace detp::sim {
 template <class Signature>
 class FunctionRef;
 
-/// A reference to a callable, for parameters that are called only before the function returns. Allocates no memory,
-/// unlike std::function.
+/// A reference to a callable, for a parameter that a function calls only before it returns. Unlike std::function, it
+/// allocates no memory.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

@@ -22,15 +22,15 @@ namespace detp::sim {
 /// unless the value is > 0 and finite.
 void set_memory_limit(std::optional<double> bytes);
 
-/// Reads "4G", "512M" or a number of bytes. K, M, G and T are powers of 1024. Throws std::invalid_argument for anything
-/// else.
+/// Reads a size > 0: "4G", "512M" or a number of bytes. K, M, G and T are powers of 1024. Throws std::invalid_argument
+/// for any other text.
 [[nodiscard]] double parse_bytes(std::string_view text);
 
-/// Throws std::length_error, which names the bytes, if `bytes` exceeds the budget.
+/// Throws std::length_error if `bytes` exceeds the budget. The message names `what` and the bytes.
 void require_memory(std::string_view what, double bytes);
 
-/// Peak bytes of an array that has grown, by doubling, to `count` elements: while the elements are copied, the old
-/// array exists too.
+/// Peak bytes, counted in used pages, of an array that grows by doubling to `count` elements of `element` bytes. At the
+/// peak, the elements are copied and the old array still exists.
 [[nodiscard]] double grown_bytes(std::size_t count, std::size_t element);
 
 /// The smallest limit of the process's own memory cgroup and of the groups around it; infinite if no limit is set.

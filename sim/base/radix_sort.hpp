@@ -15,7 +15,8 @@ struct KeyedIndex {
   std::uint32_t index;
 };
 
-/// Sorts stably by the 8-bit digit from bit `shift`. If all entries have the same digit, only returns false.
+/// Sorts the entries stably into `to`, by the 8-bit digit that starts at bit `shift`, and returns true. If all entries
+/// have the same digit, returns false and does not write to `to`. Throws Stopped if a stop was requested.
 inline bool sort_by_digit(const std::vector<KeyedIndex>& from, std::vector<KeyedIndex>& to, int shift,
                           StopCheck& check) {
   std::array<std::size_t, 256> place{};

@@ -28,7 +28,7 @@ struct WorkLog {
   }
 };
 
-/// Where checks are logged; null except in the tests that count work and where progress is shown.
+/// The log of all checks. Null, except in tests that count work and while progress is shown.
 inline std::atomic<WorkLog*> work_log = nullptr;
 
 /// Adds up the work that a loop reports, and checks for a stop request whenever `most_work` units have accumulated. A

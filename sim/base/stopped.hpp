@@ -7,8 +7,8 @@
 
 namespace detp::sim {
 
-/// Work that a stop request (Ctrl-C, a time limit) ended before it had a result. The message says how far the work got:
-/// "stopped while reading rays.csv after 12000 lines".
+/// Thrown when a stop request (Ctrl-C, a time limit) ends some work before it has a result. The message says how far
+/// the work got: "stopped while reading rays.csv after 12000 lines".
 class Stopped : public std::runtime_error {
  public:
   explicit Stopped(const std::string& message, Progress progress = {}) : runtime_error(message), progress_(progress) {}

@@ -115,7 +115,7 @@ class Builder {
            grown_bytes(tree_.nodes.size() + 2, sizeof(BspNode));
   }
 
-  /// Throws std::length_error unless a node with `discs` discs can be split, or its references stored.
+  /// Throws std::length_error if there is no room to split a node with `discs` discs, or to store its references.
   void require_room(std::size_t discs) const {
     require_memory("the BSP tree", needed(discs) + 2 * static_cast<double>(discs) * sizeof(std::uint32_t));
     if (tree_.references.size() + discs >= UINT32_MAX || tree_.nodes.size() + 2 >= UINT32_MAX)

@@ -7,7 +7,8 @@
 
 namespace detp::sim {
 
-/// A node. An inner node's children are adjacent, the lower part first; a leaf has references to discs.
+/// A node. An inner node's children are adjacent in the array of nodes, the lower part first. A leaf has references to
+/// discs.
 struct BspNode {
   double plane = 0;         ///< coordinate of an inner node's plane along the axis
   std::uint32_t first = 0;  ///< first child, or first reference
@@ -46,8 +47,9 @@ struct BspNodes {
 ///          v              cost of visiting a node: a quarter of the parameter `leaf`, so that a cube whose discs are
 ///                         much smaller than the cube is split exactly if it holds more than `leaf` discs
 ///
-/// A node is not split if all its discs are in both halves, for instance if they coincide. Placing the planes by the
-/// heuristic too, at the best of 15 places along each axis, saves disc tests but no time (sim/index/experiments.md).
+/// Whatever the costs, a node is not split at level `depth`, or if it has at most `leaf` discs. The rule never splits a
+/// node all of whose discs are in both halves, for instance because they coincide. Placing the planes by the heuristic
+/// too, at the best of 15 places along each axis, saves disc tests but no time (sim/index/experiments.md).
 ///
 /// Throws Stopped if a stop was requested, and std::length_error, naming the bytes, if the tree would exceed the memory
 /// budget.

@@ -25,8 +25,8 @@ constexpr double half_length = 1.5;
 /// Peak memory of Embree's build for each disc, counted in used pages; 60 to 84 bytes were measured for 2·10⁵ discs.
 constexpr double bytes_per_disc = 95;
 
-/// Coordinates in which S₀, grown by the slack, has a radius of 0.5 … 1 around the origin. Embree uses them in single
-/// precision. The unit is a power of two, so that scaling is exact.
+/// Coordinates in which S₀, the sphere around all discs, has its centre at the origin and, grown by the slack, a radius
+/// of 0.5 … 1. Embree uses them in single precision. The unit is a power of two, so that scaling is exact.
 class EmbreeFrame {
  public:
   explicit EmbreeFrame(const Problem& problem)
@@ -40,8 +40,8 @@ class EmbreeFrame {
     return bounds({(disc.centre - centre_) / unit_, disc.normal, disc.radius / unit_}, growth_);
   }
 
-  /// The part of the ray near S₀, made slightly longer so that rounding cuts off no end; nullopt if there is none. Its
-  /// origin is computed in double precision, and is near S₀ even if the ray's origin is far away.
+  /// The part of the ray near S₀, made slightly longer so that rounding cuts off no end; nullopt if there is none. The
+  /// part starts near S₀ even if the ray starts far away, and its start is computed in double precision.
   [[nodiscard]] std::optional<RTCRay> clipped_ray(const Ray& ray) const {
     const glm::dvec3 origin = (ray.origin - centre_) / unit_;
     const double abreast = -glm::dot(origin, ray.direction);
@@ -189,8 +189,8 @@ class BvhSearch final : public RaySearch, private DiscTest {
 ///     discs facing the ray       32 + 124; 2.0                            28 + 108; 3.4
 ///     spheres                    33 + 140; 4.0                            28 + 129; 6.4    reports each disc twice
 ///
-/// Points get the same tree at low quality as at medium. Low quality is the default: with 10³ … 3·10⁵ rays on four
-/// scenes it took 0.3 to 1.1 times as long as medium quality.
+/// Embree's point geometries get the same tree at low quality as at medium. For boxes, low quality is the default: with
+/// 10³ … 3·10⁵ rays on four scenes it took 0.3 to 1.1 times as long as medium quality.
 class BvhIndex final : public Index {
  public:
   BvhIndex(const Problem& problem, BuildQuality quality, const RunOptions& options)

@@ -14,8 +14,9 @@
 namespace detp::sim {
 
 /// Traces rays through an index, and tests each ray against the discs of the cells that it enters. A hit is recorded
-/// once, even if several of these cells list the disc. disc_tests counts a ray and a disc once with mailboxes; without
-/// mailboxes it counts them in each of these cells, even where the hit is already known.
+/// once, even if several of these cells list the disc. With mailboxes, each disc notes the last ray that was tested
+/// against it, so disc_tests counts a pair of ray and disc once. Without, disc_tests counts the pair in each of these
+/// cells, even where the hit is already known.
 ///
 /// `Cells` provides size(), and trace(ray, number, search), which calls the search's visit and test.
 template <bool counting, bool mailboxing, class Cells>
@@ -131,12 +132,12 @@ class TracedIndex final : public Index {
 }
 
 /// The box that the cells of an index fill. Each of its faces is more than 2 slacks outside the discs' box. So a ray
-/// along a face of the discs' box, or just outside it, is in the cells where it passes discs that touch this face
-/// (sim/geometry/proofs.md, "The culls").
+/// that runs along a face of the discs' box, or just outside it, is inside the cells of the discs that touch this face
+/// where it passes them (sim/geometry/proofs.md, "The culls").
 ///
 /// In man-made scenes, discs often lie exactly on the planes that cut the discs' box into N equal parts, with a small
-/// N. The margin moves the plane at j/N by 2.618 (2j/N - 1) slacks. This distance must not be exactly one slack:
-/// rounding would then decide which cells these discs overlap.
+/// N. The margin moves plane number j of these (0 <= j <= N) by 2.618 (2j/N - 1) slacks. This distance must not be
+/// exactly one slack: rounding would then decide which cells these discs overlap.
 [[nodiscard]] inline Box index_box(const Problem& problem) {
   constexpr double slacks = 2.618;
   const Box box = index_box(problem.discs());

@@ -74,7 +74,8 @@ class Octree {
     return tree_.nodes.size() * sizeof(OctreeNode) + tree_.references.size() * sizeof(std::uint32_t);
   }
 
-  /// Descends from the root to `place`, and tests the leaf there. Returns the cube of the leaf or omitted octant.
+  /// Descends from the root towards `place`. Tests the ray against the discs of the leaf there, and returns the leaf's
+  /// cube; if an omitted octant contains `place`, only returns the octant's cube.
   template <class Search>
   LeafCube search_from_root(const Leaf& place, std::uint32_t ray, Search& search) const {
     std::uint32_t number = 0;
@@ -92,7 +93,7 @@ class Octree {
   }
 
   /// Moves from node `number` (the root, a leaf or an empty octant) across `face`, then down to the leaf or empty
-  /// octant at `place`. Tests its discs, sets `number` to it, and returns its cube.
+  /// octant at `place`. Tests the ray against that node's discs, sets `number` to the node, and returns its cube.
   template <class Search>
   LeafCube search_along_link(std::uint32_t& number, const Leaf& place, int face, std::uint32_t ray,
                              Search& search) const {

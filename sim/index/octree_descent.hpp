@@ -27,8 +27,8 @@ class OctreeDescent {
     visit_all(0, tree_.cube, 0, ray, search);
   }
 
-  /// Visits the same nodes, but the children of each node in the order in which the ray enters them. Children entered
-  /// at the same distance are visited in the order of their octants.
+  /// Visits the same nodes as visit_all, but the children of each node in the order in which the ray enters them.
+  /// Children that it enters at the same distance are visited in the order of their octants.
   template <class Search>
   void visit_in_order(std::uint32_t ray, Search& search) const {
     visit_in_order(0, tree_.cube, 0, ray, search);

@@ -8,14 +8,15 @@
 
 namespace detp::sim {
 
-/// A node. Its children are adjacent, in the order of their octants; a leaf has references to discs.
+/// A node. Its children are adjacent in the array of nodes, in the order of their octants. A leaf has references to
+/// discs.
 struct OctreeNode {
   std::uint32_t first = 0;   ///< first child, or first reference
   std::uint32_t count = 0;   ///< number of references of a leaf
   std::uint8_t octants = 0;  ///< the existing children: bit (x + 2y + 4z)
 };
 
-/// A cube cut into octants `depth` times, without octants that have no disc; and the discs of each leaf.
+/// A cube that is cut into octants `depth` times, and the discs of each leaf. Octants without discs are omitted.
 struct OctreeNodes {
   Box cube;
   int depth = 0;

@@ -23,7 +23,7 @@ struct LeafCube {
   return cube;
 }
 
-/// Number of the octant that contains the leaf, in the node whose octants are `levels_below` levels above the leaves.
+/// Number, in its parent, of the octant that contains the leaf and is `levels_below` levels above the leaves.
 [[nodiscard]] inline unsigned octant_of(const Leaf& leaf, int levels_below) {
   unsigned octant = 0;
   for (int axis = 0; axis < 3; ++axis) octant |= static_cast<unsigned>(leaf[axis] >> levels_below & 1) << axis;
@@ -40,8 +40,8 @@ class LeafWalk {
         side_(cube.size().x / static_cast<double>(std::int64_t{1} << depth)) {}
 
   /// Walks along a ray; `interval` is the ray's part in the cube. `enter(leaf, face)` processes the leaf, and returns
-  /// the cube that the ray leaves next: the leaf, or the omitted octant around it. `face` is the face through which the
-  /// ray left the previous cube: 2 axis + (1 for the upper face); -1 for the first leaf.
+  /// the cube that the ray crosses there: the leaf, or the omitted octant around it. `face` is the face through which
+  /// the ray left the previous cube: 2 axis + (1 for the upper face); -1 for the first leaf.
   template <class Enter>
   void for_each_leaf(const Ray& ray, const ClippedRay& clipped, const RayInterval& interval, const Enter& enter) const {
     Leaf place = leaf_at(clipped.origin + interval.from * ray.direction, {{}, leaves_});

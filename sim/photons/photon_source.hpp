@@ -24,7 +24,7 @@ class PhotonSource final : public RaySource {
  private:
   [[nodiscard]] PhotonPieces trace_group(std::uint64_t group, const std::stop_token& stop) const;
   void count_rays(std::uint64_t groups, const std::stop_token& stop);
-  /// Number of photons up to the one that yields the last ray, which is included.
+  /// Number of photons up to and including the one that yields the last ray.
   [[nodiscard]] std::uint64_t emitted(const std::stop_token& stop) const;
 
   PhotonTracer tracer_;

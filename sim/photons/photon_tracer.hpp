@@ -19,7 +19,8 @@ struct PhotonPieces {
 /// and its number alone. Several threads may use one tracer.
 class PhotonTracer {
  public:
-  /// Throws std::invalid_argument for a scene in which photon paths cannot be traced; Stopped if a stop was requested.
+  /// Throws std::invalid_argument for a scene in which photon paths cannot be traced, std::runtime_error if Embree
+  /// fails, and Stopped if a stop was requested.
   PhotonTracer(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
 
   /// Pieces of photons first … last - 1, each of power 1. Throws Stopped if a stop was requested.

@@ -10,8 +10,8 @@
 namespace detp::sim {
 namespace {
 
-// In the caster's own units, in which coordinates are below 1. Rays start inside start_radius, so single precision
-// displaces no point of a ray by more than 1e-6.
+// These lengths are in the caster's own units, in which the mesh's coordinates are below 1. Embree's rays start within
+// start_radius of the origin, so single precision displaces no point of a ray by more than 1e-6.
 constexpr float box_slack = 2e-6F;
 constexpr float distance_slack = 1e-5F;
 constexpr double start_radius = 1.5;
@@ -53,7 +53,7 @@ void intersect_facet(const RTCIntersectFunctionNArguments* arguments) {
   if (!nearer || distance == unbounded) return;
   query.distance = distance;
   query.nearest = facet;
-  // Embree must still report facets at the same distance within its own rounding error.
+  // The slack covers Embree's rounding error: Embree must still report facets at the same distance.
   const float limit = static_cast<float>(distance - query.skipped) + distance_slack;
   RTCRayN_tfar(RTCRayHitN_RayN(arguments->rayhit, arguments->N), arguments->N, 0) = limit;
 }

@@ -8,20 +8,22 @@
 
 namespace detp::sim {
 
-/// Uniform isotropic random lines through a sphere: the measure μ_ℓ, invariant under rotation and translation.
+/// Uniform isotropic random lines through a sphere. Their distribution is the measure μ_ℓ of lines, which no rotation
+/// or translation changes.
 ///
-/// A line has a uniform direction and crosses a uniform point of the disc that is perpendicular to it around the
-/// sphere's centre (Santaló, Integral Geometry, II.12). Line i is a function of (seed, i) alone.
+/// A line has a uniform direction. It crosses a uniform point of the disc that lies around the sphere's centre,
+/// perpendicular to the line, with the sphere's radius (Santaló, Integral Geometry, II.12). Line i is a function of
+/// (seed, i) alone.
 class LineField {
  public:
   /// Throws std::invalid_argument unless the radius is > 0, and the radius and the centre's coordinates are at most
-  /// 1e100.
+  /// 1e100 in absolute value.
   LineField(const Sphere& sphere, std::uint64_t seed);
 
   /// Line number `index`: unbounded, of power 1. Its origin is its point nearest to the sphere's centre.
   [[nodiscard]] Ray line(std::uint64_t index) const;
 
-  /// Lines first … first + count - 1.
+  /// Lines first … first + count - 1. Throws Stopped if a stop was requested.
   [[nodiscard]] std::vector<Ray> lines(std::uint64_t first, std::size_t count, const std::stop_token& stop = {}) const;
 
  private:

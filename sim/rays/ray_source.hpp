@@ -26,7 +26,7 @@ class RaySource {
   [[nodiscard]] virtual double farthest_from(const glm::dvec3& point) const = 0;
 };
 
-/// Rays in memory. They are not copied, and must outlive the source.
+/// Rays in memory. They are not copied, and must outlive the source. read() does not check for a stop request.
 class RaysInMemory final : public RaySource {
  public:
   explicit RaysInMemory(std::span<const Ray> rays) : rays_(rays) {}

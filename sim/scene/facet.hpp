@@ -12,8 +12,8 @@ namespace detp::sim {
 inline constexpr double facet_edge_slack = 1e-10;
 /// A ray that starts this close to a triangle's plane counts as starting on it, and does not meet the triangle.
 inline constexpr double facet_plane_slack = 1e-13;
-/// A triangle whose doubled area is below this share of its longest edge squared counts as one without area: the value
-/// is rounding error.
+/// A triangle whose doubled area is below this share of its longest edge squared counts as a triangle without area: the
+/// computed area is rounding error.
 inline constexpr double least_facet_area = 1e-14;
 
 /// A triangle prepared for intersection.

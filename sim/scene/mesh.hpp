@@ -30,7 +30,8 @@ using Notices = std::vector<std::string>;
                                                       const std::stop_token& stop = {});
 
 /// Mean length of the mesh's edges, an estimate of the distance between neighbouring samples at vertices. An edge of
-/// several triangles counts once. 0 if there are no triangles. Throws Stopped if a stop was requested.
+/// several triangles counts once, an edge of length 0 not at all. Returns 0 if no edge counts. Throws Stopped if a stop
+/// was requested.
 [[nodiscard]] double mean_edge_length(const Mesh& mesh, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -4,8 +4,8 @@
 
 namespace detp::sim {
 
-/// Spheres anchored to the cells of an octree (CellWalk). Each is built once along the Morton curve from the list of
-/// the sphere around it. Discs are tested against the innermost list.
+/// Spheres around the cells of an octree (CellWalk). The discs are visited along the Morton curve, so each cell's list
+/// of rays is made only once, from the list of the parent cell. A disc is tested against the innermost list.
 std::unique_ptr<Index> prepare_cell_spheres(const Problem& problem, const Parameters& parameters,
                                             const RunOptions& options) {
   const auto& own = std::get<CellSpheresParameters>(parameters);

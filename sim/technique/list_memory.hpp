@@ -7,8 +7,9 @@
 
 /// Predicted memory of techniques that cull lists of rays, not including rays, discs and pairs.
 ///
-/// The number of rays in a list is random. The prediction is for isotropic lines, uniform through all of S₀: a list's
-/// share of them is proportional to its sphere's surface. Rays that are concentrated in one place need more.
+/// The number of rays in a list is random. The prediction is for isotropic lines, uniform through all of S₀, the sphere
+/// around all discs: a list's share of the lines is proportional to its sphere's surface. Rays that are concentrated in
+/// one place need more.
 namespace detp::sim {
 
 /// The nested lists of a walk, one for each level.

@@ -53,7 +53,7 @@ struct PhotonCloud {
 using PhotonTree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, PhotonCloud>, PhotonCloud,
                                                        3, std::uint32_t>;
 
-/// Collects the nearest photons to a disc's centre for nanoflann; with front_facing only those that arrive in front.
+/// Collects the nearest photons to a disc's centre for nanoflann; with front_facing only photons that arrive in front.
 class NearestPhotons {
  public:
   using DistanceType = double;

@@ -14,8 +14,9 @@ struct TechniqueSearch {
 
 [[nodiscard]] const TechniqueSearch& search_of(Technique technique);
 
-/// Builds the index of a candidate over a problem's discs (rays may come later), for rays whose origins are at most
-/// Problem::farthest from the centre of S₀. Throws as run does; Stopped if a stop was requested.
+/// Builds the index of a candidate over a problem's discs. The problem needs no rays yet. The rays that are searched
+/// later must start at most Problem::farthest from the centre of S₀. Throws as run does; Stopped if a stop was
+/// requested.
 [[nodiscard]] std::unique_ptr<Index> prepare(const Problem& problem, const Valid<Candidate>& candidate,
                                              const RunOptions& options);
 

@@ -25,8 +25,9 @@ struct SearchScratch {
 class Searcher {
  public:
   /// Borrows the discs, which must outlive the searcher; copies them if a normal must be normalised. No ray may start
-  /// farther than `farthest` from the centre of the discs' S₀ (default: 1000 radii of S₀). Of the options, only the
-  /// engine, the threads and the stop token matter here. Throws as make_problem and run do; Stopped on a stop request.
+  /// farther than `farthest` from the centre of S₀, the sphere around all discs (default: 1000 radii of S₀). Of the
+  /// options, only the engine, the threads and the stop token matter here. Throws as make_problem and run do; Stopped
+  /// on a stop request.
   Searcher(std::span<const Disc> discs, const Candidate& candidate, std::optional<double> farthest = {},
            bool front_facing = false, const RunOptions& options = {});
 
@@ -34,8 +35,9 @@ class Searcher {
   Searcher(const DiscsView& discs, const Candidate& candidate, std::optional<double> farthest = {},
            bool front_facing = false, const RunOptions& options = {});
 
-  /// Finds the hits of the rays, as run does. Returns the scratch's outcome, valid until its next search. Counts and
-  /// seconds are those of the search alone. Throws as run does, and std::invalid_argument if a ray starts too far away.
+  /// Finds the hits of the rays, as run does. Returns scratch.outcome, which is valid until the scratch's next search.
+  /// Counts and seconds are those of the search alone. Throws as run does, and std::invalid_argument if a ray starts
+  /// too far away.
   const Outcome& search(std::span<const Ray> rays, SearchScratch& scratch, RunOptions options = {}) const;
   const Outcome& search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options = {}) const;
 

@@ -18,12 +18,13 @@ struct StreamOptions {
 struct StreamedOutcome {
   Outcome outcome;           ///< over all rays; pairs have the rays' numbers in the source
   double read_seconds = 0;   ///< time for making or reading the rays, not in outcome.seconds
-  double check_seconds = 0;  ///< time for checking rays and discs and for S₀; not in outcome.seconds either
+  double check_seconds = 0;  ///< time for checking rays and discs and computing S₀; not in outcome.seconds
   std::size_t block = 0;     ///< rays in memory at a time
-  double bytes = 0;          ///< predicted peak memory, including discs and a block of rays, without pairs
+  double bytes = 0;          ///< predicted peak memory, including discs, a block of rays and the pairs found
 };
 
-/// Default rays in a block: as many as discs, rounded up to a power of two, but from 2²⁰ to 2²² (64 to 256 MiB).
+/// Default number of rays in a block: the number of discs, rounded up to a power of two, but at least 2²⁰ (64 MiB) and
+/// at most 2²² (256 MiB).
 ///
 /// Techniques that cull lists visit all discs once for each block, which pays off only if the block has about as many
 /// rays as there are discs. The processor's caches do not matter: techniques that trace rays one by one process a block
@@ -33,10 +34,10 @@ struct StreamedOutcome {
 /// Runs a candidate over any number of rays. The result is that of `run`, bit for bit (hits, irradiance, pairs), for
 /// any block size. The index over the discs is built once.
 ///
-/// A stop request also ends the making of rays; the result then covers only the first rays, without pairs. Throws as
-/// make_problem and run do. There may be more than 2³² rays, unless pairs are requested. Throws std::length_error,
-/// naming the bytes, before the memory budget would be exceeded. The memory of pairs (8 bytes each) is checked again
-/// after each block.
+/// A stop request also ends the making of rays. The outcome then has `stopped` set, covers only the first rays, and has
+/// no pairs. Throws as make_problem and run do. There may be more than 2³² rays, unless pairs are requested. Throws
+/// std::length_error, naming the bytes, before the memory budget would be exceeded. The memory of pairs (8 bytes each)
+/// is checked again after each block.
 [[nodiscard]] StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& source,
                                            const Valid<Candidate>& candidate, const StreamOptions& options = {});
 

@@ -16,8 +16,8 @@ struct WalkedSpheres {
   std::string what;                           ///< in messages: "4 spheres and their lists of rays"
 };
 
-/// Makes the index of a technique whose spheres follow the discs. The index holds the discs in order. The search is in
-/// single precision, unless the engine is plain or rays start too far away.
+/// Makes the index of a technique whose spheres follow the discs. The index holds the discs in the order of visits.
+/// The search is in single precision, unless the engine is plain or rays start too far away.
 [[nodiscard]] std::unique_ptr<Index> prepare_walk(const Problem& problem, WalkedSpheres spheres,
                                                   const RunOptions& options);
 

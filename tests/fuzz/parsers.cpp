@@ -1,5 +1,5 @@
-// The readers of meshes, discs and rays; the first byte selects one. Reading either succeeds or throws FileError. The
-// data read satisfies what the reader's documentation promises.
+// The readers of meshes, discs and rays; the first byte selects the reader. Reading either succeeds or throws
+// FileError. The data read satisfies what the reader's documentation promises.
 
 #include <cmath>
 #include <glm/geometric.hpp>

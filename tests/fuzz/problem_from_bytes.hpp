@@ -45,7 +45,7 @@ class ProblemMaker {
  private:
   bool one_in(int n) { return bytes_.ConsumeIntegralInRange(0, n - 1) == 0; }
 
-  /// A multiple of 1/8 (a plane between cells), a value next to one, or any value from -1 to 1.
+  /// A multiple of 1/8 (a plane between cells), a value next to such a multiple, or any value from -1 to 1.
   double coordinate() {
     const double grid = bytes_.ConsumeIntegralInRange(-8, 8) / 8.0;
     switch (bytes_.ConsumeIntegralInRange(0, 4)) {

@@ -20,7 +20,7 @@ using namespace detp::support;
 
 namespace {
 
-/// All exact techniques; those that decide in floats with several parameters.
+/// All exact techniques. Techniques that decide in floats occur with several parameters.
 std::vector<Candidate> all_exact() {
   std::vector<Candidate> list = float_candidates();
   list.insert(list.end(), {{Technique::sphere_tree, SphereTreeParameters{8, 8}},

@@ -87,8 +87,8 @@ void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, 
   }
 }
 
-/// Discs that touch the faces x = ±1 of their common box, and rays almost along these faces, which pass the points of
-/// contact within rounding error, some inside the box and some outside.
+/// Discs that touch the faces x = ±1 of their common box, and rays almost along these faces. The rays pass the points
+/// of contact within rounding error, some inside the box and some outside.
 HardScene scene_at_faces(std::uint64_t index) {
   RandomSequence random(300, index);
   HardScene scene;

@@ -15,8 +15,8 @@
 #include <vector>
 
 /// The part of oneTBB that the project uses, implemented with std::thread, for the preset `thread` only.
-/// ThreadSanitizer understands how std::thread orders work. It does not see how oneTBB's uninstrumented library does,
-/// and would report races that do not exist. Every loop starts threads of its own.
+/// ThreadSanitizer understands how std::thread orders work. With oneTBB's own library, which is not instrumented, it
+/// would report races that do not exist. Every loop starts threads of its own.
 namespace tbb {
 namespace detail {
 

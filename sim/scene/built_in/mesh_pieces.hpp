@@ -28,7 +28,8 @@ void add_quad(Mesh& mesh, const std::array<glm::dvec3, 4>& corners, double cell)
 /// Adds a box with this corner and the right-handed edges that start there. All six faces look outwards.
 void add_box(Mesh& mesh, const glm::dvec3& corner, const std::array<glm::dvec3, 3>& edges, double cell);
 
-/// A closed tube around a path, with `sides` >= 3 vertices in each ring. It has a pointed tip if `tip` is set.
+/// A tube around a path, with `sides` >= 3 vertices in each ring. Its ends are open, but a pointed tip closes the last
+/// one if `tip` is set.
 struct Tube {
   std::span<const glm::dvec3> path;  ///< at least 2 points, all distinct
   std::span<const double> radii;     ///< one for each point of the path

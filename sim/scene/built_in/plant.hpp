@@ -8,7 +8,8 @@
 /// Trees: limbs that bear limbs. The last generation bears leaves.
 namespace detp::sim::built_in {
 
-/// How the limbs of one generation grow on those of the generation before, the parents. The trunk is the first.
+/// How the limbs of one generation grow on the limbs of the previous generation (their parents). The trunk is the first
+/// generation.
 struct Generation {
   int limbs;          ///< on each parent
   double from, to;    ///< shares of the parent's length between which the limbs sit

@@ -19,9 +19,9 @@ struct SceneRequest {
 ///
 /// If `samples` is less than the number of vertices, keeps a random subset of the samples at vertices, in vertex order.
 /// If it is greater, adds points distributed by area over the triangles, with the triangles' normals. The seed alone
-/// determines both. light_for (mesh_light.hpp) places the light of a mesh file. Throws FileError as read_mesh does, and
-/// for a mesh that yields no sample or too few; std::invalid_argument for 0 samples and for an unknown built-in name
-/// (the message lists the known ones). Throws Stopped within 0.1 s of a stop request.
+/// determines the subset and the points. light_for (mesh_light.hpp) places the light of a mesh file. Throws FileError
+/// as read_mesh does, and for a mesh that yields no sample or too few; std::invalid_argument for 0 samples and for an
+/// unknown built-in name (the message lists the known ones). Throws Stopped within 0.1 s of a stop request.
 [[nodiscard]] Scene open_scene(const SceneRequest& request, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

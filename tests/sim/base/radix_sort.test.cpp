@@ -25,8 +25,8 @@ bool same(const KeyedIndex& a, const KeyedIndex& b) { return a.key == b.key && a
 
 TEST_SUITE("identity") {
   TEST_CASE("the result is that of a stable sort by key, whichever digits differ") {
-    // All 64 bits; few distinct keys, so that there are ties; and digits that are equal in all keys, below, between and
-    // above the others.
+    // Keys that differ in all 64 bits; few distinct keys, so that there are ties; keys with equal digits below, between
+    // and above the digits that differ; equal keys.
     for (const auto& [mask, constant] :
          {std::pair{~0ULL, 0ULL}, std::pair{0x300ULL, 0ULL}, std::pair{0xff00'00ff'0000ULL, 0x1200'0000'0000'0034ULL},
           std::pair{0ULL, 7ULL}}) {

@@ -78,11 +78,12 @@ TEST_SUITE("known answer") {
   TEST_CASE("isotropic lines: the number of tests follows from the areas of the boxes") {
     const auto discs = uniform_discs(Body::cube, 2, 2000, 0.05, 5);
     const auto rays = LineField(enclosing_sphere(discs), 6).lines(0, 20'000);
-    // The number of lines that hit a convex body is proportional to its surface area: 2π d² for the disc, and
+    // The number of lines that hit a convex body is proportional to its surface area. For a disc of radius d it is
+    // 2π d², and for the disc's box
     //
     //     8 d² Σ √((1 - a²)(1 - b²))
     //
-    // for its box, over the pairs a, b of the normal's coordinates.
+    // where the sum is over the pairs a, b of the normal's coordinates.
     double discs_area = 0;
     double boxes_area = 0;
     for (const auto& [centre, n, d] : discs) {

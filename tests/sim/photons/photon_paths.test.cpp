@@ -17,7 +17,7 @@ using namespace detp::sim;
 
 namespace {
 
-/// A closed box of side 2 around `centre`, in units of `scale`, with a lamp in its middle.
+/// A closed box of side 2 · `scale` around `centre`, with a lamp in its middle.
 Scene closed_box(double scale = 1, const glm::dvec3& centre = glm::dvec3{0.0}) {
   Scene scene;
   scene.name = "closed box";

@@ -86,7 +86,8 @@ TEST_SUITE("standard error of irradiance") {
     int covered = 0;
     for (std::size_t d = 0; d < discs.size(); ++d)
       covered += std::abs(outcome.irradiance[d] - expected) <= 1.96 * outcome.standard_error[d] ? 1 : 0;
-    // 95 % of 2000 are expected. The binomial error is 0.5 %; the error is larger because discs share rays.
+    // 95 % of the 2000 intervals should contain `expected`. If they were independent, this share would have a standard
+    // deviation of 0.5 %. It is larger because discs share rays.
     CHECK(covered / 2000.0 > 0.92);
     CHECK(covered / 2000.0 < 0.97);
   }

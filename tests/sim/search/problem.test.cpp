@@ -26,7 +26,7 @@ const Candidate brute{Technique::brute_force, BruteForceParameters{}};
 
 Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .engine = Engine::plain}); }
 
-/// Compares the hits of all exact techniques, with the float and the plain engine, with the predicate's.
+/// Checks that every exact technique, with either engine, finds the same hits as the predicate.
 void check_all_agree(const Problem& problem) {
   const Outcome expected = truth_of(problem);
   for (const Candidate& candidate : support::exact_candidates())

@@ -103,7 +103,7 @@ struct Measured {
   double peak = 0;
 };
 
-/// Work of a first call (starting threads, loading code) does not count as memory of a run.
+/// Runs the candidate once, so that what a first call does (starting threads, loading code) is not measured.
 void warm_up(const Candidate& candidate, const RunOptions& options) {
   DiscsAndRays given = lines_through(uniform_discs(Body::cube, 2, 500, 0.02, 6), 500);
   for (Ray& ray : given.rays) ray.length = 1;

@@ -76,7 +76,7 @@ TEST_SUITE("known answer") {
       const Outcome outcome = nearest(problem, k);
       double mean = 0;
       for (const double irradiance : outcome.irradiance) mean += irradiance / 400;
-      // 400 estimates from different photons. An estimate has the variance 1/(k - 2), with a relative error of k/20000.
+      // Each of the 400 estimates uses other photons. Its variance is 1/(k - 2), up to a relative error of k/20000.
       const double standard_error = std::sqrt(1.0 / (k - 2) / 400);
       CHECK(std::abs(mean - 1) < 4 * standard_error);
       if (k == 5) CHECK(std::abs(mean * k / (k - 1) - 1) > 4 * standard_error);

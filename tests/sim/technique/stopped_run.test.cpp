@@ -185,7 +185,8 @@ TEST_SUITE("known answer") {
     CHECK(estimate_hits(one, 100).hits == 30);
     CHECK_FALSE(estimate_hits(one, 100).standard_error);
     one.add(10, 5);
-    // Batch means 0.3 and 0.5: σ² = 10 · 0.1² + 10 · 0.1² = 0.2, SE² = 100 · 80 / 20 · 0.2.
+    // The batch means 0.3 and 0.5 give a ray's hits the variance 10 · 0.1² + 10 · 0.1² = 0.2. With 20 of 100 rays
+    // searched, the squared standard error is 100 · 80 / 20 · 0.2.
     CHECK(*estimate_hits(one, 100).standard_error == doctest::Approx(std::sqrt(80.0)));
   }
 }

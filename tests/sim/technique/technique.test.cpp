@@ -80,7 +80,7 @@ std::vector<Ray> mixed_rays(std::size_t count, double side, std::uint64_t seed) 
 /// Decides every pair by the canonical predicate, in double.
 Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = true, .engine = Engine::plain}); }
 
-/// Compares all exact techniques with the canonical predicate's decisions, pair by pair, and irradiance bit by bit.
+/// Checks that all exact techniques find the canonical predicate's pairs, and the same bits of irradiance.
 void check_all_agree(const Problem& problem, std::uint64_t least_hits) {
   const Outcome expected = truth_of(problem);
   CHECK(expected.total_hits >= least_hits);
