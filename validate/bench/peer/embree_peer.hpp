@@ -11,9 +11,9 @@
 
 /// A competitor of our techniques: all hits by Embree, in single precision.
 ///
-/// No other library is measured. nanoflann finds points near points: lines would have to be covered by balls, and discs
-/// that are found twice removed. CGAL's tree of boxes could hold discs in double precision, but requires GMP and MPFR
-/// and uses no SIMD, so it would not be the fastest on any workload.
+/// No other library is measured. nanoflann finds points near points: each line would have to be covered by balls, and
+/// discs found more than once would have to be removed. CGAL's tree of boxes could hold discs in double precision, but
+/// requires GMP and MPFR and uses no SIMD, so it would not be the fastest on any workload.
 namespace detp::validate {
 
 /// Embree's results for each disc.
