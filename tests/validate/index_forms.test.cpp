@@ -23,7 +23,7 @@ struct Case {
   double dimension;
   std::size_t samples;
   int depth;
-  double x;  ///< d/a
+  double x;  ///< d/a, where a is the side of a cell
 };
 
 /// Discs, and their workload. The cube of their centres, grown by d on all sides, has side 1.

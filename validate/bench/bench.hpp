@@ -17,7 +17,7 @@ struct BenchOptions {
   std::vector<EmbreeMode> embree_modes;  ///< at least one
   std::vector<int> threads = {1};        ///< each workload is run with each of these numbers of threads
   int repeats = 5;
-  double most_seconds = 2;  ///< seconds after which no round of a race starts, once three rounds have ended
+  double most_seconds = 2;  ///< after this many seconds, a race starts no fourth or later round
   double most_hits = 5e6;   ///< a workload is skipped if more hits are expected
   /// a technique of ours is left out if its predicted time exceeds this many times our shortest predicted time
   double hopeless = 30;

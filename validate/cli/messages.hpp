@@ -14,7 +14,7 @@ namespace detp::cli {
 /// opened.
 void prepare_streams();
 
-/// Writes to stdout. Throws sim::FileError with the system's reason.
+/// Writes to stdout. If this fails, throws sim::FileError with the system's reason.
 void write_result(const std::string& text);
 
 /// Throws sim::FileError if std::cout could not be written.

@@ -35,6 +35,7 @@ struct Estimate {
 /// Half width z, in standard errors, of the intervals that keep the probability of any false verdict in a run below
 /// `budget`. The budget is shared evenly over `comparisons` (Bonferroni): 2 (1 - Φ(z)) = budget / comparisons. Φ is the
 /// distribution of Student's t with `batches` - 1 degrees of freedom, because the standard error is itself uncertain.
+/// Throws std::invalid_argument unless 0 < budget < 1, comparisons >= 1 and batches >= 2.
 [[nodiscard]] double interval_width(double budget, int comparisons, int batches);
 
 /// Compares predicted with observed, with z = `width` and SE the standard error of `observed`. Undecided if SE is

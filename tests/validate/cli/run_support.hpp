@@ -11,7 +11,7 @@
 
 namespace detp::support {
 
-/// Discs of radii 0.02 to 0.2, about a cube of side 2.
+/// Discs of radii 0.02 to 0.2, with centres in a cube of side 2.
 inline std::vector<sim::Disc> mixed_discs(std::uint64_t count) {
   std::vector<sim::Disc> discs;
   for (std::uint64_t i = 0; i < count; ++i) {

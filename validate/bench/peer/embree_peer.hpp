@@ -36,7 +36,8 @@ class EmbreePeer {
   EmbreePeer& operator=(const EmbreePeer&) = delete;
 
   /// Computes irradiance in memory from discs and rays in memory: converts to single precision, builds, and traces. The
-  /// rays are divided among the threads; each thread has its own sums. Throws std::runtime_error if Embree fails.
+  /// rays are divided among the threads; each thread has its own sums. Throws std::bad_alloc or std::runtime_error if
+  /// Embree fails.
   [[nodiscard]] PeerOutcome run(std::span<const sim::Ray> rays, std::span<const sim::Disc> discs,
                                 const EmbreeMode& mode, const std::stop_token& stop = {}) const;
 
