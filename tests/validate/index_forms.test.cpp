@@ -40,7 +40,7 @@ struct Setting {
   Workload workload;
 };
 
-/// Checks that predicted / counted is within 3 % of 1, and that a prediction 6 % larger or smaller would not be.
+/// Checks that predicted / counted is within 3 % of 1, and that a prediction 6 % larger or smaller would fail.
 void check_close(const std::string& what, double predicted, double counted) {
   CAPTURE(what);
   CAPTURE(predicted / counted);
