@@ -23,7 +23,7 @@ struct Case {
   double dimension;
   std::size_t samples;
   int depth;
-  double x;  ///< d/a
+  double x;  ///< d/a, where a is the side of a cell
 };
 
 /// Discs, and their workload. The cube of their centres, grown by d on all sides, has side 1.
@@ -40,7 +40,7 @@ struct Setting {
   Workload workload;
 };
 
-/// Checks that predicted / counted is within 3 % of 1, and that a prediction 6 % larger or smaller would not be.
+/// Checks that predicted / counted is within 3 % of 1, and that a prediction 6 % larger or smaller would fail.
 void check_close(const std::string& what, double predicted, double counted) {
   CAPTURE(what);
   CAPTURE(predicted / counted);

@@ -71,8 +71,8 @@ TEST_SUITE("identity") {
     request.samples = 100'000;
     request.rays = 400'000;
     const std::uint64_t work = work_of([&] { static_cast<void>(make_job(request)); });
-    // The work on samples: discs, S0, problem, outliers, box, radii, cells. Rays are made, checked, inspected,
-    // measured.
+    // Units of work: at least 30 for each sample (discs, S0, problem, outliers, box, radii, cells) and 4 for each ray
+    // (made, checked, compared with S0, measured).
     CHECK(work > 30 * 100'000 + 4 * 400'000);
     for (const double share : {0.1, 0.5, 0.9}) {
       const StopAfterWork stop(static_cast<std::uint64_t>(share * static_cast<double>(work)));
@@ -105,7 +105,7 @@ TEST_SUITE("known answer") {
   }
 }
 
-/// The experiments count millions of lines for any workload, which takes too long for the quick suites.
+/// These experiments take too long for the quick suites.
 TEST_SUITE("statistical") {
   TEST_CASE("experiments and races do bounded work between stop checks") {
     work_of([] { static_cast<void>(all_findings(small({}))); });

@@ -14,8 +14,8 @@ namespace detp::validate {
   return tests(counts) + counts.steps + counts.nodes;
 }
 
-/// Units of work of sorting the discs, building the index, and starting lists and discs. They do not depend on the
-/// number of rays.
+/// Units of work that do not depend on the number of rays: sorting the discs, building the index, and one unit for each
+/// list and each visit of a disc.
 [[nodiscard]] inline double build_work(const Counts<double>& counts) {
   constexpr double sorting = 9;  // per disc
   constexpr double placing = 8;  // per disc and node

@@ -53,7 +53,8 @@ class Benchmark {
   }
 
  private:
-  /// Expects that each remaining workload takes a time proportional to its effort(), at the speed so far.
+  /// The progress callback for workload number `place`. Expects that each remaining workload takes a time proportional
+  /// to its effort(), at the speed so far.
   [[nodiscard]] sim::ReportPhase progress_of(std::size_t place) const {
     const double done = watch_.seconds();
     const double speed = effort_done_ > 0 ? done / effort_done_ : 1;
@@ -64,7 +65,7 @@ class Benchmark {
     return sim::part_of(options_.progress, before / whole, (before + speed * effort(workloads_[place])) / whole);
   }
 
-  /// Reports one part of a workload's phases, such as "@tree 10000 rays, 2 threads".
+  /// The progress callback for one part of a workload, such as "@tree 10000 rays, races".
   [[nodiscard]] sim::ReportPhase part(const BenchWorkload& workload, std::string what, double from, double to) const {
     if (!progress_) return {};
     return [part = sim::part_of(progress_, from, to),

@@ -17,7 +17,7 @@ struct BenchOptions {
   std::vector<EmbreeMode> embree_modes;  ///< at least one
   std::vector<int> threads = {1};        ///< each workload is run with each of these numbers of threads
   int repeats = 5;
-  double most_seconds = 2;  ///< seconds after which no round of a race starts, once three rounds have ended
+  double most_seconds = 2;  ///< after this many seconds, a race starts no fourth or later round
   double most_hits = 5e6;   ///< a workload is skipped if more hits are expected
   /// a technique of ours is left out if its predicted time exceeds this many times our shortest predicted time
   double hopeless = 30;
@@ -38,7 +38,7 @@ struct BenchEntry {
   /// Our fastest technique if `ours`, else Embree's fastest mode; null if none has run.
   [[nodiscard]] const CompetitorResult* best(bool ours) const;
 
-  /// Embree's best time divided by our best time; 0 if either is unknown.
+  /// Embree's best time divided by our best time; 0 if either is unknown or the race is incomplete.
   [[nodiscard]] double ratio() const;
 };
 
@@ -58,10 +58,11 @@ struct BenchResult {
 /// Runs a race on each workload. Throws as make_job does for a wrong scene or number.
 [[nodiscard]] BenchResult run_bench(std::span<const BenchWorkload> workloads, const BenchOptions& options);
 
-/// Six modes. All 60 modes were measured on seven workloads (CPU time, 10³ … 10⁵ rays). The fastest of these six was
-/// the fastest of all modes on five workloads, at most 1 % slower than the fastest on one, and 5 % slower on one where
-/// each mode ran only once. The times of all 60 modes are close: on discs the quality, the coherent flag and packets
-/// matter little. rtcOccluded, which keeps no nearest hit, is 1 to 5 % faster than rtcIntersect.
+/// The six modes that `bench` runs by default. All 60 modes were measured on seven workloads (CPU time, 10³ … 10⁵
+/// rays). The fastest of these six was the fastest of all modes on five workloads, at most 1 % slower than the fastest
+/// on one, and 5 % slower on one where each mode ran only once. The times of all 60 modes are close: on discs the
+/// quality, the coherent flag and packets matter little. rtcOccluded, which keeps no nearest hit, is 1 to 5 % faster
+/// than rtcIntersect.
 [[nodiscard]] std::vector<EmbreeMode> best_embree_modes();
 
 }  // namespace detp::validate

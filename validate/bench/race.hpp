@@ -37,7 +37,7 @@ struct CompetitorResult {
 
 struct RaceOptions {
   int repeats = 5;          ///< maximum number of rounds
-  double most_seconds = 2;  ///< seconds after which no round starts, once three rounds have ended
+  double most_seconds = 2;  ///< after this many seconds, no fourth or later round starts
   int finalists = 2;        ///< number of competitors of each side that run after the first round
   int threads = 1;
   std::stop_token stop = {};

@@ -20,7 +20,8 @@ struct RightHits {
   [[nodiscard]] std::uint64_t wrong_hits(std::span<const std::uint64_t> others) const;
 };
 
-/// The hits of brute force, or of the candidate `exact` if rays × discs exceeds `checkable`. Nothing if stopped.
+/// The hits of brute force, or of the candidate `exact` if rays × discs exceeds `checkable`. Returns nothing if a stop
+/// was requested.
 [[nodiscard]] std::optional<RightHits> right_hits(const Job& job, const Candidate& exact, double checkable,
                                                   const std::stop_token& stop = {});
 

@@ -22,7 +22,7 @@ struct AgainstEmbree {
 /// True if all our techniques found the right hits in all races.
 [[nodiscard]] bool do_own_hits_agree(std::span<const BenchEntry> entries);
 
-/// Number of wrong hits and of all hits of Embree, one run for each race and mode.
+/// Embree's wrong hits and all its hits, summed over all races and modes. Each mode of a race counts once.
 struct WrongHits {
   std::uint64_t wrong = 0;
   std::uint64_t hits = 0;

@@ -11,7 +11,7 @@ constexpr std::array built_in{"@uniform", "@tree", "@courtyard", "@cornell"};
 constexpr std::array meshes{"stanford_bunny.obj", "stanford_dragon.ply", "sponza.ply",     "bedroom.ply",
                             "mountain.obj",       "tangerine_fine.ply",  "grove_fine.ply", "tree.obj"};
 
-/// A million rays are run at these radii only, because at all radii they would take most of the time.
+/// A million rays are run only at radii of 0.5 and 2 %. At all radii they would take most of the time.
 constexpr double most_rays = 1e6;
 bool is_used_with_most_rays(const Length& radius) { return radius.value == 0.005 || radius.value == 0.02; }
 

@@ -33,14 +33,14 @@ struct BenchAxes {
 
 enum class BenchEffort { quick, thorough };
 
-/// Workloads to run, and those whose files are missing.
+/// Workloads to run, and the meshes whose files are missing.
 struct BenchSet {
   /// workloads that differ only in the number of rays are adjacent, in rising order
   std::vector<BenchWorkload> workloads;
-  std::vector<std::string> missing;  ///< the reason for each workload that was left out
+  std::vector<std::string> missing;  ///< the name of each mesh that was left out, and why
 };
 
-/// The workloads of that effort. Each list in `axes` that is not empty replaces the effort's values. `folder` holds the
+/// The workloads of `effort`. Each list in `axes` that is not empty replaces the effort's values. `folder` holds the
 /// meshes; empty if unknown.
 ///
 /// quick      @uniform, @tree, @courtyard, @cornell, bunny; radii of 1 and 4 %; 10³ and 10⁵ rays

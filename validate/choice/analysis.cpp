@@ -24,7 +24,7 @@ class Analyser {
  public:
   Analyser(const sim::Problem& problem, const AnalysisOptions& options) : problem_(problem), options_(options) {}
 
-  /// Candidates that are in the analysis already are not run again.
+  /// Adds the candidates that are not in the analysis yet, and runs each once.
   void count(const std::vector<Analysed>& wanted) {
     const std::size_t first = all_.candidates.size();
     for (const Analysed& one : wanted)
@@ -85,8 +85,9 @@ class Analyser {
 
   [[nodiscard]] double patience() const { return std::max(least_patience, options_.patience * fastest_); }
 
-  /// Expected seconds of a counting run: its measured seconds if it was run to its end. Else the predicted seconds
-  /// multiplied by slowness_, or patience() if that is less or there is no prediction.
+  /// Expected seconds of a counting run. If it was run to its end: its measured seconds. If it has a prediction: the
+  /// predicted seconds multiplied by slowness_, at most patience(). Otherwise patience(), or 0 before any run has
+  /// ended.
   [[nodiscard]] double expected_counting(std::size_t place) const {
     if (place < first_seconds_.size() && std::isfinite(first_seconds_[place])) return first_seconds_[place];
     const Analysed& one = all_.candidates[place];

@@ -46,10 +46,11 @@ struct AnalysisOptions {
   sim::ReportPhase progress = {};
 };
 
-/// First runs and counts, once each: the ranked candidates, the exact techniques that were not ranked, and neighbours
-/// of the fastest. Then times each finished candidate in `repeats` runs without counting. The candidates take turns, so
-/// that a disturbance of the machine affects all alike. A candidate that is predicted to be slow is started too. It is
-/// abandoned after `patience` times the shortest time so far. The predicted choice is never abandoned.
+/// First runs each candidate once and counts: the ranked candidates, the exact techniques that were not ranked, and
+/// neighbours of the fastest candidates. Then times each finished candidate in `repeats` runs without counting. The
+/// candidates take turns, so that a disturbance of the machine affects all alike. A candidate that is predicted to be
+/// slow is started too. It is abandoned after `patience` times the shortest time so far. The predicted choice is never
+/// abandoned.
 [[nodiscard]] Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& ranking,
                                const AnalysisOptions& options = {});
 

@@ -52,8 +52,8 @@ double longest_side(const sim::Box& box) {
 
 double absolute(const Length& length, double side) { return length.relative ? length.value * side : length.value; }
 
-/// Half the distance between samples. The distance is the mean edge length of the mesh, or without edges that of points
-/// spread evenly over a surface or in a volume.
+/// Half the distance between samples. The distance is `edge_length`, or if this is 0, that of as many points spread
+/// evenly over a surface (in a volume if the scene has no triangles).
 double default_radius(const sim::Scene& scene, double side, double edge_length) {
   const double root = scene.mesh.triangles.empty() ? 1.0 / 3 : 0.5;
   const double spread = side / std::pow(static_cast<double>(scene.samples.size()), root);

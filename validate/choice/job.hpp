@@ -66,7 +66,7 @@ struct Job {
   std::size_t triangles = 0;
   Workload workload;  ///< measured on discs and rays (the path length of a stream on its first block)
   sim::Notices notices;
-  /// warnings of a few discs or rays that distort the workload (outliers.hpp)
+  /// warnings about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
   bool front_facing = false;
   double read_seconds = 0;  ///< time for reading or making scene and rays
@@ -77,8 +77,8 @@ struct Job {
   }
 };
 
-/// Makes and measures what is requested. Throws sim::FileError and std::invalid_argument as its parts do. Throws
-/// sim::Stopped within 0.1 s of a stop request.
+/// Makes and measures what is requested. Throws sim::FileError for a bad file, std::invalid_argument for a bad request,
+/// std::length_error if the rays or samples would not fit in memory, and sim::Stopped within 0.1 s of a stop request.
 [[nodiscard]] Job make_job(const JobRequest& request, std::stop_token stop = {}, const sim::ReportPhase& progress = {});
 
 }  // namespace detp::validate

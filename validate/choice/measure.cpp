@@ -41,7 +41,7 @@ std::vector<double> occupied_cells(std::span<const sim::Disc> discs, const std::
   return occupied;
 }
 
-/// 0 if all rays are unbounded lines.
+/// Mean length of the rays inside the grown box; 0 if all rays are unbounded lines.
 double mean_path_length(const sim::Problem& problem, const sim::Box& box, double disc_radius,
                         const std::stop_token& stop) {
   sim::StopCheck check(stop, "measuring the rays");
@@ -56,7 +56,7 @@ double mean_path_length(const sim::Problem& problem, const sim::Box& box, double
   return segments ? sum / static_cast<double>(problem.rays().size()) : 0;
 }
 
-/// Exactly the discs' radius if all have the same.
+/// Root mean square radius. If all radii are equal, the result is exactly this radius.
 double rms_radius(std::span<const sim::Disc> discs, sim::StopCheck& check) {
   double sum = 0;
   bool same = true;

@@ -25,7 +25,7 @@ struct SurfaceFacts {
 
 /// The workload of the problem: numbers of rays and discs, S₀, the samples' box and dimension, root mean square disc
 /// radius d, mean path length. The path length of a ray is its length inside the samples' box grown by d; the mean is 0
-/// if all rays are unbounded lines.
+/// if all rays are unbounded lines. Throws sim::Stopped if a stop was requested.
 [[nodiscard]] Workload measure(const sim::Problem& problem, const SurfaceFacts& surface = {},
                                const std::stop_token& stop = {});
 

@@ -11,7 +11,8 @@ namespace detp::validate {
 [[nodiscard]] std::vector<Candidate> techniques_left_out(const std::vector<Candidate>& candidates);
 
 /// Candidates of the same technique that differ in one parameter. Numbers are changed one step up and one step down
-/// (Parameter::step), within their range. A parameter with named choices is changed only if the technique has no other.
+/// (Parameter::step), within their range. A parameter with named choices is changed only if the technique has no other
+/// parameter.
 [[nodiscard]] std::vector<Candidate> neighbours(const Candidate& candidate);
 
 }  // namespace detp::validate

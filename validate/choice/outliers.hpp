@@ -5,7 +5,7 @@
 
 #include "detp/sim/technique/technique.hpp"
 
-/// Warnings of a few discs or rays that distort the workload. The models predict from the workload.
+/// Warnings about a few discs or rays that distort the workload, from which the models predict.
 namespace detp::validate {
 
 /// Returns one sentence, with numbers, for each of these conditions that holds; usually none:

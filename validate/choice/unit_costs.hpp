@@ -15,13 +15,13 @@ namespace detp::validate {
 ///            factor of 1.23 in the median and 2.73 at the 95th percentile. Computed / measured time, 10th to 90th
 ///            percentile: brute force 0.92 … 1.00, sphere cache 0.65 … 1.22, cell spheres 0.23 … 0.93, box tree 1.06 …
 ///            1.29, octree 0.73 … 1.63, grid 0.62 … 1.43.
-/// Limits     Advancing to the next disc (about 100 ns) has no cost. So cell spheres take up to six times the computed
-///            time if lists are short. The costs of lists are those of the float kernels, but sphere-tree works in
-///            doubles. Times on another machine may differ by a factor of two, or by the ratio of the vector widths;
-///            ratios between techniques are more reliable.
+/// Limits     `visit` is 0, although advancing to the next disc takes about 100 ns. So cell spheres take up to six
+///            times the computed time if lists are short. The costs of lists are those of the float kernels, but
+///            sphere-tree works in doubles. Times on another machine may differ by a factor of two, or by the ratio of
+///            the vector widths; ratios between techniques are more reliable.
 ///
-/// The measured cost is 2.2e-8 for sorting a disc together with building a box tree over it. `sort` and `leaf` are half
-/// of this cost each; the division into halves was not measured.
+/// Sorting one disc and inserting it into a box tree together take 2.2e-8 s (measured). `sort` and `leaf` have half of
+/// this time each; the two were not measured separately.
 [[nodiscard]] UnitCosts built_in_unit_costs();
 
 struct TimedRun {
@@ -33,8 +33,9 @@ struct TimedRun {
 };
 
 /// The unit costs, all >= 0, with the least sum of squared relative errors of the runs' search times
-/// (non_negative_fit). `placement`, `leaf` and `sort` are instead total seconds divided by total counts. Throws
-/// std::invalid_argument if there are fewer runs than fitted costs (7), and for a run whose search took no time.
+/// (non_negative_fit). For `placement`, `leaf` and `sort`, the cost is instead the sum of the seconds divided by the
+/// sum of the counts. Throws std::invalid_argument if there are fewer runs than fitted costs (7), and for a run whose
+/// search took no time.
 [[nodiscard]] UnitCosts fit_unit_costs(std::span<const TimedRun> runs);
 
 }  // namespace detp::validate

@@ -78,7 +78,8 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
 bool adds_up_over_rays(std::string_view term) { return term != "culls" && term != "visits" && term != "placements"; }
 
 /// The count for all the question's rays, scaled from the sampled rays. The standard error is that between the batches,
-/// but at least that of independent events whose expected number is `predicted`; infinite if there is a single ray.
+/// but at least that of independent events whose expected number is `predicted`; infinite if there is a single ray; 0
+/// for a count that does not add up over rays.
 Estimate observed(const Counted& counted, const CountTerm<double>& term, double predicted, double question_rays) {
   const double all = counted.all.counts.*term.term;
   if (!adds_up_over_rays(term.name)) return {all, 0};

@@ -93,14 +93,14 @@ Finding cells_finding(const Experiment& experiment) {
           .seconds = clock.seconds()};
 }
 
-/// Raises the standard error to √(μ/N), that of independent events, if it is less. Rare events may occur in no batch,
-/// and the standard error between the batches is then 0.
+/// Raises the standard error to √(μ/N) if it is less: that of independent events, μ per line (predicted), on N lines.
+/// Rare events may occur in no batch, and the standard error between the batches is then 0.
 void allow_for_rare_events(Finding& finding) {
   const double least = std::sqrt(finding.predictions.back().value / static_cast<double>(finding.lines));
   finding.observed.standard_error = std::max(finding.observed.standard_error, least);
 }
 
-/// For uniform samples, whose cube lies inside S₀: predicts the tests per line that hits the cube by the closed form.
+/// For uniform samples, whose cube lies inside S₀: the closed form predicts the tests per line that hits the cube.
 Finding uniform_tests(const Workload& workload, const std::vector<Batch>& batches, int depth) {
   const double overlapped = model::index_cells(workload, std::ldexp(1.0, depth)).overlapped;
   return {.id = "octree-tests-per-line",

@@ -25,7 +25,7 @@ constexpr double disc_radius = 0.3;
 constexpr int most_levels = 3;
 constexpr std::size_t lines_of_each_batch = 100'000;
 
-/// Of S_i at the published Q.
+/// Radius of S_i at the published Q, if r₀ is 1.
 double level_radius(int i) { return std::pow(model::published_ratio, static_cast<double>(i)); }
 
 /// A sphere of radius `reach` at a random place inside S₀, which is the unit sphere.

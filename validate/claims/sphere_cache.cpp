@@ -26,7 +26,7 @@ constexpr std::string_view over_ratios = "geometric mean over Q = 0.3, 0.5, 0.65
 constexpr double tolerance = 0.025;
 constexpr double least_rebuilds = 30;
 
-/// Logarithms of the costs per ray and of rebuilds for one Q: counted, or predicted by one of the two forms.
+/// Logarithms of m_i, and of T_R and T_I per ray, for one Q: counted, or predicted by one of the two forms.
 struct Logs {
   double rebuilds = 0;  ///< mean over the compared spheres
   double rebuild_time = 0;

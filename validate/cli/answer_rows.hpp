@@ -30,8 +30,8 @@ struct TextColumns {
 }
 
 /// The results for all combinations, in order. prepare() returns the data that the rows of one problem share.
-/// answer(shared) returns the result of one row. After a stop request, returns the rows that were finished, or throws
-/// sim::Stopped if no row was.
+/// answer(shared) returns the result of one row. After a stop request, returns the rows so far, of which the last may
+/// be partial, or throws sim::Stopped if there is none.
 template <class Prepare, class Answer>
 [[nodiscard]] std::vector<AnswerRow> answer_all(ValueLists& problems, ValueLists& candidates,
                                                 const std::stop_token& stop, Prepare prepare, Answer answer) {

@@ -12,8 +12,8 @@
 namespace detp::cli {
 namespace {
 
-/// The signal that ends the thread's wait for signals in the destructor. No other code needs this signal, because its
-/// default action is to do nothing.
+/// The destructor sends this signal to the thread that waits for signals, so that its wait ends. No other code needs
+/// this signal, because its default action is to do nothing.
 constexpr int wake_up = SIGURG;
 
 constexpr double longest = 1e9;  // seconds: no overflow when added to a clock's time

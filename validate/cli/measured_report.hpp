@@ -5,7 +5,7 @@
 
 namespace detp::cli {
 
-/// The columns of a table of candidates after those of the predictions: counted, measured, predicted / measured.
+/// The columns that follow the predictions in the table of candidates: counted, measured, predicted / measured.
 [[nodiscard]] std::vector<TextColumn> measured_table_columns();
 [[nodiscard]] std::vector<TextCell> measured_cells(const validate::Analysed& run);
 

@@ -34,7 +34,8 @@ void shorten(std::string& message, std::string_view piece) {
 void prepare_streams() {
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);
-  // open() returns the lowest free number. Reading stdin, and writing to stdout or stderr, then fail on purpose.
+  // open() returns the lowest free number, which is that of the closed stream. It opens the file for the wrong
+  // direction on purpose, so that reading stdin, or writing to stdout or stderr, still fails.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
 }

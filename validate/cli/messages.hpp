@@ -14,7 +14,7 @@ namespace detp::cli {
 /// opened.
 void prepare_streams();
 
-/// Writes to stdout. Throws sim::FileError with the system's reason.
+/// Writes to stdout. If this fails, throws sim::FileError with the system's reason.
 void write_result(const std::string& text);
 
 /// Throws sim::FileError if std::cout could not be written.
@@ -26,7 +26,7 @@ void write_error(std::string_view text);
 /// Writes the message to stderr as one line of at most 500 characters, made safe to show. Returns the code.
 int fail(ExitCode code, std::string message);
 
-/// The message, in which each repeated argument, or part of an argument, is made safe to show and truncated after 60
+/// The message. Every argument, or part of an argument, that it quotes is made safe to show and truncated after 60
 /// characters.
 [[nodiscard]] std::string with_short_arguments(std::string message, std::span<char* const> arguments);
 

@@ -17,9 +17,9 @@ struct OutlookOptions {
 /// Names of the results, in their order.
 [[nodiscard]] const Columns& outlook_columns();
 
-/// The orders of growth if they are known; the deviation of irradiance in a uniform field if a disc fits in S₀; the
-/// error for a curved density if a curvature is set; the numbers of rays for the target error if that is set. Throws
-/// std::invalid_argument for options out of range.
+/// The orders of growth if D >= 2; the deviation of irradiance in a uniform field if the rays are lines, both faces
+/// count and a disc fits in S₀; the error for a curved density if a curvature is set; the numbers of rays for the
+/// target error if this error is set. Throws std::invalid_argument for options out of range.
 [[nodiscard]] Json outlook(const ModelQuestion& question, const Parameters& parameters, const OutlookOptions& options);
 
 }  // namespace detp::cli

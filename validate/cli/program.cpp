@@ -63,7 +63,7 @@ void set_memory_limit(const std::string& size) {
   }
 }
 
-/// If the command is stopped before it has a result, also says so on stderr.
+/// Runs the command. If it is stopped before it has a result, says so on stderr and returns stopped_result().
 Result result_of(const Command& command, const CommonOptions& common, const std::stop_token& stop) {
   try {
     return command.run(common, stop);

@@ -76,7 +76,7 @@ void check_files(const RunOptions& options, const CommonOptions& common, std::si
   check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
 }
 
-/// Returns the progress if a stop request ended the run or the writing, else nothing.
+/// Returns the progress if a stop request ended the run, the writing or the timed runs; else nothing.
 std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnswer& answer, const CommonOptions& common,
                                         const std::stop_token& stop) {
   const sim::Outcome& outcome = answer.run.outcome;

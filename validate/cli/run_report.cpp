@@ -35,7 +35,7 @@ double hits_per_disc(const sim::Outcome& outcome) {
   return static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size());
 }
 
-/// Nothing if the candidate has no closed form.
+/// The predicted counts; nothing if the candidate has no closed form.
 std::optional<Counts<double>> prediction(const Workload& workload, const Candidate& candidate, Engine engine) {
   if (!model::has_closed_form(candidate.technique)) return {};
   try {
@@ -55,7 +55,7 @@ void add_stops(const Workload& workload, const Candidate& candidate, Json& json)
   json["k_best"] = stops.best;
 }
 
-/// Nothing if no rays are finished, or if the finished rays are not representative of all rays.
+/// The estimated hits of all rays; nothing if no ray is finished, or if the finished rays do not represent all rays.
 std::optional<sim::HitEstimate> estimate(const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   if (!answer.random_rays || outcome.batches.rays == 0) return std::nullopt;

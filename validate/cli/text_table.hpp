@@ -14,7 +14,7 @@ enum class Align { left, right };
 struct TextColumn {
   std::string head = {};
   Align align = Align::right;
-  int spare = 0;           ///< 0: always shown; otherwise left out before columns with a smaller value
+  int spare = 0;           ///< 0: always shown; columns with the largest values are left out first
   std::string group = {};  ///< heading above neighbouring columns of the same group
 };
 

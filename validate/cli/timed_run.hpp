@@ -28,8 +28,9 @@ struct Timing {
   [[nodiscard]] double total() const { return prepare + phases.total(); }
 };
 
-/// Times `repeat` runs without counting; if `repeat` is 0, returns the times of the counting run. The phases returned
-/// are those of the run with the median time, or for an even number of runs, of the slower of the two middle runs.
+/// Times `repeat` runs without counting; if `repeat` is 0, or a stop request ended the first of them, returns the times
+/// of the counting run. The phases returned are those of the run with the median time, or for an even number of runs,
+/// of the slower of the two middle runs.
 [[nodiscard]] Timing time_runs(const validate::Job& job, const Candidate& candidate, const TimedRun& counted,
                                int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress);
 

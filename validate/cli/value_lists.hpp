@@ -16,8 +16,8 @@ inline constexpr std::size_t most_rows = 20'000;
 
 /// The values of a list of numbers and ranges start:end:step: "1%,2%,4%", "0.3:0.9:0.05" or a mixture. The end of a
 /// range is included if a step meets it. Values of a range are rounded to the decimals of start and step: 0.35,
-/// not 0.35000000000000003. Throws std::invalid_argument, naming the option, for a malformed range and for more than
-/// most_rows values.
+/// not 0.35000000000000003. Throws std::invalid_argument, naming the option, for a malformed range, and
+/// std::length_error for more than most_rows values.
 [[nodiscard]] std::vector<std::string> values_of(std::string_view option, std::string_view text);
 
 /// "0.3,0.5" split at its commas.

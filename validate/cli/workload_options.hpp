@@ -93,7 +93,8 @@ template <class T>
 /// Resolved inputs of a job; file names as the user wrote them.
 [[nodiscard]] Json to_json(const validate::Job& job, const validate::JobRequest& request);
 
-/// The workload's deviations from the basic model that the closed forms take into account.
+/// For each effect beyond the basic model (finite paths, surface samples): whether predictions take it into account,
+/// and the measured evidence for it.
 [[nodiscard]] Json effects_json(const Workload& workload);
 
 /// The effects as cells of a table, two for each effect: "finite_paths" (true or false) and "finite_paths_evidence".

@@ -19,8 +19,8 @@ struct Estimate {
   double standard_error = 0;
 };
 
-/// The quantile, which is larger than a share `share` (0 … 1) of the values. Interpolates linearly between the two
-/// nearest values. Throws std::invalid_argument if there are no values.
+/// The quantile: the value below which the share `share` of the values lies. Interpolates linearly between the two
+/// nearest values. Throws std::invalid_argument if there are no values, or if `share` is not in [0, 1].
 [[nodiscard]] double quantile(std::vector<double> values, double share);
 
 /// The middle value, or the mean of the two middle values if their number is even.
@@ -35,15 +35,18 @@ struct Estimate {
 /// Half width z, in standard errors, of the intervals that keep the probability of any false verdict in a run below
 /// `budget`. The budget is shared evenly over `comparisons` (Bonferroni): 2 (1 - Φ(z)) = budget / comparisons. Φ is the
 /// distribution of Student's t with `batches` - 1 degrees of freedom, because the standard error is itself uncertain.
+/// Throws std::invalid_argument unless 0 < budget < 1, comparisons >= 1 and batches >= 2.
 [[nodiscard]] double interval_width(double budget, int comparisons, int batches);
 
-/// Compares predicted with observed.
+/// Compares predicted with observed, with z = `width` and SE the standard error of `observed`. Undecided if SE is
+/// infinite.
 ///
 ///     δ = |observed/predicted - 1|,  w = z SE/|predicted|
 ///     agrees: δ + w <= tolerance     refuted: δ - w > tolerance     undecided: otherwise
 [[nodiscard]] Verdict judge(double predicted, const Estimate& observed, double tolerance, double width);
 
-/// The relative deviation of a formula that would be refuted with a probability of 97 %: tolerance + (z + 2) SE.
+/// The relative deviation of a formula that would be refuted with a probability of 97 %: `tolerance` + (z + 2)
+/// SE/|predicted|, with z and SE as for judge().
 [[nodiscard]] double detectable_deviation(double predicted, const Estimate& observed, double tolerance, double width);
 
 }  // namespace detp::validate

@@ -31,7 +31,7 @@ namespace detp::validate {
 /// Throws     std::invalid_argument for no discs, malformed discs, a number of rays or parameters out of range,
 ///            sphere-cache-published (its walk loses rays), a sphere cache not in the Morton order, bvh, ray-map,
 ///            photon-map, and an octree that is not searched top-down or front to back; std::length_error if an index
-///            would not fit in memory.
+///            would not fit in memory; sim::Stopped if a stop was requested.
 [[nodiscard]] Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays,
                                                const Valid<Candidate>& candidate, const std::stop_token& stop = {},
                                                bool front_facing = false, Engine engine = Engine::simd);

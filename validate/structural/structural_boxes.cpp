@@ -22,8 +22,8 @@ struct PoolLine {
 
 constexpr std::size_t pool_size = 4096;
 
-/// Lines from a sequence of points in four dimensions whose projections are evenly distributed too (Roberts's
-/// sequence).
+/// The numbers (a, b, u, v) of the lines are the points of Roberts's sequence in four dimensions. The points, and their
+/// projections onto fewer dimensions, are evenly distributed.
 std::vector<PoolLine> make_pool() {
   constexpr double root = 1.1673039782614187;  // x⁵ = x + 1
   std::vector<PoolLine> pool;

@@ -15,6 +15,8 @@ namespace detp::validate {
 ///
 ///     |p + a c_z - c_x| <= h_x + |a| h_z    and    |q + b c_z - c_y| <= h_y + |b| h_z
 ///
+///   where  c   centre of the box,  h  half the sides of the box
+///
 /// For one direction (a, b), the listed lines cross a plane of constant z in a rectangle of the area
 ///
 ///     4 (h_x + |a| h_z)(h_y + |b| h_z)

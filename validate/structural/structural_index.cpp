@@ -104,7 +104,7 @@ class Crossing {
     return share * static_cast<double>(crossing) / static_cast<double>(lines_);
   }
 
-  /// Of the last call; 0 if the node lies in S₀.
+  /// Number of lines used by the last call; 0 if its node lies in S₀.
   [[nodiscard]] std::size_t lines() const { return lines_; }
 
  private:

@@ -7,8 +7,8 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/technique/technique.hpp"
 
-/// The function that computes the structural counts of each technique. Callers pass checked parameters of the same
-/// technique.
+/// For each technique, the function that computes its structural counts, or the reason why there is none. Callers pass
+/// checked parameters of the same technique.
 namespace detp::validate {
 
 /// Isotropic lines through S₀, and the engine that searches them.

@@ -22,7 +22,8 @@ class Checkpoint {
   /// file is an empty checkpoint. Throws sim::Stopped within 0.1 s of a stop request.
   void read(std::stop_token stop = {});
 
-  /// Adds a point and replaces the file as a whole, so that the file is valid at any moment.
+  /// Adds a point and replaces the file as a whole, so that the file is valid at any moment. Throws sim::FileError if
+  /// it cannot be written.
   void add(const std::string& point, const std::vector<Deviation>& deviations);
 
   [[nodiscard]] const std::map<std::string, std::vector<Deviation>>& points() const { return points_; }

@@ -42,7 +42,7 @@ struct DeviationSummary {
   std::size_t compared = 0;  ///< comparisons with a small enough standard error
   std::size_t noisy = 0;     ///< comparisons left out, because their standard error exceeds a quarter of the goal
   std::size_t beyond = 0;    ///< comparisons whose deviation exceeds goal.worst by more than three standard errors
-  double median = 0;         ///< of |predicted/observed - 1|, like all fields below
+  double median = 0;         ///< of |predicted/observed - 1|, like p95 and worst
   double p95 = 0;
   double worst = 0;
   Deviation worst_at;

@@ -87,7 +87,7 @@ void compare_counts(Rows& rows, Form form, const Counts<double>& predicted,
   });
 }
 
-/// Nothing if the paper has no formula for the technique.
+/// The counts by the paper's formulas; nothing if the paper has none for the technique.
 std::optional<Counts<double>> published_counts(const Workload& workload, const Candidate& candidate) {
   if (const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters)) {
     const std::int64_t k =

@@ -8,9 +8,10 @@
 
 namespace detp::validate {
 
-/// Runs every candidate of a point on all sets of the point. Returns one comparison of formula and count for each term
-/// of Counts, and for m_i and for L_i of each sphere with at least 30 rebuilds. The result depends only on the point
-/// and the seed. Returns nothing if a stop was requested.
+/// Runs every candidate of a point on all sets of the point. Returns the comparisons of formula and count, one for each
+/// form of the formulas: of each term of Counts, and of m_i (rebuilds) and L_i (mean rays in the list) of each sphere i
+/// with at least 30 rebuilds. The result depends only on the point and the seed. Returns nothing if a stop was
+/// requested.
 [[nodiscard]] std::vector<Deviation> measure_point(const SweepPoint& point, std::uint64_t seed,
                                                    const std::stop_token& stop);
 

@@ -29,8 +29,8 @@ struct Amount {
 constexpr std::array amounts{Amount{1e7, 2, 1500}, Amount{1e6, 4, 2000}, Amount{1e5, 16, 500}, Amount{1e4, 64, 300},
                              Amount{1e3, 256, 250}};
 
-/// Candidates with more predicted work on one set (tests, nodes and steps) are left out. They take too long to count,
-/// and are far too slow to be chosen.
+/// Candidates with more predicted tests, nodes and steps on one set than this are left out. They take too long to
+/// count, and are far too slow to be chosen.
 constexpr double most_tests = 1e9;
 
 std::vector<Candidate> caches(const SweepPoint& point) {
@@ -57,7 +57,7 @@ std::vector<Candidate> indices(const SweepPoint& point) {
   return candidates;
 }
 
-/// Hierarchies. Cell spheres have as many levels as leave several samples in each of the smallest cells.
+/// Hierarchies. Cell spheres have as many levels as possible, but the smallest cells still hold several samples each.
 std::vector<Candidate> hierarchies(const SweepPoint& point) {
   const int levels = std::clamp(static_cast<int>(std::log2(point.samples) / point.dimension) - 1, 1, 6);
   return {{Technique::cell_spheres, CellSpheresParameters{levels}},

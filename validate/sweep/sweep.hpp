@@ -29,7 +29,7 @@ struct SweepResult {
 };
 
 /// Measures the points in parallel, each on one thread, and starts them in their order. The same seed gives the same
-/// result, whether or not the sweep was resumed.
+/// result, whether or not the sweep was resumed. After a stop request, the result has the points that were finished.
 ///
 /// Throws sim::FileError if the checkpoint cannot be read or written, is malformed, or was made with another seed or
 /// another version of the sweep. The checkpoint is then left unchanged.

@@ -1,5 +1,5 @@
-// Makes model/hierarchy/box_tree_sah_leaves.inc: the share of the small nodes of a box tree that the builder makes
-// leaves, for trees with one disc a leaf.
+// Makes model/hierarchy/box_tree_sah_leaves.inc: the share of the small nodes (2 to 6 discs) of a box tree that become
+// leaves, although the tree's parameter is one disc a leaf: the builder does not split a node if this costs more.
 //
 //   cmake --build build --target box_tree_sah_leaves_table
 //   build/box_tree_sah_leaves_table > model/hierarchy/box_tree_sah_leaves.inc

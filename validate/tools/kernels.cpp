@@ -4,8 +4,8 @@
 /// Each row has, for the repeat with the shortest CPU time: nanoseconds per test; bytes and operations per second; the
 /// limit, which is the least time that the machine needs; and the limit's share of the measured time. The limit is the
 /// largest of four times: operations at peak_flops, loads at load_bandwidth and stores at store_bandwidth of the
-/// working set, and for culls the packing of those vectors that keep a lane. The rates are measured at the start
-/// (machine_peak).
+/// working set, and for culls the packing of those vectors of which at least one lane is kept. The rates are measured
+/// at the start (machine_peak).
 
 #include <benchmark/benchmark.h>
 

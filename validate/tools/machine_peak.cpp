@@ -22,8 +22,8 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 using Lanes = hn::CappedTag<float, 16>;
 
-/// Fourteen independent chains of multiply-adds. Eight would keep two units with a latency of four cycles busy.
-/// The chains start with different values, because the compiler would merge equal chains.
+/// Fourteen independent chains of multiply-adds. Eight chains would be enough for two units with a latency of four
+/// cycles. The chains start with different values, because the compiler would merge equal chains.
 float MultiplyAndAdd(std::size_t times) {
   const Lanes lanes;
   const auto x = hn::Set(lanes, 0.75F);

@@ -2,9 +2,9 @@
 //
 //   cmake --build build --target mailbox_table && build/mailbox_table > model/disc_index/index_mailbox_table.inc
 //
-// Places discs of radius x uniformly and isotropically in endless cells of side 1, and draws lines through a sphere
-// around all cells that a disc overlaps. S(x) is the share of the lines that meet one of these cells, times the area of
-// the sphere. Prints R(x) = (S(x) - 6 - 2πx²)/x for x = 2⁻⁴, 2⁻³·⁵, … 2⁵. Takes about five minutes.
+// Places discs of radius x uniformly and isotropically in an endless grid of cells of side 1, and draws lines through a
+// sphere around all cells that a disc overlaps. S(x) is the share of the lines that meet one of these cells, times the
+// area of the sphere. Prints R(x) = (S(x) - 6 - 2πx²)/x for x = 2⁻⁴, 2⁻³·⁵, … 2⁵. Takes about five minutes.
 
 #include <fmt/format.h>
 

@@ -10,8 +10,8 @@
 //   nested   spheres that enclose spheres, divided by the values of spheres around the samples of the same runs:
 //            fan-out 2, 4, 8, 16, each 1, 2, 4 and 8 levels above the leaves, by log₂N = 0, ½, … 12
 //
-// If a tree would be too large, the value of the row or column before is used, in `single` multiplied by the last ratio
-// of the rows.
+// If a tree would be too large, `nested` repeats the value of the row or column before. `single` uses the value of the
+// row before, multiplied by the ratio of both rows in the last column that was computed.
 
 #include <fmt/format.h>
 

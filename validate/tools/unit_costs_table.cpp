@@ -1,6 +1,7 @@
-// Measures the default unit costs of validate/choice/unit_costs.cpp. Times every technique on uniform samples and
-// isotropic lines, for several radii, numbers and parameters, on one thread, in processor time. Prints the unit costs
-// fitted to the runs, and the ratios of computed to measured times. With an argument (`list`), also lists the runs.
+// Measures the default unit costs of validate/choice/unit_costs.cpp. Times the techniques with a closed form, except
+// sphere-tree, on uniform samples and isotropic lines, for several disc radii, numbers of samples and rays, and
+// parameters, on one thread, in processor time. Prints the unit costs fitted to the runs, and the median and 95th
+// percentile of the error of the computed times. With an argument (`list`), also lists the runs.
 //
 //   cmake --build build --target unit_costs_table && build/unit_costs_table
 

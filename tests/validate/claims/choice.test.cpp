@@ -41,7 +41,7 @@ Experiment rays_where_nothing_is() {
   return asking(std::move(discs), std::move(rays));
 }
 
-/// Fails the test if there is none.
+/// The finding about this count of the candidate. Fails the test if there is none.
 const Finding& of(const std::vector<Finding>& findings, const model::Ranked& ranked, const std::string& term) {
   const std::string id = "choice." + std::string(name(ranked.candidate.technique)) + "." + term;
   CAPTURE(id);

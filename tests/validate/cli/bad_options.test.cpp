@@ -5,7 +5,7 @@
 namespace detp::support {
 namespace {
 
-/// Refusals of the line with each of the values at its end.
+/// One refusal for each value: that of the line with the value at its end.
 std::vector<Refusal> each(const std::string& line, const std::vector<std::string>& values, const std::string& named) {
   std::vector<Refusal> refusals;
   for (const std::string& value : values) refusals.emplace_back(words(line) + Arguments{value}, named);

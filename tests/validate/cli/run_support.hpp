@@ -11,7 +11,7 @@
 
 namespace detp::support {
 
-/// Discs of radii 0.02 to 0.2, about a cube of side 2.
+/// Discs of radii 0.02 to 0.2, with centres in a cube of side 2.
 inline std::vector<sim::Disc> mixed_discs(std::uint64_t count) {
   std::vector<sim::Disc> discs;
   for (std::uint64_t i = 0; i < count; ++i) {
@@ -23,7 +23,8 @@ inline std::vector<sim::Disc> mixed_discs(std::uint64_t count) {
   return discs;
 }
 
-/// Alternately unbounded lines and segments. Segments have lengths of 0 to 2, all rays powers of 0 to 3.
+/// Rays that are alternately unbounded lines and segments. The segments are 0.01 to 2.01 long; all rays have powers of
+/// 0 to 3.
 inline std::vector<sim::Ray> mixed_rays(std::uint64_t count) {
   std::vector<sim::Ray> rays;
   for (std::uint64_t i = 0; i < count; ++i) {

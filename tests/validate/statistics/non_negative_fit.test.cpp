@@ -15,7 +15,7 @@ using Numbers = std::vector<double>;
 
 namespace {
 
-/// Row by row, and the right side.
+/// The problem A x = b: `a` is A row by row.
 struct System {
   Numbers a;
   std::size_t unknowns;
@@ -38,7 +38,7 @@ struct System {
 
   [[nodiscard]] Numbers fit() const { return validate::non_negative_fit(a, unknowns, b); }
 
-  /// The elements of Aᵀ(b - A x), each divided by the lengths of its column and of b.
+  /// The elements of Aᵀ(b - A x), each divided by the lengths of its column of A and of b.
   [[nodiscard]] Numbers gains(const Numbers& x) const {
     const Numbers left = rest(x);
     const double length_of_b = error(Numbers(unknowns, 0));

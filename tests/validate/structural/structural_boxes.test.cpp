@@ -125,8 +125,8 @@ TEST_SUITE("statistical") {
 
 TEST_SUITE("known answer") {
   TEST_CASE("the closed form agrees with counts on random samples, for any fan-out and leaf") {
-    // For leaves of at least two discs, the largest deviations of the four counts over 400 trees are 8, 8, 12 and 10 %
-    // (validate/tools/box_tree_accuracy.cpp).
+    // For leaves of at least two discs, the largest deviations of the four counts checked below are 8, 8, 12 and 10 %
+    // over 400 trees (validate/tools/box_tree_accuracy.cpp).
     constexpr std::array trees{BoxTreeParameters{2, 3}, BoxTreeParameters{3, 150}, BoxTreeParameters{4, 16},
                                BoxTreeParameters{7, 2}, BoxTreeParameters{11, 40}, BoxTreeParameters{16, 8}};
     constexpr double samples = 6000;

@@ -20,13 +20,15 @@ struct ReleaseEmbree {
 template <class Handle>
 using EmbreeOwned = std::unique_ptr<std::remove_pointer_t<Handle>, ReleaseEmbree>;
 
-/// Throws std::runtime_error, with Embree's error number, if an Embree call of this thread has failed.
+/// If an Embree call of this thread has failed, throws std::bad_alloc if Embree was out of memory, else
+/// std::runtime_error with Embree's error number.
 void require_no_embree_error(RTCDevice device);
 
 /// A device that builds with `threads` threads. The threads have been started when the function returns.
 [[nodiscard]] EmbreeOwned<RTCDevice> make_embree_device(int threads);
 
 /// A committed scene of oriented discs in single precision. Primitive i is disc i. Queries call the context's filter.
+/// Throws sim::Stopped if a stop was requested, and as require_no_embree_error does.
 [[nodiscard]] EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::Disc> discs,
                                                        EmbreeQuality quality, const std::stop_token& stop = {});
 

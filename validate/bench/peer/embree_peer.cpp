@@ -58,7 +58,8 @@ EmbreePeer::~EmbreePeer() = default;
 
 PeerOutcome EmbreePeer::run(std::span<const sim::Ray> rays, std::span<const sim::Disc> discs, const EmbreeMode& mode,
                             const std::stop_token& stop) const try {
-  // A device builds with the largest number of threads of any existing device, even if it was created with fewer.
+  // A device builds with the largest number of threads of any existing device, even if it was created with fewer. So
+  // the number is limited here.
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
                                           static_cast<std::size_t>(threads_->count));
   const auto scene = build_embree_discs(threads_->device.get(), discs, mode.quality, stop);

@@ -11,9 +11,9 @@
 
 /// A competitor of our techniques: all hits by Embree, in single precision.
 ///
-/// No other library is measured. nanoflann finds points near points: lines would have to be covered by balls, and discs
-/// that are found twice removed. CGAL's tree of boxes could hold discs in double precision, but requires GMP and MPFR
-/// and uses no SIMD, so it would not be the fastest on any workload.
+/// No other library is measured. nanoflann finds points near points: each line would have to be covered by balls, and
+/// discs found more than once would have to be removed. CGAL's tree of boxes could hold discs in double precision, but
+/// requires GMP and MPFR and uses no SIMD, so it would not be the fastest on any workload.
 namespace detp::validate {
 
 /// Embree's results for each disc.
@@ -36,7 +36,8 @@ class EmbreePeer {
   EmbreePeer& operator=(const EmbreePeer&) = delete;
 
   /// Computes irradiance in memory from discs and rays in memory: converts to single precision, builds, and traces. The
-  /// rays are divided among the threads; each thread has its own sums. Throws std::runtime_error if Embree fails.
+  /// rays are divided among the threads; each thread has its own sums. Throws std::bad_alloc or std::runtime_error if
+  /// Embree fails.
   [[nodiscard]] PeerOutcome run(std::span<const sim::Ray> rays, std::span<const sim::Disc> discs,
                                 const EmbreeMode& mode, const std::stop_token& stop = {}) const;
 

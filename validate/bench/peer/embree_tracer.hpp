@@ -21,8 +21,8 @@ class EmbreeTracer {
   EmbreeTracer(RTCScene scene, std::span<const sim::Ray> rays, const sim::Sphere& around, const EmbreeMode& mode)
       : scene_(scene), rays_(rays), maker_(around), mode_(mode) {}
 
-  /// Traces rays first … last - 1 and adds their hits to `tallies`, one for each disc. Thread-safe if each thread has
-  /// its own tallies.
+  /// Traces rays first … last - 1 and adds their hits to `tallies`, which has one element for each disc. Thread-safe if
+  /// each thread has its own tallies.
   void trace(std::size_t first, std::size_t last, std::vector<DiscTally>& tallies) const;
 
  private:

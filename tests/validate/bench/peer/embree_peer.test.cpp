@@ -13,7 +13,7 @@ using namespace detp::validate;
 
 namespace {
 
-// Number of rays: not a multiple of a packet or a stream, and more than one block.
+// Number of rays: more than one block, and not divisible by the number of rays in a packet or a stream.
 constexpr std::uint64_t odd_count = 4096 + 1003;
 
 struct Data {
