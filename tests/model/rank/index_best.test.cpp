@@ -96,7 +96,7 @@ TEST_SUITE("known answer") {
     CHECK(best_grid_cells(one, UnitCosts{.placement = 100}) == 1);
   }
 
-  TEST_CASE("with tiny discs and no other limit, u n_P/m² + v m is smallest at m = (2 u n_P/v)^(1/3)") {
+  TEST_CASE("with tiny discs and no other limit, w n_P/m² + v m is smallest at m = (2 w n_P/v)^(1/3)") {
     const Workload w = cube_workload(1e6, 4e6, 1e-9, 2);
     CHECK(best_grid_cells(w, {}) == 200);
     CHECK(best_grid_cells(w, UnitCosts{.index_test = 8}) == 400);
