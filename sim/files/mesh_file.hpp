@@ -7,7 +7,7 @@
 
 namespace detp::sim {
 
-/// Reads a triangle mesh. The ending of the file's name, .obj or .ply in any case, decides the format.
+/// Reads a triangle mesh. The ending of the file's name, .obj or .ply in upper or lower case, decides the format.
 ///
 /// Polygons are split into fans from their first corner. Triangles without area are kept (samples_at_vertices handles
 /// them). Positions and normals that are not finite are set to 0 if no face uses them, with a notice for positions.
