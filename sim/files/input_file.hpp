@@ -12,8 +12,8 @@ namespace detp::sim {
 /// Number of bytes whose reading is a unit of work (StopCheck).
 inline constexpr std::uint64_t bytes_a_unit = 8;
 
-/// Reads a file, a pipe or a device piece by piece. While a pipe or device delivers nothing, a stop request ends the wait
-/// within 0.1 s: Stopped is thrown.
+/// Reads a file, a pipe or a device piece by piece. While a pipe or device delivers nothing, a stop request ends the
+/// wait within 0.1 s: Stopped is thrown.
 class InputFile {
  public:
   /// Opens the file. Throws FileError with the system's reason if it is missing or unreadable.

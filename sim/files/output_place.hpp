@@ -10,8 +10,8 @@ namespace detp::sim {
 /// front of this file and overwrite its content.
 [[nodiscard]] std::optional<int> descriptor_named(const std::string& path);
 
-/// The path with links followed, to the file or to where it will be created. Nullopt if links lead in a circle (40 links
-/// or more).
+/// The path with links followed, to the file or to where it will be created. Nullopt if links lead in a circle (40
+/// links or more).
 [[nodiscard]] std::optional<std::string> followed(const std::string& path);
 
 /// Throws FileError with the system's reason if an OutputFile could not be written there. To be called before long

@@ -57,9 +57,9 @@ class TableRow {
 /// Receives each row as it is read; may throw.
 using TableSink = std::function<void(const TableRow&)>;
 
-/// Reads a table row by row, in bounded memory: PLY if the path ends in .ply (upper or lower case), else CSV. Returns the
-/// number of rows. Throws FileError with the line (CSV) or the vertex (PLY) if the file is unreadable or malformed, or a
-/// column is missing; see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
+/// Reads a table row by row, in bounded memory: PLY if the path ends in .ply (upper or lower case), else CSV. Returns
+/// the number of rows. Throws FileError with the line (CSV) or the vertex (PLY) if the file is unreadable or malformed,
+/// or a column is missing; see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
 std::size_t read_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
                        std::stop_token stop = {});
 

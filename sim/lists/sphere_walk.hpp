@@ -10,8 +10,8 @@ namespace detp::sim {
 /// The sphere cache's spheres S₁ … S_k. S_i has the radius r₀Qⁱ (r₀ the radius of S₀, Q = parameters.ratio) and the
 /// centre of the disc for which it was built.
 ///
-/// For each disc, the spheres that serve it (ServingSpheres) are kept. All smaller spheres that are at least as large as
-/// the disc are rebuilt around it.
+/// For each disc, the spheres that serve it (ServingSpheres) are kept. All smaller spheres that are at least as large
+/// as the disc are rebuilt around it.
 class SphereWalk : public ListWalk {
  public:
   /// Which spheres serve a disc.
@@ -29,8 +29,8 @@ class SphereWalk : public ListWalk {
   SphereWalk(const SphereWalk& other, std::pmr::memory_resource& memory)
       : serving_(other.serving_), spheres_(other.spheres_, &memory), built_(other.built_) {}
 
-  /// The number of spheres without S₀, or one more. Check the spheres' memory before making them: for Q = 1 - 1e-9 and a
-  /// smallest disc radius r there are about 10⁹·ln(r₀/r), unless parameters.spheres is less.
+  /// The number of spheres without S₀, or one more. Check the spheres' memory before making them: for Q = 1 - 1e-9 and
+  /// a smallest disc radius r there are about 10⁹·ln(r₀/r), unless parameters.spheres is less.
   [[nodiscard]] static double levels(const Problem& problem, const SphereCacheParameters& parameters);
 
   int enter(const Disc& disc) override;
