@@ -14,7 +14,7 @@ namespace detp::sim {
 /// except in comments. Lines with a keyword unknown to OBJ are skipped, with a notice.
 ///
 /// Throws FileError with the line (the first of joined lines) if a number or face is malformed, an index is out of
-/// range, or most lines so far have unknown keywords (not before the 101st); and as TextLines does. Throws
+/// range, or lines with unknown keywords outnumber the other statements by more than 100; and as TextLines does. Throws
 /// std::length_error if the mesh would not fit in memory, and Stopped.
 [[nodiscard]] Mesh read_obj(const std::string& path, Notices& notices, std::stop_token stop = {});
 

@@ -39,7 +39,8 @@ class DiscResults {
     end_complete_block(block, tests);
   }
 
-  /// Fills in the outcome: pairs, the workers' counts, hits and irradiance (or options.totals unless it is null).
+  /// Fills in the outcome: pairs, the workers' counts, hits and irradiance. Unless options.totals is null, stores the
+  /// sums there, in place of hits and irradiance.
   template <class Workers>
   void store_results(Workers& workers) {
     std::pmr::vector<DiscRun> skipped(options_.memory);

@@ -42,7 +42,7 @@ HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
   return hn::FirstN(lanes, HWY_MIN(size - first, hn::Lanes(lanes)));
 }
 
-/// Appends the kept lanes of the vector at `first`.
+/// Appends to `to` the kept lanes of the vector at `first` of `from`.
 ///
 /// One Compress computes the places of the kept lanes. Each array is then permuted. (A Compress for each array would
 /// take five cycles on Zen 5, and a table lookup without AVX-512.)
@@ -71,7 +71,8 @@ HWY_INLINE void append(const RayList& from, std::size_t first, Floats a, Floats 
 /// Lists all rays that cross the box grown by `margin`, and some that miss it.
 ///
 /// Let c be the box's centre and h half its sides. A ray x = p + a z is in the box's slabs of x and z at once only if
-/// |p + a c_z - c_x| <= h_x + |a| h_z. The same holds for y. (A test of the third separating axis, z × D, would shorten lists by a tenth.)
+/// |p + a c_z - c_x| <= h_x + |a| h_z. The same holds for y. (A test of the third separating axis, z × D, would
+/// shorten lists by a tenth.)
 template <bool segments, int k>
 HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin, RayList& inside) {
   const FloatLanes lanes;

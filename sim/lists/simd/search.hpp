@@ -32,8 +32,9 @@ struct TreeSize {
   ListCapacity lists = {};
 };
 
-/// The expected binary tree: leaves are half full, a child's box has fan_out^(-2/3) of its parent's surface. If discs
-/// are concentrated in a few cells, there may be more nodes; make_disc_tree checks their memory while it writes them.
+/// The expected size of the tree, if leaves are half full and a child's box has fan_out^(-2/3) of its parent's surface.
+/// If discs are concentrated in a few cells, there may be more nodes; make_disc_tree checks their memory while it
+/// writes them.
 [[nodiscard]] TreeSize expected_tree(std::size_t discs, const BoxTreeParameters& parameters);
 
 /// Predicted peak bytes of a search: sorted discs and their tree, lists of rays, sums, outcome. Not included are the
