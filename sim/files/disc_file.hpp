@@ -12,14 +12,15 @@ namespace detp::sim {
 /// Reads discs: CSV with the header x,y,z,nx,ny,nz and optionally radius (columns in any order), or PLY with those
 /// vertex properties. Normals are normalised.
 ///
-/// default_radius replaces a missing column radius and empty fields of it. Throws FileError with the line (CSV) or the
-/// vertex's number (PLY) if the file is unreadable or malformed, or has no disc; for a number that is not finite, a
-/// zero normal, a radius <= 0, or a missing radius without a default. Checks a row before it reads the next row. Throws
-/// std::length_error if the discs would not fit in memory, and Stopped within 0.1 s of a stop request.
+/// default_radius is used if the column radius is missing, or a field of it is empty. Throws FileError with the line
+/// (CSV) or the vertex's number (PLY) if the file is unreadable or malformed, or has no disc; for a number that is not
+/// finite, a zero normal, a radius <= 0, or a missing radius without a default. Checks a row before it reads the next
+/// row. Throws std::length_error if the discs would not fit in memory, and Stopped within 0.1 s of a stop request.
 [[nodiscard]] std::vector<Disc> read_discs(const std::string& path, std::optional<double> default_radius,
                                            std::stop_token stop = {});
 
-/// Writes discs as CSV with the header x,y,z,nx,ny,nz,radius, with enough digits to read back the same doubles.
+/// Writes discs as CSV with the header x,y,z,nx,ny,nz,radius, with enough digits to read back the same doubles. Throws
+/// FileError if the file cannot be written, and Stopped.
 void write_discs(const std::string& path, const std::vector<Disc>& discs, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

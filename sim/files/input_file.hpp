@@ -12,8 +12,8 @@ namespace detp::sim {
 /// Number of bytes whose reading is a unit of work (StopCheck).
 inline constexpr std::uint64_t bytes_a_unit = 8;
 
-/// Reads a file, a pipe or a device piece by piece. If a pipe or device delivers nothing, the wait for it ends within
-/// 0.1 s of a stop request.
+/// Reads a file, a pipe or a device piece by piece. While a pipe or device delivers nothing, a stop request ends the
+/// wait within 0.1 s: Stopped is thrown.
 class InputFile {
  public:
   /// Opens the file. Throws FileError with the system's reason if it is missing or unreadable.
@@ -34,7 +34,8 @@ class InputFile {
   /// Skips bytes of buffered().
   void skip(std::size_t bytes) { begin_ += bytes; }
 
-  /// Number of bytes that have not been skipped, read or not. Nullopt for pipes, devices and files that report size 0.
+  /// Number of bytes that have not been skipped: those in buffered() and those not yet read. Nullopt for pipes, devices
+  /// and files that report size 0.
   [[nodiscard]] std::optional<std::uint64_t> rest() const;
 
  private:

@@ -18,8 +18,8 @@ std::errc parse_whole(std::string_view text, Number& number) {
   return stop == end ? error : std::errc::invalid_argument;
 }
 
-/// For a number outside the range of long double: returns true if it is too large, false if it is too near to zero. The
-/// sign of the first non-zero digit's place relative to the point, plus the exponent, decides.
+/// For a number outside the range of long double: returns true if it is too large, false if it is too near to zero.
+/// Adds the exponent to the place of the first non-zero digit relative to the point. The sign of the sum decides.
 bool too_large(std::string_view text) {
   const std::size_t e = text.find_first_of("eE");
   const std::string_view mantissa = text.substr(0, e);

@@ -7,8 +7,8 @@ namespace detp::sim {
 
 /// The double nearest to the number that the whole text spells, in any locale; nullopt if the text is not a number.
 ///
-/// Accepts a leading '+', and "inf", "infinity" and "nan" in any case. Numbers too large for a double become infinite;
-/// numbers too near to zero become zero. Surrounding spaces are not accepted.
+/// Accepts a leading '+', and "inf", "infinity" and "nan" in upper or lower case. Numbers too large for a double become
+/// infinite; numbers too near to zero become zero. Surrounding spaces are not accepted.
 [[nodiscard]] std::optional<double> number_in(std::string_view text);
 
 /// The text without leading and trailing spaces and tabs.

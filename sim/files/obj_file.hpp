@@ -13,9 +13,9 @@ namespace detp::sim {
 /// infinite or NaN: the caller decides about them. A backslash at the end of a line joins the next line to this line,
 /// except in comments. Lines with a keyword unknown to OBJ are skipped, with a notice.
 ///
-/// Throws FileError with the line (the first of joined lines) for malformed numbers or faces, indices out of range, a
-/// file most of whose lines have unknown keywords; and as TextLines does. Throws std::length_error if the mesh would
-/// not fit in memory, and Stopped.
+/// Throws FileError with the line (the first of joined lines) if a number or face is malformed, an index is out of
+/// range, or lines with unknown keywords outnumber the other statements by more than 100; and as TextLines does. Throws
+/// std::length_error if the mesh would not fit in memory, and Stopped.
 [[nodiscard]] Mesh read_obj(const std::string& path, Notices& notices, std::stop_token stop = {});
 
 }  // namespace detp::sim

@@ -24,7 +24,8 @@ std::string folder_of(const std::string& place) {
   return folder.empty() ? "." : folder;
 }
 
-/// What identifies a place: the file if it exists, else its folder and its name there.
+/// Identifies a place: by the device and number of the file there; if no file exists, by those of its folder and by its
+/// name in this folder.
 struct Identity {
   dev_t device = 0;
   ino_t file = 0;

@@ -29,7 +29,8 @@ std::string next_name(PartFiles& all, const std::string& target) {
   return folder + ".detp-" + std::to_string(::getpid()) + "-" + std::to_string(++all.last) + ".part";
 }
 
-/// Calls `create` with new names until a name is not taken. `create` creates a file, or returns -1 with errno set.
+/// Calls `create` with new names until a name is not taken, and returns its result. `create` creates a file, or returns
+/// -1 with errno set. Sets `name`; if the file was created, adds the name to the part files.
 template <class Create>
 int create_under_new_name(const std::string& target, std::string& name, const Create& create) {
   PartFiles& all = part_files();

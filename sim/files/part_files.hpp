@@ -18,8 +18,8 @@ namespace detp::sim {
 
 void remove_part_file(const std::string& name);
 
-/// Removes all part files and prevents new ones. To be called from any thread that is about to end the program at once
-/// (not from a signal handler).
+/// Removes all part files. Later calls that would create, finish or remove a part file wait forever. To be called from
+/// any thread that is about to end the program at once (not from a signal handler).
 void remove_all_part_files_for_good() noexcept;
 
 }  // namespace detp::sim

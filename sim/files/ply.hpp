@@ -36,8 +36,9 @@ class PlyFile {
 
   /// Reads the body in the file's order, and skips elements that were not requested. Can be called once.
   ///
-  /// Throws FileError with the element and its row counted from 1 ("vertex 17 of 100") if the file is unreadable,
-  /// malformed or truncated, or is an ascii file with more numbers than its header declares. Throws Stopped.
+  /// Throws FileError if the file is unreadable, malformed or truncated, or is an ascii file with more numbers than its
+  /// header declares. For a malformed row the message has the element and the row counted from 1 ("vertex 17 of 100").
+  /// Throws Stopped.
   void read(const std::vector<PlyRequest>& requests);
 
  private:

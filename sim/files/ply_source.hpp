@@ -22,7 +22,7 @@ class PlyText {
   /// The minimum number of bytes of a number: a digit and a separator.
   static std::uint64_t least_size(PlyType) { return 2; }
 
-  /// Number of bytes that follow, if known, and one more: the last number needs no separator.
+  /// One more than the number of bytes that follow, because the last number needs no separator; nullopt if unknown.
   [[nodiscard]] std::optional<std::uint64_t> rest() const {
     const auto bytes = file_.rest();
     return bytes ? std::optional(*bytes + 1) : std::nullopt;

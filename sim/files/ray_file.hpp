@@ -9,7 +9,8 @@
 namespace detp::sim {
 
 /// Reads rays: CSV with the header ox,oy,oz,dx,dy,dz and optionally length and power (columns in any order), or PLY
-/// with those vertex properties. Directions are normalised. Lengths do not change then: they are in scene units.
+/// with those vertex properties. Directions are normalised. Lengths are in scene units, so normalising leaves them
+/// unchanged.
 ///
 /// length: absent, empty or "inf" means a line unbounded both ways. Any other length must be > 0, and the ray is the
 /// segment from the origin. power: absent means 1. A given power must be finite and >= 0. Throws FileError as
@@ -17,6 +18,7 @@ namespace detp::sim {
 [[nodiscard]] std::vector<Ray> read_rays(const std::string& path, std::stop_token stop = {});
 
 /// Writes rays as CSV with the header ox,oy,oz,dx,dy,dz,length,power, with enough digits to read back the same doubles.
+/// Throws FileError if the file cannot be written, and Stopped.
 void write_rays(const std::string& path, const std::vector<Ray>& rays, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -17,7 +17,7 @@ struct TableColumn {
   std::string_view name;
   std::optional<double> absent;  ///< value if the file has no such column; none: the column is required
   std::optional<double> empty;   ///< value of an empty field in a CSV file; none: no field may be empty
-  std::string_view remedy = {};  ///< ends the message about a missing column: ", and none is given"
+  std::string_view remedy = {};  ///< ends the message about a missing column, such as ", and none is given"
 };
 
 /// One row of a table.
@@ -57,9 +57,9 @@ class TableRow {
 /// Receives each row as it is read; may throw.
 using TableSink = std::function<void(const TableRow&)>;
 
-/// Reads a table row by row, in bounded memory: PLY if the path ends in .ply, in any case, else CSV. Returns the number
-/// of rows. Throws FileError with the line (CSV) or the vertex (PLY) if the file is unreadable or malformed, or a
-/// column is missing; see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
+/// Reads a table row by row, in bounded memory: PLY if the path ends in .ply (upper or lower case), else CSV. Returns
+/// the number of rows. Throws FileError with the line (CSV) or the vertex (PLY) if the file is unreadable or malformed,
+/// or a column is missing; see read_csv and PlyFile. Throws Stopped within 0.1 s of a stop request.
 std::size_t read_table(const std::string& path, const std::vector<TableColumn>& columns, const TableSink& sink,
                        std::stop_token stop = {});
 

@@ -10,15 +10,16 @@
 /// Sorts discs along the Morton curve (the paper: Lebesgue curve), coarsely and fast.
 namespace detp::sim::stream {
 
-/// A place on the curve (at most 10 bits a coordinate, in the upper 32 bits) and a disc's number, sorted as one word.
+/// One word for one disc. The upper 32 bits are its place on the curve (at most 10 bits a coordinate), the lower 32
+/// bits its number.
 using CurvePlace = std::uint64_t;
 
 [[nodiscard]] constexpr std::uint32_t place_code(CurvePlace place) { return static_cast<std::uint32_t>(place >> 32); }
 [[nodiscard]] constexpr std::uint32_t place_index(CurvePlace place) { return static_cast<std::uint32_t>(place); }
 
-/// Returns the places of all discs in rising order. Cells are cubes with 1/1024 of the longest side of the box around
-/// the discs' centres, 1/64 for fewer than 8192 discs. Discs in one cell keep their order. Throws Stopped if a stop was
-/// requested.
+/// Returns one CurvePlace for each disc, in the curve's order. Cells are cubes. Their side is 1/1024 of the longest
+/// side of the box around the discs' centres, or 1/64 of it for fewer than 8192 discs. Discs in one cell keep their
+/// order. Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs, const std::stop_token& stop = {});
 
 }  // namespace detp::sim::stream

@@ -61,7 +61,8 @@ bool within(const Polygon& polygon, double radius) {
 }  // namespace
 
 Box bounds(const Disc& disc, double slack) {
-  // The tilt from each axis, computed from the other two components: 1 - n² would lose it within 1e-8 of the axis.
+  // The sine of the angle between the normal and each axis, from the normal's other two components. Computed from its
+  // component n along the axis, √(1 - n²) would be 0 for angles below 1e-8.
   const glm::dvec3 square = disc.normal * disc.normal;
   const glm::dvec3 tilt{std::sqrt(square.y + square.z), std::sqrt(square.z + square.x), std::sqrt(square.x + square.y)};
   const glm::dvec3 extent = disc.radius * tilt + slack;

@@ -6,15 +6,16 @@
 
 #include "geometry.hpp"
 
-/// How near to a shape's boundary a predicate may decide wrongly. Proved in sim/geometry/proofs.md. Valid if no square
-/// under- or overflows (make_problem's limits), and for directions and normals whose length is 1 to within 1e-12.
+/// How near to a shape's boundary a predicate may decide wrongly. Proved in sim/geometry/proofs.md. The bounds hold if
+/// no square under- or overflows (make_problem's limits), and directions and normals have length 1 to within 1e-12.
 namespace detp::sim {
 
 /// u = 2⁻⁵³: half the distance from 1 to the next double.
 inline constexpr double rounding_unit = 0.5 * std::numeric_limits<double>::epsilon();
 
-/// How far the computed point of a ray nearest to a centre may be displaced along the ray: by rounding, and because D
-/// is not exactly of unit length. `distance` is the distance between the ray's origin and the centre.
+/// A predicate computes the point of a ray that is nearest to a centre. Returns a bound on that point's error along the
+/// ray, which comes from rounding and from a direction that is not exactly of unit length. `distance` is the distance
+/// between the ray's origin and the centre.
 [[nodiscard]] inline double displacement(const Ray& ray, double distance) {
   return (std::abs(glm::dot(ray.direction, ray.direction) - 1) + 8 * rounding_unit) * distance;
 }
@@ -33,10 +34,10 @@ inline constexpr double rounding_unit = 0.5 * std::numeric_limits<double>::epsil
   return rounding_unit * (2.2 * f + 4 * sphere.radius) + s * std::min(1.0, 2 * s / sphere.radius);
 }
 
-/// Bounds within which hits(ray, disc) may be wrong.
+/// Bounds within which hits(ray, disc) may be wrong; n is the disc's normal, D the ray's direction.
 struct DiscBand {
-  double rim;   ///< length; rim/|n·D| is the bound on the distance of the crossing from the disc's rim
-  double ends;  ///< length; segments only: bound on the distance of an end from the disc's plane
+  double rim;   ///< length; hits() may be wrong if the crossing is within rim/|n·D| of the disc's rim
+  double ends;  ///< length; segments only: hits() may be wrong if an end is within this distance of the disc's plane
 };
 
 /// hits(ray, disc) is right if | |n × (w × D)| - d |n·D| | > rim and, for segments, both |n·w| > ends and
@@ -47,6 +48,7 @@ struct DiscBand {
 /// |--------|--------|------------------------------------------------------|
 /// | w      | length | from the disc's centre to the ray's origin           |
 /// | d, n   |        | radius; normal                                       |
+/// | D      |        | the ray's direction                                  |
 /// | s      | length | (| |D|² - 1 | + 8u) |w|; matters if |w| > 5·10⁷ d    |
 [[nodiscard]] inline DiscBand error_band(const Ray& ray, const Disc& disc) {
   const double w = glm::distance(ray.origin, disc.centre);

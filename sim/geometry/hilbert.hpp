@@ -27,7 +27,8 @@ namespace detp::sim {
 ///                      is even; 0 for w = 0
 ///
 /// Along the Hilbert curve a sphere cache is rebuilt 0.76 to 0.89 times as often as along the Morton curve (Q 0.5 …
-/// 0.8, a volume and two scenes of 10⁵ samples), one sphere 0.65 to 0.84 times (10⁶ samples): sim/geometry/README.md.
+/// 0.8, a volume and two scenes of 10⁵ samples), a cache of one sphere 0.65 to 0.84 times as often (10⁶ samples). The
+/// measurements are in sim/geometry/README.md.
 ///
 /// Source     C. Hamilton, A. Rau-Chaplin: Compact Hilbert indices (2008), for three dimensions. The 24 states are
 ///            tabulated at compile time.

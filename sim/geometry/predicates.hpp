@@ -9,11 +9,10 @@ namespace detp::sim {
 
 /// Whether the ray meets the closed sphere.
 ///
-/// Compares the distance between the centre and the ray's nearest point with the radius. The distance's error is about
-/// ε|f|, where f is the vector from the ray's origin to the centre. The discriminant b² - 4ac would have an error of
-/// ε|f|²/r. The decision is right if the centre's true distance from the line that the direction spans, or from the
-/// segment origin + [0, length] direction, differs from the radius by more than error_band(ray, sphere), about
-/// 2.2u|f| + 4ur (u = 2⁻⁵³).
+/// Compares the distance between the centre and the ray's nearest point with the radius r. The decision is right if the
+/// centre's true distance from the line that the direction spans, or from the segment origin + [0, length] direction,
+/// differs from r by more than error_band(ray, sphere). This is about 2.2u|f| + 4ur, where u = 2⁻⁵³ and f is the vector
+/// from the ray's origin to the centre. With the discriminant b² - 4ac the error would be of the order of u|f|²/r.
 [[nodiscard]] inline bool hits(const Ray& ray, const Sphere& sphere) {
   const glm::dvec3 f = sphere.centre - ray.origin;
   double along = glm::dot(f, ray.direction);

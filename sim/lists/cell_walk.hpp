@@ -11,8 +11,9 @@
 namespace detp::sim {
 
 /// The first i octal digits of a sample's Morton code select its cell of level i, of side s_i; level 0 is the samples'
-/// cube. The cell's sphere has the cell's centre and the radius s_i √3/2 + d. It contains the discs of all samples in
-/// the cell, and lies in the parent cell's sphere (proof: model/hierarchy/cell_spheres.hpp).
+/// cube. The cell's sphere has the cell's centre and the radius s_i √3/2 + d, where d is the largest disc radius. It
+/// contains the discs of all samples in the cell, and lies in the parent cell's sphere (proof:
+/// model/hierarchy/cell_spheres.hpp).
 ///
 /// Rounding may give a sample the code of an adjacent cell. The sample then lies within 3 ulp (of the cube's size and
 /// position) of that cell. The culls' slack is thousands of times larger.

@@ -14,7 +14,8 @@ struct Node {
   Box box;
 };
 
-/// The distance from a point to the farthest point of the children's spheres, and the direction to that child's centre.
+/// The child whose sphere reaches farthest from a point: the distance of its farthest point, the direction to its
+/// centre.
 struct FarthestSphere {
   double distance = 0;
   glm::dvec3 towards{0};  ///< unit length, or zero if the point is the child's centre

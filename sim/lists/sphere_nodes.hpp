@@ -25,8 +25,9 @@ struct SphereTree {
 ///
 /// A leaf's sphere contains its discs, any other sphere contains its children's spheres. So a list culled from the
 /// parent's list lacks no ray of the child's sphere, and integral geometry gives the list's length. The tightest sphere
-/// around a node's discs would be smaller (its area by 10 % at fan-out 8 one level above the leaves, 15 % higher up),
-/// but would not contain the children's spheres. Rounding moves a sphere by a few ulp per level, less than the slack.
+/// around a node's discs would not contain the children's spheres. (For fan-out 8, its area would be smaller by 10 %
+/// one level above the leaves, and by 15 % higher up.) Rounding moves a sphere by a few ulp per level, less than the
+/// slack.
 ///
 /// A sphere's centre starts at the centre of the box around the children's boxes. It moves in six shrinking steps, each
 /// towards the child whose sphere reaches farthest from it. The position with the smallest sphere is kept. The sum of

@@ -7,16 +7,18 @@
 
 namespace detp::sim {
 
-/// The sphere cache's spheres S₁ … S_k. S_i has the radius r₀Qⁱ and the centre of the disc for which it was built.
+/// The sphere cache's spheres S₁ … S_k. S_i has the radius r₀Qⁱ (r₀ the radius of S₀, Q = parameters.ratio) and the
+/// centre of the disc for which it was built.
 ///
-/// The first sphere that does not serve a disc, and all smaller spheres that can hold it, are rebuilt around the disc.
+/// For each disc, the spheres that serve it (ServingSpheres) are kept. All smaller spheres that are at least as large
+/// as the disc are rebuilt around it.
 class SphereWalk : public ListWalk {
  public:
   /// Which spheres serve a disc.
   enum class ServingSpheres {
     all_that_hold,  ///< from the outermost inwards, until a sphere does not contain the disc: exact
-    /// the paper's rule (section 2.2): the innermost sphere that contains the disc and all larger spheres, even if one
-    /// of these does not contain the disc; lists may lack rays
+    /// the paper's rule (section 2.2): the innermost sphere that contains the disc serves it. So do all larger spheres,
+    /// even those that do not contain the disc, so lists may lack rays
     innermost_that_holds
   };
 
@@ -27,7 +29,8 @@ class SphereWalk : public ListWalk {
   SphereWalk(const SphereWalk& other, std::pmr::memory_resource& memory)
       : serving_(other.serving_), spheres_(other.spheres_, &memory), built_(other.built_) {}
 
-  /// The number of spheres without S₀, or one more. For Q = 1 - 1e-9 about 10⁹·ln(r₀/r), so check their memory first.
+  /// The number of spheres without S₀, or one more. Check the spheres' memory before making them: for Q = 1 - 1e-9 and
+  /// a smallest disc radius r there are about 10⁹·ln(r₀/r), unless parameters.spheres is less.
   [[nodiscard]] static double levels(const Problem& problem, const SphereCacheParameters& parameters);
 
   int enter(const Disc& disc) override;

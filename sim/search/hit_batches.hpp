@@ -25,7 +25,8 @@ struct HitEstimate {
   std::optional<double> standard_error;  ///< unknown for fewer than two batches
 };
 
-/// Estimates the hits of N = `all_rays` independent rays from the H hits of n of these rays, in batches: H N/n.
+/// Estimates the hits of N = `all_rays` independent rays as H N/n, if `batches` has H hits of n of these rays. The
+/// standard error SE follows from the differences between the batches.
 ///
 ///     SE² = N (N - n)/n σ²,   σ² = Σ m (h/m - H/n)² / (B - 1)        B batches of m rays with h hits
 ///

@@ -30,8 +30,8 @@ class Tally {
 
 /// Decides by the canonical predicate, and collects the hits.
 ///
-/// Every technique must add the hits of each disc by rays of one dominant axis in rising order of the rays' numbers.
-/// Then all techniques add powers in the same order, and irradiance is the same to the last bit.
+/// For each disc and each dominant axis, a technique must add the hits in rising order of the rays' numbers. Then all
+/// techniques add powers in the same order, and irradiance is the same to the last bit.
 class HitCollector {
  public:
   /// Keeps references to all three. Adds to options.totals, unless it is null. Stores pairs in the outcome.
@@ -72,7 +72,8 @@ class HitCollector {
   }
 
   /// Stores the results of a stopped search in the outcome. All rays have been tested against the discs in `done`, and
-  /// some rays perhaps against other discs. Restores the caller's totals, which cannot show that discs are missing.
+  /// some rays perhaps against other discs. If options.totals is not null, restores it and reports that no ray was
+  /// searched, because totals cannot show that discs are missing.
   void store_partial_results(std::span<const std::uint32_t> done) {
     outcome_.stopped = true;
     outcome_.pairs.clear();

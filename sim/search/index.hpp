@@ -21,8 +21,9 @@ class Index {
  public:
   virtual ~Index() = default;
 
-  /// Finds the hits of the problem's rays and fills in the outcome, except for its times. The problem must have the
-  /// discs from which the index was made, and at most the slack that it had then. Counts are those of the search alone.
+  /// Finds the hits of the problem's rays and fills in the outcome, except for the time of the search. The problem must
+  /// have the discs from which the index was made, and its slack must be at most the slack with which the index was
+  /// made. Counts are those of the search alone.
   /// Throws std::length_error, naming the bytes, before the memory budget would be exceeded.
   virtual void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const = 0;
 
@@ -39,7 +40,8 @@ void check_options(const RunOptions& options, const Problem& problem);
 [[nodiscard]] Outcome unsearched_outcome(const Problem& problem, const RunOptions& options);
 
 /// Searches an index for the hits of the problem's rays. Throws as Index::search does, and std::invalid_argument for
-/// options out of range. If a search is stopped before it found anything, the outcome has no hits.
+/// options out of range. A stop request does not throw: it sets Outcome::stopped. If it came before the search, the
+/// outcome has no hits.
 [[nodiscard]] Outcome search(const Index& index, const Problem& problem, const RunOptions& options);
 
 /// The same, but writes into `outcome` and reuses its arrays.

@@ -37,7 +37,7 @@ struct RunOptions {
   bool pairs = false;           ///< fill in Outcome::pairs
   bool standard_error = false;  ///< fill in Outcome::standard_error
   Engine engine = Engine::simd;
-  std::stop_token stop = {};  ///< checked in every phase, after at most StopCheck::most_work units of work
+  std::stop_token stop = {};  ///< checked in every phase, after fewer than 2 StopCheck::most_work units of work
   /// 0: all cores; at most 4096. Results and counts do not depend on the number. Techniques that trace rays one by one
   /// use all threads, plain techniques that cull lists of rays use one.
   int threads = 1;
@@ -70,10 +70,12 @@ struct SphereCounts {
 /// The results of a technique, per disc in the order of the problem's discs.
 struct Outcome {
   std::vector<std::uint64_t> hits;  ///< rays that cross the disc
-  /// Power of the rays that cross the disc, divided by π d²: ((x + y) + z) / π d². Each of x, y, z is the sum, in ray
-  /// order, over the rays with that dominant_axis. All exact techniques give the same bits.
+  /// Power of the rays that cross the disc, divided by the disc's area π d²: ((x + y) + z) / π d². Here x is the sum of
+  /// powers, in ray order, over the rays whose dominant_axis is x; y and z likewise. All exact techniques give the same
+  /// bits.
   std::vector<double> irradiance;
-  /// Of the irradiance, for independent rays (PowerSquares::finish). Empty if not requested, or if the run was stopped.
+  /// Standard error of the irradiance, for independent rays (PowerSquares::finish). Empty if not requested, or if the
+  /// run was stopped.
   std::vector<double> standard_error;
   std::uint64_t total_hits = 0;
   Counts<std::uint64_t> counts;       ///< all zero unless requested (`hits` always holds total_hits)

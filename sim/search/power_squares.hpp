@@ -24,7 +24,7 @@ class PowerSquares {
 
   /// Fills in outcome.standard_error from the outcome's hits and irradiance and the number N = `rays` of rays searched.
   ///
-  ///     SE² = N/(N - 1) (Σ x² - (Σ x)²/N),   x = p/(π d²) for a ray of power p that hits the disc, else 0
+  ///     SE² = N/(N - 1) (Σ x² - (Σ x)²/N),   x = p/(π d²) for a ray of power p that hits the disc of radius d, else 0
   ///
   /// SE² estimates the variance of the sum over N independent rays. The error is 0 if no ray hits the disc, infinite if
   /// N = 1. Rays of one photon path are dependent: if several of them hit the same disc, the true error is larger.

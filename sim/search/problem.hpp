@@ -11,8 +11,8 @@
 
 namespace detp::sim {
 
-/// Rays and discs that have been checked: a problem that exists is valid. They are copied only to be normalised, and
-/// must outlive every use of the problem.
+/// Rays and discs that have been checked: a problem that exists is valid. It refers to the caller's rays and discs,
+/// which must outlive every use of the problem. They are copied only to be normalised.
 class Problem {
  public:
   [[nodiscard]] std::span<const Ray> rays() const { return rays_; }
@@ -21,7 +21,7 @@ class Problem {
   [[nodiscard]] const Sphere& enclosing() const { return enclosing_; }
   /// Count only rays that arrive at a disc's front.
   [[nodiscard]] bool front_facing() const { return front_facing_; }
-  /// Length by which culls are enlarged: a ray that hits is nearer to its disc (make_problem).
+  /// Length by which culls are enlarged. A ray that hits comes nearer to its disc than this length (make_problem).
   [[nodiscard]] double slack() const { return slack_; }
   /// Upper bound on the distance of a ray's origin from the centre of S₀.
   [[nodiscard]] double farthest() const { return farthest_; }
@@ -71,11 +71,12 @@ class Problem {
 /// normalised in floats has an error of about 1e-7.) A ray's length does not change: it is in scene units, not a
 /// multiple of the direction's length.
 ///
-/// Throws std::invalid_argument if there is no ray or no disc, or if a ray or disc is malformed; the message has its
-/// number, as in "ray 17: direction must be non-zero (got 0 0 0)". Malformed are: a number that is not finite (except a
-/// length of +infinity: the whole line), a coordinate or radius above 1e100, a radius below 1e-100, a direction or
-/// normal of length 0, a length <= 0, a power < 0 or above most_power (9.6e288 for radii of at least 1; larger powers
-/// could overflow). Throws std::length_error for more than 2³² - 2 rays or discs, and Stopped on a stop request.
+/// Throws std::invalid_argument if there is no ray or no disc, if rays start farther than 1e100 from the discs, or if a
+/// ray or disc is malformed; the message has its number, as in "ray 17: direction must be non-zero (got 0 0 0)".
+/// Malformed are: a number that is not finite (except a length of +infinity: the whole line), a coordinate or radius
+/// above 1e100, a radius below 1e-100, a direction or normal of length 0, a length <= 0, a power < 0 or above
+/// most_power (9.6e288 for radii of at least 1; larger powers could overflow). Throws std::length_error for more than
+/// 2³² - 2 rays or discs, and Stopped on a stop request.
 ///
 /// The slack is 16e-12 E + ∛(2d κ²) + 1e-15 M. In spite of rounding, a ray that counts as a hit comes nearer to the
 /// disc than the slack, with a margin for the rounding of the culls (proof: sim/geometry/proofs.md). E is the distance

@@ -30,7 +30,7 @@ using MakeRaySearch = FunctionRef<OwnedIn<RaySearch>()>;
 /// chunks per thread are in flight, which limits the hits in memory.
 ///
 /// Only one thread adds hits at a time. Adding a hit takes 2 ns for 10⁴ discs and 16 ns for 10⁶ (hits at random);
-/// finding a hit in a grid over 10⁵ discs takes 3 µs. So threads would have to wait only if there were hundreds.
+/// finding a hit in a grid over 10⁵ discs takes 3 µs. So threads would have to wait only if they were hundreds.
 void search_rays(const Problem& problem, const RunOptions& options, MakeRaySearch make, Outcome& outcome);
 
 }  // namespace detp::sim

@@ -17,7 +17,7 @@ void require_memory_for(std::string_view what, double bytes, const Problem& prob
 /// Adds half a MiB for small allocations to `bytes`, and checks that the sum fits in memory. Returns the sum.
 double checked_bytes(std::string_view what, double bytes, const Problem& problem);
 
-/// Checks the memory as checked_bytes does, and adds the bytes to the outcome.
+/// Checks the memory as checked_bytes does. Outcome::bytes becomes the checked sum, unless it is larger already.
 void add_checked_bytes(std::string_view what, double bytes, const Problem& problem, Outcome& outcome);
 
 /// Bytes of a run's own totals, hits and irradiance; 0 if the totals are the caller's.

@@ -19,11 +19,12 @@ namespace {
 using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t rays_at_once = std::size_t{1} << 14;
 
-/// Fast tests with squares alone: true only if all coordinates are certainly at most largest_coordinate, or if the
-/// vector has length 1 (to within 1e-12, with a margin for rounding). False for NaN.
+/// Fast test with the vector's square: true only if all coordinates are certainly at most largest_coordinate. False for
+/// NaN.
 bool surely_in_range(const glm::dvec3& vector) {
   return glm::dot(vector, vector) <= largest_coordinate * largest_coordinate;
 }
+/// Fast test: true only if the length is certainly 1 to within 1e-12; has a margin for rounding. False for NaN.
 bool surely_unit(const glm::dvec3& vector) { return std::abs(glm::dot(vector, vector) - 1) <= 1.99e-12; }
 
 bool surely_sound(const Ray& ray, double most_power) {

@@ -20,7 +20,7 @@ struct ListedRay {
   std::uint32_t index;
 };
 
-/// In rising order of the rays' numbers.
+/// The listed rays in rising order of their numbers.
 using RayList = std::pmr::vector<ListedRay>;
 
 /// All rays of a problem.

@@ -99,8 +99,8 @@ void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
   if (has_room_for_snapshot()) take_snapshot();
 }
 
-/// If a copy of the results fits the memory budget, adds its bytes to the outcome's and returns true. If not, a stopped
-/// run returns an older copy.
+/// If a copy of the results fits the memory budget, adds its bytes to the outcome's and returns true. Otherwise
+/// returns false: then a stopped run returns an older copy.
 bool DiscResults::has_room_for_snapshot() {
   const double copy = bytes_of(hits_) + bytes_of(totals_);
   const double more = copy - bytes_of(snapshot_.counts) - bytes_of(snapshot_.totals);
@@ -172,7 +172,7 @@ void DiscResults::store_counted() const {
   outcome_.total_hits = found;
 }
 
-/// Does so for the discs at places first … last - 1. Returns the number of their hits.
+/// Fills in the outcome for the discs at places first … last - 1. Returns the number of their hits.
 std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) const {
   constexpr std::size_t prefetch_distance = 32;  // number of discs to prefetch
   RepeatedSums sums(*counted_power_, options_.memory);

@@ -12,12 +12,13 @@ namespace detp::sim::stream {
 
 /// The results so far, disc by disc in the order of a DiscTree.
 ///
-/// If all rays of a block have the same power, their hits are only counted. The counts are converted to sums of powers
-/// before a block with another power, and at the end. The sums have the same bits as if powers were added in ray order.
+/// If all rays of a block have the same power, their hits are only counted (unless pairs or only front-facing hits are
+/// requested). The counts are converted to sums of powers before a block with another power, and at the end. The sums
+/// have the same bits as if powers were added in ray order.
 ///
-/// After a stop request, a block may end with only some of its discs searched. Its results are then dropped, and the
-/// outcome is the latest copy of earlier results. Copies are made after some of the blocks. If a single block has all
-/// rays, the outcome has instead the discs that were searched.
+/// After a stop request, a block may end with only some discs searched. The block's results are then dropped, and the
+/// outcome is the latest copy of earlier results. Copies are made after some of the blocks. If one block has all rays
+/// and options.totals is null, the outcome instead has the results of the discs that were searched.
 class DiscResults {
  public:
   /// Keeps references to all four. Continues options.totals if it is not null.
@@ -38,7 +39,8 @@ class DiscResults {
     end_complete_block(block, tests);
   }
 
-  /// Fills in the outcome: hits, irradiance, pairs, and the workers' counts.
+  /// Fills in the outcome: pairs, the workers' counts, hits and irradiance. Unless options.totals is null, stores the
+  /// sums there, in place of hits and irradiance.
   template <class Workers>
   void store_results(Workers& workers) {
     std::pmr::vector<DiscRun> skipped(options_.memory);

@@ -155,7 +155,8 @@ class Builder {
     node.cost = static_cast<float>(node.count) * node.box.area();
   }
 
-  /// The place at which the run leaves the first half of the smallest cell that contains it.
+  /// The place at which the run leaves the first half of the smallest cell that contains the run; the run's middle if
+  /// all its discs have the same place on the curve.
   std::uint32_t boundary(std::uint32_t first, std::uint32_t count) const {
     const std::uint32_t low = place_code(places_[first]);
     const std::uint32_t high = place_code(places_[first + count - 1]);

@@ -39,7 +39,7 @@ struct DiscTree {
 
 inline constexpr double binary_node_bytes = 40;
 
-/// Predicted peak bytes while the tree is built: sorted discs, nodes of the binary tree and of the wide one.
+/// Predicted peak bytes while the tree is built: sorted discs, nodes of the binary tree and of the final tree.
 [[nodiscard]] double building_bytes(std::size_t discs, double binary_nodes, double nodes);
 
 /// Consecutive places of the tree's order.
@@ -52,8 +52,8 @@ struct DiscRun {
 [[nodiscard]] DiscRun discs_below(const DiscTree& tree, const TreeNode& node);
 
 /// Sorts the discs along the Morton curve, and splits them where the curve leaves a cell. Discs with the same place on
-/// the curve are split in the middle. Keeps the splits that lower the expected cost, and merges them into nodes with up
-/// to `fan_out` children. A leaf holds up to `leaf` discs, or up to 64 if that costs less than a split.
+/// the curve are split in the middle. Keeps the splits that lower the expected cost, and merges the kept splits into
+/// nodes with up to `fan_out` children. A leaf holds up to `leaf` discs, or up to 64 if that costs less than a split.
 ///
 /// The expected cost follows the surface-area heuristic: a line that crosses a node crosses a child with probability
 /// F(child)/F(node). (If nodes were runs of equal length along the curve, there would be 1.7 to 2.3 times as many
@@ -64,7 +64,7 @@ struct DiscRun {
 [[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, const BoxTreeParameters& parameters,
                                       const RunOptions& options = {});
 
-/// Returns the discs in that order, as a tree without nodes. Throws Stopped if a stop was requested.
+/// Returns the discs in the given order, as a tree without nodes. Throws Stopped if a stop was requested.
 [[nodiscard]] DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
                                       const RunOptions& options = {});
 

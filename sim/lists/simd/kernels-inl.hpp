@@ -42,7 +42,7 @@ HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
   return hn::FirstN(lanes, HWY_MIN(size - first, hn::Lanes(lanes)));
 }
 
-/// Appends the kept lanes of the vector at `first`.
+/// Appends to `to` the kept lanes of the vector at `first` of `from`.
 ///
 /// One Compress computes the places of the kept lanes. Each array is then permuted. (A Compress for each array would
 /// take five cycles on Zen 5, and a table lookup without AVX-512.)
@@ -70,8 +70,9 @@ HWY_INLINE void append(const RayList& from, std::size_t first, Floats a, Floats 
 
 /// Lists all rays that cross the box grown by `margin`, and some that miss it.
 ///
-/// A ray x = p + a z is in the box's slabs of x and z at once only if |p + a c_z - c_x| <= h_x + |a| h_z. The same for
-/// y. (A test of the third separating axis, z × D, would shorten lists by a tenth.)
+/// Let c be the box's centre and h half its sides. A ray x = p + a z is in the box's slabs of x and z at once only if
+/// |p + a c_z - c_x| <= h_x + |a| h_z. The same holds for y. (A test of the third separating axis, z × D, would
+/// shorten lists by a tenth.)
 template <bool segments, int k>
 HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin, RayList& inside) {
   const FloatLanes lanes;
@@ -112,7 +113,8 @@ HWY_INLINE void cull_box(const RayList& rays, const TreeNode& box, float margin,
 
 /// Lists the rays that may come within the sphere, whose radius already includes Frame::margin.
 ///
-/// With w = (P, Q, 0) from the sphere's centre to the ray at the centre's z, the ray's distance is |w × D|/|D|.
+/// With w = (P, Q, 0) from the sphere's centre to the ray at the centre's z, and D = (a, b, 1), the ray's distance from
+/// the centre is |w × D|/|D|.
 /// Segments are additionally clipped against the sphere's extent in z. A segment that ends before the sphere, in a
 /// corner of the sphere's bounding box, is listed although it misses the sphere.
 template <bool segments, int k>
@@ -200,9 +202,9 @@ struct RayVector {
 
 /// The canonical decision (predicates.hpp) in floats, if it is certain.
 ///
-/// With w = (P, Q, 0) from the disc's centre to the ray at the centre's z, D = (a, b, 1), φ = n·D and g = n·w, the
-/// crossing is at (wφ - Dg)/φ from the centre. The ray hits if |wφ - Dg| <= d|φ| and, for segments,
-/// from <= c_z - g/φ <= to. The decision is uncertain within `band` of the rim or within `ends` of an end
+/// Let c be the disc's centre, n its normal and d its radius. With w = (P, Q, 0) from c to the ray at z = c_z,
+/// D = (a, b, 1), φ = n·D and g = n·w, the crossing is at (wφ - Dg)/φ from c. The ray hits if |wφ - Dg| <= d|φ| and,
+/// for segments, from <= c_z - g/φ <= to. The decision is uncertain within `band` of the rim or within `ends` of an end
 /// (sim/lists/simd/floats.md).
 template <bool segments, bool front_facing, int k>
 HWY_INLINE Decision decide(const RayVector<segments>& rays, const SpreadDisc<k>& disc) {

@@ -30,7 +30,7 @@ struct Triple {
   Doubles x, y, z;
 };
 
-/// For each ray the component along axis (k + shift) % 3, k the ray's class (0 for rays in `first`, 1 in `second`).
+/// For each ray the component along axis (k + shift) % 3. k is the ray's class: 0 in `first`, 1 in `second`, else 2.
 HWY_INLINE Doubles turned(const Triple& v, Mask first, Mask second, int shift) {
   const Doubles axes[3] = {v.x, v.y, v.z};
   const Doubles of_third = axes[(2 + shift) % 3];

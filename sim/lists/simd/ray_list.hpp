@@ -12,7 +12,7 @@
 /// Lists of rays as structures of arrays.
 namespace detp::sim::stream {
 
-/// Arrays are readable and writable this many floats beyond their end. At least the floats of the largest vector.
+/// Arrays are readable and writable this many floats beyond their end. The largest vector has no more floats than this.
 inline constexpr std::size_t padding = 16;
 
 /// Rays of one class, in rising order of their numbers. The arrays belong to a ListArena.
@@ -29,7 +29,7 @@ struct RayList {
 
 inline constexpr std::uint32_t falling = 1U << 31;
 
-/// `count` rays of a list from number `first` on; `first` is a multiple of the padding.
+/// The `count` rays of a list from position `first` on. `first` must be a multiple of `padding`.
 [[nodiscard]] inline RayList part_of(const RayList& list, std::size_t first, std::size_t count) {
   const auto from = [first](auto* array) { return array == nullptr ? array : array + first; };
   return {count, from(list.a), from(list.b), from(list.p), from(list.q), from(list.id), from(list.from), from(list.to)};
@@ -37,8 +37,8 @@ inline constexpr std::uint32_t falling = 1U << 31;
 
 /// Expected sizes of nested lists, as shares of the number of rays. A list has room for all rays of the list around it.
 struct ListCapacity {
-  double first = 0;  ///< the outermost culled list, as far as it is filled
-  double all = 0;    ///< `first`, and the room of all lists inside
+  double first = 0;  ///< rays in the outermost culled list
+  double all = 0;    ///< `first`, plus the room of all lists inside that list
 };
 
 /// One list for each class.
@@ -50,14 +50,14 @@ using RayLists = std::array<RayList, classes>;
 /// before the memory budget would be exceeded.
 class ListArena {
  public:
-  /// `expected` is the total number of floats of its lists, and the size of the first chunk.
+  /// `expected` is the number of floats expected in all lists; the first chunk has at least this many.
   explicit ListArena(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::size_t expected = 0)
       : expected_(expected), chunks_(memory) {}
 
   /// A list with room for `capacity` rays.
   [[nodiscard]] RayList allocate(std::size_t capacity, bool segments);
 
-  /// Lists that each have room for the rays of the same list of `lists`.
+  /// For each class, a list with room for all rays that `lists` has of that class.
   [[nodiscard]] RayLists allocate_like(const RayLists& lists, bool segments) {
     return {allocate(lists[0].size, segments), allocate(lists[1].size, segments), allocate(lists[2].size, segments)};
   }

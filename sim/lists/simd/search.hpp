@@ -8,8 +8,8 @@
 /// repeated in double.
 namespace detp::sim::stream {
 
-/// Whether floats are precise enough: rays must start within about 6·10⁸ r₀ of S₀. (For rays that start farther away,
-/// the slack is so large that nothing is culled.)
+/// Whether floats are precise enough: the slack must be at most 0.01 in the frame's units. So rays must start within
+/// about 6·10⁸ r₀ of S₀, r₀ its radius. If not, use the plain engine.
 [[nodiscard]] bool can_search(const Problem& problem);
 
 /// The numbers on which the memory of a search depends.
@@ -18,7 +18,7 @@ struct SearchSize {
   std::size_t rays = 0;   ///< in one search
   int threads = 1;        ///< 0: all cores
   bool segments = false;  ///< at least one ray is a segment
-  /// powers are summed: rays differ in power, or pairs, front-facing hits only, or shared totals are requested
+  /// powers are summed, because rays differ in power, or the caller requests pairs, front-facing hits only, or totals
   bool sums = true;
   bool own_totals = true;  ///< the search fills in the outcome's hits and irradiance
 };
@@ -32,12 +32,13 @@ struct TreeSize {
   ListCapacity lists = {};
 };
 
-/// The expected binary tree: leaves are half full, a child's box has fan_out^(-2/3) of its parent's surface. If discs
-/// are concentrated in a few cells, there may be more nodes; make_disc_tree checks their memory while it writes them.
+/// The expected size of the tree, if leaves are half full and a child's box has fan_out^(-2/3) of its parent's surface.
+/// If discs are concentrated in a few cells, there may be more nodes; make_disc_tree checks their memory while it
+/// writes them.
 [[nodiscard]] TreeSize expected_tree(std::size_t discs, const BoxTreeParameters& parameters);
 
-/// Predicted peak bytes of a search: sorted discs and their tree, lists of rays, sums, outcome. Rays, discs, pairs and
-/// the copy for a stopped run are not included; they are checked when they are allocated.
+/// Predicted peak bytes of a search: sorted discs and their tree, lists of rays, sums, outcome. Not included are the
+/// problem's rays and discs, nor pairs and the copy for a stopped run, which are checked when they are allocated.
 ///
 /// The sizes of arrays are known, except for culled lists, whose number of rays is random. These are predicted for
 /// isotropic lines, uniform through S₀. Rays that are concentrated in one place need more: a thread checks again before

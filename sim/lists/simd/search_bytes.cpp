@@ -23,8 +23,8 @@ double block_bytes(const SearchSize& size) {
 /// Floats of a ray in a list that is culled from a block's lists.
 double floats_per_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
 
-/// Bytes of the nested lists of one thread. If the last block is smaller, its lists use pages that earlier lists left
-/// untouched.
+/// Bytes of the nested lists of one thread. If the last block is smaller than the others, its lists are smaller and
+/// closer together: they use pages that earlier lists left untouched.
 double list_bytes(const SearchSize& size, const ListCapacity& lists) {
   const auto last = static_cast<double>(size.rays % rays_in_block(size.discs));
   const double rays = rays_at_once(size);
