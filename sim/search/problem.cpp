@@ -1,3 +1,5 @@
+#include "problem.hpp"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,7 +10,6 @@
 
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "problem.hpp"
 #include "soundness.hpp"
 
 namespace detp::sim {
