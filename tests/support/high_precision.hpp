@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -9,7 +9,9 @@
 /// 100-digit arithmetic, the reference for formulas in double precision.
 namespace detp::support {
 
-using Exact = boost::multiprecision::cpp_bin_float_100;
+using Exact =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<100, boost::multiprecision::allocate_stack>,
+                                  boost::multiprecision::et_off>;
 
 /// |value - exact| / |exact|, or |value| if exact is 0; infinite if the value is not finite.
 ///

@@ -284,7 +284,8 @@ Command validate_command(CLI::App& program) {
       ->check(CLI::IsMember({"default", "thorough"}));
   app->add_option("--checkpoint", options->sweep.checkpoint, "thorough: keep what is measured in this file");
   app->add_flag("--resume", options->sweep.resume, "thorough: go on from the checkpoint");
-  app->add_option("--sweep-rows", options->sweep_rows, "thorough: write one row for each count of the sweep as CSV; default: none");
+  app->add_option("--sweep-rows", options->sweep_rows,
+                  "thorough: write one row for each count of the sweep as CSV; default: none");
   add_number(*app, "--most-samples", options->most_samples, "thorough: leave out larger workloads; default: 1e7, all");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_validate(*options, common, stop);

@@ -11,7 +11,9 @@ using namespace detp::hard_cases;
 
 namespace {
 
-using Quad = boost::multiprecision::cpp_bin_float_quad;
+using Quad =
+    boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<34, boost::multiprecision::allocate_stack>,
+                                  boost::multiprecision::et_off>;
 
 /// ∫ f(s, s - p, q - s) ds from p to q by the trapezoidal rule over ln((s - p)/(q - s)). f·(q - s)^{1/2} and f/(s - p)
 /// must stay finite. Accuracy 1e-18.

@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <set>
 #include <stdexcept>
 
 #include "detp/sim/geometry/random.hpp"
+#include "support/high_precision.hpp"
 
 using namespace detp;
-using Exact = boost::multiprecision::cpp_bin_float_100;
+using support::Exact;
 
 namespace {
 

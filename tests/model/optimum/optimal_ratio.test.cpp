@@ -2,14 +2,14 @@
 
 #include <doctest/doctest.h>
 
-#include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
 #include <stdexcept>
 
+#include "support/high_precision.hpp"
 #include "support/not_a_length.hpp"
 
 using namespace detp;
-using Exact = boost::multiprecision::cpp_bin_float_100;
+using support::Exact;
 
 TEST_SUITE("known answer") {
   TEST_CASE("two thirds for volumes, 1/sqrt(e) for surfaces, a half for curves") {
