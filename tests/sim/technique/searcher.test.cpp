@@ -22,7 +22,7 @@ using namespace detp::sim;
 
 namespace {
 
-std::atomic<std::uint64_t> allocations = 0;  // by operator new, in the whole process
+[[maybe_unused]] std::atomic<std::uint64_t> allocations = 0;  // by operator new, in the whole process
 
 }  // namespace
 
