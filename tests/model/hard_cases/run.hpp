@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
+#include <mpfr.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -35,6 +36,7 @@ template <class Check>
       } catch (...) {
         thrown[thread] = std::current_exception();
       }
+      mpfr_free_cache();  // MPFR keeps constants for each thread
     });
   for (std::thread& thread : running) thread.join();
   Ledger all;
