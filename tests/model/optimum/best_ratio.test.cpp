@@ -32,13 +32,17 @@ struct Question {
 std::vector<Question> questions(int number, std::uint64_t seed) {
   support::RandomNumbers random(seed);
   std::vector<Question> all;
-  for (int i = 0; i < number; ++i)
-    all.push_back({cube_workload(random.count(1e2, 1e8), random.count(1e2, 1e8), random.log_uniform(2e-4, 0.5), 2,
-                                 random.uniform(2, 3)),
+  for (int i = 0; i < number; ++i) {
+    const double dimension = random.uniform(2, 3);  // one by one: the order of arguments depends on the compiler
+    const double disc_radius = random.log_uniform(2e-4, 0.5);
+    const double samples = random.count(1e2, 1e8);
+    const double rays = random.count(1e2, 1e8);
+    all.push_back({cube_workload(rays, samples, disc_radius, 2, dimension),
                    {.cull_test = random.uniform(1, 5),
                     .disc_test = random.uniform(1, 10),
                     .listed = random.uniform(0, 3),
                     .cull = random.uniform(0, 100)}});
+  }
   return all;
 }
 
