@@ -24,7 +24,7 @@ Outcome truth_of(const Problem& problem) {
   return run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
 }
 
-const std::vector<Candidate>& exact_candidates() {
+const std::vector<Candidate>& hard_candidates() {
   static const std::vector<Candidate> list = [] {
     std::vector<Candidate> all = float_candidates();
     all.insert(all.end(), {{Technique::sphere_cache, SphereCacheParameters{0.65, 8, SampleOrder::hilbert}},
@@ -71,7 +71,7 @@ void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, 
       const Problem problem = make_problem(scene.rays, scene.discs);
       const Outcome expected = truth_of(problem);
       hits += expected.total_hits;
-      for (const Candidate& candidate : exact_candidates())
+      for (const Candidate& candidate : hard_candidates())
         for (const Engine engine : engines_of(candidate)) {
           const Outcome outcome = run(problem, candidate, {.pairs = true, .engine = engine});
           const std::size_t different = differences(outcome, expected);
@@ -128,7 +128,7 @@ TEST_SUITE("identity") {
       const Problem problem = make_problem(scene.rays, scene.discs);
       const Outcome expected = truth_of(problem);
       hits += expected.total_hits;
-      for (const Candidate& candidate : exact_candidates())
+      for (const Candidate& candidate : hard_candidates())
         for (const Engine engine : engines_of(candidate))
           CHECK(differences(run(problem, candidate, {.pairs = true, .engine = engine}), expected) == 0);
     }

@@ -81,7 +81,7 @@ class Process {
     const std::string status = "/proc/" + std::to_string(id_) + "/status";
     while (Clock::now() - start_ < std::chrono::seconds(60)) {
       std::smatch blocked;
-      const std::string text = sim::support::content_of(status);
+      const std::string text = support::content_of(status);
       if (std::regex_search(text, blocked, std::regex("SigBlk:\\s*([0-9a-f]+)")) &&
           (std::stoull(blocked[1], nullptr, 16) >> (SIGTERM - 1) & 1) != 0)
         return;
@@ -99,13 +99,13 @@ class Process {
     id_ = -1;
     return {.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1,
             .signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0,
-            .out = sim::support::content_of(out_),
-            .err = sim::support::content_of(err_),
+            .out = support::content_of(out_),
+            .err = support::content_of(err_),
             .seconds = std::chrono::duration<double>(Clock::now() - start_).count()};
   }
 
  private:
-  sim::support::ScratchFolder folder_;
+  support::ScratchFolder folder_;
   std::string out_ = folder_.path("out");
   std::string err_ = folder_.path("err");
   Clock::time_point start_ = Clock::now();

@@ -15,7 +15,7 @@
 #include "detp/sim/geometry/random.hpp"
 
 /// Files for tests of readers and writers.
-namespace detp::sim::support {
+namespace detp::support {
 
 /// A temporary folder, which the destructor removes.
 class ScratchFolder {
@@ -55,18 +55,18 @@ inline std::string content_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
 }
 
-/// The message of the FileError that the call throws; "" if it throws none.
+/// The message of the sim::FileError that the call throws; "" if it throws none.
 inline std::string file_error_of(const std::function<void()>& call) {
   try {
     call();
-  } catch (const FileError& error) {
+  } catch (const sim::FileError& error) {
     return error.what();
   }
   return {};
 }
 
 /// Calls `read` with the content truncated at every length, and with `flips` random changes of 1 to 4 bytes each.
-/// `read` may throw FileError, but nothing else. Returns how many of the damaged files it refused.
+/// `read` may throw sim::FileError, but nothing else. Returns how many of the damaged files it refused.
 inline std::size_t refused_when_damaged(const std::string& name, const std::string& content, std::uint64_t flips,
                                         const std::function<void(const std::string& path)>& read) {
   const ScratchFolder folder;
@@ -76,16 +76,16 @@ inline std::size_t refused_when_damaged(const std::string& name, const std::stri
     const std::string path = folder.file(name, damaged);
     try {
       read(path);
-    } catch (const FileError&) {
+    } catch (const sim::FileError&) {
       ++refused;
     }
   };
   for (std::size_t length = 0; length < content.size(); ++length) try_it(content.substr(0, length));
   for (std::uint64_t flip = 0; flip < flips; ++flip) {
     std::string damaged = content;
-    const std::uint64_t changes = 1 + bits4(1, Stream::tests, flip)[0] % 4;
+    const std::uint64_t changes = 1 + sim::bits4(1, sim::Stream::tests, flip)[0] % 4;
     for (std::uint64_t change = 1; change <= changes; ++change) {
-      const auto bits = bits4(1, Stream::tests, flip, change);
+      const auto bits = sim::bits4(1, sim::Stream::tests, flip, change);
       damaged[bits[0] % damaged.size()] = static_cast<char>(bits[1] & 0xff);
     }
     try_it(damaged);
@@ -100,4 +100,4 @@ inline std::string scenes_folder() {
   return folder == nullptr ? "" : folder;
 }
 
-}  // namespace detp::sim::support
+}  // namespace detp::support

@@ -14,7 +14,7 @@ namespace detp::validate {
 namespace {
 
 using sim::StopCheck;
-using sim::support::LoggedWork;
+using support::LoggedWork;
 
 constexpr std::uint64_t block = StopCheck::most_work;
 

@@ -18,7 +18,7 @@ namespace {
 
 /// Observed counts multiplied by unit costs give times that are wrong by a factor of 1.23 in the median. So a predicted
 /// count within 25 % of the observed count is not the main cause of a wrong predicted time.
-constexpr double tolerance = 0.25;
+constexpr double choice_tolerance = 0.25;
 
 /// Techniques that process each ray separately are counted on a sample of the rays if the predicted time for all rays
 /// is longer than this.
@@ -45,14 +45,14 @@ double share_counted(const model::Ranked& ranked) {
   return searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
 }
 
-struct Batch {
+struct RayBatch {
   double rays = 0;
   Counts<double> counts;
 };
 
 struct Counted {
-  Batch all;
-  std::vector<Batch> batches = {};
+  RayBatch all;
+  std::vector<RayBatch> batches = {};
 };
 
 std::optional<Counted> count(const Experiment& experiment, const model::Ranked& ranked) {
@@ -67,7 +67,7 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
     const sim::Problem problem = sim::make_problem(some, experiment.discs, question.workload.front_facing);
     const sim::Outcome outcome = sim::run(problem, ranked.candidate, {.stop = experiment.stop});
     if (outcome.stopped) stopped = true;
-    return Batch{static_cast<double>(some.size()), as_expected(outcome.counts)};
+    return RayBatch{static_cast<double>(some.size()), as_expected(outcome.counts)};
   };
   Counted counted{.all = counts_of(rays)};
   for (const std::vector<sim::Ray>& batch : distribute_over_batches(rays)) counted.batches.push_back(counts_of(batch));
@@ -87,7 +87,7 @@ Estimate observed(const Counted& counted, const CountTerm<double>& term, double 
   Estimate estimate{scale * all, std::numeric_limits<double>::infinity()};
   if (counted.batches.size() < 2) return estimate;
   std::vector<double> parts;
-  for (const Batch& batch : counted.batches) parts.push_back(question_rays / batch.rays * batch.counts.*term.term);
+  for (const RayBatch& batch : counted.batches) parts.push_back(question_rays / batch.rays * batch.counts.*term.term);
   estimate.standard_error = std::max(batch_means(parts).standard_error, std::sqrt(scale * predicted));
   return estimate;
 }
@@ -128,7 +128,7 @@ std::vector<Finding> candidate_findings(const Experiment& experiment, const mode
                         .predictions = {{Form::corrected, "the closed form that choose prices", predicted}},
                         .observed = found,
                         .batches = adds_up_over_rays(term) ? std::max(2, static_cast<int>(counted->batches.size())) : 0,
-                        .tolerance = tolerance,
+                        .tolerance = choice_tolerance,
                         .lines = static_cast<std::uint64_t>(counted->all.rays)});
   }
   for (Finding& finding : findings) finding.seconds = clock.seconds();

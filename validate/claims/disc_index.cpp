@@ -22,10 +22,10 @@
 namespace detp::validate {
 namespace {
 
-constexpr double tolerance = 0.02;
+constexpr double index_tolerance = 0.02;
 constexpr std::size_t lines_through_cells = 20'000;  ///< of each batch
 
-struct Batch {
+struct IndexBatch {
   double lines = 0;
   double hitting = 0;     ///< lines that hit the index's cube
   double steps = 0;       ///< of a grid
@@ -49,8 +49,8 @@ sim::Box index_cube(const std::vector<sim::Disc>& discs) {
   return {box.low, box.low + std::max({size.x, size.y, size.z})};
 }
 
-Batch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& discs, const Candidate& candidate, int part,
-                std::size_t count, int batch) {
+IndexBatch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& discs, const Candidate& candidate,
+                     int part, std::size_t count, int batch) {
   const auto lines = sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, part, batch))
                          .lines(0, count, experiment.stop);
   const sim::Outcome outcome = sim::run(sim::make_problem(lines, discs), candidate, {.stop = experiment.stop});
@@ -61,10 +61,10 @@ Batch run_batch(const Experiment& experiment, const std::vector<sim::Disc>& disc
           .hits = static_cast<double>(outcome.total_hits)};
 }
 
-Estimate ratio(const std::vector<Batch>& batches, double Batch::*above, double Batch::*below) {
+Estimate ratio(const std::vector<IndexBatch>& batches, double IndexBatch::*above, double IndexBatch::*below) {
   std::vector<double> numerators;
   std::vector<double> denominators;
-  for (const Batch& batch : batches) {
+  for (const IndexBatch& batch : batches) {
     numerators.push_back(batch.*above);
     denominators.push_back(batch.*below);
   }
@@ -86,9 +86,9 @@ Finding cells_finding(const Experiment& experiment) {
           .quantity = fmt::format("cells of a 2^{} grid crossed by a line that hits its cube", depth),
           .technique = std::string(name(Technique::grid)),
           .predictions = {{Form::published, "section 4.2", cells}, {Form::corrected, "section 4.2, unchanged", cells}},
-          .observed = ratio(batches, &Batch::steps, &Batch::hitting),
+          .observed = ratio(batches, &IndexBatch::steps, &IndexBatch::hitting),
           .batches = batch_count,
-          .tolerance = tolerance,
+          .tolerance = index_tolerance,
           .lines = lines * batch_count,
           .seconds = clock.seconds()};
 }
@@ -101,7 +101,7 @@ void allow_for_rare_events(Finding& finding) {
 }
 
 /// For uniform samples, whose cube lies inside S₀: the closed form predicts the tests per line that hits the cube.
-Finding uniform_tests(const Workload& workload, const std::vector<Batch>& batches, int depth) {
+Finding uniform_tests(const Workload& workload, const std::vector<IndexBatch>& batches, int depth) {
   const double overlapped = model::index_cells(workload, std::ldexp(1.0, depth)).overlapped;
   return {.id = "octree-tests-per-line",
           .quantity = fmt::format("ray-disc tests per line that hits the cube, octree of depth {}", depth),
@@ -110,14 +110,14 @@ Finding uniform_tests(const Workload& workload, const std::vector<Batch>& batche
                            model::published::tests_per_line(workload.samples, depth)},
                           {Form::corrected, "n_P E(d/a) / 4^k, our derivation",
                            workload.samples * overlapped / std::ldexp(1.0, 2 * depth)}},
-          .observed = ratio(batches, &Batch::disc_tests, &Batch::hitting)};
+          .observed = ratio(batches, &IndexBatch::disc_tests, &IndexBatch::hitting)};
 }
 
 /// For a scene: predicts the tests per line through S₀. The cube of a flat scene extends outside S₀, so fewer lines hit
 /// the cube than its area predicts. The paper's tests per line that hits the cube are multiplied by P(line hits the
 /// cube).
-Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches,
-                    int depth) {
+Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& discs,
+                    const std::vector<IndexBatch>& batches, int depth) {
   const double side = index_cube(discs).size().x;
   const double radius = sim::enclosing_sphere(discs).radius;
   const double per_cube = 1.5 / std::numbers::pi * side * side / (radius * radius);
@@ -128,19 +128,20 @@ Finding scene_tests(const Workload& workload, const std::vector<sim::Disc>& disc
                            model::published::tests_per_line(workload.samples, depth) * per_cube},
                           {Form::corrected, "n_P E(d/a) P(cell), our derivation",
                            model::octree_counts(workload, {depth}).disc_tests / workload.rays}},
-          .observed = ratio(batches, &Batch::disc_tests, &Batch::lines)};
+          .observed = ratio(batches, &IndexBatch::disc_tests, &IndexBatch::lines)};
 }
 
-Finding structural_tests(const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches, int depth) {
+Finding structural_tests(const std::vector<sim::Disc>& discs, const std::vector<IndexBatch>& batches, int depth) {
   const Counts<double> expected = structural_counts(discs, 1, {Technique::octree, OctreeParameters{depth}});
   return {.id = "octree-tests-structural",
           .quantity = fmt::format("ray-disc tests per line through S0, octree of depth {}, by its nodes' areas", depth),
           .technique = std::string(name(Technique::octree)),
           .predictions = {{Form::corrected, "eq (3) summed over the octree, our derivation", expected.disc_tests}},
-          .observed = ratio(batches, &Batch::disc_tests, &Batch::lines)};
+          .observed = ratio(batches, &IndexBatch::disc_tests, &IndexBatch::lines)};
 }
 
-Finding hits_finding(const Workload& workload, const std::vector<sim::Disc>& discs, const std::vector<Batch>& batches) {
+Finding hits_finding(const Workload& workload, const std::vector<sim::Disc>& discs,
+                     const std::vector<IndexBatch>& batches) {
   Workload one_line = workload;
   one_line.rays = 1;
   one_line.sphere_radius = sim::enclosing_sphere(discs).radius;
@@ -148,7 +149,7 @@ Finding hits_finding(const Workload& workload, const std::vector<sim::Disc>& dis
       .id = "hits-per-line",
       .quantity = "discs that a line through S0 hits",
       .predictions = {{Form::corrected, "eq (3) with F = 2 pi d^2, our derivation", model::expected_hits(one_line)}},
-      .observed = ratio(batches, &Batch::hits, &Batch::lines)};
+      .observed = ratio(batches, &IndexBatch::hits, &IndexBatch::lines)};
 }
 
 }  // namespace
@@ -169,7 +170,7 @@ std::vector<Finding> disc_index_findings(const Experiment& experiment) {
       structural_tests(discs, batches, depth), hits_finding(workload, discs, batches)};
   for (Finding& finding : found) {
     finding.batches = batch_count;
-    finding.tolerance = tolerance;
+    finding.tolerance = index_tolerance;
     finding.lines = lines * batch_count;
     finding.seconds = clock.seconds();
     allow_for_rare_events(finding);

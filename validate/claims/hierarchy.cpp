@@ -17,7 +17,7 @@
 namespace detp::validate {
 namespace {
 
-constexpr double tolerance = 0.025;
+constexpr double hierarchy_tolerance = 0.025;
 
 struct Quantity {
   std::string_view id;          ///< ends the id of the claim about the closed form
@@ -92,14 +92,14 @@ std::vector<Subject> all_subjects(const Workload& workload) {
 constexpr double few_lines = 0.125;
 
 /// Mean logarithms over a subject's candidates, one for each of its quantities.
-using Logs = std::vector<double>;
+using SubjectLogs = std::vector<double>;
 
-struct SetResult {
-  Logs counted, closed, structural;
+struct SubjectSet {
+  SubjectLogs counted, closed, structural;
 };
 
 /// Adds the logarithms of one candidate's counts per line, for the quantities whose `per_line` equals the argument.
-void add(Logs& logs, const Subject& subject, bool per_line, const Counts<double>& counts, double lines) {
+void add(SubjectLogs& logs, const Subject& subject, bool per_line, const Counts<double>& counts, double lines) {
   logs.resize(subject.quantities.size(), 0);
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const Quantity& quantity = subject.quantities[i];
@@ -117,7 +117,7 @@ Workload workload_of(const Experiment& experiment, const sim::Problem& problem) 
 
 /// Returns false if a stop was requested.
 bool run_lines(const Experiment& experiment, const Subject& subject, const sim::Problem& problem, bool per_line,
-               SetResult& result) {
+               SubjectSet& result) {
   const auto lines = static_cast<double>(problem.rays().size());
   for (const Candidate& candidate : subject.candidates) {
     const sim::Outcome outcome = sim::run(problem, candidate, {.engine = subject.engine, .stop = experiment.stop});
@@ -132,8 +132,8 @@ bool run_lines(const Experiment& experiment, const Subject& subject, const sim::
   return true;
 }
 
-SetResult run_set(const Experiment& experiment, const Subject& subject, std::size_t lines, int set) {
-  SetResult result;
+SubjectSet run_set(const Experiment& experiment, const Subject& subject, std::size_t lines, int set) {
+  SubjectSet result;
   const std::vector<sim::Disc> discs = sample_discs(experiment, set);
   const auto rays =
       sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 31, set)).lines(0, lines, experiment.stop);
@@ -145,42 +145,42 @@ SetResult run_set(const Experiment& experiment, const Subject& subject, std::siz
   return result;
 }
 
-using Column = Logs SetResult::*;
+using Column = SubjectLogs SubjectSet::*;
 
-double geometric_mean(const std::vector<SetResult>& sets, Column column, std::size_t quantity) {
+double geometric_mean(const std::vector<SubjectSet>& sets, Column column, std::size_t quantity) {
   double sum = 0;
-  for (const SetResult& set : sets) sum += (set.*column)[quantity];
+  for (const SubjectSet& set : sets) sum += (set.*column)[quantity];
   return std::exp(sum / static_cast<double>(sets.size()));
 }
 
 /// Geometric mean of the counts over the sets, or of the ratios of counts to the predictions `below`. The standard
 /// error is that of the mean logarithm between sets, multiplied by the mean.
-Estimate counted(const std::vector<SetResult>& sets, std::size_t quantity, Column below = nullptr) {
+Estimate counted(const std::vector<SubjectSet>& sets, std::size_t quantity, Column below = nullptr) {
   std::vector<double> logs;
-  for (const SetResult& set : sets)
+  for (const SubjectSet& set : sets)
     logs.push_back(set.counted[quantity] - (below == nullptr ? 0 : (set.*below)[quantity]));
   const Estimate log = batch_means(logs);
   return {std::exp(log.mean), std::exp(log.mean) * log.standard_error};
 }
 
-Finding closed_finding(const Subject& subject, const std::vector<SetResult>& sets, std::size_t i) {
+Finding closed_finding(const Subject& subject, const std::vector<SubjectSet>& sets, std::size_t i) {
   const Quantity& quantity = subject.quantities[i];
   return {.id = fmt::format("{}-{}", subject.id, quantity.id),
           .quantity = fmt::format("{} per line{} of {}: {}", quantity.what, quantity.per_line ? "" : ", few lines",
                                   name(subject.technique), subject.over),
-          .predictions = {{Form::corrected, std::string(subject.source), geometric_mean(sets, &SetResult::closed, i)}},
+          .predictions = {{Form::corrected, std::string(subject.source), geometric_mean(sets, &SubjectSet::closed, i)}},
           .observed = counted(sets, i),
-          .tolerance = tolerance};
+          .tolerance = hierarchy_tolerance};
 }
 
-Finding structural_finding(const Subject& subject, const std::vector<SetResult>& sets, std::size_t i) {
+Finding structural_finding(const Subject& subject, const std::vector<SubjectSet>& sets, std::size_t i) {
   const Quantity& quantity = subject.quantities[i];
   return {.id = fmt::format("{}-{}", subject.id, quantity.structural),
           .quantity =
               fmt::format("{} of {}, counted over those from its {} alone", quantity.what, subject.id, subject.bodies),
           .predictions = {{Form::corrected, fmt::format("areas of nested {}, our derivation", subject.bodies), 1}},
-          .observed = counted(sets, i, &SetResult::structural),
-          .tolerance = tolerance};
+          .observed = counted(sets, i, &SubjectSet::structural),
+          .tolerance = hierarchy_tolerance};
 }
 
 }  // namespace

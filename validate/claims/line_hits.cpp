@@ -19,7 +19,7 @@ namespace detp::validate {
 namespace {
 
 constexpr int positions = 8;  ///< number of spheres or discs of each kind, at random places
-constexpr double tolerance = 0.015;
+constexpr double line_tolerance = 0.015;
 constexpr double sphere_radius = 0.4;
 constexpr double disc_radius = 0.3;
 constexpr int most_levels = 3;
@@ -146,7 +146,7 @@ std::vector<Finding> line_hit_findings(const Experiment& experiment) {
   for (int i = 1; i <= most_levels; ++i) findings.push_back(rays_finding(batches, experiment.workload.rays, i));
   for (Finding& finding : findings) {
     finding.batches = batch_count;
-    finding.tolerance = tolerance;
+    finding.tolerance = line_tolerance;
     finding.lines = lines * batch_count;
     finding.seconds = clock.seconds();
   }

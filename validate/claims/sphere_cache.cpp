@@ -23,18 +23,18 @@ namespace {
 
 constexpr std::array ratios{0.3, 0.5, 0.65, 0.8};
 constexpr std::string_view over_ratios = "geometric mean over Q = 0.3, 0.5, 0.65, 0.8";
-constexpr double tolerance = 0.025;
+constexpr double cache_tolerance = 0.025;
 constexpr double least_rebuilds = 30;
 
 /// Logarithms of m_i, and of T_R and T_I per ray, for one Q: counted, or predicted by one of the two forms.
-struct Logs {
+struct CacheLogs {
   double rebuilds = 0;  ///< mean over the compared spheres
   double rebuild_time = 0;
   double intersect_time = 0;
 };
 
-struct SetResult {
-  std::array<Logs, ratios.size()> counted, published, corrected;
+struct CacheSet {
+  std::array<CacheLogs, ratios.size()> counted, published, corrected;
   std::array<double, ratios.size()> time_ratio{};  ///< counted T_R divided by the structural T_R
 };
 
@@ -58,7 +58,7 @@ double mean_log_rebuilds(const std::vector<model::SphereLevel>& levels, const Re
   return count > 0 ? sum / count : 0;
 }
 
-void compare(SetResult& result, std::size_t q, const Workload& workload, const sim::Problem& problem,
+void compare(CacheSet& result, std::size_t q, const Workload& workload, const sim::Problem& problem,
              const Experiment& experiment) {
   const SphereCacheParameters parameters = parameters_for(workload, ratios[q]);
   const sim::Outcome run =
@@ -89,42 +89,42 @@ void compare(SetResult& result, std::size_t q, const Workload& workload, const s
   result.time_ratio[q] = static_cast<double>(run.counts.cull_tests) / rays / walk.cull_tests;
 }
 
-Workload workload_of(const Experiment& experiment, const sim::Problem& problem) {
+Workload enclosed_workload(const Experiment& experiment, const sim::Problem& problem) {
   Workload workload = experiment.workload;
   workload.sphere_radius = problem.enclosing().radius;
   return workload;
 }
 
-std::vector<SetResult> run_all(const Experiment& experiment, std::size_t lines) {
+std::vector<CacheSet> run_all(const Experiment& experiment, std::size_t lines) {
   return for_each_batch(experiment, [&](int set) {
-    SetResult result;
+    CacheSet result;
     const std::vector<sim::Disc> discs = sample_discs(experiment, set);
     const auto rays =
         sim::LineField(sim::enclosing_sphere(discs), batch_seed(experiment, 11, set)).lines(0, lines, experiment.stop);
     const sim::Problem problem = sim::make_problem(rays, discs);
     for (std::size_t q = 0; q < ratios.size(); ++q)
-      compare(result, q, workload_of(experiment, problem), problem, experiment);
+      compare(result, q, enclosed_workload(experiment, problem), problem, experiment);
     return result;
   });
 }
 
-using Columns = std::array<Logs, ratios.size()> SetResult::*;
+using Columns = std::array<CacheLogs, ratios.size()> CacheSet::*;
 
 /// Over all Q and all sets.
-double geometric_mean(const std::vector<SetResult>& sets, Columns columns, double Logs::*term) {
+double geometric_mean(const std::vector<CacheSet>& sets, Columns columns, double CacheLogs::*term) {
   double sum = 0;
-  for (const SetResult& set : sets)
-    for (const Logs& logs : set.*columns) sum += logs.*term;
+  for (const CacheSet& set : sets)
+    for (const CacheLogs& logs : set.*columns) sum += logs.*term;
   return std::exp(sum / static_cast<double>(sets.size() * ratios.size()));
 }
 
 /// Geometric mean of the counts over all Q and all sets. The standard error is that of the mean logarithm between sets,
 /// multiplied by the mean.
-Estimate counted(const std::vector<SetResult>& sets, double Logs::*term) {
+Estimate counted(const std::vector<CacheSet>& sets, double CacheLogs::*term) {
   std::vector<double> logs;
-  for (const SetResult& set : sets) {
+  for (const CacheSet& set : sets) {
     double sum = 0;
-    for (const Logs& one : set.counted) sum += one.*term;
+    for (const CacheLogs& one : set.counted) sum += one.*term;
     logs.push_back(sum / ratios.size());
   }
   const Estimate log = batch_means(logs);
@@ -136,7 +136,7 @@ Finding count_finding(const Experiment& experiment) {
   const std::vector<sim::Disc> discs = sample_discs(experiment, 0);
   const auto ray = sim::LineField(sim::enclosing_sphere(discs), experiment.seed).lines(0, 1);
   const sim::Problem problem = sim::make_problem(ray, discs);
-  const Workload workload = workload_of(experiment, problem);
+  const Workload workload = enclosed_workload(experiment, problem);
   const sim::Outcome run =
       sim::run(problem, {Technique::sphere_cache, SphereCacheParameters{model::published_ratio, 10'000}},
                {.engine = Engine::plain});
@@ -152,25 +152,25 @@ Finding count_finding(const Experiment& experiment) {
       .lines = 1};
 }
 
-Finding mean_finding(const std::vector<SetResult>& sets, double Logs::*term, Finding finding,
+Finding mean_finding(const std::vector<CacheSet>& sets, double CacheLogs::*term, Finding finding,
                      std::string_view published, std::string_view corrected) {
-  finding.predictions = {{Form::published, std::string(published), geometric_mean(sets, &SetResult::published, term)},
-                         {Form::corrected, std::string(corrected), geometric_mean(sets, &SetResult::corrected, term)}};
+  finding.predictions = {{Form::published, std::string(published), geometric_mean(sets, &CacheSet::published, term)},
+                         {Form::corrected, std::string(corrected), geometric_mean(sets, &CacheSet::corrected, term)}};
   finding.observed = counted(sets, term);
   finding.batches = batch_count;
-  finding.tolerance = tolerance;
+  finding.tolerance = cache_tolerance;
   return finding;
 }
 
-Finding walk_finding(const std::vector<SetResult>& sets, std::size_t q) {
+Finding walk_finding(const std::vector<CacheSet>& sets, std::size_t q) {
   std::vector<double> values;
-  for (const SetResult& set : sets) values.push_back(set.time_ratio[q]);
+  for (const CacheSet& set : sets) values.push_back(set.time_ratio[q]);
   return {.id = fmt::format("rebuild-time-structural-{}", ratios[q]),
           .quantity = fmt::format("T_R counted over T_R from the sorted samples alone, Q = {}", ratios[q]),
           .predictions = {{Form::corrected, "structural walk, our derivation", 1}},
           .observed = batch_means(values),
           .batches = batch_count,
-          .tolerance = tolerance};
+          .tolerance = cache_tolerance};
 }
 
 }  // namespace
@@ -180,15 +180,15 @@ std::vector<Finding> sphere_cache_findings(const Experiment& experiment) {
   const std::size_t lines =
       std::max<std::size_t>(100, static_cast<std::size_t>(experiment.workload.rays) / batch_count);
   std::vector<Finding> findings{count_finding(experiment)};
-  const std::vector<SetResult> sets = run_all(experiment, lines);
+  const std::vector<CacheSet> sets = run_all(experiment, lines);
   if (experiment.stop.stop_requested()) return {};
   const auto mean = [](std::string_view what) { return fmt::format("{}: {}", what, over_ratios); };
-  findings.push_back(mean_finding(sets, &Logs::rebuilds, {.id = "rebuilds", .quantity = mean("m_i >= 30")},
+  findings.push_back(mean_finding(sets, &CacheLogs::rebuilds, {.id = "rebuilds", .quantity = mean("m_i >= 30")},
                                   "eq (17), at most n_P", "tabulated law, our derivation"));
-  findings.push_back(mean_finding(sets, &Logs::rebuild_time,
+  findings.push_back(mean_finding(sets, &CacheLogs::rebuild_time,
                                   {.id = "rebuild-time", .quantity = mean("T_R per ray, t = 1")}, "eq (12)",
                                   "sum over the corrected m_i and lists"));
-  findings.push_back(mean_finding(sets, &Logs::intersect_time,
+  findings.push_back(mean_finding(sets, &CacheLogs::intersect_time,
                                   {.id = "intersect-time", .quantity = mean("T_I per ray, u = 1")}, "eq (8)",
                                   "eq (8) with k by eq (6) and the list of S_k"));
   for (std::size_t q = 0; q < ratios.size(); ++q) findings.push_back(walk_finding(sets, q));

@@ -20,15 +20,15 @@ struct PoolLine {
   double weight;  ///< weight of its direction: (1 + a² + b²)^{-2}
 };
 
-constexpr std::size_t pool_size = 4096;
+constexpr std::size_t listed_pool_size = 4096;
 
 /// The numbers (a, b, u, v) of the lines are the points of Roberts's sequence in four dimensions. The points, and their
 /// projections onto fewer dimensions, are evenly distributed.
-std::vector<PoolLine> make_pool() {
+std::vector<PoolLine> make_listed_pool() {
   constexpr double root = 1.1673039782614187;  // x⁵ = x + 1
   std::vector<PoolLine> pool;
-  pool.reserve(pool_size);
-  for (std::size_t i = 0; i < pool_size; ++i) {
+  pool.reserve(listed_pool_size);
+  for (std::size_t i = 0; i < listed_pool_size; ++i) {
     const auto place = [i](int power) {
       const double at = 0.5 + static_cast<double>(i + 1) * std::pow(root, -power);
       return 2 * (at - std::floor(at)) - 1;
@@ -56,7 +56,7 @@ bool crosses(double p, double a, double q, double b, const Triple& half, int x, 
 
 /// Of the lines that are listed for a box, the share that crosses the sphere of that radius around the origin.
 double share_through(double radius, const Triple& centre, const Triple& half, std::size_t lines, Engine engine) {
-  static const std::vector<PoolLine> pool = make_pool();
+  static const std::vector<PoolLine> pool = make_listed_pool();
   double all = 0;
   double through = 0;
   for (int k = 0; k < sim::stream::classes; ++k) {
@@ -95,7 +95,7 @@ double BoxCrossing::operator()(const TreeNode& box) const {
   for (int z = 0; z < 3; ++z)
     reach = std::max(reach, std::hypot(half[(z + 1) % 3] + half[z], half[(z + 2) % 3] + half[z]));
   if (std::hypot(centre[0], centre[1], centre[2]) + reach <= outer_) return share;
-  const auto lines = static_cast<std::size_t>(std::clamp(16 * pool_size * share, 64.0, 1.0 * pool_size));
+  const auto lines = static_cast<std::size_t>(std::clamp(16 * listed_pool_size * share, 64.0, 1.0 * listed_pool_size));
   return std::min(1.0, share * share_through(outer_, centre, half, lines, engine_));
 }
 
@@ -112,7 +112,7 @@ Counts<double> structural_box_tree(const sim::Problem& problem, const Lines& lin
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const TreeNode& node = tree.nodes[i];
     const double listed = i == 0 ? 1 : crossing(node);
-    check.after(pool_size);  // at most as many lines were used for the node
+    check.after(listed_pool_size);  // at most as many lines were used for the node
     if (i > 0) counts.listed += listed;
     const auto count = static_cast<double>(node.count);
     // A node's children are tested, and a leaf's discs visited, if the node's list holds at least one ray of the block.

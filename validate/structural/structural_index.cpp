@@ -37,8 +37,8 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::size_t pool_size = 4096;
-constexpr std::uint64_t pool_seed = 1;
+constexpr std::size_t entry_pool_size = 4096;
+constexpr std::uint64_t entry_pool_seed = 1;
 
 double area_of(const glm::dvec3& size) { return 2 * (size.x * size.y + size.y * size.z + size.z * size.x); }
 
@@ -51,11 +51,11 @@ struct Entry {
   glm::dvec3 inwards;
 };
 
-std::vector<Entry> make_pool() {
+std::vector<Entry> make_entry_pool() {
   std::vector<Entry> pool;
-  for (std::size_t i = 0; i < pool_size; ++i) {
-    const auto place = sim::uniform4(pool_seed, sim::Stream::tests, i);
-    const double angle = 2 * pi * sim::uniform4(pool_seed, sim::Stream::tests, i, 1)[0];
+  for (std::size_t i = 0; i < entry_pool_size; ++i) {
+    const auto place = sim::uniform4(entry_pool_seed, sim::Stream::tests, i);
+    const double angle = 2 * pi * sim::uniform4(entry_pool_seed, sim::Stream::tests, i, 1)[0];
     const double sine = std::sqrt(place[3]);
     pool.push_back(
         {place[0], place[1], place[2], {sine * std::cos(angle), sine * std::sin(angle), std::sqrt(1 - place[3])}});
@@ -88,19 +88,19 @@ sim::Ray line_into(const sim::Box& box, const Entry& entry) {
 }
 
 /// P(node).
-class Crossing {
+class BoxCrossing {
  public:
-  explicit Crossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
+  explicit BoxCrossing(const sim::Sphere& enclosing) : enclosing_(enclosing) {}
 
   double operator()(const sim::Box& box) {
     const double share = area_of(box.size()) / (4 * pi * enclosing_.radius * enclosing_.radius);
     const glm::dvec3 reach = glm::max(glm::abs(box.low - enclosing_.centre), glm::abs(box.high - enclosing_.centre));
     lines_ = 0;
     if (glm::dot(reach, reach) <= enclosing_.radius * enclosing_.radius) return share;
-    lines_ = static_cast<std::size_t>(std::clamp(16 * pool_size * share, 32.0, 1.0 * pool_size));
+    lines_ = static_cast<std::size_t>(std::clamp(16 * entry_pool_size * share, 32.0, 1.0 * entry_pool_size));
     std::size_t crossing = 0;
     for (std::size_t i = 0; i < lines_; ++i)
-      crossing += sim::hits(line_into(box, pool_[next_++ % pool_size]), enclosing_) ? 1 : 0;
+      crossing += sim::hits(line_into(box, pool_[next_++ % entry_pool_size]), enclosing_) ? 1 : 0;
     return share * static_cast<double>(crossing) / static_cast<double>(lines_);
   }
 
@@ -109,7 +109,7 @@ class Crossing {
 
  private:
   sim::Sphere enclosing_;
-  std::vector<Entry> pool_ = make_pool();
+  std::vector<Entry> pool_ = make_entry_pool();
   std::size_t next_ = 0;
   std::size_t lines_ = 0;
 };
@@ -119,7 +119,7 @@ template <class Inspect>
 Counts<double> index_counts(const sim::Problem& problem, double rays, double Counts<double>::*visited,
                             const std::stop_token& stop, const Inspect& inspect) {
   sim::StopCheck check(stop, "counting cells");
-  Crossing crossing(problem.enclosing());
+  BoxCrossing crossing(problem.enclosing());
   double visits = 0;
   double tests = 0;
   const sim::IndexSize size = inspect([&](const sim::IndexNode& node) {

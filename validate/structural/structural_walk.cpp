@@ -15,13 +15,13 @@ namespace detp::validate {
 namespace {
 
 constexpr std::size_t ancestors = 32;
-constexpr std::size_t pool_size = 32768;
-constexpr std::uint64_t pool_seed = 1;
+constexpr std::size_t line_pool_size = 32768;
+constexpr std::uint64_t line_pool_seed = 1;
 
 /// Isotropic lines through the unit sphere, used to integrate. Made once, because drawing them takes longer than a walk
 /// along few samples.
 const std::vector<sim::Ray>& line_pool() {
-  static const std::vector<sim::Ray> pool = sim::LineField({}, pool_seed).lines(0, pool_size);
+  static const std::vector<sim::Ray> pool = sim::LineField({}, line_pool_seed).lines(0, line_pool_size);
   return pool;
 }
 
@@ -84,7 +84,7 @@ class Walk {
     const std::size_t outermost = i > ancestors ? i - ancestors : 0;
     std::size_t listed = 0;
     for (std::size_t n = 0; n < lines; ++n) {
-      const sim::Ray& line = pool_[next_++ % pool_size];
+      const sim::Ray& line = pool_[next_++ % line_pool_size];
       const glm::dvec3 point = sphere.centre + sphere.radius * line.origin;
       std::size_t around = i;  // the line crosses all tested spheres, around … i - 1
       while (around > outermost && crosses(point, line.direction, levels_[around - 1].sphere)) --around;

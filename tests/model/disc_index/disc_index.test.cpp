@@ -11,16 +11,16 @@
 #include "support/endless_cells.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
+#include "support/workloads.hpp"
 
 using namespace detp;
 using namespace detp::model;
 using doctest::Approx;
 using doctest::Contains;
 using std::numbers::pi;
+using support::few_rays;
 
 namespace {
-
-const Workload in_cube = cube_workload(1e4, 1e5, 0.01, 2);
 
 Workload in_box(std::array<double, 3> box, double disc = 0.5) {
   return {.rays = 1000, .samples = 100, .disc_radius = disc, .sphere_radius = 100, .box = box};
@@ -58,31 +58,31 @@ TEST_SUITE("identity") {
 
   TEST_CASE("lines that hit a cube cross 2^k of its cells, and one in 4^k crosses a given cell") {
     for (int depth = 0; depth <= 10; ++depth) {
-      const Cells cells = index_cells(in_cube, std::ldexp(1, depth));
-      const double hit = index_cells(in_cube, 1).crossing;
+      const Cells cells = index_cells(few_rays, std::ldexp(1, depth));
+      const double hit = index_cells(few_rays, 1).crossing;
       CHECK(cells.count() == std::ldexp(1, 3 * depth));
       CHECK(cells.crossing == Approx(hit * std::ldexp(1, -2 * depth)).epsilon(1e-12));
-      CHECK(grid_counts(in_cube, {1 << depth}).steps == Approx(1e4 * hit * std::ldexp(1, depth)).epsilon(1e-12));
+      CHECK(grid_counts(few_rays, {1 << depth}).steps == Approx(1e4 * hit * std::ldexp(1, depth)).epsilon(1e-12));
     }
   }
 
   TEST_CASE("tests are rays times the probability of a cell times the references, steps times all cells") {
     for (const int parts : {1, 3, 10, 57, 400}) {
-      const Cells cells = index_cells(in_cube, parts);
-      const Counts<double> counts = grid_counts(in_cube, {parts});
+      const Cells cells = index_cells(few_rays, parts);
+      const Counts<double> counts = grid_counts(few_rays, {parts});
       CHECK(counts.references == Approx(1e5 * cells.overlapped).epsilon(1e-14));
       CHECK(counts.placements == counts.references);
       CHECK(counts.disc_tests == Approx(1e4 * cells.crossing * counts.references).epsilon(1e-14));
       CHECK(counts.steps == Approx(1e4 * cells.crossing * cells.count()).epsilon(1e-14));
-      CHECK(counts.hits == expected_hits(in_cube));
+      CHECK(counts.hits == expected_hits(few_rays));
       CHECK(counts.nodes + counts.cull_tests + counts.listed + counts.culls + counts.sorted == 0);
     }
   }
 
   TEST_CASE("an octree tests the discs that a grid of its leaves tests") {
     for (int depth = 0; depth <= 12; ++depth) {
-      const Counts<double> tree = octree_counts(in_cube, {depth});
-      const Counts<double> grid = grid_counts(in_cube, {1 << depth});
+      const Counts<double> tree = octree_counts(few_rays, {depth});
+      const Counts<double> grid = grid_counts(few_rays, {1 << depth});
       CHECK(tree.disc_tests == grid.disc_tests);
       CHECK(tree.references == grid.references);
       CHECK(tree.hits == grid.hits);
@@ -91,7 +91,7 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("if no node is empty, a line visits 2^(k+1) - 1 nodes") {
-    Workload w = in_cube;
+    Workload w = few_rays;
     w.samples = 1e15;
     const double hit = index_cells(w, 1).crossing;
     for (int depth = 0; depth <= 7; ++depth)  // in deeper octrees a disc of 0.01 need not reach the corner cells
@@ -99,7 +99,7 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("… and with restarts (k + 1) 2^k") {
-    Workload w = in_cube;
+    Workload w = few_rays;
     w.samples = 1e15;
     const double hit = index_cells(w, 1).crossing;
     for (int depth = 0; depth <= 7; ++depth)  // in deeper octrees a disc of 0.01 need not reach the corner cells
@@ -109,18 +109,18 @@ TEST_SUITE("identity") {
 
   TEST_CASE("a variant changes only its own counts") {
     for (int depth = 1; depth <= 9; ++depth) {
-      const Counts<double> plain = octree_counts(in_cube, {depth});
-      Counts<double> once = octree_counts(in_cube, {depth}, {.mailboxing = true});
+      const Counts<double> plain = octree_counts(few_rays, {depth});
+      Counts<double> once = octree_counts(few_rays, {depth}, {.mailboxing = true});
       CHECK(once.disc_tests < plain.disc_tests);
       CHECK(once.disc_tests > once.hits);
       once.disc_tests = plain.disc_tests;
       CHECK(once == plain);
-      CHECK(octree_counts(in_cube, {depth, Traversal::front_to_back}) == plain);
-      Counts<double> anew = octree_counts(in_cube, {depth, Traversal::restart});
+      CHECK(octree_counts(few_rays, {depth, Traversal::front_to_back}) == plain);
+      Counts<double> anew = octree_counts(few_rays, {depth, Traversal::restart});
       CHECK(anew.nodes > plain.nodes);
       anew.nodes = plain.nodes;
       CHECK(anew == plain);
-      const Counts<double> boxed = octree_counts(in_cube, {depth}, {.insertion = Insertion::bounding_box});
+      const Counts<double> boxed = octree_counts(few_rays, {depth}, {.insertion = Insertion::bounding_box});
       CHECK(boxed.references > plain.references);
       CHECK(boxed.nodes >= plain.nodes);
       CHECK(boxed.hits == plain.hits);
@@ -128,21 +128,21 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("octree_counts for all depths gives the counts of each depth") {
-    const auto depths = octree_counts_by_depth(in_cube, {7});
+    const auto depths = octree_counts_by_depth(few_rays, {7});
     REQUIRE(depths.size() == 8);
-    for (int depth = 0; depth <= 7; ++depth) CHECK(depths[depth] == octree_counts(in_cube, {depth}));
+    for (int depth = 0; depth <= 7; ++depth) CHECK(depths[depth] == octree_counts(few_rays, {depth}));
   }
 
   TEST_CASE("placements of an octree are its references at all levels below the root") {
     double references = 0;
     for (int depth = 1; depth <= 8; ++depth) {
-      references += octree_counts(in_cube, {depth}).references;
-      CHECK(octree_counts(in_cube, {depth}).placements == Approx(references).epsilon(1e-14));
+      references += octree_counts(few_rays, {depth}).references;
+      CHECK(octree_counts(few_rays, {depth}).placements == Approx(references).epsilon(1e-14));
     }
   }
 
   TEST_CASE("many small cells are overlapped like endless ones") {
-    const Cells cells = index_cells(in_cube, 1024);
+    const Cells cells = index_cells(few_rays, 1024);
     CHECK(cells.overlapped == Approx(support::overlapped_cells(0.01 / cells.side)).epsilon(0.02));
     CHECK(index_cells(cube_workload(1, 1, 1e-5, 2), 4096).overlapped ==
           Approx(support::overlapped_cells(1e-5 * 4096 / 2.00002)).epsilon(1e-3));
@@ -161,7 +161,7 @@ TEST_SUITE("identity") {
       REQUIRE(cells.overlapped >= 1);
       REQUIRE(cells.overlapped <= cells.count());
     }
-    Workload w = in_cube;
+    Workload w = few_rays;
     w.samples = 1e18;
     CHECK(occupied_cells(w, index_cells(w, 10)) == Approx(1000).epsilon(1e-12));
     w.samples = 1;
@@ -206,19 +206,19 @@ TEST_SUITE("known answer") {
 TEST_SUITE("bad input") {
   TEST_CASE("numbers out of range are refused by name") {
     for (const int bad : {-1, 301})
-      CHECK_THROWS_WITH_AS((void)octree_counts(in_cube, {bad}), Contains("depth"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)octree_counts(in_cube, {4, Traversal::neighbour_links}), Contains("neighbour links"),
+      CHECK_THROWS_WITH_AS((void)octree_counts(few_rays, {bad}), Contains("depth"), std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)octree_counts(few_rays, {4, Traversal::neighbour_links}), Contains("neighbour links"),
                          std::invalid_argument);
     for (const int bad : {0, -1, 1'000'000'001})
-      CHECK_THROWS_WITH_AS((void)grid_counts(in_cube, {bad}), Contains("cells a side"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)grid_counts(few_rays, {bad}), Contains("cells a side"), std::invalid_argument);
     for (const double bad : support::not_a_length)
-      CHECK_THROWS_WITH_AS((void)index_cells(in_cube, bad), Contains("cells along the longest side"),
+      CHECK_THROWS_WITH_AS((void)index_cells(few_rays, bad), Contains("cells along the longest side"),
                            std::invalid_argument);
   }
 
   TEST_CASE("a workload out of range is refused by name") {
     for (const double bad : support::not_a_count) {
-      Workload w = in_cube;
+      Workload w = few_rays;
       w.rays = bad;
       const Contains name("number of rays");
       CHECK_THROWS_WITH_AS((void)octree_counts(w, {3}), name, std::invalid_argument);
@@ -227,6 +227,6 @@ TEST_SUITE("bad input") {
       CHECK_THROWS_WITH_AS((void)occupied_cells(w, {.side = 1}), name, std::invalid_argument);
     }
     for (const double bad : support::not_a_length)
-      CHECK_THROWS_WITH_AS((void)occupied_cells(in_cube, {.side = bad}), Contains("cell side"), std::invalid_argument);
+      CHECK_THROWS_WITH_AS((void)occupied_cells(few_rays, {.side = bad}), Contains("cell side"), std::invalid_argument);
   }
 }

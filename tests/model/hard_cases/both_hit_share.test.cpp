@@ -83,23 +83,23 @@ Quad share_by_chords(const Quad& a, const Quad& b, const Quad& c) {
   return both / (pi * c * c * b * b);
 }
 
-struct Case {
+struct TwoSpheres {
   double a;
   double b;
   double c;
 };
 
 template <class Reference>
-void compare(const char* formula, const Case& it, const Reference& reference, Ledger& ledger) {
+void compare(const char* formula, const TwoSpheres& it, const Reference& reference, Ledger& ledger) {
   ledger.compare(formula, model::both_hit_share(it.a, it.b, it.c), reference(it.a, it.b, it.c),
                  [&] { return fmt::format("a {:a}, b {:a}, c {:a}", it.a, it.b, it.c); });
 }
 
-void compare_by_lenses(const Case& it, Ledger& ledger) {
+void compare_by_lenses(const TwoSpheres& it, Ledger& ledger) {
   compare("share of both, by lenses", it, share_by_lenses, ledger);
 }
 
-void compare_by_chords(const Case& it, Ledger& ledger) {
+void compare_by_chords(const TwoSpheres& it, Ledger& ledger) {
   compare(
       "share of both, by chords (113 bits)", it,
       [](double a, double b, double c) { return Exact{share_by_chords(a, b, c)}; }, ledger);
@@ -107,7 +107,7 @@ void compare_by_chords(const Case& it, Ledger& ledger) {
 
 /// Radii with a ratio of at most `most_ratio`. c is arbitrary, or close to the distance at which one sphere leaves the
 /// other, or at which they separate.
-Case random_case(Draw& draw, double most_ratio) {
+TwoSpheres random_case(Draw& draw, double most_ratio) {
   const double b = draw.log_uniform(1e-100, 1e100);
   const double a =
       draw.whole(0, 3) == 0 ? b * (1 + draw.log_uniform(1e-16, 1)) : b * draw.log_uniform(1 / most_ratio, most_ratio);
@@ -117,8 +117,8 @@ Case random_case(Draw& draw, double most_ratio) {
   return {a, b, c};
 }
 
-std::vector<Case> edges(const std::vector<double>& radii) {
-  std::vector<Case> cases;
+std::vector<TwoSpheres> edges(const std::vector<double>& radii) {
+  std::vector<TwoSpheres> cases;
   for (const double a : radii) {
     for (const double c : {0.0, 1e-9, 0.3, 50.0, 1e9}) cases.push_back({a, 1, c});
     for (const double limit : {std::abs(a - 1), a + 1})
@@ -134,11 +134,14 @@ TEST_SUITE("reference value") {
   TEST_CASE("hard cases of the share of both spheres: near containment and tangency, equal radii, far away") {
     Ledger ledger =
         on_random_inputs(5, few / 4, [](Draw& draw, Ledger& l) { compare_by_chords(random_case(draw, 1e200), l); });
-    for (const Case& it : edges({1e-12, 1e-3, 0.5, 1 - 0x1p-53, 1, 1 + 0x1p-52, 3, 1e6})) compare_by_chords(it, ledger);
-    for (const Case& it : {Case{1e300, 1e300, 1e-300}, Case{1e-300, 1e-300, 1e300}, Case{1e300, 1e-300, 1e300},
-                           Case{1e-300, 1e300, 1e300}, Case{1e-100, 1, 1}, Case{5e-324, 5e-324, 5e-324}})
+    for (const TwoSpheres& it : edges({1e-12, 1e-3, 0.5, 1 - 0x1p-53, 1, 1 + 0x1p-52, 3, 1e6}))
       compare_by_chords(it, ledger);
-    for (const Case& it : {Case{1, 0.7, 0.31}, Case{1, 1, 1e-3}, Case{0.2, 1, 1.2}, Case{2, 1, 40}})
+    for (const TwoSpheres& it :
+         {TwoSpheres{1e300, 1e300, 1e-300}, TwoSpheres{1e-300, 1e-300, 1e300}, TwoSpheres{1e300, 1e-300, 1e300},
+          TwoSpheres{1e-300, 1e300, 1e300}, TwoSpheres{1e-100, 1, 1}, TwoSpheres{5e-324, 5e-324, 5e-324}})
+      compare_by_chords(it, ledger);
+    for (const TwoSpheres& it :
+         {TwoSpheres{1, 0.7, 0.31}, TwoSpheres{1, 1, 1e-3}, TwoSpheres{0.2, 1, 1.2}, TwoSpheres{2, 1, 40}})
       compare_by_lenses(it, ledger);
     require_right(ledger);
   }
@@ -150,7 +153,7 @@ TEST_SUITE("hard-cases") {
         on_random_inputs(5, many / 50, [](Draw& draw, Ledger& l) { compare_by_chords(random_case(draw, 1e200), l); });
     ledger.merge(
         on_random_inputs(6, 200, [](Draw& draw, Ledger& l) { compare_by_lenses(random_case(draw, 1e12), l); }));
-    for (const Case& it : edges({1e-9, 0.5, 1, 3})) compare_by_lenses(it, ledger);
+    for (const TwoSpheres& it : edges({1e-9, 0.5, 1, 3})) compare_by_lenses(it, ledger);
     require_right_and_print(ledger);
   }
 }

@@ -31,13 +31,13 @@ void compare_radius(const Workload& w, int level, Ledger& ledger) {
                  [&] { return fmt::format("side {:a}, d {:a}, level {}", scene_side(w), w.disc_radius, level); });
 }
 
-void compare_random(Draw& draw, Ledger& ledger) {
+void compare_random_cells(Draw& draw, Ledger& ledger) {
   const int level = static_cast<int>(draw.whole(0, 2) == 0 ? draw.whole(0, 300) : draw.whole(0, 25));
   compare_occupied(draw.rays_or_samples(), level, ledger);
   compare_radius(draw.workload(), level, ledger);
 }
 
-void compare_edges(Ledger& ledger) {
+void compare_edge_cells(Ledger& ledger) {
   for (const int level : {0, 1, 2, 17, 18, 20, 110, 300})
     for (const double samples : {1.0, 2.0, 7.0, 8.0, 1e9, 1e18}) compare_occupied(samples, level, ledger);
 }
@@ -46,12 +46,12 @@ void compare_edges(Ledger& ledger) {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of cells: few samples in many cells and many in few") {
-    Ledger ledger = on_random_inputs(9, few, compare_random);
-    compare_edges(ledger);
+    Ledger ledger = on_random_inputs(9, few, compare_random_cells);
+    compare_edge_cells(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("cells") { require_right_and_print(on_random_inputs(9, many, compare_random)); }
+  TEST_CASE("cells") { require_right_and_print(on_random_inputs(9, many, compare_random_cells)); }
 }

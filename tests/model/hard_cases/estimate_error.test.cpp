@@ -10,7 +10,7 @@ using namespace detp::hard_cases;
 
 namespace {
 
-Exact pi() { return boost::math::constants::pi<Exact>(); }
+Exact circle_constant() { return boost::math::constants::pi<Exact>(); }
 
 void compare_uniform(double rays, double deviation, double disc, double outer, Ledger& ledger) {
   const auto inputs = [&] {
@@ -30,20 +30,21 @@ void compare_smooth(double f, double laplacian, double photons, double radius, d
   const model::SmoothDensity density{.value = f, .laplacian = laplacian};
   const model::DensityError found = model::density_error(density, photons, radius);
   const Exact square = Exact{radius} * radius;
-  const Exact variance = f / (photons * pi() * square);
+  const Exact variance = f / (photons * circle_constant() * square);
   const Exact bias = square * laplacian / 8;
   ledger.compare("variance", found.variance, variance, inputs);
   ledger.compare("bias", found.bias, bias, inputs);
   ledger.compare("mean square error", found.mean_square(), variance + bias * bias, inputs);
   const Exact curvature = abs(Exact{laplacian});
   ledger.compare("best radius", model::best_density_radius(density, photons),
-                 support::cube_root(support::root_of(Exact{32} * f / (photons * pi())) / curvature), inputs);
-  static const Exact scale = sqrt(pow(Exact{3} / 2, 3) / 32) / pi();
+                 support::cube_root(support::root_of(Exact{32} * f / (photons * circle_constant())) / curvature),
+                 inputs);
+  static const Exact scale = sqrt(pow(Exact{3} / 2, 3) / 32) / circle_constant();
   ledger.compare("photons for an error", model::photons_for_error(density, error),
                  scale * curvature / (Exact{f} * f * error * error * error), inputs);
 }
 
-void compare_random(Draw& draw, Ledger& ledger) {
+void compare_random_errors(Draw& draw, Ledger& ledger) {
   const double outer = draw.anywhere();
   const double disc = std::max(outer * draw.log_uniform(1e-300, 1), 5e-324);
   compare_uniform(draw.rays_or_samples(), draw.factor(), std::min(disc, outer), outer, ledger);
@@ -51,7 +52,7 @@ void compare_random(Draw& draw, Ledger& ledger) {
   compare_smooth(draw.factor(), sign * draw.factor(), draw.factor(), draw.factor(), draw.factor(), ledger);
 }
 
-void compare_edges(Ledger& ledger) {
+void compare_edge_errors(Ledger& ledger) {
   for (const double outer : {1e-300, 1.0, 1.79e308})
     for (const double share : {5e-324, 1e-300, 1e-160, 0.5, 1 - 0x1p-53, 1.0})
       for (const double deviation : {5e-324, 1e-3, 1.79e308})
@@ -69,12 +70,12 @@ void compare_edges(Ledger& ledger) {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of the estimate's error: every argument up to both limits of the doubles") {
-    Ledger ledger = on_random_inputs(7, few, compare_random);
-    compare_edges(ledger);
+    Ledger ledger = on_random_inputs(7, few, compare_random_errors);
+    compare_edge_errors(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("the estimate's error") { require_right_and_print(on_random_inputs(7, many, compare_random)); }
+  TEST_CASE("the estimate's error") { require_right_and_print(on_random_inputs(7, many, compare_random_errors)); }
 }

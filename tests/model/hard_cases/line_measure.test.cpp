@@ -41,7 +41,7 @@ void compare_workload(const Workload& w, double volume, double area, Ledger& led
                  Exact{w.rays} * w.samples * crossing(w, 0, 2 * pi() * d * d), inputs);
 }
 
-void compare_random(Draw& draw, Ledger& ledger) {
+void compare_random_lines(Draw& draw, Ledger& ledger) {
   const double outer = draw.anywhere();
   compare_bodies(std::max(outer * draw.log_uniform(1e-300, 1.15), 5e-324), outer * 1.16, ledger);
   Workload w = draw.workload();
@@ -52,7 +52,7 @@ void compare_random(Draw& draw, Ledger& ledger) {
                    like_scene ? r0 * r0 * draw.log_uniform(1e-30, 10) : draw.anywhere(), ledger);
 }
 
-void compare_edges(Ledger& ledger) {
+void compare_edge_lines(Ledger& ledger) {
   for (const double outer : {1e-300, 1.0, 1.7e308})
     for (const double share : {5e-324, 1e-300, 1e-160, 1e-154, 0.5, 0.8})
       compare_bodies(std::max(share * outer, 5e-324), outer, ledger);
@@ -74,12 +74,12 @@ void compare_edges(Ledger& ledger) {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of line measures: squares that over- or underflow, flat boxes, long paths") {
-    Ledger ledger = on_random_inputs(4, few, compare_random);
-    compare_edges(ledger);
+    Ledger ledger = on_random_inputs(4, few, compare_random_lines);
+    compare_edge_lines(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("line measures") { require_right_and_print(on_random_inputs(4, many, compare_random)); }
+  TEST_CASE("line measures") { require_right_and_print(on_random_inputs(4, many, compare_random_lines)); }
 }

@@ -29,7 +29,7 @@ void compare_copies(double copy, Ledger& ledger) {
   ledger.compare("Q* with copies", found, root, [&] { return fmt::format("c/t {:a}", copy); });
 }
 
-void compare_random(Draw& draw, Ledger& ledger) {
+void compare_random_ratios(Draw& draw, Ledger& ledger) {
   const double gap = draw.log_uniform(1e-17, 1);
   const double side = draw.whole(0, 1) == 0 ? -1 : 1;
   const std::int64_t kind = draw.whole(0, 3);
@@ -38,7 +38,7 @@ void compare_random(Draw& draw, Ledger& ledger) {
   compare_copies(draw.whole(0, 1) == 0 ? draw.anywhere() : draw.log_uniform(1e-4, 1e4), ledger);
 }
 
-void compare_edges(Ledger& ledger) {
+void compare_edge_ratios(Ledger& ledger) {
   for (const double dimension : {1.0, std::nextafter(1.0, 2.0), std::nextafter(2.0, 1.0), 2.0, std::nextafter(2.0, 3.0),
                                  std::nextafter(3.0, 2.0), 3.0})
     compare_dimension(dimension, ledger);
@@ -52,12 +52,12 @@ void compare_edges(Ledger& ledger) {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of Q*: D next to 1, 2 and 3, copy costs from zero to dominant") {
-    Ledger ledger = on_random_inputs(3, few, compare_random);
-    compare_edges(ledger);
+    Ledger ledger = on_random_inputs(3, few, compare_random_ratios);
+    compare_edge_ratios(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("Q*") { require_right_and_print(on_random_inputs(3, many, compare_random)); }
+  TEST_CASE("Q*") { require_right_and_print(on_random_inputs(3, many, compare_random_ratios)); }
 }

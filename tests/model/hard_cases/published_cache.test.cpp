@@ -45,7 +45,7 @@ Sums sums_term_by_term(double samples, double ratio, std::int64_t k) {
   return sums;
 }
 
-struct Case {
+struct CacheCase {
   Workload workload;
   double ratio;
   std::int64_t i;
@@ -53,7 +53,7 @@ struct Case {
   double time;
 };
 
-void compare(const Case& c, Ledger& ledger) {
+void compare(const CacheCase& c, Ledger& ledger) {
   using namespace model;
   const auto& [w, ratio, i, k, time] = c;
   const auto inputs = [&c = c] {
@@ -82,7 +82,7 @@ void compare(const Case& c, Ledger& ledger) {
   ledger.compare("T unsorted, published", published::unsorted_time(w, time), Exact{time} * w.rays * w.samples, inputs);
 }
 
-void compare_random(Draw& draw, Ledger& ledger) {
+void compare_random_caches(Draw& draw, Ledger& ledger) {
   const double ratio = draw.ratio();
   compare({.workload = draw.workload(),
            .ratio = ratio,
@@ -92,7 +92,7 @@ void compare_random(Draw& draw, Ledger& ledger) {
           ledger);
 }
 
-void compare_edges(Ledger& ledger) {
+void compare_edge_caches(Ledger& ledger) {
   constexpr double largest = std::numeric_limits<double>::max();
   std::vector<double> ratios{std::numeric_limits<double>::denorm_min(), 0.65, 2.0 / 3, std::nextafter(1.0 / 3, 1)};
   for (const int n : {1, 2, 3, 10, 20, 30, 40, 50, 52, 53}) {
@@ -131,12 +131,12 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of the published cache: Q next to 0 and 1, k up to 9e18, powers that under- and overflow") {
-    Ledger ledger = on_random_inputs(2, few, compare_random);
-    compare_edges(ledger);
+    Ledger ledger = on_random_inputs(2, few, compare_random_caches);
+    compare_edge_caches(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("published cache") { require_right_and_print(on_random_inputs(2, many, compare_random)); }
+  TEST_CASE("published cache") { require_right_and_print(on_random_inputs(2, many, compare_random_caches)); }
 }

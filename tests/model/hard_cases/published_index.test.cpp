@@ -36,14 +36,14 @@ void compare_costs(const Workload& w, int depth, double disc_test, Ledger& ledge
   ledger.compare("T balanced, published", published::balanced_octree_time(w, depth, disc_test), time, inputs);
 }
 
-void compare_random(Draw& draw, Ledger& ledger) {
+void compare_random_octrees(Draw& draw, Ledger& ledger) {
   const double side = draw.anywhere();
   compare_depth(draw.log_uniform(5e-324, side), side, ledger);
   compare_depths_around(std::ldexp(side, -static_cast<int>(draw.whole(0, 1000))), side, ledger);
   compare_costs(draw.workload(), static_cast<int>(draw.count(1, 2097)) - 1, draw.factor(), ledger);
 }
 
-void compare_edges(Ledger& ledger) {
+void compare_edge_octrees(Ledger& ledger) {
   for (const double side : {5e-324, 0x1p-1022, 1e-300, 1.0, 2.0, 0x1.fffffffffffffp+0, 1.79e308})
     for (int n = -3; n <= 2100; n += n < 70 ? 1 : 37) compare_depths_around(std::ldexp(side, -n), side, ledger);
   Workload w{.disc_radius = 1, .sphere_radius = 1, .box = {1, 1, 1}};
@@ -59,12 +59,12 @@ void compare_edges(Ledger& ledger) {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of the published octree: powers of two and their neighbours, all possible depths") {
-    Ledger ledger = on_random_inputs(8, few, compare_random);
-    compare_edges(ledger);
+    Ledger ledger = on_random_inputs(8, few, compare_random_octrees);
+    compare_edge_octrees(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("published octree") { require_right_and_print(on_random_inputs(8, many, compare_random)); }
+  TEST_CASE("published octree") { require_right_and_print(on_random_inputs(8, many, compare_random_octrees)); }
 }

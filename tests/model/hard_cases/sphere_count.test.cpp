@@ -15,14 +15,14 @@ using support::power;
 
 namespace {
 
-struct Case {
+struct CountCase {
   double ratio;
   double disc;
   double outer;
 };
 
 /// Corrected k: r_k >= d > r_{k+1}. Published k: equal to the corrected k if r_k = d, else larger by one.
-void compare_count(const Case& c, Ledger& ledger) {
+void compare_count(const CountCase& c, Ledger& ledger) {
   const auto [q, d, r0] = c;
   const auto inputs = [&] { return fmt::format("Q {:a}, d {:a}, r0 {:a}", c.ratio, c.disc, c.outer); };
   try {
@@ -41,12 +41,12 @@ void compare_count(const Case& c, Ledger& ledger) {
 /// d, and the doubles next to it.
 std::array<double, 3> around(double d) { return {std::nextafter(d, 0.0), d, std::nextafter(d, 2 * d)}; }
 
-void compare_count_around(const Case& c, Ledger& ledger) {
+void compare_count_around(const CountCase& c, Ledger& ledger) {
   for (const double d : around(c.disc))
     if (d > 0) compare_count({c.ratio, d, c.outer}, ledger);
 }
 
-void compare_random(Draw& draw, Ledger& ledger) {
+void compare_random_counts(Draw& draw, Ledger& ledger) {
   const double q = draw.ratio();
   const double r0 = draw.anywhere();
   const double log_radii = -std::log(q) * static_cast<double>(draw.index(q));
@@ -56,7 +56,7 @@ void compare_random(Draw& draw, Ledger& ledger) {
   compare_count({q, d, r0}, ledger);
 }
 
-void compare_edges(Ledger& ledger) {
+void compare_edge_counts(Ledger& ledger) {
   constexpr double least = std::numeric_limits<double>::denorm_min();
   const auto compare_next_to = [&](double q) {
     for (const double ratio : {std::nextafter(q, 0.0), q, std::nextafter(q, 1.0)}) {
@@ -78,8 +78,8 @@ void compare_edges(Ledger& ledger) {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of k: Q next to 0 and to 1, d next to r0 Q^j, d next to and beyond r0") {
-    Ledger ledger = on_random_inputs(1, few, compare_random);
-    compare_edges(ledger);
+    Ledger ledger = on_random_inputs(1, few, compare_random_counts);
+    compare_edge_counts(ledger);
     require_right(ledger);
   }
 }
@@ -97,5 +97,5 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("k") { require_right_and_print(on_random_inputs(1, many, compare_random)); }
+  TEST_CASE("k") { require_right_and_print(on_random_inputs(1, many, compare_random_counts)); }
 }

@@ -35,7 +35,7 @@ void compare(const Workload& w, Ledger& ledger) {
                  scene_side(w) * half_root_of_3 + w.disc_radius, inputs);
 }
 
-void compare_random(Draw& draw, Ledger& ledger) {
+void compare_random_workloads(Draw& draw, Ledger& ledger) {
   Workload w = draw.workload();
   const std::int64_t kind = draw.whole(0, 3);
   w.dimension = kind == 0 ? 2 : kind == 1 ? 3 : draw.uniform(1, 3);
@@ -43,7 +43,7 @@ void compare_random(Draw& draw, Ledger& ledger) {
   compare(w, ledger);
 }
 
-void compare_edges(Ledger& ledger) {
+void compare_edge_workloads(Ledger& ledger) {
   for (const double side : {1e-90, 1.0, 1e90})
     for (const double flat : {0.0, 1e-6, 1.0})
       for (const double dimension :
@@ -64,12 +64,12 @@ void compare_edges(Ledger& ledger) {
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of a workload: flat boxes at both limits of the scale, D next to 2 and 3, any extent") {
-    Ledger ledger = on_random_inputs(10, few, compare_random);
-    compare_edges(ledger);
+    Ledger ledger = on_random_inputs(10, few, compare_random_workloads);
+    compare_edge_workloads(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("workload") { require_right_and_print(on_random_inputs(10, many, compare_random)); }
+  TEST_CASE("workload") { require_right_and_print(on_random_inputs(10, many, compare_random_workloads)); }
 }

@@ -20,36 +20,36 @@ using doctest::Contains;
 
 namespace {
 
-struct Question {
+struct PublishedQuestion {
   Workload workload;
   UnitCosts costs;
 };
 
 /// Random workloads with d/r₀ 1e-4 … 0.3, and costs t and u that differ by up to a factor of a thousand.
-std::vector<Question> questions(int number) {
+std::vector<PublishedQuestion> published_questions(int number) {
   support::RandomNumbers random(41);
-  std::vector<Question> all;
+  std::vector<PublishedQuestion> all;
   for (int i = 0; i < number; ++i)
     all.push_back({cube_workload(random.count(1e2, 1e8), random.count(1, 1e8), random.log_uniform(2e-4, 0.7), 2),
                    {.cull_test = random.log_uniform(1e-2, 10), .disc_test = random.log_uniform(1e-2, 10)}});
   return all;
 }
 
-double time(const Question& question, double ratio, std::int64_t k) {
+double time(const PublishedQuestion& question, double ratio, std::int64_t k) {
   return published::rebuild_time(question.workload, {ratio}, k, question.costs.cull_test) +
          published::intersect_time(question.workload, {ratio}, k, question.costs.disc_test);
 }
 
-std::int64_t count(const Workload& w, double ratio) {
+std::int64_t published_count(const Workload& w, double ratio) {
   return sphere_count(Form::published, {ratio}, {w.disc_radius}, {w.sphere_radius});
 }
 
 /// The smallest time over a grid of ratios, with k from the paper's formula.
-double least_on_grid(const Question& question, int points) {
+double least_on_grid(const PublishedQuestion& question, int points) {
   double least = support::infinity;
   for (int i = 0; i <= points; ++i) {
     const double ratio = least_ratio + (most_ratio - least_ratio) * i / points;
-    const std::int64_t k = count(question.workload, ratio);
+    const std::int64_t k = published_count(question.workload, ratio);
     if (k >= 1 && k <= 40) least = std::min(least, time(question, ratio, k));
   }
   return least;
@@ -59,9 +59,9 @@ double least_on_grid(const Question& question, int points) {
 
 TEST_SUITE("reference value") {
   TEST_CASE("the best published number of spheres has the smallest T of all numbers") {
-    for (const Question& question : questions(300))
+    for (const PublishedQuestion& question : published_questions(300))
       for (const double ratio : {0.1, 0.5, 0.65, 0.9, 0.99}) {
-        const std::int64_t last = count(question.workload, ratio);
+        const std::int64_t last = published_count(question.workload, ratio);
         const std::int64_t stop = published::best_stop(question.workload, question.costs, {ratio});
         double least = support::infinity;
         for (std::int64_t k = 1; k <= last; ++k) least = std::min(least, time(question, ratio, k));
@@ -83,7 +83,7 @@ TEST_SUITE("reference value") {
 
 TEST_SUITE("reference value") {
   TEST_CASE("no ratio of 5000 is faster, none is below the bound, and the bound is within 1e-9") {
-    for (const Question& question : questions(40)) {
+    for (const PublishedQuestion& question : published_questions(40)) {
       const published::BestRatio best = published::best_ratio(question.workload, question.costs);
       const double least = least_on_grid(question, 5000);
       CAPTURE(best.ratio);
@@ -92,15 +92,15 @@ TEST_SUITE("reference value") {
       CHECK(best.lower_bound >= best.time * (1 - 1e-9));
       CHECK(best.lower_bound <= best.time);
       CHECK(best.time == time(question, best.ratio, best.spheres));
-      CHECK(best.spheres == count(question.workload, best.ratio));
+      CHECK(best.spheres == published_count(question.workload, best.ratio));
     }
   }
 
   TEST_CASE("control: a ratio 5 % away is slower than the bound allows") {
-    const Question question{cube_workload(1e6, 1e5, 0.01, 2), {}};
+    const PublishedQuestion question{cube_workload(1e6, 1e5, 0.01, 2), {}};
     const published::BestRatio best = published::best_ratio(question.workload, question.costs);
     for (const double off : {0.95, 1.05})
-      CHECK(time(question, off * best.ratio, count(question.workload, off * best.ratio)) >
+      CHECK(time(question, off * best.ratio, published_count(question.workload, off * best.ratio)) >
             best.lower_bound * (1 + 1e-6));
   }
 }
@@ -117,7 +117,7 @@ TEST_SUITE("known answer") {
       for (const double disc_test : {1e-3, 1.0, 1e3}) {
         const Workload w{.rays = 1e6, .samples = 1e3, .disc_radius = disc, .sphere_radius = 1, .box = {1, 1, 1}};
         const published::BestRatio best = published::best_ratio(w, UnitCosts{.disc_test = disc_test});
-        CHECK(best.spheres == count(w, best.ratio));
+        CHECK(best.spheres == published_count(w, best.ratio));
       }
   }
 

@@ -12,16 +12,17 @@
 #include "detp/model/sphere_cache/step_pieces.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
+#include "support/workloads.hpp"
 
 using namespace detp;
 using namespace detp::model;
 using doctest::Approx;
 using doctest::Contains;
+using support::typical;
 
 namespace {
 
 constexpr std::int64_t most_spheres = 40;
-const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
 
 struct Question {
   Workload workload;
@@ -51,7 +52,7 @@ double time(const Question& question, double ratio, std::int64_t k) {
       .total();
 }
 
-std::int64_t count(const Workload& w, double ratio) {
+std::int64_t corrected_count(const Workload& w, double ratio) {
   return sphere_count(Form::corrected, {ratio}, {w.disc_radius}, {w.sphere_radius});
 }
 
@@ -63,7 +64,7 @@ double least_on_grids(const Question& question, int points) {
   double best = 0.5;
   const auto consider = [&](double ratio) {
     if (ratio < least_ratio || ratio > most_ratio) return;
-    const std::int64_t last = std::min(most_spheres, count(w, ratio));
+    const std::int64_t last = std::min(most_spheres, corrected_count(w, ratio));
     for (std::int64_t k = 1; k <= last; ++k)
       if (const double t = time(question, ratio, k); t < least) {
         least = t;
@@ -88,7 +89,7 @@ std::vector<double> above_grids(int many, std::uint64_t seed) {
     CAPTURE(best.ratio);
     CAPTURE(best.spheres);
     CHECK(best.time == Approx(time(question, best.ratio, best.spheres)).epsilon(1e-12));
-    CHECK(best.spheres <= count(question.workload, best.ratio));
+    CHECK(best.spheres <= corrected_count(question.workload, best.ratio));
     above.push_back(best.time / least_on_grids(question, 1500) - 1);
   }
   std::sort(above.begin(), above.end());
@@ -141,12 +142,12 @@ TEST_SUITE("identity") {
       for (const double ratio : {0.3, 0.5, 0.65, 0.8})
         if (const BestRatio stop = best_stop(w, costs, {ratio}); stop.spheres <= most_spheres) {
           CHECK(stop.ratio == ratio);
-          if (count(w, ratio) >= 1) CHECK(best <= stop.time);
+          if (corrected_count(w, ratio) >= 1) CHECK(best <= stop.time);
         }
       for (const std::int64_t k : {1, 2, 3, 5, 9, 15}) {
         const BestRatio fixed = best_ratio_for(w, costs, k);
         CHECK(fixed.spheres == k);
-        if (count(w, fixed.ratio) >= k) CHECK(best <= fixed.time);
+        if (corrected_count(w, fixed.ratio) >= k) CHECK(best <= fixed.time);
       }
     }
   }
@@ -155,7 +156,7 @@ TEST_SUITE("identity") {
     for (const Question& question : questions(20, 35))
       for (const double ratio : {0.4, 0.65, 0.9}) {
         const BestRatio best = best_stop(question.workload, question.costs, {ratio});
-        for (std::int64_t k = 1; k <= std::max<std::int64_t>(1, count(question.workload, ratio)); ++k)
+        for (std::int64_t k = 1; k <= std::max<std::int64_t>(1, corrected_count(question.workload, ratio)); ++k)
           REQUIRE(best.time <= time(question, ratio, k) * (1 + 1e-12));
         CHECK(best.time == Approx(time(question, ratio, best.spheres)).epsilon(1e-12));
       }

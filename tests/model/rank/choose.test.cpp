@@ -12,15 +12,16 @@
 #include "detp/model/rank/predict.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
+#include "support/workloads.hpp"
 
 using namespace detp;
 using namespace detp::model;
 using doctest::Approx;
 using doctest::Contains;
+using support::typical;
 
 namespace {
 
-const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
 const UnitCosts costs{.cull_test = 2,
                       .disc_test = 5,
                       .index_test = 5,

@@ -9,14 +9,15 @@
 #include <vector>
 
 #include "detp/model/rank/choose.hpp"
+#include "support/workloads.hpp"
 
 using namespace detp;
 using namespace detp::model;
 using doctest::Contains;
+using support::typical;
 
 namespace {
 
-const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
 const Candidate cache{Technique::sphere_cache, SphereCacheParameters{0.65, 8}};
 const Candidate boxes{Technique::box_tree, BoxTreeParameters{4, 16}};
 const Candidate octree{Technique::octree, OctreeParameters{5}};

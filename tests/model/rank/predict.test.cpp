@@ -15,14 +15,14 @@
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
+#include "support/workloads.hpp"
 
 using namespace detp;
 using namespace detp::model;
 using doctest::Contains;
+using support::typical;
 
 namespace {
-
-const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
 
 const std::vector<Candidate> candidates{
     {Technique::brute_force, BruteForceParameters{}},

@@ -6,17 +6,15 @@
 
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
+#include "support/workloads.hpp"
 
 using namespace detp;
 using namespace detp::model;
 using doctest::Approx;
 using doctest::Contains;
+using support::typical;
 
-namespace {
-
-const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
-
-}  // namespace
+namespace {}  // namespace
 
 TEST_SUITE("identity") {
   TEST_CASE("the listed share is from 0 to 1; it is 1 for spheres as small as the disc, or if samples are few") {

@@ -11,11 +11,13 @@
 #include "support/high_precision.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
+#include "support/workloads.hpp"
 
 using namespace detp;
 using namespace detp::model;
 using doctest::Approx;
 using doctest::Contains;
+using support::typical;
 
 namespace {
 
@@ -54,8 +56,6 @@ constexpr CountedSphere counted_spheres[] = {
     {3, 100000, 0.05, 0.8, 2, 73.50, 0.7755},   {3, 100000, 0.05, 0.8, 8, 4874.83, 0.8626},
     {3, 100000, 0.05, 0.9, 6, 161.46, 0.6922},  {3, 100000, 0.05, 0.9, 18, 8377.62, 0.8072},
 };
-
-const Workload typical = cube_workload(1e6, 1e5, 0.01, 2);
 
 bool all_finite(const Counts<double>& counts) {
   bool finite = true;

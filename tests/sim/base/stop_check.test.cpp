@@ -7,6 +7,7 @@
 #include "detp/sim/search/sort_pairs.hpp"
 #include "support/work_log.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 
 TEST_SUITE("known answer") {

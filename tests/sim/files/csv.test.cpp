@@ -9,6 +9,7 @@
 
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 using support::ScratchFolder;
 
@@ -26,7 +27,7 @@ std::string place_of(const TableRow& row) {
   return support::file_error_of([&] { row.fail("here"); });
 }
 
-Table read(const std::string& content) {
+Table read_table(const std::string& content) {
   const ScratchFolder folder;
   Table table;
   const std::size_t rows = read_csv(folder.file("t.csv", content), columns, [&](const TableRow& row) {
@@ -38,15 +39,15 @@ Table read(const std::string& content) {
   return table;
 }
 
-std::string refusal(const std::string& content) {
-  return support::file_error_of([&] { (void)read(content); });
+std::string table_error(const std::string& content) {
+  return support::file_error_of([&] { (void)read_table(content); });
 }
 
 }  // namespace
 
 TEST_SUITE("known answer") {
   TEST_CASE("columns may be in any order, with blanks, blank lines, CR LF and a byte order mark") {
-    const Table table = read("\xEF\xBB\xBF\r\n b ,a\r\n\r\n 1.5 , +2 \r\n   \r\n-3e-2,\t0.1\r\n");
+    const Table table = read_table("\xEF\xBB\xBF\r\n b ,a\r\n\r\n 1.5 , +2 \r\n   \r\n-3e-2,\t0.1\r\n");
     REQUIRE(table.places.size() == 2);
     CHECK(table.values[0] == std::vector<double>{2, 0.1});
     CHECK(table.values[1] == std::vector<double>{1.5, -0.03});
@@ -54,7 +55,7 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("lines may end in CR alone") {
-    const Table table = read("a,b\r1,2\r\r3,4");
+    const Table table = read_table("a,b\r1,2\r\r3,4");
     CHECK(table.values[1] == std::vector<double>{2, 4});
     CHECK(table.places == std::vector<std::string>{"t.csv:2: here", "t.csv:4: here"});
   }
@@ -70,12 +71,12 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("an absent column and an empty field have the default values") {
-    CHECK(read("a,b\n1,2").values[2] == std::vector<double>{5});
-    CHECK(read("a,b,c\n1,2,\n1,2,3\n").values[2] == std::vector<double>{6, 3});
+    CHECK(read_table("a,b\n1,2").values[2] == std::vector<double>{5});
+    CHECK(read_table("a,b,c\n1,2,\n1,2,3\n").values[2] == std::vector<double>{6, 3});
   }
 
   TEST_CASE("numbers beyond a double's range become infinite or zero, and special values are read") {
-    const Table table = read("a,b\n1e400,-1e400\n1e-400,4.9e-324\ninf,-Infinity\nnan,0\n");
+    const Table table = read_table("a,b\n1e400,-1e400\n1e-400,4.9e-324\ninf,-Infinity\nnan,0\n");
     const double infinity = std::numeric_limits<double>::infinity();
     CHECK(table.values[0][0] == infinity);
     CHECK(table.values[1][0] == -infinity);
@@ -92,7 +93,7 @@ TEST_SUITE("known answer") {
       MESSAGE("skipped: the locale de_DE.UTF-8 is not installed");
       return;
     }
-    CHECK(read("a,b\n1.5,1e-400\n").values[0][0] == 1.5);
+    CHECK(read_table("a,b\n1.5,1e-400\n").values[0][0] == 1.5);
     std::setlocale(LC_NUMERIC, before.c_str());
   }
 }
@@ -127,7 +128,7 @@ TEST_SUITE("bad input") {
           {"a,b\n1," + std::string(99, '\xff') + "\n", ":2: b is \"" + fifteen + "...\", which"}}) {
       const auto& content = bound_content;
       CAPTURE(content.substr(0, 200));
-      CHECK_MESSAGE(refusal(content).find("t.csv" + reason) != std::string::npos, refusal(content));
+      CHECK_MESSAGE(table_error(content).find("t.csv" + reason) != std::string::npos, table_error(content));
     }
   }
 

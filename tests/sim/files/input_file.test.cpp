@@ -18,6 +18,7 @@
 #include "detp/sim/files/table.hpp"
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 using support::ScratchFolder;
 

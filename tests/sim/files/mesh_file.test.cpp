@@ -5,6 +5,7 @@
 #include "detp/sim/files/file_error.hpp"
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 using support::ScratchFolder;
 
@@ -46,7 +47,7 @@ Mesh read(const std::string& path) {
   return read_mesh(path, notices);
 }
 
-std::string refusal(const std::string& name, const std::string& content) {
+std::string mesh_error(const std::string& name, const std::string& content) {
   const ScratchFolder folder;
   return support::file_error_of([&] { (void)read(folder.file(name, content)); });
 }
@@ -242,7 +243,8 @@ TEST_SUITE("bad input") {
           {"", ": has no faces"}}) {
       const auto& content = bound_content;
       CAPTURE(content.substr(0, 200));
-      CHECK_MESSAGE(refusal("m.obj", content).find("m.obj" + reason) != std::string::npos, refusal("m.obj", content));
+      CHECK_MESSAGE(mesh_error("m.obj", content).find("m.obj" + reason) != std::string::npos,
+                    mesh_error("m.obj", content));
     }
   }
 
@@ -262,7 +264,7 @@ TEST_SUITE("bad input") {
           {"", "is empty"}}) {
       const auto& content = bound_content;
       CAPTURE(content);
-      CHECK_MESSAGE(refusal("m.ply", content).find(reason) != std::string::npos, refusal("m.ply", content));
+      CHECK_MESSAGE(mesh_error("m.ply", content).find(reason) != std::string::npos, mesh_error("m.ply", content));
     }
   }
 

@@ -5,6 +5,7 @@
 #include "detp/sim/files/mesh_file.hpp"
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 
 TEST_SUITE("identity") {

@@ -13,6 +13,7 @@
 #include "detp/sim/files/part_files.hpp"
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 using support::content_of;
 using support::ScratchFolder;
@@ -25,7 +26,7 @@ void write_whole(const std::string& path, const std::string& text) {
   file.commit();
 }
 
-std::string refusal(const std::string& path, const std::string& text) {
+std::string write_error(const std::string& path, const std::string& text) {
   return support::file_error_of([&] { write_whole(path, text); });
 }
 
@@ -161,21 +162,22 @@ TEST_SUITE("bad input") {
   TEST_CASE("a full device is reported with the system's reason, at once or on commit") {
     if (!std::filesystem::exists("/dev/full")) return;
     for (const std::size_t size : {std::size_t{1}, std::size_t{1'000'000}})
-      CHECK(refusal("/dev/full", std::string(size, 'x')) == "/dev/full: cannot be written: No space left on device");
+      CHECK(write_error("/dev/full", std::string(size, 'x')) ==
+            "/dev/full: cannot be written: No space left on device");
   }
 
   TEST_CASE("a missing folder, a file in place of a folder, and a folder in place of a file are reported") {
     const ScratchFolder folder;
     const std::string plain = folder.file("plain", "");
-    CHECK(refusal(folder.path("missing/out"), "x").find("cannot be written: No such file") != std::string::npos);
-    CHECK(refusal(plain + "/out", "x").find("cannot be written: Not a directory") != std::string::npos);
+    CHECK(write_error(folder.path("missing/out"), "x").find("cannot be written: No such file") != std::string::npos);
+    CHECK(write_error(plain + "/out", "x").find("cannot be written: Not a directory") != std::string::npos);
     std::filesystem::create_directory(folder.path("inner"));
-    CHECK(refusal(folder.path("inner"), "x").find("cannot be written: Is a directory") != std::string::npos);
-    CHECK(refusal("", "x").find("No such file") != std::string::npos);
-    CHECK(refusal(folder.path(std::string(300, 'n')), "x").find("File name too long") != std::string::npos);
+    CHECK(write_error(folder.path("inner"), "x").find("cannot be written: Is a directory") != std::string::npos);
+    CHECK(write_error("", "x").find("No such file") != std::string::npos);
+    CHECK(write_error(folder.path(std::string(300, 'n')), "x").find("File name too long") != std::string::npos);
     std::filesystem::create_symlink("b", folder.path("a"));
     std::filesystem::create_symlink("a", folder.path("b"));
-    CHECK(refusal(folder.path("a"), "x").find("Too many levels of symbolic links") != std::string::npos);
+    CHECK(write_error(folder.path("a"), "x").find("Too many levels of symbolic links") != std::string::npos);
     CHECK(std::filesystem::is_symlink(folder.path("a")));
     std::filesystem::remove(folder.path("a"));
     std::filesystem::remove(folder.path("b"));
@@ -190,7 +192,7 @@ TEST_SUITE("bad input") {
     const ScratchFolder folder;
     const std::string path = folder.file("read-only", "old");
     REQUIRE(::chmod(path.c_str(), 0440) == 0);
-    CHECK(refusal(path, "new").find("cannot be written: Permission denied") != std::string::npos);
+    CHECK(write_error(path, "new").find("cannot be written: Permission denied") != std::string::npos);
     CHECK(content_of(path) == "old");
     CHECK(folder.entries() == 1);
   }

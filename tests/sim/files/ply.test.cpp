@@ -11,6 +11,7 @@
 
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 using support::ScratchFolder;
 
@@ -115,7 +116,7 @@ void check_values(const std::string& content) {
   CHECK(thing.ends == std::vector<std::size_t>{2, 2});
 }
 
-std::string refusal(const std::string& content) {
+std::string ply_error(const std::string& content) {
   const ScratchFolder folder;
   return support::file_error_of([&] { (void)read_thing(folder.file("t.ply", content)); });
 }
@@ -169,7 +170,7 @@ TEST_SUITE("bad input") {
           {start + std::string(400'000, 'c'), ":3: the header is longer than 262144 bytes"}}) {
       const auto& content = bound_content;
       CAPTURE(content.substr(0, 200));
-      const std::string message = refusal(content);
+      const std::string message = ply_error(content);
       CHECK_MESSAGE(message.find(reason) != std::string::npos, message);
       CHECK(message.find('\x1b') == std::string::npos);
     }
@@ -188,17 +189,17 @@ TEST_SUITE("bad input") {
           {list + "1 7\n1e9 8\n", "thing 2 of 2 (line 7): the file ends early"}}) {
       const auto& content = bound_content;
       CAPTURE(content.substr(0, 200));
-      CHECK_MESSAGE(refusal(content).find(reason) != std::string::npos, refusal(content));
+      CHECK_MESSAGE(ply_error(content).find(reason) != std::string::npos, ply_error(content));
     }
     const std::string whole = binary_body(std::endian::little);
-    CHECK(
-        refusal(header("binary_little_endian") + whole.substr(0, whole.size() - 12)).find("2 rows of element thing") !=
-        std::string::npos);
+    CHECK(ply_error(header("binary_little_endian") + whole.substr(0, whole.size() - 12))
+              .find("2 rows of element thing") != std::string::npos);
     const std::string few = "ply\nformat binary_big_endian 1.0\nelement thing 1\nproperty list uchar double few\n";
-    CHECK(refusal(few + "end_header\n\x02" + std::string(15, 'x')).find("thing 1 of 1: the file ends early") !=
+    CHECK(ply_error(few + "end_header\n\x02" + std::string(15, 'x')).find("thing 1 of 1: the file ends early") !=
           std::string::npos);
-    CHECK(refusal(few + "property double a\nend_header\n\x01" + std::string(15, 'x')).find("thing 1 of 1: the file") !=
-          std::string::npos);
+    CHECK(
+        ply_error(few + "property double a\nend_header\n\x01" + std::string(15, 'x')).find("thing 1 of 1: the file") !=
+        std::string::npos);
   }
 
   TEST_CASE("a header that declares more than the file can hold allocates no memory") {
@@ -207,7 +208,7 @@ TEST_SUITE("bad input") {
         CAPTURE(format);
         const std::string element = std::string("\nelement thing 1000000000000000000\n") + property;
         const std::string content = std::string("ply\nformat ") + format + " 1.0" + element + "\nend_header\n12";
-        const std::string message = refusal(content);
+        const std::string message = ply_error(content);
         CHECK((message.find("ends early") != std::string::npos || *property == '\0'));
       }
   }

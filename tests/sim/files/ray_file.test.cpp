@@ -6,21 +6,22 @@
 
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 using support::ScratchFolder;
 
 namespace {
 
-std::vector<Ray> read(const std::string& name, const std::string& content) {
+std::vector<Ray> read_rays_of(const std::string& name, const std::string& content) {
   const ScratchFolder folder;
   return read_rays(folder.file(name, content));
 }
 
-std::string refusal(const std::string& name, const std::string& content) {
-  return support::file_error_of([&] { (void)read(name, content); });
+std::string ray_error(const std::string& name, const std::string& content) {
+  return support::file_error_of([&] { (void)read_rays_of(name, content); });
 }
 
-const std::string ply_header =
+const std::string ray_ply_header =
     "ply\nformat ascii 1.0\nelement vertex 1\nproperty double ox\nproperty double oy\nproperty double oz\n"
     "property double dx\nproperty double dy\nproperty double dz\n";
 
@@ -46,19 +47,20 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("known answer") {
   TEST_CASE("a ray without length is a line, and without power has the power 1") {
-    const auto lines = read("r.csv", "ox,oy,oz,dx,dy,dz\n1,2,3,0,0,-1e-300\n");
+    const auto lines = read_rays_of("r.csv", "ox,oy,oz,dx,dy,dz\n1,2,3,0,0,-1e-300\n");
     CHECK(lines[0].is_line());
     CHECK(lines[0].power == 1);
     CHECK(lines[0].origin == glm::dvec3{1, 2, 3});
     CHECK(lines[0].direction == glm::dvec3{0, 0, -1});
-    const auto mixed = read("r.csv", "length,ox,oy,oz,dx,dy,dz\n,0,0,0,0,0,1\ninf,0,0,0,0,0,1\n2,0,0,0,0,0,9\n");
+    const auto mixed =
+        read_rays_of("r.csv", "length,ox,oy,oz,dx,dy,dz\n,0,0,0,0,0,1\ninf,0,0,0,0,0,1\n2,0,0,0,0,0,9\n");
     CHECK(mixed[0].is_line());
     CHECK(mixed[1].is_line());
     CHECK(mixed[2].length == 2);  // not scaled with the direction
   }
 
   TEST_CASE("PLY vertices are rays") {
-    const auto rays = read("r.ply", ply_header + "property double power\nend_header\n1 2 3 0 0 4 0.5\n");
+    const auto rays = read_rays_of("r.ply", ray_ply_header + "property double power\nend_header\n1 2 3 0 0 4 0.5\n");
     CHECK(rays[0].is_line());
     CHECK(rays[0].power == 0.5);
     CHECK(rays[0].direction == glm::dvec3{0, 0, 1});
@@ -81,15 +83,16 @@ TEST_SUITE("bad input") {
           {"0,0,0,0,0,1,1,", ":3: power is empty; a number is needed"}}) {
       const auto& row = bound_row;
       CAPTURE(row);
-      const std::string message = refusal("r.csv", header + row + "\n");
+      const std::string message = ray_error("r.csv", header + row + "\n");
       CHECK_MESSAGE(message.find(std::string("r.csv") + reason) != std::string::npos, message);
     }
   }
 
   TEST_CASE("a file without rays is refused, and an invalid ray in a PLY file with its number") {
-    CHECK(refusal("r.csv", "ox,oy,oz,dx,dy,dz\n").find("has no ray") != std::string::npos);
-    CHECK(refusal("r.ply", ply_header + "end_header\n1 2 3 0 0 0\n").find("vertex 1 of 1: the direction is zero") !=
-          std::string::npos);
+    CHECK(ray_error("r.csv", "ox,oy,oz,dx,dy,dz\n").find("has no ray") != std::string::npos);
+    CHECK(
+        ray_error("r.ply", ray_ply_header + "end_header\n1 2 3 0 0 0\n").find("vertex 1 of 1: the direction is zero") !=
+        std::string::npos);
   }
 
   TEST_CASE("a damaged ray file is read or refused, and rays that are read are valid") {
@@ -103,6 +106,6 @@ TEST_SUITE("bad input") {
     CHECK(support::refused_when_damaged("r.csv",
                                         "ox,oy,oz,dx,dy,dz,length,power\n0,1,2,0,0,1,inf,0.5\n1,1,1,1,1,1,,1\n", 2000,
                                         read_sound) > 100);
-    CHECK(support::refused_when_damaged("r.ply", ply_header + "end_header\n1 2 3 0 2 0\n", 1500, read_sound) > 100);
+    CHECK(support::refused_when_damaged("r.ply", ray_ply_header + "end_header\n1 2 3 0 2 0\n", 1500, read_sound) > 100);
   }
 }

@@ -6,12 +6,12 @@
 
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
+#include "support/boxes.hpp"
 
 using namespace detp::sim;
+using detp::support::unit_box;
 
 namespace {
-
-const Box unit_box{{0, 0, 0}, {1, 1, 1}};
 
 /// Whether one of many points of the disc lies in the box; never true if disc and box do not overlap.
 bool sampled_overlap(const Disc& disc, const Box& box) {

@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "detp/sim/geometry/random.hpp"
+#include "support/boxes.hpp"
 
 using namespace detp::sim;
+using detp::support::unit_box;
 
 namespace {
-
-const Box unit_box{{0, 0, 0}, {1, 1, 1}};
 
 using Cell = std::array<std::int64_t, 3>;
 

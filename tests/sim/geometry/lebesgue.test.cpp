@@ -6,12 +6,12 @@
 #include <vector>
 
 #include "detp/sim/geometry/random.hpp"
+#include "support/boxes.hpp"
 
 using namespace detp::sim;
+using detp::support::unit_box;
 
 namespace {
-
-const Box unit_box{{0, 0, 0}, {1, 1, 1}};
 
 std::vector<glm::dvec3> random_points(std::size_t count) {
   std::vector<glm::dvec3> points;

@@ -3,8 +3,10 @@
 #include <doctest/doctest.h>
 
 #include "detp/sim/scene/built_in/mesh_pieces.hpp"
+#include "support/boxes.hpp"
 
 using namespace detp::sim;
+using detp::support::box_of;
 
 namespace {
 
@@ -13,12 +15,6 @@ Mesh box_mesh(const glm::dvec3& low, const glm::dvec3& size) {
   Mesh mesh;
   built_in::add_box(mesh, low, {{{size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}}}, 0.5 * glm::length(size));
   return mesh;
-}
-
-Box box_of(const Mesh& mesh) {
-  Box box;
-  for (const glm::dvec3& position : mesh.positions) box.include(position);
-  return box;
 }
 
 void add(Mesh& mesh, const Mesh& other) {

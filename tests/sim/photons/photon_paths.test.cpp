@@ -13,6 +13,7 @@
 #include "detp/sim/scene/built_in/mesh_pieces.hpp"
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 
 namespace {

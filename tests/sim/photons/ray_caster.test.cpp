@@ -6,8 +6,10 @@
 
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
+#include "support/boxes.hpp"
 
 using namespace detp::sim;
+using detp::support::box_of;
 
 namespace {
 
@@ -27,12 +29,6 @@ Mesh random_triangles(std::uint64_t count, double size) {
     mesh.triangles.push_back({base, base + 1, base + 2});
   }
   return mesh;
-}
-
-Box box_of(const Mesh& mesh) {
-  Box box;
-  for (const glm::dvec3& position : mesh.positions) box.include(position);
-  return box;
 }
 
 /// Six times the volume between four points.

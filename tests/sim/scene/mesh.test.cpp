@@ -8,6 +8,7 @@
 #include "detp/sim/scene/scene.hpp"
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 
 namespace {

@@ -11,22 +11,22 @@ using namespace detp::sim;
 
 namespace {
 
-const std::vector<Disc>& discs() {
+const std::vector<Disc>& surface_discs() {
   static const std::vector<Disc> all = uniform_discs(Body::cube_faces, 2, 2000, 0.02, 3);
   return all;
 }
 
 Outcome search(std::size_t rays, int leaf) {
-  const auto lines = LineField(enclosing_sphere(discs()), 7).lines(0, rays);
-  return run(make_problem(lines, discs()), {Technique::ray_map, RayMapParameters{leaf}}, {.pairs = true});
+  const auto lines = LineField(enclosing_sphere(surface_discs()), 7).lines(0, rays);
+  return run(make_problem(lines, surface_discs()), {Technique::ray_map, RayMapParameters{leaf}}, {.pairs = true});
 }
 
 }  // namespace
 
 TEST_SUITE("identity") {
   TEST_CASE("leaves of any size find the hits of brute force, each once") {
-    const auto lines = LineField(enclosing_sphere(discs()), 7).lines(0, 3000);
-    const Outcome expected = run(make_problem(lines, discs()), {}, {.pairs = true});
+    const auto lines = LineField(enclosing_sphere(surface_discs()), 7).lines(0, 3000);
+    const Outcome expected = run(make_problem(lines, surface_discs()), {}, {.pairs = true});
     REQUIRE(expected.total_hits > 100);
     for (const int leaf : {1, 16, 1000, 1 << 20}) {
       const Outcome found = search(3000, leaf);
@@ -39,15 +39,15 @@ TEST_SUITE("identity") {
 TEST_SUITE("limit") {
   TEST_CASE("with one leaf for all rays it is brute force") {
     const Outcome all = search(500, 500);
-    CHECK(all.counts.disc_tests == 500 * discs().size());
-    CHECK(all.counts.nodes == discs().size());
+    CHECK(all.counts.disc_tests == 500 * surface_discs().size());
+    CHECK(all.counts.nodes == surface_discs().size());
     CHECK(all.counts.culls == 0);
   }
 
   TEST_CASE("the ray map tests a small part of the rays; ten times the rays need less than ten times the tests") {
     const Counts<std::uint64_t> few = search(1'000, 32).counts;
     const Counts<std::uint64_t> many = search(10'000, 32).counts;
-    CHECK(many.disc_tests < 10'000 * discs().size() / 50);
+    CHECK(many.disc_tests < 10'000 * surface_discs().size() / 50);
     CHECK(many.disc_tests < 9 * few.disc_tests);
   }
 

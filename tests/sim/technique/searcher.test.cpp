@@ -3,10 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <array>
-#include <atomic>
 #include <cmath>
-#include <cstdlib>
-#include <new>
 #include <stdexcept>
 #include <thread>
 
@@ -14,50 +11,24 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "support/allocations.hpp"
 #include "support/exact_candidates.hpp"
 #include "support/sanitized.hpp"
 
 using namespace detp;
 using namespace detp::sim;
+using support::allocations;
 
 namespace {
 
-[[maybe_unused]] std::atomic<std::uint64_t> allocations = 0;  // by operator new, in the whole process
-
-}  // namespace
-
-#ifndef DETP_SANITIZED
-namespace {
-
-void* counted(std::size_t bytes, std::size_t alignment) {
-  ++allocations;
-  void* const block = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
-  if (block == nullptr) throw std::bad_alloc();
-  return block;
-}
-
-}  // namespace
-
-void* operator new(std::size_t bytes) { return counted(bytes > 0 ? bytes : 1, alignof(std::max_align_t)); }
-void* operator new(std::size_t bytes, std::align_val_t alignment) {
-  return counted(bytes, static_cast<std::size_t>(alignment));
-}
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
-void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
-#endif
-
-namespace {
-
-const std::vector<Disc>& discs() {
+const std::vector<Disc>& searched_discs() {
   static const std::vector<Disc> all = uniform_discs(Body::cube, 2, 700, 0.2, 3);
   return all;
 }
 
 /// Lines and segments of different powers.
 std::vector<Ray> rays_of(std::uint64_t seed, std::size_t count) {
-  std::vector<Ray> rays = LineField(enclosing_sphere(discs()), seed).lines(0, count);
+  std::vector<Ray> rays = LineField(enclosing_sphere(searched_discs()), seed).lines(0, count);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto random = uniform4(seed, Stream::tests, i);
     rays[i].power = random[0];
@@ -84,11 +55,11 @@ TEST_SUITE("searcher") {
     for (const Engine engine : {Engine::simd, Engine::plain})
       for (const Candidate& candidate : candidates()) {
         CAPTURE(describe(candidate));
-        const Searcher searcher(discs(), candidate, 10.0, false, {.engine = engine});
+        const Searcher searcher(searched_discs(), candidate, 10.0, false, {.engine = engine});
         SearchScratch scratch;
         for (const std::size_t count : {300UL, 40UL, 1UL, 300UL}) {
           const std::vector<Ray> rays = rays_of(count, count);
-          const Outcome expected = run(make_problem(rays, discs()), candidate, {.engine = engine});
+          const Outcome expected = run(make_problem(rays, searched_discs()), candidate, {.engine = engine});
           const Outcome& found = searcher.search(rays, scratch, {.engine = engine});
           CHECK(same(found, expected));
           CHECK(found.spheres.size() == expected.spheres.size());
@@ -104,14 +75,14 @@ TEST_SUITE("searcher") {
         for (const Candidate& candidate : candidates()) {
           CAPTURE(describe(candidate));
           const RunOptions options{.count = count, .engine = engine};
-          const Searcher searcher(discs(), candidate, 10.0, false, options);
+          const Searcher searcher(searched_discs(), candidate, 10.0, false, options);
           SearchScratch scratch;
           for (int i = 0; i < 2; ++i) (void)searcher.search(rays, scratch, options);
-          const std::uint64_t before = allocations;
+          const std::uint64_t before = allocations();
           (void)searcher.search(rays, scratch, options);
-          CHECK(allocations == before);
-          (void)run(make_problem(rays, discs()), candidate, options);
-          CHECK(allocations > before);  // the counter works
+          CHECK(allocations() == before);
+          (void)run(make_problem(rays, searched_discs()), candidate, options);
+          CHECK(allocations() > before);  // the counter works
         }
   }
 
@@ -122,19 +93,19 @@ TEST_SUITE("searcher") {
       const glm::vec3 d(ray.direction);
       packed.push_back({o.x, o.y, o.z, 0, d.x, d.y, d.z, static_cast<float>(ray.length)});
     }
-    const Searcher searcher(discs(), {Technique::box_tree, BoxTreeParameters{}});
+    const Searcher searcher(searched_discs(), {Technique::box_tree, BoxTreeParameters{}});
     SearchScratch scratch;
     const RaysView view{packed.size(), {packed[0].data(), 32}, {&packed[0][4], 32}, {&packed[0][7], 32}};
     for (int i = 0; i < 2; ++i) (void)searcher.search(view, scratch);
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = allocations();
     (void)searcher.search(view, scratch);
-    CHECK(allocations == before);
+    CHECK(allocations() == before);
   }
 #endif
 
   TEST_CASE("Rays and discs in floats or doubles, in one array or several, give the hits of the same numbers") {
     std::vector<Ray> rays = rays_of(9, 250);
-    std::vector<Disc> some(discs().begin(), discs().begin() + 200);
+    std::vector<Disc> some(searched_discs().begin(), searched_discs().begin() + 200);
     const auto in_floats = [](glm::dvec3& v) { v = glm::dvec3(glm::vec3(v)); };
     std::vector<float> origins;
     std::vector<float> directions;
@@ -170,7 +141,7 @@ TEST_SUITE("searcher") {
   TEST_CASE("Many threads search one searcher at once, each with a scratch of its own") {
     for (const Candidate& candidate : candidates()) {
       CAPTURE(describe(candidate));
-      const Searcher searcher(discs(), candidate, 10.0);
+      const Searcher searcher(searched_discs(), candidate, 10.0);
       std::array<std::uint64_t, 4> wrong{};
       std::vector<std::thread> threads;
       for (std::size_t t = 0; t < wrong.size(); ++t)
@@ -178,7 +149,7 @@ TEST_SUITE("searcher") {
           SearchScratch scratch;
           for (std::uint64_t i = 0; i < 3; ++i) {
             const std::vector<Ray> rays = rays_of(10 * t + i + 1, 100 + 10 * t);
-            const Outcome expected = run(make_problem(rays, discs()), candidate);
+            const Outcome expected = run(make_problem(rays, searched_discs()), candidate);
             wrong[t] += same(searcher.search(rays, scratch), expected) ? 0 : 1;
           }
         });
@@ -188,7 +159,7 @@ TEST_SUITE("searcher") {
   }
 
   TEST_CASE("What cannot be searched is refused, and the searcher goes on") {
-    const Searcher searcher(discs(), {Technique::box_tree, BoxTreeParameters{}}, 10.0);
+    const Searcher searcher(searched_discs(), {Technique::box_tree, BoxTreeParameters{}}, 10.0);
     SearchScratch scratch;
     std::vector<Ray> rays = rays_of(1, 5);
     CHECK_THROWS_WITH_AS((void)searcher.search(std::span<const Ray>(), scratch), "there must be at least one ray",
@@ -204,7 +175,7 @@ TEST_SUITE("searcher") {
                          doctest::Contains("ray 0: origin must be finite"), std::invalid_argument);
     CHECK_THROWS_WITH_AS(Searcher({}, {Technique::box_tree, BoxTreeParameters{}}), "there must be at least one disc",
                          std::invalid_argument);
-    CHECK_THROWS_AS(Searcher(discs(), {Technique::box_tree, GridParameters{}}), std::invalid_argument);
+    CHECK_THROWS_AS(Searcher(searched_discs(), {Technique::box_tree, GridParameters{}}), std::invalid_argument);
     CHECK(searcher.search(rays_of(1, 5), scratch).progress.done == 5);
   }
 }

@@ -13,12 +13,12 @@ namespace {
 
 using support::LoggedWork;
 
-const std::vector<Disc>& discs() {
+const std::vector<Disc>& small_discs() {
   static const std::vector<Disc> all = uniform_discs(Body::cube, 2, 1000, 0.08, 4);
   return all;
 }
 
-std::vector<Ray> lines(std::size_t count) { return LineField(enclosing_sphere(discs()), 5).lines(0, count); }
+std::vector<Ray> lines(std::size_t count) { return LineField(enclosing_sphere(small_discs()), 5).lines(0, count); }
 
 struct SearchCase {
   Candidate candidate;
@@ -47,12 +47,12 @@ const std::vector<SearchCase>& search_cases() {
 
 Outcome run_case(const SearchCase& search_case, std::span<const Ray> rays, const std::stop_token& stop,
                  bool pairs = false) {
-  return run(make_problem(rays, discs()), search_case.candidate,
+  return run(make_problem(rays, small_discs()), search_case.candidate,
              {.pairs = pairs, .engine = search_case.engine, .stop = stop});
 }
 
 Outcome truth(std::span<const Ray> rays) {
-  return run(make_problem(rays, discs()), {Technique::box_tree, BoxTreeParameters{4, 16}});
+  return run(make_problem(rays, small_discs()), {Technique::box_tree, BoxTreeParameters{4, 16}});
 }
 
 /// Checks that a stopped outcome is right for what it reports as done: the first rays, or the marked discs.
@@ -62,10 +62,10 @@ void check_stopped(const Outcome& outcome, std::span<const Ray> rays) {
   CHECK(outcome.progress.done <= outcome.progress.of);
   if (outcome.progress.unit == "discs") {
     const Outcome all = truth(rays);
-    CHECK(outcome.progress.of == discs().size());
+    CHECK(outcome.progress.of == small_discs().size());
     std::uint64_t done = 0;
     std::uint64_t hits = 0;
-    for (std::size_t disc = 0; disc < discs().size(); ++disc) {
+    for (std::size_t disc = 0; disc < small_discs().size(); ++disc) {
       CHECK(outcome.hits[disc] == (outcome.done_discs[disc] ? all.hits[disc] : 0));
       CHECK(outcome.irradiance[disc] == (outcome.done_discs[disc] ? all.irradiance[disc] : 0));
       done += outcome.done_discs[disc] ? 1 : 0;
@@ -129,7 +129,7 @@ TEST_SUITE("known answer") {
       const Outcome outcome = run_case(search_case, rays, source.get_token(), true);
       check_stopped(outcome, rays);
       CHECK(outcome.total_hits == 0);
-      CHECK(outcome.hits.size() == discs().size());
+      CHECK(outcome.hits.size() == small_discs().size());
     }
   }
 
@@ -161,8 +161,8 @@ TEST_SUITE("known answer") {
         const LoggedWork logged([&](std::uint64_t done) {
           if (done >= at * StopCheck::most_work / 2) source.request_stop();
         });
-        const LinesOfField source_of_lines(enclosing_sphere(discs()), 5, rays.size());
-        const StreamedOutcome streamed = run_streamed(discs(), source_of_lines, search_case.candidate,
+        const LinesOfField source_of_lines(enclosing_sphere(small_discs()), 5, rays.size());
+        const StreamedOutcome streamed = run_streamed(small_discs(), source_of_lines, search_case.candidate,
                                                       {.run = {.stop = source.get_token()}, .block = 10'000});
         if (streamed.outcome.stopped) check_stopped(streamed.outcome, rays);
       }

@@ -14,15 +14,15 @@ using namespace detp::sim;
 
 namespace {
 
-const std::vector<Disc>& discs() {
+const std::vector<Disc>& streamed_discs() {
   static const std::vector<Disc> all = uniform_discs(Body::cube, 2, 80, 0.6, 3);
   return all;
 }
 
 /// Lines and segments whose powers span ten decades, so that adding in another order gives another sum.
-const std::vector<Ray>& rays() {
+const std::vector<Ray>& streamed_rays() {
   static const std::vector<Ray> all = [] {
-    std::vector<Ray> some = LineField(enclosing_sphere(discs()), 4).lines(0, 400);
+    std::vector<Ray> some = LineField(enclosing_sphere(streamed_discs()), 4).lines(0, 400);
     for (std::size_t i = 0; i < some.size(); ++i) {
       const auto random = uniform4(5, Stream::tests, i);
       some[i].power = std::pow(10, 10 * random[0]);
@@ -33,26 +33,26 @@ const std::vector<Ray>& rays() {
   return all;
 }
 
-const std::vector<Candidate> candidates{{Technique::brute_force, BruteForceParameters{}},
-                                        {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
-                                        {Technique::cell_spheres, CellSpheresParameters{2}},
-                                        {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                        {Technique::box_tree, BoxTreeParameters{4, 4}},
-                                        {Technique::octree, OctreeParameters{2}},
-                                        {Technique::bvh, BvhParameters{}},
-                                        {Technique::octree, OctreeParameters{3, Traversal::neighbour_links}},
-                                        {Technique::bsp, BspParameters{8, 4}},
-                                        {Technique::grid, GridParameters{6}}};
+const std::vector<Candidate> streamed_candidates{{Technique::brute_force, BruteForceParameters{}},
+                                                 {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
+                                                 {Technique::cell_spheres, CellSpheresParameters{2}},
+                                                 {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                                                 {Technique::box_tree, BoxTreeParameters{4, 4}},
+                                                 {Technique::octree, OctreeParameters{2}},
+                                                 {Technique::bvh, BvhParameters{}},
+                                                 {Technique::octree, OctreeParameters{3, Traversal::neighbour_links}},
+                                                 {Technique::bsp, BspParameters{8, 4}},
+                                                 {Technique::grid, GridParameters{6}}};
 
 /// A source whose farthest_from returns less than the distance at which its rays start.
 class UnderstatedDistance final : public RaySource {
  public:
-  std::uint64_t size() const override { return rays().size(); }
+  std::uint64_t size() const override { return streamed_rays().size(); }
   void read(std::uint64_t first, std::span<Ray> block, const std::stop_token&) const override {
-    RaysInMemory(rays()).read(first, block);
+    RaysInMemory(streamed_rays()).read(first, block);
   }
   double farthest_from(const glm::dvec3& point) const override {
-    return 0.9 * RaysInMemory(rays()).farthest_from(point);
+    return 0.9 * RaysInMemory(streamed_rays()).farthest_from(point);
   }
 };
 
@@ -61,16 +61,16 @@ class UnderstatedDistance final : public RaySource {
 TEST_SUITE("identity") {
   TEST_CASE("a stream in blocks of 1, 7 and 1000 rays gives the bytes of one run over rays in memory") {
     for (const bool front : {false, true}) {
-      const Problem problem = make_problem(rays(), discs(), front);
-      const Outcome expected = run(problem, candidates[0], {.pairs = true, .engine = Engine::plain});
+      const Problem problem = make_problem(streamed_rays(), streamed_discs(), front);
+      const Outcome expected = run(problem, streamed_candidates[0], {.pairs = true, .engine = Engine::plain});
       CHECK(expected.total_hits > 250);
-      for (const Candidate& candidate : candidates) {
+      for (const Candidate& candidate : streamed_candidates) {
         CAPTURE(name(candidate.technique));
         const Outcome whole = run(problem, candidate, {.pairs = true});
         for (const std::size_t block : {1, 7, 1000}) {
           CAPTURE(block);
           const StreamedOutcome streamed = run_streamed(
-              discs(), RaysInMemory(rays()), candidate,
+              streamed_discs(), RaysInMemory(streamed_rays()), candidate,
               {.run = {.pairs = true, .threads = block == 7 ? 2 : 1}, .front_facing = front, .block = block});
           CHECK(streamed.outcome.hits == expected.hits);
           CHECK(streamed.outcome.irradiance == expected.irradiance);
@@ -87,20 +87,20 @@ TEST_SUITE("identity") {
     for (const Candidate& candidate : {Candidate{Technique::octree, OctreeParameters{2}},
                                        {Technique::grid, GridParameters{6}},
                                        {Technique::bsp, BspParameters{8, 4}}}) {
-      const Outcome whole = run(make_problem(rays(), discs()), candidate);
+      const Outcome whole = run(make_problem(streamed_rays(), streamed_discs()), candidate);
       const StreamedOutcome streamed =
-          run_streamed(discs(), RaysInMemory(rays()), candidate, {.run = {}, .block = 100});
+          run_streamed(streamed_discs(), RaysInMemory(streamed_rays()), candidate, {.run = {}, .block = 100});
       CHECK(streamed.outcome.counts == whole.counts);
       CHECK(whole.counts.references > 0);
     }
   }
 
   TEST_CASE("lines of a field by number equal those in memory") {
-    const Sphere sphere = enclosing_sphere(discs());
+    const Sphere sphere = enclosing_sphere(streamed_discs());
     const std::vector<Ray> lines = LineField(sphere, 9).lines(0, 3000);
-    const Outcome whole = run(make_problem(lines, discs()), candidates.back());
-    const StreamedOutcome streamed =
-        run_streamed(discs(), LinesOfField(sphere, 9, lines.size()), candidates.back(), {.run = {}, .block = 512});
+    const Outcome whole = run(make_problem(lines, streamed_discs()), streamed_candidates.back());
+    const StreamedOutcome streamed = run_streamed(streamed_discs(), LinesOfField(sphere, 9, lines.size()),
+                                                  streamed_candidates.back(), {.run = {}, .block = 512});
     CHECK(streamed.outcome.irradiance == whole.irradiance);
     CHECK(streamed.block == 512);
   }
@@ -115,9 +115,10 @@ TEST_SUITE("known answer") {
       if (++blocks == 3) source.request_stop();
     };
     const StreamedOutcome streamed =
-        run_streamed(discs(), RaysInMemory(rays()), candidates.back(),
+        run_streamed(streamed_discs(), RaysInMemory(streamed_rays()), streamed_candidates.back(),
                      {.run = {.stop = source.get_token()}, .block = 100, .progress = stop_before_third});
-    const Outcome half = run(make_problem(std::span(rays()).first(200), discs()), candidates.back());
+    const Outcome half =
+        run(make_problem(std::span(streamed_rays()).first(200), streamed_discs()), streamed_candidates.back());
     CHECK(streamed.outcome.stopped);
     CHECK(streamed.outcome.hits == half.hits);
     CHECK(streamed.outcome.total_hits == half.total_hits);
@@ -133,9 +134,9 @@ TEST_SUITE("known answer") {
 
 TEST_SUITE("bad input") {
   TEST_CASE("an index that would not fit in memory is refused before allocation, naming the bytes") {
-    const LinesOfField lines(enclosing_sphere(discs()), 1, 1'000'000'000'000);
+    const LinesOfField lines(enclosing_sphere(streamed_discs()), 1, 1'000'000'000'000);
     const auto stream = [&](const RaySource& source, const StreamOptions& options) {
-      static_cast<void>(run_streamed(discs(), source, candidates.front(), options));
+      static_cast<void>(run_streamed(streamed_discs(), source, streamed_candidates.front(), options));
     };
     CHECK_THROWS_WITH_AS(stream(lines, {.run = {}, .block = 1'000'000'000'000}), doctest::Contains("6.4e+04 GB"),
                          std::length_error);
@@ -145,20 +146,20 @@ TEST_SUITE("bad input") {
 
   TEST_CASE("no rays, no discs, invalid rays, rays that start too far away, and foreign totals are refused") {
     const auto stream = [](std::span<const Disc> some, const RaySource& source, const RunOptions& options) {
-      static_cast<void>(run_streamed(some, source, candidates.back(), {.run = options, .block = 100}));
+      static_cast<void>(run_streamed(some, source, streamed_candidates.back(), {.run = options, .block = 100}));
     };
-    CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory({}), {}), doctest::Contains("at least one ray"),
+    CHECK_THROWS_WITH_AS(stream(streamed_discs(), RaysInMemory({}), {}), doctest::Contains("at least one ray"),
                          std::invalid_argument);
-    CHECK_THROWS_WITH_AS(stream({}, RaysInMemory(rays()), {}), doctest::Contains("at least one disc"),
+    CHECK_THROWS_WITH_AS(stream({}, RaysInMemory(streamed_rays()), {}), doctest::Contains("at least one disc"),
                          std::invalid_argument);
-    std::vector<Ray> bad = rays();
+    std::vector<Ray> bad = streamed_rays();
     bad[250].power = -1;
-    CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory(bad), {}),
+    CHECK_THROWS_WITH_AS(stream(streamed_discs(), RaysInMemory(bad), {}),
                          doctest::Contains("ray 250: power must be >= 0 and finite (got -1)"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS(stream(discs(), UnderstatedDistance(), {}), doctest::Contains("a ray starts"),
+    CHECK_THROWS_WITH_AS(stream(streamed_discs(), UnderstatedDistance(), {}), doctest::Contains("a ray starts"),
                          std::invalid_argument);
     Totals totals;
-    CHECK_THROWS_WITH_AS(stream(discs(), RaysInMemory(rays()), {.totals = &totals}), doctest::Contains("totals"),
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(stream(streamed_discs(), RaysInMemory(streamed_rays()), {.totals = &totals}),
+                         doctest::Contains("totals"), std::invalid_argument);
   }
 }

@@ -20,7 +20,7 @@ using namespace detp::sim;
 
 namespace {
 
-const std::vector<Candidate>& exact_candidates() {
+const std::vector<Candidate>& tried_candidates() {
   static const std::vector<Candidate> list{
       {Technique::brute_force, BruteForceParameters{}},
       {Technique::sphere_cache, SphereCacheParameters{0.65, 8}},
@@ -84,7 +84,7 @@ Outcome truth_of(const Problem& problem) { return run(problem, brute, {.pairs = 
 void check_all_agree(const Problem& problem, std::uint64_t least_hits) {
   const Outcome expected = truth_of(problem);
   CHECK(expected.total_hits >= least_hits);
-  for (const Candidate& candidate : exact_candidates()) {
+  for (const Candidate& candidate : tried_candidates()) {
     CAPTURE(describe(candidate));
     CAPTURE(name(candidate.technique));
     const Outcome outcome = run(problem, candidate, {.pairs = true});
@@ -187,7 +187,7 @@ TEST_SUITE("identity") {
     const auto rays = LineField(enclosing_sphere(discs), 2).lines(0, 500);
     const Problem problem = make_problem(rays, discs);
     const Outcome expected = truth_of(problem);
-    for (const Candidate& candidate : exact_candidates()) {
+    for (const Candidate& candidate : tried_candidates()) {
       const Outcome counted = run(problem, candidate);
       CHECK(counted.irradiance == expected.irradiance);
       const Outcome timed = run(problem, candidate, {.count = false});
@@ -277,7 +277,7 @@ TEST_SUITE("known answer") {
     source.request_stop();
     const Problem problem = make_problem(rays, discs);
     const std::uint64_t all = run(problem, brute).total_hits;
-    for (const Candidate& candidate : exact_candidates()) {
+    for (const Candidate& candidate : tried_candidates()) {
       const Outcome outcome = run(problem, candidate, {.stop = source.get_token()});
       CHECK(outcome.stopped);
       CHECK(outcome.total_hits < all);

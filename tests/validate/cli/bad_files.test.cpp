@@ -5,7 +5,7 @@
 namespace detp::support {
 namespace {
 
-using sim::support::ScratchFolder;
+using support::ScratchFolder;
 
 const std::string disc_header = "x,y,z,nx,ny,nz,radius\n";
 const std::string ray_header = "ox,oy,oz,dx,dy,dz,length,power\n";

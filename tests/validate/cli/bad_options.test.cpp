@@ -13,7 +13,7 @@ std::vector<Refusal> each(const std::string& line, const std::vector<std::string
 }
 
 const std::string uniform = "run @uniform --samples 100 --rays 100 ";
-const std::string numbers = "model --samples 1000 --disc-radius 0.01 --scene-side 1 ";
+const std::string model_numbers = "model --samples 1000 --disc-radius 0.01 --scene-side 1 ";
 
 const std::vector<std::string> no_length{"0", "-1", "nan", "inf", "-inf", "x", "1e999"};
 const std::vector<std::string> no_count{"0", "-1", "nan", "inf", "1.5", "1e300", "x", "10k"};
@@ -32,12 +32,12 @@ TEST_SUITE("bad input") {
          {"run @moon", "@uniform, @tree, @tree-coarse, @courtyard, @cornell"},
          {"scene moon", "must end in .obj or .ply"},
          {"run @uniform @tree", "@tree"},
-         {numbers + "--format xml", "text,json,csv"},
-         {numbers + "--form wrong", "published,corrected"},
-         {numbers + "--order peano", "lebesgue,hilbert,none"},
-         {numbers + "--order hilbert", "Hilbert curve"},
-         {numbers + "--technique octree --traversal neighbour-links", "no closed form"},
-         {numbers + "--technique bsp", "no closed form of bsp"},
+         {model_numbers + "--format xml", "text,json,csv"},
+         {model_numbers + "--form wrong", "published,corrected"},
+         {model_numbers + "--order peano", "lebesgue,hilbert,none"},
+         {model_numbers + "--order hilbert", "Hilbert curve"},
+         {model_numbers + "--technique octree --traversal neighbour-links", "no closed form"},
+         {model_numbers + "--technique bsp", "no closed form of bsp"},
          {uniform + "--technique octree --traversal sideways", "top-down,front-to-back,restart,neighbour-links"},
          {uniform + "--field sound", "isotropic,photons"},
          {"choose @uniform --rigor pilot", "'estimate'"},
@@ -70,13 +70,13 @@ TEST_SUITE("bad input") {
 
   TEST_CASE("counts are whole numbers of at least 1") {
     check_refused(each("model --disc-radius 0.01 --scene-side 1 --samples", no_count, "samples"));
-    check_refused(each(numbers + "--rays", no_count_either, "rays"));
+    check_refused(each(model_numbers + "--rays", no_count_either, "rays"));
     check_refused(each("run @uniform --samples 100 --rays", no_count_either, "rays"));
     check_refused(each("run @uniform --rays 100 --samples", no_count_either, "samples"));
     check_refused(each("validate --rays", no_count_either, "rays"));
     check_refused(each(uniform + "--repeat", {"-1", "1.5", "nan", "1e300", "99999"}, "--repeat"));
     check_refused(each(uniform + "--threads", {"-1", "1.5", "nan", "1e9"}, "--threads"));
-    check_refused(each(numbers + "--levels", {"-1", "1.5", "nan", "10000000"}, "--levels"));
+    check_refused(each(model_numbers + "--levels", {"-1", "1.5", "nan", "10000000"}, "--levels"));
   }
 
   TEST_CASE("lengths are positive and finite") {
@@ -85,38 +85,38 @@ TEST_SUITE("bad input") {
     check_refused(each("run @uniform --samples 10 --rays 10 --disc-radius", no_length_either, "disc"));
     check_refused(each("model --samples 10 --disc-radius 0.1 --scene-side", no_length_either, "side"));
     check_refused(each("model --samples 10 --disc-radius 0.1 --sphere-radius", no_length_either, "radius"));
-    check_refused(each(numbers + "--sample-extent", no_length_either, "extent"));
-    check_refused(each(numbers + "--dimension", {"0", "0.9", "3.1", "nan", "inf", "-1", "x"}, "dimension"));
+    check_refused(each(model_numbers + "--sample-extent", no_length_either, "extent"));
+    check_refused(each(model_numbers + "--dimension", {"0", "0.9", "3.1", "nan", "inf", "-1", "x"}, "dimension"));
   }
 
   TEST_CASE("parameters of techniques out of range are refused") {
     const std::vector<std::string> no_ratio{"0", "1", "1.5", "-0.5", "nan", "inf", "x"};
-    check_refused(each(numbers + "--ratio", no_ratio, "ratio"));
+    check_refused(each(model_numbers + "--ratio", no_ratio, "ratio"));
     check_refused(each(uniform + "--technique sphere-cache --ratio", {"0", "1", "nan"}, "ratio"));
     check_refused(each(uniform + "--technique sphere-cache --spheres", {"-1", "1e19", "1.5", "nan"}, "spheres"));
     check_refused(each(uniform + "--technique octree --depth", {"-1", "21", "99", "1.5", "nan"}, "depth"));
     check_refused(each(uniform + "--technique bsp --depth", {"-1", "65"}, "depth"));
     check_refused(each(uniform + "--technique bsp --leaf", {"0", "1.5"}, "leaf"));
     check_refused(each(uniform + "--technique grid --cells", {"0", "-1", "1e9", "1000000000", "nan"}, "cells"));
-    for (const std::string& command : {uniform, numbers}) {
+    for (const std::string& command : {uniform, model_numbers}) {
       check_refused(each(command + "--technique cell-spheres --depth", {"-1", "17"}, "depth"));
       check_refused(each(command + "--technique sphere-tree --fan-out", {"1", "1.5"}, "fan-out"));
       check_refused(each(command + "--technique sphere-tree --leaf", {"0", "-1"}, "leaf"));
     }
-    check_refused(each(numbers + "--technique octree --depth", {"-1", "999", "1.5"}, "depth"));
-    check_refused(each(numbers + "--technique grid --cells", {"0", "-1", "2.5"}, "cells"));
+    check_refused(each(model_numbers + "--technique octree --depth", {"-1", "999", "1.5"}, "depth"));
+    check_refused(each(model_numbers + "--technique grid --cells", {"0", "-1", "2.5"}, "cells"));
     check_refused(each(uniform + "--technique bvh --quality", {"high", "Low", "1"}, "quality"));
     check_refused(each(uniform + "--technique photon-map --nearest", {"2", "1.5"}, "nearest"));
-    check_refused({{numbers + "--technique bvh", "no closed form of bvh"},
-                   {numbers + "--technique photon-map", "no closed form of photon-map"},
+    check_refused({{model_numbers + "--technique bvh", "no closed form of bvh"},
+                   {model_numbers + "--technique photon-map", "no closed form of photon-map"},
                    {uniform + "--technique photon-map", "all rays are lines"},
                    {"run @cornell --rays 20 --technique photon-map", "needs the 50 nearest photons"}});
     for (const std::string technique : {"grid", "cell-spheres", "sphere-tree"})
-      check_refused({{numbers + "--form published --technique " + technique, "--form corrected"}});
+      check_refused({{model_numbers + "--form published --technique " + technique, "--form corrected"}});
   }
 
   TEST_CASE("parameters of other techniques are refused and not ignored") {
-    for (const std::string& command : {uniform, numbers})
+    for (const std::string& command : {uniform, model_numbers})
       check_refused({{command + "--technique sphere-cache --depth 3", "--depth"},
                      {command + "--technique sphere-cache --cells 3", "--cells"},
                      {command + "--technique octree --ratio 0.5", "--ratio"},
@@ -142,7 +142,8 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("unit costs are pairs of a known name and a number of at least 0") {
-    for (const std::string& command : {numbers, std::string("choose --samples 10 --disc-radius 0.1 --scene-side 1 ")})
+    for (const std::string& command :
+         {model_numbers, std::string("choose --samples 10 --disc-radius 0.1 --scene-side 1 ")})
       check_refused({{command + "--costs garbage", "name=value"},
                      {command + "--costs t", "name=value"},
                      {command + "--costs x=1", "\"x\""},
@@ -188,24 +189,24 @@ TEST_SUITE("bad input") {
     check_refused(each("bench @uniform --rays", no_number, "--rays"));
     check_refused(each("bench @uniform --most-hits", no_number, "--most-hits"));
     check_refused(each("validate --effort thorough --most-samples", no_number, "--most-samples"));
-    check_refused(each(numbers + "--levels", no_number, "--levels"));
-    CHECK(result_of(numbers + "--seed 010").at("provenance").at("seed") == 10);
-    CHECK(result_of(numbers + "--rays 1e3").at("inputs").at("rays") == 1000);
-    CHECK(result_of(numbers + "--technique grid --cells 2e1").at("parameters").at("cells") == 20);
+    check_refused(each(model_numbers + "--levels", no_number, "--levels"));
+    CHECK(result_of(model_numbers + "--seed 010").at("provenance").at("seed") == 10);
+    CHECK(result_of(model_numbers + "--rays 1e3").at("inputs").at("rays") == 1000);
+    CHECK(result_of(model_numbers + "--technique grid --cells 2e1").at("parameters").at("cells") == 20);
   }
 
   TEST_CASE("ranges have a start, an end and a step; tables have at most 20 000 rows") {
-    check_refused({{numbers + "--ratio 0.3:0.9", "start:end:step"},
-                   {numbers + "--ratio 0.3:0.9:0.1:2", "start:end:step"},
-                   {numbers + "--ratio 0.3:0.9:0", "start:end:step"},
-                   {numbers + "--ratio 0.9:0.3:0.1", "start:end:step"},
-                   {numbers + "--ratio 0.3::0.1", "--ratio"},
-                   {numbers + "--ratio 0.3:x:0.1", "--ratio"},
-                   {numbers + "--ratio 0.3:0.9:1e-9", "at most 20000"},
-                   {numbers + "--ratio 0.1:0.9:0.001 --rays 1e3:1e6:1e3", "at most 20000"},
-                   {numbers + "--ratio 0.3,", "--ratio"},
-                   {numbers + "--ratio 0.5,1.5", "ratio"},
-                   {numbers + "--form published,wrong", "published,corrected"},
+    check_refused({{model_numbers + "--ratio 0.3:0.9", "start:end:step"},
+                   {model_numbers + "--ratio 0.3:0.9:0.1:2", "start:end:step"},
+                   {model_numbers + "--ratio 0.3:0.9:0", "start:end:step"},
+                   {model_numbers + "--ratio 0.9:0.3:0.1", "start:end:step"},
+                   {model_numbers + "--ratio 0.3::0.1", "--ratio"},
+                   {model_numbers + "--ratio 0.3:x:0.1", "--ratio"},
+                   {model_numbers + "--ratio 0.3:0.9:1e-9", "at most 20000"},
+                   {model_numbers + "--ratio 0.1:0.9:0.001 --rays 1e3:1e6:1e3", "at most 20000"},
+                   {model_numbers + "--ratio 0.3,", "--ratio"},
+                   {model_numbers + "--ratio 0.5,1.5", "ratio"},
+                   {model_numbers + "--form published,wrong", "published,corrected"},
                    {"model --samples 10 --scene-side 1 --disc-radius 1%:4:1%", "start:end:step"},
                    {"choose --samples 10 --disc-radius 0.1 --scene-side 1 --rays 1e3,1e4", "--rays"},
                    {uniform + "--standard-error", "--per-disc"},
@@ -213,8 +214,8 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("a seed is a whole number below 2^64; anything else is refused") {
-    check_refused(each(numbers + "--seed", {"-1", "1.5", "nan", "x", "1e3", "18446744073709551616"}, "--seed"));
-    CHECK(result_of(numbers + "--seed 18446744073709551615")["provenance"]["seed"] == UINT64_MAX);
+    check_refused(each(model_numbers + "--seed", {"-1", "1.5", "nan", "x", "1e3", "18446744073709551616"}, "--seed"));
+    CHECK(result_of(model_numbers + "--seed 18446744073709551615")["provenance"]["seed"] == UINT64_MAX);
   }
 
   TEST_CASE("a time limit is a finite number of seconds from 0; a very long one has no effect") {
@@ -226,7 +227,7 @@ TEST_SUITE("bad input") {
 
   TEST_CASE("an empty value is refused, not treated as absent") {
     for (const std::string option : {"--rays", "--samples", "--disc-radius", "--sample-extent", "--output", "--costs"})
-      check_refused({{words(numbers) + Arguments{option, ""}, option}});
+      check_refused({{words(model_numbers) + Arguments{option, ""}, option}});
     check_refused({{Arguments{"run", ""}, "argument 2 is empty"}});
   }
 }

@@ -138,7 +138,7 @@ TEST_SUITE("end to end") {
     CHECK(choose.at("unit_costs").at("c") == 0);
     CHECK(result_of("choose" + numbers).at("inputs").at("unit_costs").at("u").get<double>() < 1e-6);
     CHECK(choose.at("analyze") == false);
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n");
     const std::string rays = folder.file("rays.csv", "ox,oy,oz,dx,dy,dz\n0,0,0,0,0,1\n");
     const Arguments files{"--discs", discs, "--ray-file", rays, "--disc-radius", "0.5"};
@@ -181,7 +181,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("--output writes to the file what would go to stdout, and nothing to stdout") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const std::string path = folder.path("result");
     for (const Example& example : examples()) {
       if (example.line.starts_with("validate")) continue;  // slow, and written by the same code
@@ -191,18 +191,18 @@ TEST_SUITE("end to end") {
       CHECK(written.code == shown.code);
       CHECK(written.out.empty());
       CHECK(written.err.empty());
-      CHECK(without_times(Json::parse(sim::support::content_of(path))) == without_times(shown.json()));
+      CHECK(without_times(Json::parse(support::content_of(path))) == without_times(shown.json()));
       CHECK(folder.entries() == 1);
     }
     const std::string model = examples().front().line;
     for (const std::string format : {"text", "csv"}) {
       CHECK(detp(words(model + " --format " + format + " --output") + Arguments{path}).code == 0);
-      CHECK(sim::support::content_of(path) == detp(model + " --format " + format).out);
+      CHECK(support::content_of(path) == detp(model + " --format " + format).out);
     }
   }
 
   TEST_CASE("notices go to stderr, and --quiet suppresses them") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const std::string mesh = folder.file("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv nan 0 0\nf 1 2 3\nf 1 3 4\n");
     for (const std::string name : {"scene", "run", "choose", "model"}) {
       CAPTURE(name);

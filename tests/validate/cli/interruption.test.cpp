@@ -67,7 +67,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("every command can be stopped in every long phase, and reports its progress") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const std::vector<std::string> lines{
         "run @tree --rays 1e8 --quiet",                                  // counting photon paths
         "run @cornell --rays 1e8 --field isotropic --technique octree",  // many blocks of lines
@@ -120,7 +120,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("a stopped run leaves no partial file behind") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const Finished finished = stopped_in_time(
         long_run + "--format json --per-disc " + folder.path("discs.csv") + " --pairs " + folder.path("pairs.csv"),
         has_hits_so_far);
@@ -131,7 +131,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("a second signal ends the command at once, with code 130") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const std::string pipe = folder.path("pipe");  // nobody reads it, so writing waits
     REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
     Process process(words("model --samples 10 --disc-radius 0.1 --scene-side 1 --output " + pipe));

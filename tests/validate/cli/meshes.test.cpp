@@ -17,7 +17,7 @@ std::vector<std::filesystem::path> meshes_in(const std::string& folder) {
 
 TEST_SUITE("end to end") {
   TEST_CASE("every test mesh is opened and described, or refused with a reason" * doctest::test_suite("scenes")) {
-    const std::string folder = sim::support::scenes_folder();
+    const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     for (const std::filesystem::path& mesh : meshes_in(folder)) {
       CAPTURE(mesh.string());
@@ -37,7 +37,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("techniques agree with brute force on meshes" * doctest::test_suite("scenes")) {
-    const std::string folder = sim::support::scenes_folder();
+    const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     for (const std::string name :
          {"/cornell_box.obj", "/stanford_dragon.ply", "/tangerine_coarse.ply", "/pathological/degenerate_mix.obj"})
@@ -46,7 +46,7 @@ TEST_SUITE("end to end") {
 
   TEST_CASE("techniques agree with brute force at scales of 1e12 and 1e-12 and far from the origin" *
             doctest::test_suite("scenes")) {
-    const std::string folder = sim::support::scenes_folder();
+    const std::string folder = support::scenes_folder();
     if (folder.empty()) return;
     for (const std::string name : {"huge_scale.obj", "tiny_scale.obj", "huge_offset.obj", "flat_axis_aligned.obj"})
       check_all_agree(Arguments{"run", folder + "/pathological/" + name} +

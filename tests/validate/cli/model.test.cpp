@@ -16,7 +16,7 @@ constexpr double rays = 3e5;
 constexpr double samples = 2e4;
 constexpr double disc = 0.01;
 constexpr double outer = 1.7;
-const std::string numbers =
+const std::string model_command =
     "model --rays 300000 --samples 20000 --disc-radius 0.01 --sphere-radius 1.7 --costs t=3,u=5 ";
 
 Approx near(double value) { return Approx(value).epsilon(1e-12); }
@@ -27,7 +27,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("the published sphere cache is the sum of the paper's terms") {
     for (const double ratio : {0.3, 0.5, 0.65, 0.8}) {
       CAPTURE(ratio);
-      const Json json = result_of(numbers + "--form published --ratio " + std::to_string(ratio));
+      const Json json = result_of(model_command + "--form published --ratio " + std::to_string(ratio));
       const auto k = static_cast<int>(std::ceil(std::log(disc / outer) / std::log(ratio)));
       CHECK(json.at("k") == k);
       REQUIRE(json.at("spheres").size() == static_cast<std::size_t>(k));
@@ -53,7 +53,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("the corrected sphere cache ends at the last sphere that holds a disc, and its parts make its total") {
     for (const double ratio : {0.3, 0.5, 0.65, 0.8}) {
       CAPTURE(ratio);
-      const Json json = result_of(numbers + "--ratio " + std::to_string(ratio));
+      const Json json = result_of(model_command + "--ratio " + std::to_string(ratio));
       CHECK(json.at("form") == "corrected");
       CHECK(json.at("k") == static_cast<int>(std::floor(std::log(disc / outer) / std::log(ratio))));
       CHECK(json.at("spheres").back().at("radius").get<double>() >= disc);
@@ -82,8 +82,8 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("--levels limits the spheres shown, not those computed") {
-    const Json all = result_of(numbers);
-    const Json few = result_of(numbers + "--levels 2");
+    const Json all = result_of(model_command);
+    const Json few = result_of(model_command + "--levels 2");
     CHECK(few.at("spheres").size() == 2);
     CHECK(few.at("spheres")[1] == all.at("spheres")[1]);
     CHECK(few.at("total_time") == all.at("total_time"));
@@ -106,7 +106,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("k is the form's own by default; its best stop is reported, and used on request") {
     for (const std::string form : {"published", "corrected"}) {
       CAPTURE(form);
-      const std::string line = numbers + "--ratio 0.65 --form " + form;
+      const std::string line = model_command + "--ratio 0.65 --form " + form;
       const Json max = result_of(line);
       const Json best = result_of(line + " --spheres best");
       CHECK(max.at("k") == max.at("k_max"));
@@ -144,7 +144,8 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("brute force tests every ray against every disc") {
-    CHECK(result_of(numbers + "--technique brute-force").at("total_time").get<double>() == near(5 * rays * samples));
+    CHECK(result_of(model_command + "--technique brute-force").at("total_time").get<double>() ==
+          near(5 * rays * samples));
   }
 
   TEST_CASE("cell spheres and the sphere tree are the sums over their levels") {
@@ -222,12 +223,12 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("errors of estimates: in a uniform field always, beside a curvature if there is one") {
-    const Json even = result_of(numbers);
+    const Json even = result_of(model_command);
     CHECK(even.at("uniform_field_deviation").get<double>() ==
           near(model::uniform_field_deviation(rays, {disc}, {outer})));
     CHECK_FALSE(even.contains("density_error"));
     CHECK_FALSE(even.contains("rays_for_deviation"));
-    const Json curved = result_of(numbers + "--curvature -12 --target-error 0.05");
+    const Json curved = result_of(model_command + "--curvature -12 --target-error 0.05");
     const double f = 1 / (2 * 3.141592653589793 * outer * outer);  // a line hits a disc with probability d²/(2r₀²)
     const model::SmoothDensity density{f, -12 * f};
     CHECK(curved.at("rays_for_deviation").get<double>() == near(model::rays_for_deviation(0.05, {disc}, {outer})));
@@ -244,8 +245,9 @@ TEST_SUITE("known answer") {
     CHECK(curved.at("photons_for_error").get<double>() == near(model::photons_for_error(density, 0.05)));
     CHECK(curved.at("photons_for_nearest_error").get<double>() ==
           near(model::photons_for_nearest_error(density, 0.05)));
-    CHECK_FALSE(result_of(numbers + "--curvature 0").contains("best_density_radius"));
-    check_refused({{numbers + "--target-error 0", "target-error"}, {numbers + "--curvature nan", "--curvature"}});
+    CHECK_FALSE(result_of(model_command + "--curvature 0").contains("best_density_radius"));
+    check_refused(
+        {{model_command + "--target-error 0", "target-error"}, {model_command + "--curvature nan", "--curvature"}});
   }
 
   TEST_CASE("side and sphere radius follow from each other, and a percentage is one of the side") {

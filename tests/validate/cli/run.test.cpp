@@ -9,7 +9,7 @@
 namespace detp::support {
 namespace {
 
-using sim::support::ScratchFolder;
+using support::ScratchFolder;
 
 /// The definition of a hit (validate/cli/README.md), coded as simply as possible.
 bool crosses(const sim::Ray& ray, const sim::Disc& disc, bool front_facing) {
@@ -35,7 +35,7 @@ struct OwnData {
   }
 
   void to_ply(const std::string& name) const {
-    const std::string table = sim::support::content_of(folder.path(name + ".csv"));
+    const std::string table = support::content_of(folder.path(name + ".csv"));
     const std::vector<std::string> rows = rows_of(table);
     std::string text = fmt::format("ply\nformat ascii 1.0\nelement vertex {}\n", rows.size());
     std::istringstream header(table.substr(0, table.find('\n')));
@@ -95,7 +95,7 @@ TEST_SUITE("end to end") {
     const auto written = [&](const std::string& more) {
       const std::string path = folder.path("discs.csv");
       CHECK(detp("run @uniform --samples 40 --rays 3000 --disc-radius 5% --per-disc " + path + more).code == 0);
-      return sim::support::content_of(path);
+      return support::content_of(path);
     };
     std::string with = written(" --standard-error");
     CHECK(with.starts_with("disc,hits,irradiance,standard_error\n"));

@@ -46,12 +46,12 @@ struct Written {
 };
 
 inline Written run_and_read(const Arguments& problem, const std::string& technique) {
-  const sim::support::ScratchFolder folder;
+  const support::ScratchFolder folder;
   const Arguments files{"--per-disc", folder.path("per_disc.csv"), "--pairs", folder.path("pairs.csv")};
   Written written;
   written.json = result_of(problem + words(technique) + files);
-  written.per_disc = sim::support::content_of(folder.path("per_disc.csv"));
-  written.pairs = sim::support::content_of(folder.path("pairs.csv"));
+  written.per_disc = support::content_of(folder.path("per_disc.csv"));
+  written.pairs = support::content_of(folder.path("pairs.csv"));
   written.hits = written.json.at("hits");
   return written;
 }

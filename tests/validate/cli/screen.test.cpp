@@ -10,7 +10,7 @@ namespace {
 using cli::Screen;
 using cli::Style;
 
-constexpr const char* numbers = "--samples 1000 --rays 2000 --disc-radius 0.02 --scene-side 2";
+constexpr const char* small_workload = "--samples 1000 --rays 2000 --disc-radius 0.02 --scene-side 2";
 
 std::size_t widest_line(const std::string& text) {
   std::size_t widest = 0;
@@ -53,7 +53,7 @@ TEST_SUITE("identities") {
 
 TEST_SUITE("end to end") {
   TEST_CASE("on a terminal text is no wider than it, and what was left out is named") {
-    const std::string line = std::string("choose ") + numbers;
+    const std::string line = std::string("choose ") + small_workload;
     const std::string narrow = shown_on_terminal(line, 60);
     CHECK(widest_line(narrow) <= 60);
     CHECK(narrow.find("left out of 60 columns") != std::string::npos);
@@ -65,7 +65,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("colours are shown on a terminal, unless NO_COLOR or --color never; elsewhere with --color always alone") {
-    const std::string line = std::string("choose ") + numbers;
+    const std::string line = std::string("choose ") + small_workload;
     const auto coloured = [](const std::string& text) { return text.find("\033[") != std::string::npos; };
     CHECK(coloured(shown_on_terminal(line)));
     CHECK_FALSE(coloured(shown_on_terminal(line, 120, {{"NO_COLOR", "1"}})));

@@ -9,8 +9,8 @@
 namespace detp::support {
 namespace {
 
-using sim::support::content_of;
-using sim::support::ScratchFolder;
+using support::content_of;
+using support::ScratchFolder;
 
 /// Runs detp in a shell. `before` stands before the command, `after` after its arguments.
 struct Shell {

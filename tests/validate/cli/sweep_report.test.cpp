@@ -5,8 +5,8 @@
 #include "support/scratch_file.hpp"
 
 using namespace detp;
-using sim::support::content_of;
-using sim::support::ScratchFolder;
+using support::content_of;
+using support::ScratchFolder;
 
 TEST_SUITE("sweep") {
   TEST_CASE("the rows of a sweep hold both forms of a prediction beside one observation") {

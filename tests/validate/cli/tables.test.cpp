@@ -49,7 +49,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("a file's name with a comma, a quote and a line feed is one field of CSV") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const std::string discs = folder.file("a,\"b\"\nc.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n");
     const auto rows = csv_of(Arguments{"scene", "--discs", discs, "--disc-radius", "0.5", "--rays", "10"});
     REQUIRE(rows.size() == 1);
@@ -77,7 +77,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("choose and scene: CSV has the effects, warnings and reasons of JSON in every row") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     std::string discs = "x,y,z,nx,ny,nz\n";
     for (int i = 0; i < 100; ++i) discs += std::to_string(0.01 * i) + ",0,0,0,0,1\n";
     const std::string path = folder.file("discs.csv", discs + "1000,0,0,0,0,1\n");
@@ -303,10 +303,10 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("-o is short for --output") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const std::string path = folder.path("table.csv");
     CHECK(detp(words("model" + numbers + " --format csv -o") + Arguments{path}).code == 0);
-    CHECK(sim::support::content_of(path) == detp("model" + numbers + " --format csv").out);
+    CHECK(support::content_of(path) == detp("model" + numbers + " --format csv").out);
   }
 
   TEST_CASE("scene: CSV is one row with the values of JSON, including effects") {

@@ -79,7 +79,7 @@ TEST_SUITE("end to end") {
 
 TEST_SUITE("statistical") {  // because it takes long
   TEST_CASE("files of discs and rays are validated with the rays that they contain") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const std::string discs = folder.path("discs.csv");
     const std::string rays = folder.path("rays.csv");
     REQUIRE(detp("scene @uniform --samples 200 --rays 3200 --disc-radius 6% --quiet --write-discs " + discs +

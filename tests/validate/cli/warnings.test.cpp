@@ -18,7 +18,7 @@ std::string mesh_with_a_stray_triangle() {
 
 TEST_SUITE("end to end") {
   TEST_CASE("choose, run and scene warn of a stray triangle: on stderr unless quiet, and in JSON") {
-    const sim::support::ScratchFolder folder;
+    const support::ScratchFolder folder;
     const std::string mesh = folder.file("stray.obj", mesh_with_a_stray_triangle());
     for (const std::string command : {"choose", "run", "scene"}) {
       CAPTURE(command);

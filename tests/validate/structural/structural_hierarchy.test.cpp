@@ -17,7 +17,7 @@ using namespace detp::validate;
 
 namespace {
 
-const std::vector<Candidate>& candidates() {
+const std::vector<Candidate>& hierarchies() {
   static const std::vector<Candidate> list{{Technique::cell_spheres, CellSpheresParameters{3}},
                                            {Technique::cell_spheres, CellSpheresParameters{5}},
                                            {Technique::sphere_tree, SphereTreeParameters{8, 12}},
@@ -61,7 +61,7 @@ TEST_SUITE("identity") {
     const auto discs = samples(sim::Body::cube_faces, glm::dvec3{1});
     const sim::Ray ray{};
     const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
-    for (const Candidate& candidate : candidates()) {
+    for (const Candidate& candidate : hierarchies()) {
       const auto counted = as_expected(sim::run(problem, candidate).counts);
       const Counts<double> expected = structural_counts(problem, 1, candidate);
       if (candidate.technique == Technique::cell_spheres) CHECK(expected.culls == counted.culls);
@@ -77,7 +77,7 @@ TEST_SUITE("statistical") {
                               samples(sim::Body::cube, {1, 0.4, 0.05})}) {
       const sim::Ray ray{};
       const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
-      for (const Candidate& candidate : candidates()) {
+      for (const Candidate& candidate : hierarchies()) {
         CAPTURE(name(candidate.technique));
         CAPTURE(describe(candidate));
         const Counts<double> expected = structural_counts(problem, 1, candidate);
@@ -108,7 +108,7 @@ TEST_SUITE("bad input") {
     const sim::Problem problem = sim::make_problem({&ray, 1}, discs);
     CHECK_THROWS_WITH_AS((void)structural_counts(problem, 1, {Technique::cell_spheres, CellSpheresParameters{17}}),
                          doctest::Contains("depth"), std::invalid_argument);
-    CHECK_THROWS_WITH_AS((void)structural_counts(problem, 0, candidates()[0]), doctest::Contains("rays"),
+    CHECK_THROWS_WITH_AS((void)structural_counts(problem, 0, hierarchies()[0]), doctest::Contains("rays"),
                          std::invalid_argument);
   }
 }

@@ -10,9 +10,9 @@
 
 using namespace detp;
 using namespace detp::validate;
-using sim::support::content_of;
-using sim::support::file_error_of;
-using sim::support::ScratchFolder;
+using support::content_of;
+using support::file_error_of;
+using support::ScratchFolder;
 
 namespace {
 

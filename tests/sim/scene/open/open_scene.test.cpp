@@ -9,6 +9,7 @@
 #include "detp/sim/files/file_error.hpp"
 #include "support/scratch_file.hpp"
 
+using namespace detp;
 using namespace detp::sim;
 
 namespace {

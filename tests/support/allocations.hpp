@@ -1,0 +1,10 @@
+#pragma once
+
+#include <cstdint>
+
+namespace detp::support {
+
+/// Number of calls of operator new so far, in the whole process. Builds with sanitizers do not count them: 0.
+[[nodiscard]] std::uint64_t allocations();
+
+}  // namespace detp::support
