@@ -8,6 +8,7 @@
 #include "detp/sim/geometry/predicates.hpp"
 #include "support/exact_geometry.hpp"
 #include "support/hard_geometry.hpp"
+#include "support/in_parallel.hpp"
 
 using namespace detp::sim;
 using namespace detp::support;
@@ -74,16 +75,22 @@ void report(std::string_view shape, std::size_t family, const TrialResult& resul
                       families[family].name, result.cases, result.hits, result.wrong, result.outside, result.widest));
 }
 
+struct FamilyResult {
+  TrialResult discs, spheres;
+};
+
 void check_all_families(std::uint64_t cases, bool print) {
+  const auto results = in_parallel(families.size(), [&](std::size_t family) {
+    return FamilyResult{try_discs(family, cases, disc_predicate), try_spheres(family, cases, sphere_predicate)};
+  });
   double widest_disc = 0;
   double widest_sphere = 0;
   for (std::size_t family = 0; family < families.size(); ++family) {
     INFO(families[family].name);
-    const TrialResult discs = try_discs(family, cases, disc_predicate);
+    const auto& [discs, spheres] = results[family];
     CHECK(discs.outside == 0);
     CHECK(std::min(discs.hits, discs.cases - discs.hits) > cases / 20);  // both answers are frequent
     widest_disc = std::max(widest_disc, discs.widest);
-    const TrialResult spheres = try_spheres(family, cases, sphere_predicate);
     CHECK(spheres.outside == 0);
     CHECK(std::min(spheres.hits, spheres.cases - spheres.hits) > cases / 20);
     widest_sphere = std::max(widest_sphere, spheres.widest);

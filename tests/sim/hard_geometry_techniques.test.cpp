@@ -12,6 +12,7 @@
 #include "detp/sim/technique/technique.hpp"
 #include "support/float_candidates.hpp"
 #include "support/hard_scene.hpp"
+#include "support/in_parallel.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -61,29 +62,39 @@ std::size_t differences(const Outcome& outcome, const Outcome& expected) {
   return different.size();
 }
 
-/// Runs `scenes` scenes of every family; each ray is hard for one disc.
+struct FamilyHits {
+  std::uint64_t hits = 0;
+  std::size_t different = 0;  ///< pairs that only the canonical predicate or only a technique finds
+};
+
+/// `scenes` scenes of a family; each ray is hard for one disc.
+FamilyHits search_family(std::size_t family, std::uint64_t scenes, std::size_t discs, std::size_t rays) {
+  FamilyHits found;
+  for (std::uint64_t i = 0; i < scenes; ++i) {
+    const HardScene scene = hard_scene(family, i, discs, rays);
+    const Problem problem = make_problem(scene.rays, scene.discs);
+    const Outcome expected = truth_of(problem);
+    found.hits += expected.total_hits;
+    for (const Candidate& candidate : hard_candidates())
+      for (const Engine engine : engines_of(candidate)) {
+        const Outcome outcome = run(problem, candidate, {.pairs = true, .engine = engine});
+        const std::size_t different = differences(outcome, expected);
+        INFO(families[family].name, ", scene ", i, ", ", name(candidate.technique), ", ", name(engine));
+        CHECK(different == 0);
+        found.different += different;
+      }
+  }
+  return found;
+}
+
 void check_all_agree(std::uint64_t scenes, std::size_t discs, std::size_t rays, bool print) {
+  const auto found =
+      in_parallel(families.size(), [&](std::size_t family) { return search_family(family, scenes, discs, rays); });
   for (std::size_t family = 0; family < families.size(); ++family) {
-    std::uint64_t hits = 0;
-    std::size_t all_different = 0;
-    for (std::uint64_t i = 0; i < scenes; ++i) {
-      const HardScene scene = hard_scene(family, i, discs, rays);
-      const Problem problem = make_problem(scene.rays, scene.discs);
-      const Outcome expected = truth_of(problem);
-      hits += expected.total_hits;
-      for (const Candidate& candidate : hard_candidates())
-        for (const Engine engine : engines_of(candidate)) {
-          const Outcome outcome = run(problem, candidate, {.pairs = true, .engine = engine});
-          const std::size_t different = differences(outcome, expected);
-          INFO(families[family].name, ", scene ", i, ", ", name(candidate.technique), ", ", name(engine));
-          CHECK(different == 0);
-          all_different += different;
-        }
-    }
-    CHECK(hits > scenes * rays / 10);
+    CHECK(found[family].hits > scenes * rays / 10);
     if (print)
-      MESSAGE(fmt::format("{:12} {:8} hard rays {:8} hits {} differences", families[family].name, scenes * rays, hits,
-                          all_different));
+      MESSAGE(fmt::format("{:12} {:8} hard rays {:8} hits {} differences", families[family].name, scenes * rays,
+                          found[family].hits, found[family].different));
   }
 }
 

@@ -21,8 +21,12 @@ using Integer = boost::multiprecision::number<boost::multiprecision::cpp_int_bac
     4096, 4096, boost::multiprecision::signed_magnitude, boost::multiprecision::checked, void>>;
 
 /// number · 2^bits; also for negative numbers, for which << throws.
-inline Integer shifted(const Integer& number, int bits) {
-  return number < 0 ? Integer{-(Integer{-number} << bits)} : Integer{number << bits};
+inline Integer shifted(Integer number, int bits) {
+  const bool negative = number < 0;
+  if (negative) number.backend().negate();
+  number <<= bits;
+  if (negative) number.backend().negate();
+  return number;
 }
 
 /// mantissa · 2^exponent, with an odd mantissa or 0.

@@ -10,6 +10,7 @@
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/model/sphere_cache/step_pieces.hpp"
+#include "support/in_parallel.hpp"
 #include "support/not_a_length.hpp"
 #include "support/random_workload.hpp"
 #include "support/workloads.hpp"
@@ -83,15 +84,16 @@ double least_on_grids(const Question& question, int points) {
 
 /// For `many` random questions, the relative excess of the best ratio's time over the smallest time on fine grids.
 std::vector<double> above_grids(int many, std::uint64_t seed) {
-  std::vector<double> above;
-  for (const Question& question : questions(many, seed)) {
+  const std::vector<Question> all = questions(many, seed);
+  auto above = support::in_parallel(all.size(), [&](std::size_t i) {
+    const Question& question = all[i];
     const BestRatio best = best_ratio_and_stop(question.workload, question.costs);
     CAPTURE(best.ratio);
     CAPTURE(best.spheres);
     CHECK(best.time == Approx(time(question, best.ratio, best.spheres)).epsilon(1e-12));
     CHECK(best.spheres <= corrected_count(question.workload, best.ratio));
-    above.push_back(best.time / least_on_grids(question, 1500) - 1);
-  }
+    return best.time / least_on_grids(question, 1500) - 1;
+  });
   std::sort(above.begin(), above.end());
   return above;
 }
