@@ -248,8 +248,8 @@ BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitC
   const CacheTimes times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   BestRatio best;
-  // The ratios were chosen one after another. Each one minimises the mean square excess over the best T that the ratios
-  // up to it leave.
+  // The ratios were chosen one after another. Each minimises the mean square of the excess that then remains: of the
+  // smallest T at the ratios chosen so far over the best T.
   for (const double ratio : {0.575, 0.47, 0.765, 0.425, 0.49, 0.6, 0.455, 0.635}) {
     const BestRatio stop = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), HUGE_VAL);
     if (best.spheres == 0 || stop.time < best.time) best = stop;

@@ -16,7 +16,8 @@
 /// interval can be excluded: the search then ends after most_evaluated_spheres spheres with the best result so far.
 namespace detp::model {
 
-/// If no sphere holds a disc (d >= 0.98 r₀), k is 0 and Q is published_ratio, which has no effect.
+/// The result of a search. If k is 0, Q has no effect and is published_ratio. best_ratio_and_stop and
+/// good_ratio_and_stop return k = 0 if d >= 0.98 r₀, because no sphere would hold a disc.
 struct BestRatio {
   double ratio = 0;                    ///< Q
   std::int64_t spheres = 0;            ///< k; 0: no sphere, each disc is tested with all rays
@@ -50,7 +51,8 @@ inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 /// sphere_count and best_ratio_and_stop do.
 [[nodiscard]] BestRatio best_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, RadiusRatio ratio);
 
-/// The fastest Q, from 0.02 to 0.98, for a given k (k = 0 … 9e18). If r_k < d for all these Q, the result is Q = 0.98.
+/// The fastest Q, from 0.02 to 0.98, for a given k (0 … 9e18). If r_k < d for all these Q, the result is Q = 0.98. If
+/// k is 0 or d >= r₀, the result has no sphere (k = 0).
 /// Throws as best_ratio_and_stop does, and std::invalid_argument for k out of range.
 [[nodiscard]] BestRatio best_ratio_for(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                        std::int64_t spheres);

@@ -20,7 +20,7 @@ double optimal_ratio(double dimension) {
 
 double optimal_ratio_with_copies(double copy_over_test) {
   require_non_negative("cost of a copy over that of a test", copy_over_test);
-  // The unknown y is Q γ^{1/3} if γ > 1, else Q. So no coefficient of a y³ + b y - 2 overflows (b > 0).
+  // The unknown y is Q γ^{1/3} if γ > 1, else Q. So for any γ, the root of a y³ + b y - 2 lies between 0.59 and 1.26.
   const long double scale = copy_over_test > 1 ? std::cbrt(static_cast<long double>(copy_over_test)) : 1;
   const long double a = copy_over_test > 1 ? 1 : copy_over_test;
   const long double b = 3 / scale;

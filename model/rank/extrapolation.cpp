@@ -12,8 +12,8 @@
 namespace detp::model {
 namespace {
 
-/// Relative tolerance, because the box of samples is slightly smaller than the cube, and samples of a scene fill their
-/// box less evenly.
+/// Largest relative difference at which the box, the filled share and r₀ still count as those of the sweep. The box of
+/// samples is slightly smaller than the cube, and samples of a scene fill their box less evenly.
 constexpr double about_equal = 0.1;
 
 bool differ(double a, double b) { return std::abs(a - b) > about_equal * b; }

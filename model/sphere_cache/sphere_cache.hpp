@@ -16,11 +16,12 @@
 ///    (listed_rays.hpp).
 ///  - Copying the lists and sorting the samples take time too.
 ///
-///     T_R = t Σ_{i=1..k} m_i L'_{i-1}      T_I = u n_P L"_k      L_0 = n_R,  L_i = n_i g_i
+///     T_R = t Σ_{i=1..k} m_i L'_{i-1}      T_I = u n_P L"_k      L_0 = L'_0 = n_R,  L_i = n_i g_i
 ///     L'_i = L_i [1 + 0.6 c (1-c) (1-g_i)]    c = m_i/m_{i+1}
 ///     L"_k = L_k [1 + 0.25 (1-c) (1-g_k)]     c = m_k/n_P
 ///
-///   where  n_i   expected rays in S_i: n_R P(hit S_i)
+///   where  t, u, m_i, n_R, n_P, T_R, T_I as in sphere_cache_published.hpp
+///          n_i   expected rays in S_i: n_R P(hit S_i)
 ///          L_i   expected rays listed for S_i, mean over its builds;   g_i   listed_share
 ///          L'_i  length of that list, mean over the builds of S_{i+1};   L"_k   mean over the discs. Both exceed L, by
 ///                at most 4 % and 8 %, because long lists are used for longer than short ones. 0.6 and 0.25 are fitted

@@ -54,7 +54,8 @@ double rebuild_time(const Valid<Workload>& workload, RadiusRatio ratio, std::int
   check_arguments(ratio, k);
   const long double log_q = std::log(static_cast<long double>(ratio.value));
   const long double sparse = sparse_spheres(workload.samples, ratio, k);
-  // Σ_{i=1..j} Q^{-3i} Q^{2i-2} = Q^{-3} Σ_{i=0..j-1} Q^{-i}, then n_P Σ_{i=j+1..k} Q^{2(i-1)}.
+  // T_R/(t n_R) has two parts. `before`, over the first j = `sparse` spheres: Σ_{i=1..j} Q^{-3i} Q^{2i-2} =
+  // Q^{-3} Σ_{i=0..j-1} Q^{-i}. `after`, over the others: n_P Σ_{i=j+1..k} Q^{2i-2}.
   const long double before = sparse > 0 ? std::exp(-3 * log_q) * geometric_sum(-log_q, sparse) : 0;
   const long double after = workload.samples * std::exp(2 * sparse * log_q) * geometric_sum(2 * log_q, k - sparse);
   return saturated(sphere_test * (workload.rays * (before + after)));

@@ -2,6 +2,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <memory_resource>
 #include <span>
 #include <stop_token>
@@ -46,7 +47,16 @@ struct RunOptions {
   Totals* totals = nullptr;
   /// Memory for a search's arrays, except those that it returns. A Scratch keeps the memory for the next search.
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
+  /// Unless empty: techniques that search rays one by one, ray-map and photon-map call it now and then during the search,
+  /// with the share of the rays (ray-map, photon-map: of the discs) that are searched. Calls do not overlap, but may come
+  /// from different threads.
+  std::function<void(double share)> progress = {};
 };
+
+/// Reports the progress of a search by discs, from time to time.
+inline void report_share(const RunOptions& options, std::size_t done, std::size_t discs) {
+  if (options.progress && done % 64 == 0) options.progress(static_cast<double>(done) / static_cast<double>(discs));
+}
 
 /// Numbers of SIMD vectors that the simd engine processed, full or not. They depend on the instruction set.
 struct Vectors {

@@ -4,6 +4,7 @@
 #include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
+#include <functional>
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/threads.hpp"
@@ -25,11 +26,12 @@ struct Chunk {
 class Chunks {
  public:
   Chunks(std::size_t rays, std::size_t under_way, const RunOptions& options)
-      : rays_(rays), buffers_(under_way, options.memory), stop_(options.stop) {}
+      : rays_(rays), buffers_(under_way, options.memory), stop_(options.stop), progress_(options.progress) {}
 
   /// Returns false after the last chunk, or after a stop request.
   bool next(Chunk& chunk) {
     if (begun_ >= rays_ || stop_.stop_requested()) return false;
+    if (progress_) progress_(static_cast<double>(begun_) / static_cast<double>(rays_));
     const std::size_t end = std::min(begun_ + chunk_rays, rays_);
     chunk = {static_cast<std::uint32_t>(begun_), static_cast<std::uint32_t>(end),
              &buffers_[begun_ / chunk_rays % buffers_.size()]};
@@ -43,6 +45,7 @@ class Chunks {
   std::size_t begun_ = 0;
   std::pmr::vector<FoundPairs> buffers_;
   const std::stop_token& stop_;
+  const std::function<void(double)>& progress_;
 };
 
 /// Adds up the hits, chunk by chunk.

@@ -17,7 +17,8 @@ struct DiscTotals {
   glm::dvec3 power{0.0};  ///< by the rays' dominant_axis: three sums, each in ray order
 };
 
-/// The totals of each disc, in the order of the discs. (32 bytes per disc, so a hit touches one cache line.)
+/// The totals of each disc, in the order of the discs. (32 bytes per disc: in an
+/// aligned array, as in a Scratch, a hit touches one cache line.)
 using Totals = std::pmr::vector<DiscTotals>;
 
 /// Power divided by the disc's area.

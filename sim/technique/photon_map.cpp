@@ -116,6 +116,7 @@ class PhotonMap {
     NearestPhotons nearest(problem_, cloud_, wanted_);
     std::uint32_t disc = 0;
     for (; disc < problem_.discs().size() && !options.stop.stop_requested(); ++disc) {
+      report_share(options, disc, problem_.discs().size());
       find(problem_.discs()[disc], nearest);
       const std::vector<std::uint32_t> rays = nearest.rays();
       double power = 0;

@@ -153,8 +153,10 @@ class RayMapIndex final : public Index {
     collector.save_totals();
     std::uint32_t done = 0;
     try {
-      for (; done < problem.discs().size(); ++done)
+      for (; done < problem.discs().size(); ++done) {
+        report_share(options, done, problem.discs().size());
         for (const std::uint32_t ray : map.find(done)) collector.add_hit(ray, done);
+      }
     } catch (const Stopped&) {  // the unfinished disc is left out
     }
     outcome.counts = map.counts();

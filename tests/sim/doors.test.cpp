@@ -16,8 +16,8 @@
 #include "support/exact_candidates.hpp"
 #include "support/not_a_length.hpp"
 
-// Public functions of sim that take numbers and do not make a problem: their result is finite, or they throw an error
-// that names the number.
+// Public functions of sim that take numbers. Each returns a finite result, or throws std::invalid_argument with a
+// message that says which quantity is wrong.
 
 using namespace detp;
 using namespace detp::sim;

@@ -22,7 +22,8 @@ struct AgainstEmbree {
 /// True if all our techniques found the right hits in all races.
 [[nodiscard]] bool do_own_hits_agree(std::span<const BenchEntry> entries);
 
-/// Embree's wrong hits and all its hits, summed over all races and modes. Each mode of a race counts once.
+/// Embree's wrong hits and all its hits, summed over all of its modes in all races. A mode's runs in one race count as
+/// one run: `wrong` is the largest number among them.
 struct WrongHits {
   std::uint64_t wrong = 0;
   std::uint64_t hits = 0;

@@ -16,7 +16,8 @@ namespace detp::validate {
 /// normal distribution.
 inline constexpr int batch_count = 32;
 
-/// The seed for part `part` of batch `batch`. Neighbouring seeds of the user give seeds that are far apart.
+/// The seed for one use of random numbers: `part` numbers the uses in the claims, `batch` the batches or sets (-1 for
+/// data that all batches share). Neighbouring seeds of the user give seeds that are far apart.
 [[nodiscard]] inline std::uint64_t batch_seed(const Experiment& experiment, int part, int batch) {
   return experiment.seed * 0x9e3779b97f4a7c15ULL + static_cast<std::uint64_t>(part) * 1000003ULL +
          static_cast<std::uint64_t>(batch);

@@ -106,7 +106,8 @@ Json to_json(const ChooseAnswer& answer) {
 
 namespace {
 
-/// Predicted time / that of the first candidate, and its largest part: "3.5", "ray-disc tests".
+/// Two cells: the row's predicted time divided by that of the first candidate, and the name of the largest part of the
+/// row's predicted time. For instance "3.5" and "ray-disc tests".
 std::vector<TextCell> comparison_cells(const ChooseAnswer& answer, const Row& row) {
   const CostBreakdown& time = row.predicted->time;
   return {{fmt::format("{:.3g}", time.total() / answer.ranking.front().time.total())}, {largest_part(time)}};

@@ -12,8 +12,8 @@
 namespace detp::cli {
 namespace {
 
-/// The destructor sends this signal to the thread that waits for signals, so that its wait ends. No other code needs
-/// this signal, because its default action is to do nothing.
+/// The destructor sends this signal to the thread that waits for signals, so that its wait ends. The default
+/// action of this signal is to do nothing, so blocking it changes nothing for other code.
 constexpr int wake_up = SIGURG;
 
 constexpr double longest = 1e9;  // seconds: no overflow when added to a clock's time

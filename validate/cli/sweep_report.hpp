@@ -13,8 +13,8 @@ namespace detp::cli {
 /// comparison as a row of the table.
 void report_sweep(const validate::SweepResult& sweep, const Screen& screen, Table& table, Result& result);
 
-/// Writes the comparisons as CSV, one row for each count, with both forms' predictions. Rounds numbers to five digits.
-/// Throws sim::FileError.
+/// Writes the comparisons as CSV: one row for each compared count, with the predictions of both forms. Predictions and
+/// observations have five digits, standard errors two. Throws sim::FileError.
 void write_sweep_rows(const std::string& path, const std::vector<validate::Deviation>& deviations);
 
 }  // namespace detp::cli

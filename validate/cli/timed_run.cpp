@@ -31,19 +31,27 @@ TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim
   const double work = progress ? predicted_work(job.workload, candidate, options.engine) : 0;
   const double block = job.stream ? static_cast<double>(sim::default_block(job.discs.size())) : job.workload.rays;
   const double each = std::min(1.0, block / job.workload.rays);  // a block's share of the rays
+  double begun = 0;                                              // share of the rays before the current block
   const auto show = [&](double done) {
+    begun = done;
     if (progress) progress({std::string(name(candidate.technique)), done, std::min(1.0, done + each), each * work});
   };
   show(0);
+  sim::RunOptions reporting = options;
+  if (progress && work == 0)
+    reporting.progress = [&](double share) {
+      const double now = std::min(1.0, begun + each * share);
+      progress({std::string(name(candidate.technique)), now, now});
+    };
   if (job.stream) {
     sim::StreamedOutcome streamed = sim::run_streamed(
-        job.discs, *job.stream, candidate, {.run = options, .front_facing = job.front_facing, .progress = show});
+        job.discs, *job.stream, candidate, {.run = reporting, .front_facing = job.front_facing, .progress = show});
     return {std::move(streamed.outcome), streamed.check_seconds, streamed.read_seconds, streamed.block};
   }
   const sim::Stopwatch watch;
   const sim::Problem problem = job.problem(options.threads, options.stop);
   const double prepare = watch.seconds();
-  return {sim::run(problem, candidate, options), prepare, 0, job.rays.size()};
+  return {sim::run(problem, candidate, reporting), prepare, 0, job.rays.size()};
 }
 
 Timing time_runs(const validate::Job& job, const Candidate& candidate, const TimedRun& counted, int repeat,

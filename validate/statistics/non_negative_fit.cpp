@@ -26,8 +26,8 @@ VectorXd joint_fit(const MatrixXd& a, const VectorXd& b, const std::vector<Index
   return x;
 }
 
-/// Moves from x towards the joint fit of the free unknowns. An unknown that becomes 0 on the way stays 0 and is no
-/// longer free.
+/// Moves from x to the joint fit of the free unknowns. An unknown that becomes 0 on the way stays 0 and is no longer
+/// free; the move then goes on to the joint fit of the others.
 void move_to_joint_fit(const MatrixXd& a, const VectorXd& b, Fit& fit) {
   for (;;) {
     const VectorXd goal = joint_fit(a, b, fit.free);

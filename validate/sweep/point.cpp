@@ -57,7 +57,8 @@ std::vector<Candidate> indices(const SweepPoint& point) {
   return candidates;
 }
 
-/// Hierarchies. Cell spheres have as many levels as possible, but the smallest cells still hold several samples each.
+/// Cell spheres of two depths, and two sphere trees. The larger depth is ⌊log₂(n_P)/D⌋ - 1, but at least 1 and at most
+/// 6. The other depth is smaller by 2, but at least 1.
 std::vector<Candidate> hierarchies(const SweepPoint& point) {
   const int levels = std::clamp(static_cast<int>(std::log2(point.samples) / point.dimension) - 1, 1, 6);
   return {{Technique::cell_spheres, CellSpheresParameters{levels}},

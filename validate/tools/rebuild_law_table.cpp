@@ -12,10 +12,11 @@
 // along the curve. A ball is centred at a sample, and stays there while this ball and all balls around it contain the
 // next samples. Each table of rebuilds has values for D = 2, then for D = 3; m is the number of rebuilds, n the number
 // of samples, ρ the ball's radius, and h = log₂(2/ρ) the number of halvings from the cube's side to ρ:
-//   single   ln(m/n) of small balls alone, by 32 phases φ of h, in rows of λ 2^{Dφ} = 2⁻⁹ … 2¹³, λ = n ρ^D/extent
+//   single   ln(m/n) of small balls alone: a row for each λ 2^{Dφ} = 2⁻⁹, 2⁻⁸ … 2¹³ with λ = n ρ^D/extent. A row has 32
+//            values, for φ = 0, 1/32 … 31/32; φ is the fractional part of h
 //   coarse   ln m of large balls alone, for n = 10³, 10^3¼ … 10⁷ by h from -1 to 4.5 in steps of 1/64; printed as
-//            500 ln m in two digits of base 90. There are four values of n a decade, because m doubles within little
-//            more than a decade of n if a ball just contains a cell of the curve
+//            500 ln m in two digits of base 90. n needs four values a decade: for a ball that just contains a cell of
+//            the curve, m doubles within little more than a decade
 //   chain    rebuilds m_i of a ball in a nest of the ratio 2^{-u}, for n = 10³ … 10⁷ by h from 0.5 in steps of 1/32,
 //            then by u: m_i = m_{i-1} + s exp(-b m_{i-1}/s) (1 - m_{i-1}/n), where m_{i-1} are the rebuilds of the next
 //            larger ball and s those of the ball alone; b is printed as the digit 90 b/(1 + b).

@@ -5,8 +5,8 @@
 #include "detp/sim/geometry/lebesgue.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 
-/// Samples in the order of the Morton curve, and balls that move along these samples. Shared by the programs that make
-/// the tables of the sphere cache.
+/// Samples in the order of the Morton curve, and balls that move along these samples. Used by the parts of
+/// rebuild_law_table.
 namespace detp::tables {
 
 using Points = std::vector<glm::dvec3>;

@@ -99,8 +99,8 @@ void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
   if (has_room_for_snapshot()) take_snapshot();
 }
 
-/// If a copy of the results fits the memory budget, adds its bytes to the outcome's and returns true. Otherwise
-/// returns false: then a stopped run returns an older copy.
+/// If a copy of the results fits the memory budget, adds the bytes that it needs beyond those of the previous copy to
+/// the outcome's bytes, and returns true. Otherwise returns false; a stopped run then returns the previous copy.
 bool DiscResults::has_room_for_snapshot() {
   const double copy = bytes_of(hits_) + bytes_of(totals_);
   const double more = copy - bytes_of(snapshot_.counts) - bytes_of(snapshot_.totals);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <memory>
@@ -83,6 +84,27 @@ TEST_SUITE("identity") {
         CHECK(together.counts == alone.counts);
       }
     }
+  }
+}
+
+TEST_SUITE("progress") {
+  TEST_CASE("techniques without lists of rays report the share of their search, in rising order, on any threads") {
+    std::vector<Ray> some = rays();
+    for (Ray& ray : some) ray.length = 1;
+    const Problem problem = make_problem(some, discs());
+    for (const Technique technique : {Technique::octree, Technique::grid, Technique::bsp, Technique::bvh,
+                                      Technique::ray_map, Technique::photon_map})
+      for (const int threads : {1, 3}) {
+        CAPTURE(name(technique));
+        std::vector<double> shares;
+        (void)run(problem, {technique, record_of(technique).defaults},
+                  {.threads = threads, .progress = [&](double share) { shares.push_back(share); }});
+        REQUIRE(shares.size() >= 7);
+        CHECK(shares.front() == 0);
+        CHECK(std::is_sorted(shares.begin(), shares.end()));
+        CHECK(shares.back() > 0.8);
+        CHECK(shares.back() < 1);
+      }
   }
 }
 
