@@ -57,7 +57,8 @@ double length_of(const Limb& limb) {
   return static_cast<double>(limb.path.size() - 1) * glm::length(limb.path[1] - limb.path[0]);
 }
 
-/// Shoot number i on a limb. Each shoot is turned from the previous one by the golden angle, as on most plants.
+/// Shoot number i on a limb. Each shoot is turned from the previous one by the golden angle, as on most plants,
+/// and by up to 0.3 radians at random.
 Shoot shoot_of(const Limb& limb, const Generation& generation, int i, double first_turn, RandomSequence& random) {
   const double golden_angle = std::numbers::pi * (3 - std::sqrt(5.0));
   const double order = generation.limbs == 1 ? 1.0 : static_cast<double>(i) / (generation.limbs - 1);
