@@ -25,7 +25,8 @@ struct LinkedNode {
 ///
 /// Source  H. Samet: Implementing ray tracing with octrees and neighbor finding (1989); here the links are stored, not
 ///         found while tracing.
-/// Throws  std::length_error for 2³² or more nodes, or, naming the bytes, if they would not fit in memory; Stopped if a stop was requested.
+/// Throws  std::length_error for 2³² or more nodes, or, naming the bytes, if they would not fit in memory; Stopped if a
+///         stop was requested.
 [[nodiscard]] std::vector<LinkedNode> link_neighbours(const OctreeNodes& tree, const std::stop_token& stop);
 
 }  // namespace detp::sim

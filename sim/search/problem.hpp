@@ -71,9 +71,9 @@ class Problem {
 /// normalised in floats has an error of about 1e-7.) A ray's length does not change: it is in scene units, not a
 /// multiple of the direction's length.
 ///
-/// Throws std::invalid_argument for `threads` out of range, if there is no ray or no disc, if rays start farther than 1e100 from the discs, or if a
-/// ray or disc is malformed; the message has its number, as in "ray 17: direction must be non-zero (got 0 0 0)".
-/// Malformed are: a number that is not finite (except a length of +infinity: the whole line), a coordinate or radius
+/// Throws std::invalid_argument for `threads` out of range, if there is no ray or no disc, if rays start farther than
+/// 1e100 from the discs, or if a ray or disc is malformed; the message has its number, as in "ray 17: direction must be
+/// non-zero (got 0 0 0)". Malformed are: a number that is not finite (except a length of +infinity: the whole line), a coordinate or radius
 /// above 1e100, a radius below 1e-100, a direction or normal of length 0, a length <= 0, a power < 0 or above
 /// most_power (9.6e288 for radii of at least 1; larger powers could overflow). Throws std::length_error for more than
 /// 2³² - 2 rays or discs, and Stopped on a stop request.
