@@ -73,10 +73,10 @@ class Problem {
 ///
 /// Throws std::invalid_argument for `threads` out of range, if there is no ray or no disc, if rays start farther than
 /// 1e100 from the discs, or if a ray or disc is malformed; the message has its number, as in "ray 17: direction must be
-/// non-zero (got 0 0 0)". Malformed are: a number that is not finite (except a length of +infinity: the whole line), a coordinate or radius
-/// above 1e100, a radius below 1e-100, a direction or normal of length 0, a length <= 0, a power < 0 or above
-/// most_power (9.6e288 for radii of at least 1; larger powers could overflow). Throws std::length_error for more than
-/// 2³² - 2 rays or discs, and Stopped on a stop request.
+/// non-zero (got 0 0 0)". Malformed are: a number that is not finite (except a length of +infinity: the whole line), a
+/// coordinate or radius above 1e100, a radius below 1e-100, a direction or normal of length 0, a length <= 0, a power
+/// < 0 or above most_power (9.6e288 for radii of at least 1; larger powers could overflow). Throws std::length_error
+/// for more than 2³² - 2 rays or discs, and Stopped on a stop request.
 ///
 /// The slack is 16e-12 E + ∛(2d κ²) + 1e-15 M. In spite of rounding, a ray that counts as a hit comes nearer to the
 /// disc than the slack, with a margin for the rounding of the culls (proof: sim/geometry/proofs.md). E is the distance
