@@ -29,8 +29,8 @@ struct SphereTree {
 /// one level above the leaves, and by 15 % higher up.) Rounding moves a sphere by a few ulp per level, less than the
 /// slack.
 ///
-/// A sphere's centre starts at the centre of the box around the centres of all its discs. It moves in six shrinking steps,
-/// each towards the child (in a leaf, the disc) that reaches farthest from it. The position with the smallest sphere is
+/// A sphere's centre starts at the centre of the box around the centres of all its discs. It moves in six shrinking
+/// steps, each towards the child (in a leaf, the disc) that reaches farthest from it. The smallest sphere on the way is
 /// kept. The sum of all areas of a tree is 10 % less than without these steps and 1 % more than after twenty (10⁵
 /// samples, fan-out 8).
 ///

@@ -47,9 +47,9 @@ struct RunOptions {
   Totals* totals = nullptr;
   /// Memory for a search's arrays, except those that it returns. A Scratch keeps the memory for the next search.
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
-  /// Unless empty: techniques that search rays one by one, ray-map and photon-map call it now and then during the search,
-  /// with the share of the rays (ray-map, photon-map: of the discs) that are searched. Calls do not overlap, but may come
-  /// from different threads.
+  /// Unless empty: called now and then during the search, with the share of the rays that are searched (ray-map and
+  /// photon-map: of the discs). Techniques with lists of rays do not call it. Calls do not overlap, but may come from
+  /// different threads.
   std::function<void(double share)> progress = {};
 };
 

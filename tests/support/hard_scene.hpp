@@ -18,8 +18,8 @@ struct HardScene {
 };
 
 /// A random disc for hard_scene. Its centre, or one point of its rim, lies on up to three planes between cells, with
-/// errors of at most about 1e-10 (times `scale`). The planes follow from repeated halving of the scene's box. hard_scene
-/// fixes this box to `centre` ± 1 (times `scale`) by two more discs of radius 1/8.
+/// errors of at most about 1e-10 (times `scale`). The planes follow from repeated halving of the scene's box.
+/// hard_scene fixes this box to `centre` ± 1 (times `scale`) by two more discs of radius 1/8.
 inline sim::Disc disc_at_cells(RandomSequence& random, const glm::dvec3& centre, double scale) {
   const auto on_plane = [&](double x) { return std::floor(8 * x) / 4 - 1 + random.rounding_offset() * 1e2; };
   sim::Disc disc;

@@ -28,8 +28,8 @@ namespace {
 
 constexpr double rays_by_default = 100'000;
 
-/// `count` as an integer. Throws unless it is a whole number from 1 to 1e18, and `count` things of `bytes` bytes each fit
-/// in memory.
+/// `count` as an integer. Throws unless it is a whole number from 1 to 1e18, and `count` things of `bytes` bytes each
+/// fit in memory.
 std::size_t count_in_memory(std::string_view what, double count, std::size_t bytes) {
   require_count(fmt::format("number of {}", what), count, 1, 1e18);
   sim::require_memory(fmt::format("{} {}", count, what), count * static_cast<double>(bytes));

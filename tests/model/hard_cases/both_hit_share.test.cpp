@@ -105,8 +105,8 @@ void compare_by_chords(const TwoSpheres& it, Ledger& ledger) {
       [](double a, double b, double c) { return Exact{share_by_chords(a, b, c)}; }, ledger);
 }
 
-/// Spheres of radii a and b, with a ratio of at most `most_ratio` or 2. The distance c of their centres is arbitrary, or
-/// close to |a - b|, where one sphere starts to leave the other, or close to a + b, where they separate.
+/// Spheres of radii a and b, with a ratio of at most `most_ratio` or 2. The distance c of their centres is arbitrary,
+/// or close to |a - b|, where one sphere starts to leave the other, or close to a + b, where they separate.
 TwoSpheres random_case(Draw& draw, double most_ratio) {
   const double b = draw.log_uniform(1e-100, 1e100);
   const double a =
