@@ -103,15 +103,15 @@ TEST_SUITE("statistical") {
       request.disc_radius = Length{0.01, true};
       request.field = sim::Field::isotropic;
       const Job job = make_job(request);
-      for (const auto& [parameters, engine] : {std::pair{BoxTreeParameters{4, 16}, Engine::simd},
-                                               {BoxTreeParameters{8, 4}, Engine::simd},
-                                               {BoxTreeParameters{8, 4}, Engine::plain}}) {
-        const Candidate candidate{Technique::box_tree, parameters};
+      for (const auto& tree : {std::pair{BoxTreeParameters{4, 16}, Engine::simd},
+                               {BoxTreeParameters{8, 4}, Engine::simd},
+                               {BoxTreeParameters{8, 4}, Engine::plain}}) {
+        const Candidate candidate{Technique::box_tree, tree.first};
+        const Engine engine = tree.second;
         const Counts<double> counted = as_expected(sim::run(job.problem(), candidate, {.engine = engine}).counts);
         const Counts<double> expected = structural_counts(job.discs, rays, candidate, {}, false, engine);
         CAPTURE(scene);
-        CAPTURE(name(engine));
-        CAPTURE(describe(candidate));
+        INFO(name(engine), " engine, ", describe(candidate));
         for (const auto term : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests,
                                 &Counts<double>::culls, &Counts<double>::visits}) {
           CAPTURE(expected.*term / counted.*term);
