@@ -61,7 +61,9 @@ struct TreeLevel {
 ///            0.1 … 2 sample distances. Deviations (median, 95th percentile, largest) for n_P 20 000 … 200 000 (882
 ///            trees): sphere tests 1.0, 3.9, 13 %; disc tests 0.8, 4.3, 9.2 % (for leaves of 2 samples: the few
 ///            largest spheres are random); time at the built-in unit costs 0.8, 2.5, 3.9 %. Including 1000 and 3000
-///            samples (1470 trees): time 1.2, 4.9, 8.6 %.
+///            samples (1470 trees): time 1.2, 4.9, 8.6 %. culls and visits are too large where most lists are empty,
+///            because all lists of a level are taken as equally long: 0.03, 29, 64 % and 2.6, 103, 139 % in the sweep
+///            (validate/sweep/results.md), where 250 to 2000 lines cross up to 10⁷ samples.
 [[nodiscard]] Counts<double> sphere_tree_counts(const Valid<Workload>& workload,
                                                 const Valid<SphereTreeParameters>& parameters);
 

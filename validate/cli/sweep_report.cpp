@@ -101,8 +101,9 @@ Json cells_of(const Deviation& row) {
 void write_sweep_rows(const std::string& path, const std::vector<Deviation>& deviations) {
   struct Row {
     const Deviation* any = nullptr;
-    std::string published;
-    std::string corrected;
+    std::string published = {};
+    std::string corrected = {};
+    bool exact = true;  ///< predicted and observed without any difference
   };
   std::map<std::tuple<std::string, std::int64_t>, std::size_t> places;
   std::vector<Row> rows;
@@ -111,19 +112,23 @@ void write_sweep_rows(const std::string& path, const std::vector<Deviation>& dev
         fmt::format("{} {} {} {} {} {}", deviation.dimension, deviation.samples, deviation.disc_share,
                     deviation.technique, deviation.parameters, deviation.quantity);
     const auto [place, is_new] = places.try_emplace({key, deviation.sphere}, rows.size());
-    if (is_new) rows.push_back({.any = &deviation, .published = {}, .corrected = {}});
+    if (is_new) rows.push_back({.any = &deviation});
     Row& row = rows[place->second];
+    const auto& observed = deviation.observed;
+    row.exact = row.exact && observed.standard_error == 0 && observed.mean == deviation.predicted;
     (deviation.form == Form::published ? row.published : row.corrected) = fmt::format("{:.5g}", deviation.predicted);
   }
   sim::OutputFile file(path);
   file.write(
       "dimension,samples,disc_share,technique,parameters,quantity,sphere,published,corrected,observed,"
       "standard_error\n");
-  for (const Row& row : rows)
+  for (const Row& row : rows) {
+    if (row.exact) continue;
     file.write(fmt::format("{},{:g},{:g},{},\"{}\",{},{},{},{},{:.5g},{:.2g}\n", row.any->dimension, row.any->samples,
                            row.any->disc_share, row.any->technique, row.any->parameters, row.any->quantity,
                            row.any->sphere, row.published, row.corrected, row.any->observed.mean,
                            row.any->observed.standard_error));
+  }
   file.commit();
 }
 

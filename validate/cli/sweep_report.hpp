@@ -13,8 +13,9 @@ namespace detp::cli {
 /// comparison as a row of the table.
 void report_sweep(const validate::SweepResult& sweep, const Screen& screen, Table& table, Result& result);
 
-/// Writes the comparisons as CSV: one row for each compared count, with the predictions of both forms. Predictions and
-/// observations have five digits, standard errors two. Throws sim::FileError.
+/// Writes the comparisons as CSV: one row for each compared count, with the predictions of both forms. Counts that are
+/// the same in every set and equal their prediction are left out. Predictions and observations have five digits,
+/// standard errors two. Throws sim::FileError.
 void write_sweep_rows(const std::string& path, const std::vector<validate::Deviation>& deviations);
 
 }  // namespace detp::cli

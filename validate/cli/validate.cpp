@@ -280,7 +280,7 @@ Command validate_command(CLI::App& program) {
     app->get_option(option)->description(value);
   app->add_option_function<std::string>(
          "--effort", [options](const std::string& effort) { options->thorough = effort == "thorough"; },
-         "default, or thorough: also every formula over its whole range, some 20 minutes; default: default")
+         "default, or thorough: also every formula over its whole range, some 40 minutes; default: default")
       ->check(CLI::IsMember({"default", "thorough"}));
   app->add_option("--checkpoint", options->sweep.checkpoint, "thorough: keep what is measured in this file");
   app->add_flag("--resume", options->sweep.resume, "thorough: go on from the checkpoint");

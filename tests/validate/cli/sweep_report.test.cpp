@@ -9,7 +9,7 @@ using support::content_of;
 using support::ScratchFolder;
 
 TEST_SUITE("sweep") {
-  TEST_CASE("the rows of a sweep hold both forms of a prediction beside one observation") {
+  TEST_CASE("the rows of a sweep hold both forms of a prediction beside one observation; exact counts have no row") {
     validate::Deviation count{.technique = "sphere-cache",
                               .parameters = "Q 0.5, k 3",
                               .quantity = "m_i",
@@ -24,8 +24,11 @@ TEST_SUITE("sweep") {
     corrected.predicted = 119000;
     validate::Deviation other = corrected;
     other.sphere = 3;
+    validate::Deviation exact = corrected;
+    exact.sphere = 4;
+    exact.observed = {119000, 0};
     const ScratchFolder folder;
-    cli::write_sweep_rows(folder.path("rows"), {count, corrected, other});
+    cli::write_sweep_rows(folder.path("rows"), {count, corrected, other, exact});
     CHECK(content_of(folder.path("rows")) ==
           "dimension,samples,disc_share,technique,parameters,quantity,sphere,published,corrected,observed,"
           "standard_error\n"
