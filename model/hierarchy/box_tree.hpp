@@ -47,19 +47,18 @@ inline constexpr int box_tree_largest_leaf = 256;
 ///
 /// Source     our derivation.
 /// Valid      fan-out 2 … 16, leaf 1 … 256; samples uniform over a volume or over surfaces, discs turned isotropically.
-/// Accuracy   against structural counts of samples in a cube and on its faces, 200 trees of random fan-out and leaf,
-///            n_P 2¹⁰ … 2¹⁷, d 2⁻¹⁰ … 2³ sample distances but at most 0.16 of the side, means over at least
-///            two sets with 2¹⁶ samples in total. Deviations (median, 95th percentile, largest):
+/// Accuracy   against structural counts of samples in a cube and on its faces, 400 trees of random fan-out and leaf, n_P
+///            2¹⁰ … 2²⁰, d 2⁻¹⁰ … 2³ sample distances but at most 0.16 of the side, means over sets with about 2¹⁷
+///            samples in total (validate/tools/box_tree_accuracy.cpp). Deviations (median, 95th percentile, largest):
 ///                            D = 2               D = 3
-///              tests boxes   2.7, 5.9, 8.1 %     0.2, 1.2, 1.7 %
-///              rays listed   1.9, 6.1, 7.6 %     0.3, 1.6, 2.2 %
-///              tests discs   1.6, 8.3, 11.2 %    0.4, 6.0, 19.0 %
-///              culls         1.3, 7.1, 11.4 %    0.5, 3.0, 5.2 %
-///              visits        0.0, 3.1, 7.0 %     0.0, 3.2, 12.0 %
-///            Disc tests deviate most for one sample per leaf and small discs: then few large leaves cause most tests,
-///            and the mean over 2¹⁶ samples has a standard error of 3 to 12 %. In means over about a million samples,
-///            the two trees with more than 12 % deviate by 2 and 7 %, and three with D = 2 and one sample per leaf (n_P
-///            1267, 7974, 73 957) by 9, 10 and 4 %. (validate/tools/box_tree_accuracy.cpp makes such comparisons.)
+///              tests boxes   3.3, 6.5, 7.7 %     0.2, 1.6, 2.4 %
+///              rays listed   2.5, 6.0, 7.7 %     0.2, 1.6, 3.1 %
+///              tests discs   1.2, 6.8, 15.4 %    0.3, 4.6, 9.1 %
+///              culls         1.5, 6.2, 8.9 %     0.3, 3.4, 6.8 %
+///              visits        0.0, 2.8, 12.1 %    0.0, 1.3, 7.0 %
+///            The three trees with more than 12 % have one or two samples a leaf and small discs: then few large leaves
+///            cause most disc tests, and the counts of two sets differ much. 200 trees over 2⁵ … 2¹⁰ samples: largest
+///            deviation of tests of boxes 5.5 %, rays listed 15 %, disc tests 27 %, culls 15 %, visits 7 %.
 ///            Against counts of plain searches in the sweep (validate/sweep/results.md; n_P 10³ … 10⁷, 240 trees of
 ///            fan-out 2 … 16 and leaf 1 … 256): tests of boxes 0.8, 4.4, 7.7 %, rays listed 0.9, 4.4, 11.4 %, tests of
 ///            discs 0.7, 3.8, 8.2 %, culls 0.8, 5.9, 13.5 %, visits 0.2, 2.8, 5.3 %. In scenes:
