@@ -11,7 +11,7 @@
 namespace detp::sim::built_in {
 namespace {
 
-constexpr glm::dvec3 up{0, 1, 0};
+constexpr glm::dvec3 upwards{0, 1, 0};
 
 /// The state of a limb at its foot.
 struct Shoot {
@@ -47,7 +47,7 @@ Limb grow_limb(const Shoot& shoot, double lift, double wobble, double edge, Rand
   for (int i = 0; i <= pieces; ++i) {
     limb.path.push_back(point);
     limb.radii.push_back(shoot.radius * taper(static_cast<double>(i) / pieces));
-    direction = glm::normalize(direction + lift / pieces * up + wobble * any_direction(random));
+    direction = glm::normalize(direction + lift / pieces * upwards + wobble * any_direction(random));
     point += shoot.length / pieces * direction;
   }
   return limb;
@@ -86,11 +86,11 @@ void add_leaf(Mesh& mesh, const Limb& twig, const Foliage& foliage, RandomSequen
   const glm::dvec3 piece = twig.path[before + 1] - twig.path[before];
   const glm::dvec3 base = twig.path[before] + (place - static_cast<double>(before)) * piece;
   const glm::dvec3 along = glm::normalize(0.5 * glm::normalize(piece) + any_direction(random) * glm::dvec3{1, 0.5, 1});
-  const glm::dvec3 across = glm::normalize(glm::cross(up + 0.6 * any_direction(random), along));
+  const glm::dvec3 across = glm::normalize(glm::cross(upwards + 0.6 * any_direction(random), along));
   const double size = random.between(0.8, 1.2);
   add_patch(mesh, {2, 1}, [&](double u, double v) {
     return base +
-           size * (foliage.length * (u * along - foliage.droop * u * u * up) + foliage.width * (v - 0.5) * across);
+           size * (foliage.length * (u * along - foliage.droop * u * u * upwards) + foliage.width * (v - 0.5) * across);
   });
 }
 
@@ -98,7 +98,7 @@ void add_leaf(Mesh& mesh, const Limb& twig, const Foliage& foliage, RandomSequen
 
 std::vector<std::vector<Limb>> grow(const Plant& plant) {
   RandomSequence random(plant.seed);
-  const Shoot trunk{.foot = plant.foot, .direction = up, .length = plant.height, .radius = plant.radius};
+  const Shoot trunk{.foot = plant.foot, .direction = upwards, .length = plant.height, .radius = plant.radius};
   std::vector<std::vector<Limb>> limbs{{grow_limb(trunk, 0, 0.02, plant.edge, random)}};
   for (const Generation& generation : plant.generations) {
     std::vector<Limb> next;
