@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <boost/math/constants/constants.hpp>
 #include <boost/multiprecision/mpfr.hpp>
 #include <cmath>
 #include <cstdint>
@@ -12,6 +13,8 @@ namespace detp::support {
 using Exact =
     boost::multiprecision::number<boost::multiprecision::mpfr_float_backend<100, boost::multiprecision::allocate_stack>,
                                   boost::multiprecision::et_off>;
+
+inline Exact pi() { return boost::math::constants::pi<Exact>(); }
 
 /// |value - exact| / |exact|, or |value| if exact is 0; infinite if the value is not finite.
 ///

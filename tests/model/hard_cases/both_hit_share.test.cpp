@@ -49,8 +49,8 @@ Exact lens_area(const Exact& a, const Exact& b, const Exact& c) {
 Exact share_by_lenses(const Exact& a, const Exact& b, const Exact& c) {
   const Exact small = std::min(a, b);
   const Exact p = abs(a - b);
-  const Exact covered = boost::math::constants::pi<Exact>() * small * small;
-  const Exact area = boost::math::constants::pi<Exact>() * b * b;
+  const Exact covered = support::pi() * small * small;
+  const Exact area = support::pi() * b * b;
   if (c <= p) return covered / area;
   const Exact q = std::min<Exact>(c, a + b);
   const Exact lenses = integral<Exact>(p, q - p, [&](const Exact& s, const Exact&, const Exact& short_of_q) {

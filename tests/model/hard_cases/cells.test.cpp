@@ -1,5 +1,3 @@
-#include <boost/math/constants/constants.hpp>
-
 #include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"
 #include "run.hpp"

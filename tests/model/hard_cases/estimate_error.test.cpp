@@ -1,7 +1,6 @@
 #include "detp/model/accuracy/estimate_error.hpp"
 
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 
 #include "run.hpp"
 
@@ -9,8 +8,6 @@ using namespace detp;
 using namespace detp::hard_cases;
 
 namespace {
-
-Exact circle_constant() { return boost::math::constants::pi<Exact>(); }
 
 void compare_uniform(double rays, double deviation, double disc, double outer, Ledger& ledger) {
   const auto inputs = [&] {
@@ -30,16 +27,15 @@ void compare_smooth(double f, double laplacian, double photons, double radius, d
   const model::SmoothDensity density{.value = f, .laplacian = laplacian};
   const model::DensityError found = model::density_error(density, photons, radius);
   const Exact square = Exact{radius} * radius;
-  const Exact variance = f / (photons * circle_constant() * square);
+  const Exact variance = f / (photons * support::pi() * square);
   const Exact bias = square * laplacian / 8;
   ledger.compare("variance", found.variance, variance, inputs);
   ledger.compare("bias", found.bias, bias, inputs);
   ledger.compare("mean square error", found.mean_square(), variance + bias * bias, inputs);
   const Exact curvature = abs(Exact{laplacian});
   ledger.compare("best radius", model::best_density_radius(density, photons),
-                 support::cube_root(support::root_of(Exact{32} * f / (photons * circle_constant())) / curvature),
-                 inputs);
-  static const Exact scale = sqrt(pow(Exact{3} / 2, 3) / 32) / circle_constant();
+                 support::cube_root(support::root_of(Exact{32} * f / (photons * support::pi())) / curvature), inputs);
+  static const Exact scale = sqrt(pow(Exact{3} / 2, 3) / 32) / support::pi();
   ledger.compare("photons for an error", model::photons_for_error(density, error),
                  scale * curvature / (Exact{f} * f * error * error * error), inputs);
 }

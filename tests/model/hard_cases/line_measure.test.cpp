@@ -1,7 +1,6 @@
 #include "detp/model/lines/line_measure.hpp"
 
 #include <algorithm>
-#include <boost/math/constants/constants.hpp>
 
 #include "run.hpp"
 
@@ -9,8 +8,6 @@ using namespace detp;
 using namespace detp::hard_cases;
 
 namespace {
-
-Exact pi() { return boost::math::constants::pi<Exact>(); }
 
 void compare_bodies(double body, double outer, Ledger& ledger) {
   const auto inputs = [&] { return fmt::format("radius or side {:a}, r0 {:a}", body, outer); };
@@ -23,8 +20,8 @@ Exact crossing(const Workload& w, const Exact& volume, const Exact& area) {
   const Exact r0 = w.sphere_radius;
   Exact space = 1;
   for (const double side : w.box) space *= side + 2 * Exact{w.disc_radius};
-  return std::min<Exact>(
-      1, w.path_length > 0 ? Exact{(volume + w.path_length * area / 4) / space} : Exact{area / (4 * pi() * r0 * r0)});
+  return std::min<Exact>(1, w.path_length > 0 ? Exact{(volume + w.path_length * area / 4) / space}
+                                              : Exact{area / (4 * support::pi() * r0 * r0)});
 }
 
 void compare_workload(const Workload& w, double volume, double area, Ledger& ledger) {
@@ -38,7 +35,7 @@ void compare_workload(const Workload& w, double volume, double area, Ledger& led
                  crossing(w, volume, area), inputs);
   const Exact d = w.disc_radius;
   ledger.compare(segments ? "expected hits, segments" : "expected hits, lines", model::expected_hits(w),
-                 Exact{w.rays} * w.samples * crossing(w, 0, 2 * pi() * d * d), inputs);
+                 Exact{w.rays} * w.samples * crossing(w, 0, 2 * support::pi() * d * d), inputs);
 }
 
 void compare_random_lines(Draw& draw, Ledger& ledger) {
