@@ -21,6 +21,7 @@ class CacheTimes {
     const double blocks = blocks_of(workload.rays, workload.samples);
     costs_.cull *= blocks;
     costs_.visit *= blocks;
+    costs_.ray = costs_.hit = costs_.start = 0;
   }
 
   [[nodiscard]] std::int64_t evaluated_spheres() const { return evaluated_spheres_; }

@@ -27,23 +27,23 @@ bool are_all_numbers_fixed(const FixedParameters& fixed, Technique technique) {
 
 }  // namespace
 
-Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<UnitCosts>& costs) {
+Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<CostTable>& costs) {
   const Counts<double> counts = predict(workload, candidate);
   return {candidate, counts, price(counts, costs, candidate.technique), extrapolations(workload, candidate)};
 }
 
 std::optional<Candidate> complete(Technique technique, const FixedParameters& fixed, const Valid<Workload>& workload,
-                                  const Valid<UnitCosts>& costs, const SearchLimits& limits) {
+                                  const Valid<CostTable>& costs, const SearchLimits& limits) {
   Candidate candidate = candidate_with(technique, fixed);
   if (model_of(technique).best == nullptr || are_all_numbers_fixed(fixed, technique)) return candidate;
-  const auto best = model_of(technique).best(workload, costs, fixed, limits);
+  const auto best = model_of(technique).best(workload, costs_of(costs, technique), fixed, limits);
   if (!best) return std::nullopt;
   candidate.parameters = *best;
   for (const auto& [name, value] : fixed.values) set_parameter(candidate, name, value);
   return candidate;
 }
 
-std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload, const Valid<CostTable>& costs,
                               const SearchLimits& limits) {
   if (!has_closed_form(technique)) return std::nullopt;
   const auto candidate = complete(technique, {}, workload, costs, limits);
@@ -53,7 +53,7 @@ std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& worklo
   return assess(workload, *candidate, costs);
 }
 
-std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const SearchLimits& limits) {
+std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs, const SearchLimits& limits) {
   std::vector<Ranked> ranking;
   for (const Technique technique : all_techniques) {
     if (!ranking.empty() && limits.stop.stop_requested()) break;

@@ -20,25 +20,25 @@ struct Ranked {
 /// ranking has only the techniques tried before the request, but at least one.
 ///
 /// Parameters: the sphere cache by best_ratio_and_stop; cell spheres and the octree by trying their depths; the sphere
-/// tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by box_tree_rule; the grid by
+/// tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by trying leaves and then fan-outs; the grid by
 /// best_grid_cells. Throws std::invalid_argument for a workload out of range.
-[[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+[[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                        const SearchLimits& limits = {});
 
 /// One technique with its best parameters. nullopt if the technique has no closed form, if no parameters are within the
 /// limits, or if the best sphere cache has no spheres, which is brute force.
 [[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload,
-                                            const Valid<UnitCosts>& costs, const SearchLimits& limits = {});
+                                            const Valid<CostTable>& costs, const SearchLimits& limits = {});
 
 /// One technique with the parameters in `fixed`. The others are the best ones if a closed form gives them, else the
 /// defaults. nullopt if no parameters are within the limits. Throws std::invalid_argument for a workload or parameter
 /// out of range, and for parameters of another technique.
 [[nodiscard]] std::optional<Candidate> complete(Technique technique, const FixedParameters& fixed,
-                                                const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                                const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                                 const SearchLimits& limits = {});
 
 /// One candidate as `rank` would return it.
 [[nodiscard]] Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate,
-                            const Valid<UnitCosts>& costs);
+                            const Valid<CostTable>& costs);
 
 }  // namespace detp::model

@@ -12,7 +12,9 @@ Counts<double> predict(const Valid<Workload>& workload, const Valid<Candidate>& 
   if (!has_closed_form(candidate.technique))
     throw std::invalid_argument(
         fmt::format("there is no closed form of {}; it can only be run", name(candidate.technique)));
-  return model_of(candidate.technique).predict(workload, candidate, engine);
+  Counts<double> counts = model_of(candidate.technique).predict(workload, candidate, engine);
+  counts.loaded = workload.rays;
+  return counts;
 }
 
 }  // namespace detp::model

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <span>
 
 #include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/hierarchy/box_tree.hpp"
-#include "detp/model/hierarchy/box_tree_rule.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"
 #include "detp/model/hierarchy/sphere_tree.hpp"
 #include "detp/model/lines/line_measure.hpp"
@@ -115,12 +115,25 @@ std::optional<Parameters> best_sphere_tree(const Valid<Workload>& workload, cons
   return fastest.best();
 }
 
-std::optional<Parameters> best_box_tree(const Valid<Workload>& workload, const Valid<UnitCosts>&,
-                                        const FixedParameters& fixed, const SearchLimits&) {
-  BoxTreeParameters tree = box_tree_rule(workload);
-  if (const auto fan_out = fixed.value<std::int64_t>("fan-out")) tree.fan_out = static_cast<int>(*fan_out);
-  if (const auto leaf = fixed.value<std::int64_t>("leaf")) tree.leaf = static_cast<int>(*leaf);
-  return tree;
+/// Tries all leaves with a fan-out of 8, and then all fan-outs with the best leaf.
+std::optional<Parameters> best_box_tree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                        const FixedParameters& fixed, const SearchLimits& limits) {
+  SearchLimits any_size = limits;  // a box tree holds each disc once
+  any_size.most_references = std::numeric_limits<double>::infinity();
+  Fastest<BoxTreeParameters> fastest(costs, Technique::box_tree, any_size);
+  const auto consider = [&](std::int64_t fan_out, std::int64_t leaf) {
+    if (fastest.best() && limits.stop.stop_requested()) return;
+    const BoxTreeParameters tree{static_cast<int>(fan_out), static_cast<int>(leaf)};
+    fastest.consider(tree, box_tree_counts(workload, tree, Engine::simd));
+  };
+  const auto fixed_fan_out = fixed.value<std::int64_t>("fan-out");
+  const auto fixed_leaf = fixed.value<std::int64_t>("leaf");
+  if (fixed_leaf) consider(fixed_fan_out.value_or(8), *fixed_leaf);
+  if (!fixed_leaf)
+    for (const std::int64_t leaf : {4, 8, 16, 32, 64, 128, 256}) consider(fixed_fan_out.value_or(8), leaf);
+  if (!fixed_fan_out)
+    for (const std::int64_t fan_out : {4, 16}) consider(fan_out, fastest.best()->leaf);
+  return fastest.best();
 }
 
 /// The best depth for top-down traversal, whatever the traversal is.

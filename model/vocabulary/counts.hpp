@@ -10,6 +10,7 @@ namespace detp {
 
 template <class T>
 struct Counts {
+  T loaded{};      ///< rays brought into a search
   T cull_tests{};  ///< ray-sphere and ray-box tests of rays in lists
   T culls{};       ///< lists made: for each block of rays, one for each sphere or box
   T listed{};      ///< rays added to these lists
@@ -36,7 +37,8 @@ struct CountTerm {
 
 /// All terms, in the order in which results list them.
 template <class T>
-inline constexpr std::array<CountTerm<T>, 12> count_terms{{{"cull_tests", &Counts<T>::cull_tests},
+inline constexpr std::array<CountTerm<T>, 13> count_terms{{{"loaded", &Counts<T>::loaded},
+                                                           {"cull_tests", &Counts<T>::cull_tests},
                                                            {"culls", &Counts<T>::culls},
                                                            {"listed", &Counts<T>::listed},
                                                            {"visits", &Counts<T>::visits},

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <string_view>
 
 #include "counts.hpp"
@@ -24,20 +25,25 @@ struct UnitCosts {
   double sort = 0;        ///< s: sorting one disc along the curve
   double cull = 0;        ///< r: fixed cost of one list, not including its tests and rays
   double visit = 0;       ///< l: fixed cost of one disc's visit to a list, not including its tests
+  double hit = 0;         ///< h: recording one hit
+  double ray = 0;         ///< i: bringing one ray into a search
+  double far = 0;         ///< m: inserting one disc, for each doubling of the insertions above near_placements
+  double start = 0;       ///< a: fixed cost of a run
 
   bool operator==(const UnitCosts&) const = default;
 };
 
 /// The time of a technique by part, in the unit of the UnitCosts from which it was computed.
 struct CostBreakdown {
+  double start = 0;      ///< fixed cost of the run, and bringing rays into the search
   double order = 0;      ///< sorting the samples
   double build = 0;      ///< building an index
   double rebuild = 0;    ///< T_R: tests of all lists, and the lists' fixed cost
   double copy = 0;       ///< adding rays to lists
   double traverse = 0;   ///< steps through an index
-  double intersect = 0;  ///< T_I: ray-disc tests, and the discs' visits to lists
+  double intersect = 0;  ///< T_I: ray-disc tests, the discs' visits to lists, and recording hits
 
-  [[nodiscard]] constexpr double total() const { return order + build + rebuild + copy + traverse + intersect; }
+  [[nodiscard]] constexpr double total() const { return start + order + build + rebuild + copy + traverse + intersect; }
 };
 
 /// The two ways to search: a list of rays against one disc after another, or one ray and one disc at a time.
@@ -47,52 +53,74 @@ enum class CostEngine { lists, ray_by_ray, both };
 struct UnitCostTerm {
   std::string_view symbol;  ///< "t"
   double UnitCosts::*cost;
-  double Counts<double>::*count;
+  double (*quantity)(const Counts<double>&);  ///< the number of operations: mostly one of the counts
   CostEngine engine;
   double CostBreakdown::*part;
   std::string_view meaning;  ///< operation whose time it is
 };
 
+/// Up to about this many insertions into an index, the data stay in the second-level cache.
+inline constexpr double near_placements = 1e4;
+
+/// Insertions × the binary logarithm of their number over near_placements: each doubling leaves fewer discs in a cache.
+[[nodiscard]] inline double far_placements(const Counts<double>& counts) {
+  return counts.placements > near_placements ? counts.placements * std::log2(counts.placements / near_placements) : 0;
+}
+
+/// One count, for UnitCostTerm::quantity.
+template <auto count>
+[[nodiscard]] constexpr double quantity_of(const Counts<double>& counts) {
+  return counts.*count;
+}
+
 inline constexpr std::array unit_cost_terms{
-    UnitCostTerm{"t", &UnitCosts::cull_test, &Counts<double>::cull_tests, CostEngine::both, &CostBreakdown::rebuild,
-                 "testing a ray of a list against a sphere or a box"},
-    UnitCostTerm{"u", &UnitCosts::disc_test, &Counts<double>::disc_tests, CostEngine::lists, &CostBreakdown::intersect,
-                 "testing a ray of a list against a disc"},
-    UnitCostTerm{"w", &UnitCosts::index_test, &Counts<double>::disc_tests, CostEngine::ray_by_ray,
+    UnitCostTerm{"t", &UnitCosts::cull_test, quantity_of<&Counts<double>::cull_tests>, CostEngine::both,
+                 &CostBreakdown::rebuild, "testing a ray of a list against a sphere or a box"},
+    UnitCostTerm{"u", &UnitCosts::disc_test, quantity_of<&Counts<double>::disc_tests>, CostEngine::lists,
+                 &CostBreakdown::intersect, "testing a ray of a list against a disc"},
+    UnitCostTerm{"w", &UnitCosts::index_test, quantity_of<&Counts<double>::disc_tests>, CostEngine::ray_by_ray,
                  &CostBreakdown::intersect, "testing one ray against one disc of an index"},
-    UnitCostTerm{"v", &UnitCosts::step, &Counts<double>::steps, CostEngine::both, &CostBreakdown::traverse,
+    UnitCostTerm{"v", &UnitCosts::step, quantity_of<&Counts<double>::steps>, CostEngine::both, &CostBreakdown::traverse,
                  "a ray's step to a cell of a grid"},
-    UnitCostTerm{"n", &UnitCosts::node, &Counts<double>::nodes, CostEngine::both, &CostBreakdown::traverse,
+    UnitCostTerm{"n", &UnitCosts::node, quantity_of<&Counts<double>::nodes>, CostEngine::both, &CostBreakdown::traverse,
                  "a visit to a node of a tree"},
-    UnitCostTerm{"c", &UnitCosts::listed, &Counts<double>::listed, CostEngine::both, &CostBreakdown::copy,
+    UnitCostTerm{"c", &UnitCosts::listed, quantity_of<&Counts<double>::listed>, CostEngine::both, &CostBreakdown::copy,
                  "putting a ray into a list"},
-    UnitCostTerm{"b", &UnitCosts::placement, &Counts<double>::placements, CostEngine::ray_by_ray, &CostBreakdown::build,
-                 "placing a disc in a cell or node while an index is built"},
-    UnitCostTerm{"p", &UnitCosts::leaf, &Counts<double>::placements, CostEngine::lists, &CostBreakdown::build,
-                 "placing a disc in a leaf of a tree that lists are culled down"},
-    UnitCostTerm{"s", &UnitCosts::sort, &Counts<double>::sorted, CostEngine::both, &CostBreakdown::order,
+    UnitCostTerm{"b", &UnitCosts::placement, quantity_of<&Counts<double>::placements>, CostEngine::ray_by_ray,
+                 &CostBreakdown::build, "placing a disc in a cell or node while an index is built"},
+    UnitCostTerm{"p", &UnitCosts::leaf, quantity_of<&Counts<double>::placements>, CostEngine::lists,
+                 &CostBreakdown::build, "placing a disc in a leaf of a tree that lists are culled down"},
+    UnitCostTerm{"s", &UnitCosts::sort, quantity_of<&Counts<double>::sorted>, CostEngine::both, &CostBreakdown::order,
                  "sorting a disc along the curve"},
-    UnitCostTerm{"r", &UnitCosts::cull, &Counts<double>::culls, CostEngine::both, &CostBreakdown::rebuild,
+    UnitCostTerm{"r", &UnitCosts::cull, quantity_of<&Counts<double>::culls>, CostEngine::both, &CostBreakdown::rebuild,
                  "making a list, beside its tests and rays"},
-    UnitCostTerm{"l", &UnitCosts::visit, &Counts<double>::visits, CostEngine::both, &CostBreakdown::intersect,
-                 "a disc's visit to a list, beside its tests"},
+    UnitCostTerm{"l", &UnitCosts::visit, quantity_of<&Counts<double>::visits>, CostEngine::both,
+                 &CostBreakdown::intersect, "a disc's visit to a list, beside its tests"},
+    UnitCostTerm{"h", &UnitCosts::hit, quantity_of<&Counts<double>::hits>, CostEngine::both, &CostBreakdown::intersect,
+                 "recording a hit"},
+    UnitCostTerm{"i", &UnitCosts::ray, quantity_of<&Counts<double>::loaded>, CostEngine::both, &CostBreakdown::start,
+                 "bringing a ray into a search"},
+    UnitCostTerm{"m", &UnitCosts::far, far_placements, CostEngine::both, &CostBreakdown::build,
+                 "placing a disc, for each doubling of the placed discs above 10 000"},
+    UnitCostTerm{"a", &UnitCosts::start, [](const Counts<double>&) { return 1.0; }, CostEngine::both,
+                 &CostBreakdown::start, "a run, whatever it does"},
 };
 
 /// Throws std::invalid_argument if a cost is negative, above 1e200 or NaN. The message names the cost.
 void check(const UnitCosts& costs);
 
 /// The time of each part: its counts × their unit costs, with the costs of one engine.
-[[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs,
-                                            CostEngine engine = CostEngine::lists) {
+[[nodiscard]] inline CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs,
+                                         CostEngine engine = CostEngine::lists) {
   CostBreakdown time;
   for (const UnitCostTerm& term : unit_cost_terms)
     if (term.engine == CostEngine::both || term.engine == engine)
-      time.*term.part += counts.*term.count * costs.*term.cost;
+      time.*term.part += term.quantity(counts) * costs.*term.cost;
   return time;
 }
 
 /// The same with the costs of the technique's engine.
-[[nodiscard]] constexpr CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs, Technique technique) {
+[[nodiscard]] inline CostBreakdown price(const Counts<double>& counts, const UnitCosts& costs, Technique technique) {
   return price(counts, costs, record_of(technique).ray_by_ray ? CostEngine::ray_by_ray : CostEngine::lists);
 }
 

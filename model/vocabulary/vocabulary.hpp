@@ -2,6 +2,7 @@
 
 /// The types that prediction and simulation share.
 #include "checks.hpp"
+#include "cost_table.hpp"
 #include "counts.hpp"
 #include "engine.hpp"
 #include "form.hpp"

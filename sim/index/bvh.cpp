@@ -196,7 +196,7 @@ class BvhIndex final : public Index {
   BvhIndex(const Problem& problem, BuildQuality quality, const RunOptions& options)
       : bvh_(problem, quality, options.threads, options.stop) {
     built_.seconds.build = watch_.lap();
-    built_.counts.references = problem.discs().size();
+    built_.counts.placements = built_.counts.references = problem.discs().size();
     built_.bytes = bytes_per_disc * static_cast<double>(problem.discs().size());
   }
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "detp/validate/choice/unit_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 
 namespace detp::validate {
 Contenders contenders(const Workload& workload, std::span<const Technique> named, double hopeless) {

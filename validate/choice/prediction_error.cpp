@@ -7,7 +7,7 @@
 namespace detp::validate {
 
 PredictionError prediction_error(const model::Ranked& predicted, const Counts<std::uint64_t>& counted, double seconds,
-                                 const UnitCosts& costs) {
+                                 const CostTable& costs) {
   const Counts<double> found = as_expected(counted);
   const Technique technique = predicted.candidate.technique;
   const double counted_seconds = price(found, costs, technique).total();

@@ -19,6 +19,6 @@ struct PredictionError {
 
 /// Requires measured seconds > 0.
 [[nodiscard]] PredictionError prediction_error(const model::Ranked& predicted, const Counts<std::uint64_t>& counted,
-                                               double seconds, const UnitCosts& costs);
+                                               double seconds, const CostTable& costs);
 
 }  // namespace detp::validate

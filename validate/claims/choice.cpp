@@ -10,7 +10,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/base/search_work.hpp"
-#include "detp/validate/choice/unit_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 #include "experiments.hpp"
 
 namespace detp::validate {
@@ -94,10 +94,10 @@ Estimate observed(const Counted& counted, const CountTerm<double>& term, double 
 
 /// True if the count is a claim: it is `hits`, or has a unit cost > 0 for this technique.
 bool is_claimed(const CountTerm<double>& term, Technique technique) {
-  if (term.name == "sorted") return false;  // the number of discs, which is an input
+  if (term.name == "loaded" || term.name == "sorted") return false;  // the numbers of rays and discs, which are inputs
   Counts<double> one;
   one.*term.term = 1;
-  return term.name == "hits" || price(one, built_in_unit_costs(), technique).total() > 0;
+  return term.name == "hits" || price(one, built_in_unit_costs(), technique).total() > price({}, built_in_unit_costs(), technique).total();
 }
 
 std::string with_dashes(std::string_view text) {

@@ -5,10 +5,10 @@
 #include <stdexcept>
 
 #include "choose_report.hpp"
+#include "costs_in_use.hpp"
 #include "detp/model/rank/paper_rule.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/validate/choice/unit_costs.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "progress_line.hpp"
 #include "unit_cost_option.hpp"
@@ -19,13 +19,13 @@ namespace {
 
 struct ChooseOptions {
   WorkloadOptions workload;
-  std::string costs;
+  CostOptions costs;
   std::string rigor = "estimate";
   bool analyze = false;
 };
 
 /// Returns the progress if a stop request ended the ranking, else nothing.
-std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs, const std::stop_token& stop) {
+std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
   answer.choosing_seconds = watch.seconds();
@@ -34,7 +34,8 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs
     throw std::invalid_argument(fmt::format(
         "with these unit costs {} takes no time, so that nothing can be compared: {} cost 0; give every operation its "
         "cost in seconds, as --help explains",
-        name(answer.ranking.front().candidate.technique), zero_costs(costs)));
+        name(answer.ranking.front().candidate.technique),
+        zero_costs(costs[answer.ranking.front().candidate.technique])));
   if (!std::isfinite(answer.ranking.back().time.total()))
     throw std::invalid_argument(
         fmt::format("with these unit costs the time of {} exceeds 1.8e308 s and cannot be compared; give smaller costs",
@@ -46,7 +47,7 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const UnitCosts& costs
   return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
 }
 
-model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const UnitCosts& costs,
+model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const CostTable& costs,
                                   const std::stop_token& stop) {
   const Counts<double> counts =
       validate::structural_counts(job.discs, job.workload.rays, candidate, stop, job.front_facing);
@@ -56,7 +57,7 @@ model::Ranked assess_structurally(const validate::Job& job, const Candidate& can
 /// The prediction from structural counts if `structural`, otherwise from the closed form. Returns nothing if the
 /// candidate has no such prediction, if its index does not fit in memory, or if a stop was requested.
 std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
-                                       const UnitCosts& costs, const std::stop_token& stop) {
+                                       const CostTable& costs, const std::stop_token& stop) {
   try {
     return structural ? assess_structurally(job, candidate, costs, stop)
                       : model::assess(job.workload, candidate, costs);
@@ -71,7 +72,7 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
 
 /// After a stop request, leaves the ranking unchanged and returns the number of counted candidates; else returns
 /// nothing.
-std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const validate::Job& job, const UnitCosts& costs,
+std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs,
                                                  const std::stop_token& stop, const sim::ReportPhase& progress) {
   if (job.field != sim::Field::isotropic)
     throw std::invalid_argument(
@@ -114,7 +115,8 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
                     "run the candidates",
                     options.rigor));
   const bool structural = rigor == Rigor::structural;
-  const UnitCosts costs = parse_unit_costs(options.costs, validate::built_in_unit_costs());
+  const CostsInUse costs_in_use = options.costs.costs(common);
+  const CostTable& costs = costs_in_use.costs;
   validate::JobRequest request = options.workload.request(common);
   request.workload_only = !options.analyze;
   Result result;
@@ -152,7 +154,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   result.inputs["rigor"] = options.rigor;
   result.inputs["analyze"] = options.analyze;
   answer.costs = costs;
-  answer.costs_given = !options.costs.empty();
+  answer.costs_origin = costs_in_use.origin;
   result.json = to_json(answer);
   result.text = to_text(answer, common.screen());
   result.csv = to_csv(answer, result.inputs);
@@ -166,7 +168,7 @@ Command choose_command(CLI::App& program) {
   app->footer("Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze");
   const auto options = std::make_shared<ChooseOptions>();
   options->workload.add_to(*app);
-  app->add_option("--costs", options->costs, unit_cost_help() + "\ndefault: built in");
+  options->costs.add_to(*app);
   app->add_option("--rigor", options->rigor,
                   "estimate: closed forms only; structural: the built structures, no rays; default: estimate");
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");

@@ -95,7 +95,7 @@ Json to_json(const ChooseAnswer& answer) {
               {"predicted_seconds", answer.paper.time.total()}}},
             {"effects", effects_json(answer.workload)},
             {"rigor", name(answer.rigor)},
-            {"unit_costs", !answer.costs_given ? "built-in; not calibrated on this machine" : "given"},
+            {"unit_costs", answer.costs_origin},
             {"choosing_seconds", answer.choosing_seconds},
             {"warnings", answer.warnings}};
   json["paper_rule"].update(extrapolated_json(answer.paper.extrapolated));
@@ -203,8 +203,7 @@ std::string to_text(const ChooseAnswer& answer, const Screen& screen) {
       share < 1 ? fmt::format("{:.2g} % of", 100 * share) : fmt::format("{:.3g} times", share), name(answer.rigor),
       answer.rigor == Rigor::structural ? "parameters by closed forms, counts by the structures built with them"
                                         : "closed forms alone"));
-  add(fmt::format("costs     {}", answer.costs_given ? "of each operation, as given"
-                                                     : "of each operation: built in, not calibrated on this machine"));
+  add(fmt::format("costs     {}", answer.costs_origin));
   return text;
 }
 

@@ -17,8 +17,8 @@ struct ChooseAnswer {
   model::Ranked paper;  ///< the paper's rule of thumb
   std::optional<validate::Analysis> analysis;
   Rigor rigor = Rigor::estimate;
-  UnitCosts costs;
-  bool costs_given = false;  ///< true: from the user; false: the built-in unit costs
+  CostTable costs;
+  std::string costs_origin;  ///< "of each operation: built in, ..."
   double choosing_seconds = 0;
   std::vector<std::string> warnings;
 };

@@ -39,6 +39,7 @@ struct Result {
   std::string text;
   std::string csv;
   ExitCode code = ExitCode::done;
+  bool output_is_written = false;  ///< the command itself wrote the file of --output; the result goes to stdout
   /// the progress if a stop request ended the command, so that the result is partial; else nothing
   std::optional<sim::Progress> stopped = {};
 };
@@ -55,6 +56,7 @@ struct Command {
 [[nodiscard]] Command validate_command(CLI::App& program);
 [[nodiscard]] Command scene_command(CLI::App& program);
 [[nodiscard]] Command bench_command(CLI::App& program);
+[[nodiscard]] Command calibrate_command(CLI::App& program);
 
 void note(const CommonOptions& common, const std::string& message);
 

@@ -33,7 +33,7 @@ class CommandLine {
 
   CLI::App program_;
   CommonOptions common_;
-  std::array<Command, 6> commands_;
+  std::array<Command, 7> commands_;
 };
 
 }  // namespace detp::cli

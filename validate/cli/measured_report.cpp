@@ -21,7 +21,7 @@ std::vector<const validate::Analysed*> to_explain(const validate::Analysis& anal
   return runs;
 }
 
-std::string missed_line(const validate::Analysed& run, const UnitCosts& costs) {
+std::string missed_line(const validate::Analysed& run, const CostTable& costs) {
   const std::string tried = title(run.candidate);
   if (!run.predicted) return fmt::format("missed    {} has no closed form: it was not predicted", tried);
   if (!run.counted || !run.seconds) return "";
@@ -33,7 +33,7 @@ std::string missed_line(const validate::Analysed& run, const UnitCosts& costs) {
       tried, error.seconds, error.counts, error.worst, error.worst_ratio, error.unit_costs);
 }
 
-Json missed_json(const validate::Analysed& run, const UnitCosts& costs) {
+Json missed_json(const validate::Analysed& run, const CostTable& costs) {
   Json json{{"technique", name(run.candidate.technique)},
             {"parameters", to_json(run.candidate)},
             {"predicted", run.predicted.has_value()}};
@@ -43,7 +43,7 @@ Json missed_json(const validate::Analysed& run, const UnitCosts& costs) {
 
 }  // namespace
 
-Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs) {
+Json missed_ratios(const validate::Analysed& run, const CostTable& costs) {
   if (!run.predicted || !run.counted || !run.seconds) return Json::object();
   const auto error = validate::prediction_error(*run.predicted, *run.counted, *run.seconds, costs);
   return {{"seconds_ratio", known(error.seconds)},

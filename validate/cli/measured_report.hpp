@@ -14,7 +14,7 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
 
 /// PredictionError as JSON members, with the names that they have under `missed` in the output. An empty object if the
 /// candidate was not predicted, not counted or not timed.
-[[nodiscard]] Json missed_ratios(const validate::Analysed& run, const UnitCosts& costs);
+[[nodiscard]] Json missed_ratios(const validate::Analysed& run, const CostTable& costs);
 
 /// The lines "choice", "regret" and "missed": the candidate with the shortest measured time, and the prediction's
 /// errors.

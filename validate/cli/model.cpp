@@ -173,7 +173,7 @@ Result run_model(ModelOptions& options, const CommonOptions& common, const std::
   const std::size_t expected = rows_in(options.workload.lists, options.candidate.lists);
   const std::int64_t levels = options.levels.value_or(expected == 1 ? 64 : 0);
   require_count("--levels", static_cast<double>(levels), 0, 1e6);
-  const UnitCosts costs = parse_unit_costs(options.costs, UnitCosts{});
+  const UnitCosts costs = parse_unit_costs(options.costs).value_or(UnitCosts{});
   const auto rows = answer_all(
       options.workload.lists, options.candidate.lists, stop, [&] { return measure(options, common, stop); },
       [&](const Measured& measured) { return answer_row(options, measured, costs, levels); });

@@ -2,7 +2,6 @@
 #include <oneapi/tbb/global_control.h>
 
 #include <cmath>
-#include <fstream>
 #include <new>
 #include <stdexcept>
 #include <system_error>
@@ -13,6 +12,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/output_file.hpp"
+#include "detp/validate/calibration/calibration_file.hpp"
 #include "interruption.hpp"
 #include "messages.hpp"
 #include "outputs.hpp"
@@ -22,18 +22,14 @@
 namespace detp::cli {
 namespace {
 
-std::string cpu_name() {
-  std::ifstream cpus("/proc/cpuinfo");
-  for (std::string line; std::getline(cpus, line);)
-    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
-  return "unknown";
-}
-
 Json envelope(const std::string& command, const CommonOptions& common, int threads, Result& result) {
   Json json{{"schema", {{"name", "detp." + command}, {"version", 1}}}, {"inputs", std::move(result.inputs)}};
   json.update(result.json);
-  json["provenance"] = {
-      {"program", "detp"}, {"version", DETP_VERSION}, {"seed", common.seed}, {"threads", threads}, {"cpu", cpu_name()}};
+  json["provenance"] = {{"program", "detp"},
+                        {"version", DETP_VERSION},
+                        {"seed", common.seed},
+                        {"threads", threads},
+                        {"cpu", validate::this_machine().cpu}};
   return json;
 }
 
@@ -45,9 +41,10 @@ void require_finite_numbers(const Json& json) {
     for (const Json& part : json) require_finite_numbers(part);
 }
 
-void print(const std::string& text, const CommonOptions& common) {
-  if (common.output) {
-    sim::OutputFile file(*common.output);
+/// Writes to the file `output`, or to stdout without one.
+void print(const std::string& text, const std::optional<std::string>& output) {
+  if (output) {
+    sim::OutputFile file(*output);
     file.write(text);
     file.commit();
   } else {
@@ -88,13 +85,14 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   if (result.code == ExitCode::stopped && !result.stopped) result.stopped.emplace();
   result.json["stopped"] = result.stopped.has_value();
   if (result.stopped) mark_stopped(result, interruption.seconds_since_request(), common.screen());
+  const auto output = result.output_is_written ? std::optional<std::string>() : common.output;
   if (common.format == "json") {
     const Json json = envelope(command.app->get_name(), common, threads, result);
     require_finite_numbers(json);
     // Invalid UTF-8, for instance in a file's name, is replaced, because JSON must be valid.
-    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", common);
+    print(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", output);
   } else {
-    print(common.format == "csv" ? result.csv : safe_text(result.text, common.screen().colour), common);
+    print(common.format == "csv" ? result.csv : safe_text(result.text, common.screen().colour), output);
   }
   return static_cast<int>(result.code);
 }

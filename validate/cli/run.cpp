@@ -9,7 +9,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/files/writing_check.hpp"
-#include "detp/validate/choice/unit_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"
 #include "run_report.hpp"
@@ -32,7 +32,7 @@ struct RunOptions {
 /// Returns the requested technique, or the one that the closed forms predict to be fastest. The closed forms also
 /// choose the parameters that the options leave open.
 Candidate complete(const CandidateOptions& options, const Workload& workload) {
-  const UnitCosts costs = validate::built_in_unit_costs();
+  const CostTable costs = validate::built_in_unit_costs();
   const Technique technique = options.technique ? options.technique_or(Technique::brute_force)
                                                 : model::rank(workload, costs).front().candidate.technique;
   const model::FixedParameters fixed = options.fixed_parameters(technique);
@@ -40,7 +40,7 @@ Candidate complete(const CandidateOptions& options, const Workload& workload) {
   if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
   if (auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
       cache != nullptr && options.stop == SphereStop::max)
-    cache->spheres = sphere_stops(workload, costs, Form::corrected, {cache->ratio}).max;
+    cache->spheres = sphere_stops(workload, costs[technique], Form::corrected, {cache->ratio}).max;
   return *candidate;
 }
 

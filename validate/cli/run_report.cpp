@@ -7,7 +7,7 @@
 #include <stdexcept>
 
 #include "detp/model/rank/predict.hpp"
-#include "detp/validate/choice/unit_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 #include "sphere_stops.hpp"
 #include "text_table.hpp"
 #include "workload_options.hpp"
@@ -49,7 +49,8 @@ void add_stops(const Workload& workload, const Candidate& candidate, Json& json)
   const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters);
   if (cache == nullptr) return;
   const auto form = candidate.technique == Technique::sphere_cache ? Form::corrected : Form::published;
-  const SphereStops stops = sphere_stops(workload, validate::built_in_unit_costs(), form, {cache->ratio});
+  const SphereStops stops =
+      sphere_stops(workload, validate::built_in_unit_costs()[candidate.technique], form, {cache->ratio});
   json["k"] = cache->spheres;
   json["k_max"] = stops.max;
   json["k_best"] = stops.best;
@@ -144,6 +145,7 @@ std::string repeats_text(const Timing& timing) {
 
 std::string_view meaning(std::string_view term) {
   static const std::map<std::string_view, std::string_view> meanings{
+      {"loaded", "rays brought into the search"},
       {"cull_tests", "tests of a ray in a list against a sphere or box"},
       {"culls", "lists made, one for each sphere or box"},
       {"listed", "rays put into these lists"},

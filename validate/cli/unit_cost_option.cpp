@@ -34,8 +34,8 @@ std::string unit_cost_help() {
   return help;
 }
 
-UnitCosts parse_unit_costs(const std::string& text, const UnitCosts& otherwise) {
-  if (text.empty()) return otherwise;
+std::optional<UnitCosts> parse_unit_costs(const std::string& text) {
+  if (text.empty()) return std::nullopt;
   UnitCosts costs;
   for (const UnitCostTerm& one : unit_cost_terms) costs.*one.cost = 0;
   std::vector<std::string_view> given;
@@ -58,6 +58,18 @@ UnitCosts parse_unit_costs(const std::string& text, const UnitCosts& otherwise) 
 nlohmann::ordered_json to_json(const UnitCosts& costs) {
   nlohmann::ordered_json json;
   for (const UnitCostTerm& one : unit_cost_terms) json[std::string(one.symbol)] = costs.*one.cost;
+  return json;
+}
+
+nlohmann::ordered_json to_json(const CostTable& costs) {
+  if (costs == CostTable(costs.of_technique.front())) return to_json(costs.of_technique.front());
+  nlohmann::ordered_json json;
+  for (const Technique technique : all_techniques) {
+    if (!record_of(technique).exact) continue;
+    nlohmann::ordered_json& of_one = json[std::string(name(technique))] = nlohmann::ordered_json::object();
+    for (const UnitCostTerm& one : unit_cost_terms)
+      if (const double cost = costs[technique].*one.cost; cost > 0) of_one[std::string(one.symbol)] = cost;
+  }
   return json;
 }
 

@@ -32,6 +32,7 @@ Counts<double> structural_counts(const sim::Problem& problem, double rays, const
     throw std::invalid_argument(
         fmt::format("{} has no structural counts: {}", name(candidate.technique), model.why_none));
   Counts<double> counts = model.counts(problem, {rays, engine}, candidate.parameters, stop);
+  counts.loaded = rays;
   counts.hits = (front_facing ? 0.5 : 1) * expected_hits(problem, rays);
   return counts;
 }

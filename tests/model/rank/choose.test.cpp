@@ -214,7 +214,7 @@ TEST_SUITE("known answer") {
     dear_steps.step = dear_steps.node = 1e6;
     const Technique without_steps = rank(typical, dear_steps).front().candidate.technique;
     CHECK((without_steps == Technique::sphere_cache || without_steps == Technique::cell_spheres ||
-           without_steps == Technique::sphere_tree));
+           without_steps == Technique::sphere_tree || without_steps == Technique::box_tree));
     UnitCosts dear_spheres = costs;
     dear_spheres.cull_test = 1e6;
     const Technique best = rank(typical, dear_spheres).front().candidate.technique;

@@ -65,17 +65,23 @@ TEST_SUITE("known answer") {
     const Counts<double> counts = predict(typical, candidates[0], Engine::plain);
     CHECK(counts.disc_tests == 1e11);
     CHECK(counts.hits == expected_hits(typical));
-    CHECK(counts == Counts<double>{.visits = 1e5, .disc_tests = 1e11, .hits = counts.hits});
+    CHECK(counts == Counts<double>{.loaded = typical.rays, .visits = 1e5, .disc_tests = 1e11, .hits = counts.hits});
   }
 
-  TEST_CASE("each technique is predicted by its own formulas") {
-    CHECK(predict(typical, candidates[1], Engine::plain) == sphere_cache_counts(typical, {0.6, 6}));
-    CHECK(predict(typical, candidates[2], Engine::plain) == sphere_cache_counts(typical, {0.6, 6, SampleOrder::none}));
-    CHECK(predict(typical, candidates[3], Engine::plain) == published::counts(typical, {0.6}, 6));
-    CHECK(predict(typical, candidates[4], Engine::plain) == octree_counts(typical, {6}));
-    CHECK(predict(typical, candidates[5], Engine::plain) == grid_counts(typical, {70}));
-    CHECK(predict(typical, candidates[6], Engine::plain) == cell_sphere_counts(typical, {5}));
-    CHECK(predict(typical, candidates[7], Engine::plain) == sphere_tree_counts(typical, {8, 12}));
+  TEST_CASE("each technique is predicted by its own formulas, plus the rays") {
+    const auto predicted = [](const Candidate& candidate) {
+      Counts<double> counts = predict(typical, candidate, Engine::plain);
+      CHECK(counts.loaded == typical.rays);
+      counts.loaded = 0;
+      return counts;
+    };
+    CHECK(predicted(candidates[1]) == sphere_cache_counts(typical, {0.6, 6}));
+    CHECK(predicted(candidates[2]) == sphere_cache_counts(typical, {0.6, 6, SampleOrder::none}));
+    CHECK(predicted(candidates[3]) == published::counts(typical, {0.6}, 6));
+    CHECK(predicted(candidates[4]) == octree_counts(typical, {6}));
+    CHECK(predicted(candidates[5]) == grid_counts(typical, {70}));
+    CHECK(predicted(candidates[6]) == cell_sphere_counts(typical, {5}));
+    CHECK(predicted(candidates[7]) == sphere_tree_counts(typical, {8, 12}));
   }
 }
 

@@ -33,10 +33,10 @@ TEST_SUITE("identity") {
       names.insert(name);
       values.push_back(term);
     });
-    CHECK(names.size() == 12);
-    CHECK(values.size() == 12);
-    CHECK(sizeof(Counts<double>) == 12 * sizeof(double));
-    CHECK(values.back() == 2048);
+    CHECK(names.size() == 13);
+    CHECK(values.size() == 13);
+    CHECK(sizeof(Counts<double>) == 13 * sizeof(double));
+    CHECK(values.back() == 4096);
   }
 
   TEST_CASE("an observation converts to the same numbers") {

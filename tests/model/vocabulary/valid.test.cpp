@@ -85,10 +85,10 @@ TEST_SUITE("valid") {
     static_assert(!std::is_assignable_v<decltype((std::declval<Valid<Even>&>().twice)), int>);
   }
 
-  TEST_CASE("rank checks the workload and the costs once each, whatever the number of techniques") {
+  TEST_CASE("rank checks the workload and each technique's costs once") {
     count([] { return rank(plain, {}); });
     CHECK(workload_checks == 1);
-    CHECK(cost_checks == 1);
+    CHECK(cost_checks == static_cast<int>(all_techniques.size()));
     Workload bad = plain;
     bad.samples = -1;
     count([&] {

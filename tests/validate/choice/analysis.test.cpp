@@ -7,7 +7,7 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/validate/choice/measure.hpp"
-#include "detp/validate/choice/unit_costs.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 
 using namespace detp;
 using namespace detp::validate;

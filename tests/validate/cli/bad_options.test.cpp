@@ -168,7 +168,7 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("a missing command and an unknown one have different messages; the unknown one is named") {
-    check_refused({{"", "a command is needed: model, choose, run, validate, scene or bench"},
+    check_refused({{"", "a command is needed: model, choose, run, validate, scene, bench or calibrate"},
                    {"quux", "quux"},
                    {"quux --rays 5", "quux"},
                    {"--format json", "--format"}});

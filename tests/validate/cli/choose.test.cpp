@@ -65,16 +65,16 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("choose, model and run use the same box tree: leaves of 64, 16 and 8, by rays per disc") {
-    for (const auto& [rays, leaf] : {std::pair{"1000", 64}, {"20000", 16}, {"150000", 8}}) {
+  TEST_CASE("choose, model and run use the same box tree, with smaller leaves for more rays per disc") {
+    int last = 1000;
+    for (const char* const rays : {"100", "3000", "150000"}) {
       const std::string workload = std::string("@uniform --samples 2000 --disc-radius 2% --rays ") + rays;
-      const Json parameters{{"fan_out", 4}, {"leaf", leaf}};
-      const Json run = result_of("run " + workload + " --technique box-tree");
-      const Json model = result_of("model " + workload + " --technique box-tree");
-      CHECK(run.at("parameters") == parameters);
-      CHECK(model.at("parameters") == parameters);
-      const Json choice = result_of("choose " + workload + " --rigor estimate");
-      for (const Json& candidate : choice.at("candidates")) {
+      const Json parameters = result_of("run " + workload + " --technique box-tree").at("parameters");
+      CHECK(parameters.at("leaf").get<int>() < last);
+      last = parameters.at("leaf");
+      const std::string tree = " --technique box-tree --fan-out " + parameters.at("fan_out").dump() + " --leaf ";
+      const Json model = result_of("model " + workload + tree + parameters.at("leaf").dump());
+      for (const Json& candidate : result_of("choose " + workload + " --rigor estimate").at("candidates")) {
         if (candidate.at("technique") != "box-tree") continue;
         CHECK(candidate.at("parameters") == parameters);
         CHECK(candidate.at("predicted") == model.at("counts"));
@@ -215,8 +215,8 @@ TEST_SUITE("end to end") {
 TEST_SUITE("bad input") {
   TEST_CASE("unit costs that make all candidates equal are refused by choose") {
     const std::string choose = "choose --samples 10 --disc-radius 0.1 --scene-side 1 --costs ";
-    check_refused({{choose + "u=0", "t, u, w, v, n, c, b, p, s, r, l cost 0"},
-                   {choose + "t=1e-9,u=1e-9", "w, v, n, c, b, p, s, r, l cost 0"},
+    check_refused({{choose + "u=0", "t, u, w, v, n, c, b, p, s, r, l, h, i, m, a cost 0"},
+                   {choose + "t=1e-9,u=1e-9", "w, v, n, c, b, p, s, r, l, h, i, m, a cost 0"},
                    {choose + "w=1,v=1,n=1", "brute-force takes no time"},
                    {choose + "t=1e308,u=1e308,w=1e308,v=1,n=1", "(t) must be from 0 to 1e+200"}});
   }

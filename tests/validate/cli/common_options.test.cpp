@@ -132,11 +132,15 @@ TEST_SUITE("end to end") {
                                          {"p", 0},
                                          {"s", 0},
                                          {"r", 0},
-                                         {"l", 0}});
+                                         {"l", 0},
+                                         {"h", 0},
+                                         {"i", 0},
+                                         {"m", 0},
+                                         {"a", 0}});
     const Json choose = result_of("choose --costs t=3,u=2,w=1,v=1,n=1" + numbers).at("inputs");
     CHECK(choose.at("unit_costs").at("t") == 3);
     CHECK(choose.at("unit_costs").at("c") == 0);
-    CHECK(result_of("choose" + numbers).at("inputs").at("unit_costs").at("u").get<double>() < 1e-6);
+    CHECK(result_of("choose" + numbers).at("inputs").at("unit_costs").at("box-tree").at("u").get<double>() < 1e-6);
     CHECK(choose.at("analyze") == false);
     const support::ScratchFolder folder;
     const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz\n0,0,0,0,0,1\n1,0,0,0,0,1\n");

@@ -1,0 +1,80 @@
+#include "detp/validate/calibration/calibration_file.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "detp/sim/files/file_error.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
+#include "support/scratch_file.hpp"
+
+using namespace detp;
+
+namespace {
+
+validate::Calibration some_calibration() {
+  validate::Calibration calibration;
+  calibration.costs = validate::built_in_unit_costs();
+  calibration.costs[Technique::grid].step = 1.25e-8;
+  calibration.left_out_median_error = 0.0625;
+  return calibration;
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t place = text.find(what);
+  REQUIRE(place != std::string::npos);
+  return text.replace(place, what.size(), by);
+}
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("a calibration is read back as it was written") {
+    const support::ScratchFolder folder;
+    const std::string path = folder.path("made/for/it/calibration.json");
+    validate::write_calibration(path, some_calibration());
+    const validate::StoredCalibration stored = validate::read_calibration(path);
+    CHECK(stored.key == validate::this_machine());
+    CHECK(stored.left_out_median_error == 0.0625);
+    CHECK(stored.date.size() == 10);
+    for (const Technique technique : all_techniques)
+      if (record_of(technique).exact) CHECK(stored.costs[technique] == some_calibration().costs[technique]);
+  }
+
+  TEST_CASE("equal keys do not differ; each difference is named") {
+    const validate::CalibrationKey here = validate::this_machine();
+    CHECK(validate::difference(here, here).empty());
+    validate::CalibrationKey other = here;
+    other.threads += 1;
+    CHECK(validate::difference(other, here).find("number of threads") != std::string::npos);
+    other = here;
+    other.instruction_set = "SSE2";
+    CHECK(validate::difference(other, here).find("instruction set is SSE2, here it is") != std::string::npos);
+    other = here;
+    other.cost_model += 1;
+    CHECK(validate::difference(other, here).find("cost model") != std::string::npos);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("what is no calibration is refused with its file's name") {
+    const std::string good = validate::calibration_text(some_calibration());
+    CHECK_NOTHROW(static_cast<void>(validate::parse_calibration(good, "c.json")));
+    for (const std::string& bad :
+         {std::string(), std::string("{"), std::string("[]"), std::string("{\"schema\": 1}"),
+          good.substr(0, good.size() / 2), replaced(good, "detp.calibrate", "detp.run"),
+          replaced(good, "\"version\": 1", "\"version\": 2"),
+          replaced(good, "\"left_out_median_error\": 0.0625", "\"left_out_median_error\": -1"),
+          replaced(good, "\"v\": 1.25e-08", "\"v\": -1"), replaced(good, "\"v\": 1.25e-08", "\"v\": \"x\"")}) {
+      CAPTURE(bad);
+      CHECK_THROWS_WITH_AS(static_cast<void>(validate::parse_calibration(bad, "c.json")), doctest::Contains("c.json: "),
+                           sim::FileError);
+    }
+  }
+
+  TEST_CASE("a missing file is refused") {
+    CHECK_THROWS_AS(static_cast<void>(validate::read_calibration("/nowhere/calibration.json")), sim::FileError);
+  }
+}

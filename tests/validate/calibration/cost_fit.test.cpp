@@ -1,0 +1,156 @@
+#include "detp/validate/calibration/cost_fit.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include "detp/sim/geometry/random.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/statistics/statistics.hpp"
+
+using namespace detp;
+
+namespace {
+
+UnitCosts zero_costs() {
+  UnitCosts costs;
+  for (const UnitCostTerm& term : unit_cost_terms) costs.*term.cost = 0;
+  return costs;
+}
+
+/// Runs with random counts, whose seconds are exactly those of the costs.
+std::vector<validate::TimedRun> exact_runs(const UnitCosts& costs, Technique technique) {
+  std::vector<validate::TimedRun> runs;
+  for (std::uint64_t i = 0; i < 60; ++i) {
+    const auto a = sim::uniform4(1, sim::Stream::tests, i);
+    const auto b = sim::uniform4(1, sim::Stream::tests, i, 1);
+    const auto c = sim::uniform4(1, sim::Stream::tests, i, 2);
+    validate::TimedRun run{.workload = i,
+                           .counts = {.loaded = 1e5 * c[0], .disc_tests = 1e6 * a[1], .hits = 1e5 * c[1]}};
+    if (technique == Technique::grid) {
+      run.counts.steps = 1e5 * a[2];
+      run.counts.nodes = 1e5 * a[3];
+      run.counts.placements = 1e4 * b[2];
+    } else {
+      run.counts.cull_tests = 1e6 * a[0];
+      run.counts.culls = 1e4 * b[1];
+      run.counts.listed = 1e5 * b[0];
+      run.counts.visits = 1e4 * c[2];
+      run.counts.sorted = 1e5 * b[3];
+    }
+    run.seconds = price(run.counts, costs, technique).total();
+    runs.push_back(run);
+  }
+  return runs;
+}
+
+void check_recovered(const UnitCosts& costs, Technique technique) {
+  const validate::CostFit fit = validate::fit_costs(exact_runs(costs, technique), technique);
+  for (const UnitCostTerm& term : unit_cost_terms) {
+    CAPTURE(term.symbol);
+    CHECK(fit.costs.*term.cost == doctest::Approx(costs.*term.cost).epsilon(1e-7));
+  }
+  CHECK(fit.median_error < 1e-9);
+  CHECK(validate::median(fit.left_out_errors) < 1e-9);
+  CHECK(fit.dropped.empty());
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the fit recovers the costs that made the times") {
+    UnitCosts lists = zero_costs();
+    lists.cull_test = 1e-9;
+    lists.disc_test = 2e-9;
+    lists.listed = 3e-9;
+    lists.cull = 2e-7;
+    lists.visit = 3e-8;
+    lists.sort = 5e-8;
+    lists.hit = 1e-8;
+    lists.ray = 6e-9;
+    lists.start = 1e-5;
+    check_recovered(lists, Technique::sphere_cache);
+    UnitCosts one_by_one = zero_costs();
+    one_by_one.index_test = 9e-9;
+    one_by_one.step = 3e-8;
+    one_by_one.node = 4e-8;
+    one_by_one.placement = 6e-8;
+    check_recovered(one_by_one, Technique::grid);
+  }
+
+  TEST_CASE("a cost that would be negative is 0") {
+    UnitCosts costs = zero_costs();
+    costs.index_test = 1e-8;
+    costs.node = 5e-8;
+    std::vector<validate::TimedRun> runs = exact_runs(costs, Technique::grid);
+    for (validate::TimedRun& run : runs) run.seconds -= 1e-10 * run.counts.steps;
+    const UnitCosts fit = validate::fit_costs(runs, Technique::grid).costs;
+    CHECK(fit.step == 0);
+    CHECK(fit.index_test == doctest::Approx(1e-8).epsilon(0.02));
+  }
+
+  TEST_CASE("of costs that the runs cannot tell apart one is dropped, and the fit says which") {
+    UnitCosts costs = zero_costs();
+    costs.cull_test = 1e-9;
+    costs.listed = 1e-9;
+    costs.disc_test = 1e-9;
+    std::vector<validate::TimedRun> runs = exact_runs(costs, Technique::sphere_cache);
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+      runs[i].counts.listed = runs[i].counts.cull_tests * (1 + (i % 2 == 0 ? 1e-6 : -1e-6));
+      runs[i].seconds = price(runs[i].counts, costs, Technique::sphere_cache).total();
+    }
+    const validate::CostFit fit = validate::fit_costs(runs, Technique::sphere_cache);
+    CHECK(fit.condition <= validate::largest_condition);
+    CHECK(fit.costs.cull_test + fit.costs.listed == doctest::Approx(2e-9).epsilon(1e-3));
+    CHECK((fit.costs.cull_test == 0) != (fit.costs.listed == 0));
+    CHECK(fit.median_error < 1e-5);
+  }
+
+  TEST_CASE("the error on left-out runs shows a fit that does not carry over") {
+    UnitCosts costs = zero_costs();
+    costs.disc_test = 1e-9;
+    std::vector<validate::TimedRun> runs = exact_runs(costs, Technique::brute_force);
+    for (std::size_t i = 0; i < runs.size(); ++i) runs[i].seconds *= i % 2 == 0 ? 0.5 : 1.5;
+    CHECK(validate::median(validate::fit_costs(runs, Technique::brute_force).left_out_errors) > 0.2);
+  }
+
+  TEST_CASE("the built-in costs of every exact technique give a run a time") {
+    const CostTable costs = validate::built_in_unit_costs();
+    CHECK_NOTHROW(check(costs));
+    const Counts<double> counts{.loaded = 1000,
+                                .cull_tests = 1e4,
+                                .culls = 100,
+                                .listed = 1e4,
+                                .visits = 1000,
+                                .disc_tests = 1e4,
+                                .steps = 1e4,
+                                .nodes = 1e4,
+                                .placements = 1000,
+                                .sorted = 1000,
+                                .hits = 100};
+    for (const Technique technique : all_techniques) {
+      if (!record_of(technique).exact) continue;
+      CAPTURE(name(technique));
+      const double seconds = price(counts, costs, technique).total();
+      CHECK(seconds > 1e-6);
+      CHECK(seconds < 1e-2);
+    }
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a fit of few runs is refused") {
+    CHECK_THROWS_AS(
+        static_cast<void>(validate::fit_costs(std::vector<validate::TimedRun>(9, {.seconds = 1}), Technique::grid)),
+        std::invalid_argument);
+  }
+
+  TEST_CASE("a run that took no time cannot be fitted") {
+    std::vector<validate::TimedRun> runs = exact_runs(UnitCosts{}, Technique::grid);
+    runs[3].seconds = 0;
+    CHECK_THROWS_AS(static_cast<void>(validate::fit_costs(runs, Technique::grid)), std::invalid_argument);
+  }
+}

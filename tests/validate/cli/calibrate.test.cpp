@@ -1,0 +1,89 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+
+#include "support/command.hpp"
+
+namespace detp::support {
+namespace {
+
+const std::string question = "choose --rays 1000 --samples 1000 --disc-radius 0.01 --scene-side 2 --format json";
+
+/// Sets $XDG_CACHE_HOME for the programs that a test starts.
+class CacheFolder {
+ public:
+  explicit CacheFolder(const std::string& path) {
+    static_cast<void>(detp("--version"));  // sets the folder of all other tests
+    REQUIRE(::setenv("XDG_CACHE_HOME", path.c_str(), 1) == 0);
+  }
+  ~CacheFolder() { ::setenv("XDG_CACHE_HOME", "/dev/null", 1); }
+  CacheFolder(const CacheFolder&) = delete;
+  CacheFolder& operator=(const CacheFolder&) = delete;
+};
+
+}  // namespace
+
+TEST_SUITE("end to end") {
+  TEST_CASE("calibrate saves the costs of this machine, and choose uses them") {
+    const ScratchFolder folder;
+    const CacheFolder cache(folder.path("cache"));
+    const Json before = detp(question).json();
+    CHECK(before.at("unit_costs").get<std::string>().find("built in") != std::string::npos);
+    const Finished finished = detp("calibrate --seconds 1 --format json");
+    CHECK(finished.code == 0);
+    const Json calibrated = finished.json();
+    CHECK(calibrated.at("schema").at("name") == "detp.calibrate");
+    CHECK(calibrated.at("left_out_median_error").get<double>() > 0);
+    CHECK(calibrated.at("key").at("threads").get<int>() > 0);
+    CHECK(calibrated.at("costs").at("box-tree").size() > 3);
+    CHECK(calibrated.at("saved") == folder.path("cache/detp/calibration.json"));
+    const Json after = detp(question).json();
+    CHECK(after.at("unit_costs").get<std::string>().find("of this machine, calibrated") != std::string::npos);
+    CHECK(after.at("inputs").at("unit_costs").at("box-tree") == calibrated.at("costs").at("box-tree"));
+    CHECK(detp(question + " --calibration none").json().at("unit_costs") == before.at("unit_costs"));
+  }
+
+  TEST_CASE("--output saves the calibration elsewhere, and --calibration uses it") {
+    const ScratchFolder folder;
+    const std::string path = folder.path("mine.json");
+    const Finished finished = detp("calibrate --seconds 0.5 --output " + path);
+    CHECK(finished.code == 0);
+    CHECK(finished.out.find("saved     " + path) != std::string::npos);
+    const Finished chosen = detp(question + " --calibration " + path);
+    CHECK(chosen.code == 0);
+    CHECK(chosen.json().at("unit_costs").get<std::string>().find("of this machine") != std::string::npos);
+    // A result in JSON is a calibration, too.
+    const std::string result = folder.file(
+        "result.json", detp("calibrate --seconds 0.5 --format json --output " + folder.path("other.json")).out);
+    CHECK(detp(question + " --calibration " + result).code == 0);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a broken or foreign stored calibration is not used, with a word of why; a named one is refused") {
+    const ScratchFolder folder;
+    const std::string path = folder.path("cache/detp/calibration.json");
+    std::filesystem::create_directories(folder.path("cache/detp"));
+    REQUIRE(detp("calibrate --seconds 0.3 --output " + path).code == 0);
+    Json foreign = Json::parse(content_of(path));
+    foreign["key"]["cpu"] = "another";
+    const CacheFolder cache(folder.path("cache"));
+    for (const std::string& content : {foreign.dump(), std::string("{")}) {
+      CAPTURE(content);
+      folder.file("cache/detp/calibration.json", content);
+      const Finished automatic = detp(question);
+      CHECK(automatic.code == 0);
+      CHECK(automatic.err.find("not used") != std::string::npos);
+      CHECK(automatic.json().at("unit_costs").get<std::string>().find("built in") != std::string::npos);
+      const Finished named = detp(question + " --calibration " + path);
+      CHECK(named.code == 2);
+      CHECK(named.err.find(content == "{" ? "is not a calibration" : "its cpu is another") != std::string::npos);
+    }
+    CHECK(detp(question + " --calibration " + folder.path("missing.json")).code == 2);
+    CHECK(detp("calibrate --seconds 0").code == 2);
+  }
+}
+
+}  // namespace detp::support

@@ -1,0 +1,193 @@
+#include "calibrate.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "built_in_costs.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/stop_after.hpp"
+#include "detp/validate/statistics/statistics.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double side = 1;
+constexpr double longest_run = 0.06;   ///< seconds; a longer run is stopped and left out
+constexpr double enough_timed = 0.01;  ///< seconds after which a run is not repeated again
+constexpr int most_repeats = 7;
+constexpr double busy_share = 0.9;  ///< below this processor share, processor time counts
+
+struct Setting {
+  sim::Body body;
+  std::size_t samples;
+  std::size_t rays;
+  double radius;
+};
+
+constexpr std::size_t least_workloads = 16;  ///< measured even if that takes longer than asked
+
+/// The settings. First least_workloads small ones; then small and large, sparse and dense ones mixed, so that any first
+/// part of them can be fitted.
+std::vector<Setting> settings() {
+  std::vector<Setting> all;
+  for (const std::size_t samples : {100UL, 1000UL, 10'000UL, 100'000UL})
+    for (const std::size_t rays : {100UL, 1000UL, 10'000UL, 100'000UL})
+      for (const double spacing : {0.1, 0.5, 2.0})  // disc radius over the distance between samples
+        for (const auto body : {sim::Body::cube, sim::Body::cube_faces}) {
+          const double root = body == sim::Body::cube ? 1.0 / 3 : 0.5;
+          const double distance = side / std::pow(static_cast<double>(samples), root);
+          const double radius = std::min(0.2 * side, spacing * distance);
+          if (static_cast<double>(samples * rays) * radius * radius < 3e6) all.push_back({body, samples, rays, radius});
+        }
+  all.push_back({sim::Body::cube_faces, 1'000'000, 1000, 0.0005});
+  std::vector<Setting> first;
+  std::vector<Setting> mixed;
+  constexpr std::size_t stride = 29;  // has no common factor with the number of settings
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Setting& one = all[i * stride % all.size()];
+    const bool small = one.samples <= 1000 && one.rays <= 1000;
+    (small && first.size() < least_workloads ? first : mixed).push_back(one);
+  }
+  first.insert(first.end(), mixed.begin(), mixed.end());
+  return first;
+}
+
+/// Parameters from too coarse to too fine; `place` varies them from setting to setting.
+std::vector<Candidate> candidates(const Setting& setting, std::size_t place) {
+  const auto pick = [&](auto... values) {
+    const std::array list{values...};
+    return list[place % list.size()];
+  };
+  const auto samples = static_cast<double>(setting.samples);
+  const int levels = std::max(1, static_cast<int>(std::lround(std::log2(samples) / 3)));
+  const double outer = std::sqrt(0.75) * side + setting.radius;
+  std::vector<Candidate> list{{Technique::brute_force, BruteForceParameters{}}};
+  for (const double ratio : {pick(0.4, 0.5, 0.6), pick(0.65, 0.75, 0.55)}) {
+    const std::int64_t most = model::sphere_count(Form::corrected, {ratio}, {setting.radius}, {outer});
+    list.push_back(
+        {Technique::sphere_cache, SphereCacheParameters{ratio, std::max<std::int64_t>(1, most - pick(0, 1, 2))}});
+  }
+  for (const int depth : {levels, std::max(1, levels - 1)})
+    list.push_back({Technique::cell_spheres, CellSpheresParameters{depth}});
+  for (const int leaf : {pick(2, 8), pick(16, 64)})
+    list.push_back({Technique::sphere_tree, SphereTreeParameters{pick(4, 8, 16), leaf}});
+  for (const int leaf : {pick(4, 8, 16), pick(32, 64), pick(128, 256)})
+    list.push_back({Technique::box_tree, BoxTreeParameters{pick(4, 16, 8, 2), leaf}});
+  for (const int depth : {levels + 1, std::max(1, levels - pick(0, 1)), std::max(0, levels - 2)})
+    list.push_back({Technique::octree, OctreeParameters{depth}});
+  const double cells = std::max(4.0, std::cbrt(samples));
+  for (const double factor : {0.25, pick(0.5, 1.0), 2.0})
+    list.push_back({Technique::grid, GridParameters{static_cast<int>(factor * cells)}});
+  for (const Technique technique : {Technique::bsp, Technique::bvh, Technique::ray_map})
+    list.push_back(default_candidate(technique));
+  return list;
+}
+
+class Calibrator {
+ public:
+  explicit Calibrator(const CalibrationOptions& options) : options_(options) { result_.costs = built_in_unit_costs(); }
+
+  Calibration run() && {
+    const sim::Stopwatch watch;
+    const std::vector<Setting> all = settings();
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (i >= least_workloads && watch.seconds() >= options_.seconds) break;
+      if (options_.stop.stop_requested()) break;
+      report(watch.seconds());
+      measure(all[i], i);
+      ++result_.workloads;
+    }
+    result_.stopped = options_.stop.stop_requested();
+    fit_all();
+    result_.seconds = watch.seconds();
+    return std::move(result_);
+  }
+
+ private:
+  struct Run {
+    TimedRun timed;  ///< in wall time
+    double processor_seconds;
+  };
+
+  void report(double seconds) const {
+    if (!options_.progress) return;
+    const double share = std::min(1.0, seconds / options_.seconds);
+    options_.progress({fmt::format("workload {}", result_.workloads + 1), share, 1, 0, options_.seconds - seconds});
+  }
+
+  void measure(const Setting& setting, std::size_t place) {
+    const auto discs = sim::uniform_discs(setting.body, side, setting.samples, setting.radius, place + 1);
+    const auto lines = sim::LineField(sim::enclosing_sphere(discs), place + 1).lines(0, setting.rays);
+    const sim::Problem problem = sim::make_problem(lines, discs);
+    for (const Candidate& candidate : candidates(setting, place))
+      if (!options_.stop.stop_requested() && !is_hopeless(setting, candidate.technique))
+        time(problem, setting, candidate, place);
+  }
+
+  /// Whether the technique took too long with fewer rays and discs.
+  [[nodiscard]] bool is_hopeless(const Setting& setting, Technique technique) const {
+    return std::any_of(too_long_.begin(), too_long_.end(), [&](const auto& one) {
+      return one.first == technique && one.second.samples <= setting.samples && one.second.rays <= setting.rays;
+    });
+  }
+
+  void time(const sim::Problem& problem, const Setting& setting, const Candidate& candidate, std::size_t place) {
+    const StopAfter limit(options_.stop, longest_run);
+    const sim::Outcome counted = sim::run(problem, candidate, {.stop = limit.token()});
+    if (counted.stopped) too_long_.emplace_back(candidate.technique, setting);
+    if (counted.stopped || counted.seconds.total() > longest_run) return;
+    Run best{{place, as_expected(counted.counts), 0}, 0};
+    double timed = 0;
+    for (int repeat = 0; repeat < most_repeats && timed < enough_timed; ++repeat) {
+      const sim::ProcessorStopwatch processor;
+      const sim::Outcome outcome = sim::run(problem, candidate, {.count = false, .stop = options_.stop});
+      if (outcome.stopped) return;
+      const double used = processor.seconds();
+      const double seconds = outcome.seconds.total();
+      timed += seconds;
+      wall_seconds_ += seconds;
+      processor_seconds_ += std::min(used, seconds);
+      if (repeat == 0 || seconds < best.timed.seconds) best.timed.seconds = seconds;
+      if (repeat == 0 || used < best.processor_seconds) best.processor_seconds = used;
+    }
+    if (best.timed.seconds > 0 && best.processor_seconds > 0)
+      runs_[static_cast<std::size_t>(candidate.technique)].push_back(best);
+  }
+
+  void fit_all() {
+    if (wall_seconds_ > 0) result_.processor_share = processor_seconds_ / wall_seconds_;
+    std::vector<double> errors;
+    for (const Technique technique : all_techniques) {
+      std::vector<TimedRun> runs;
+      for (const Run& run : runs_[static_cast<std::size_t>(technique)]) {
+        runs.push_back(run.timed);
+        if (result_.processor_share < busy_share) runs.back().seconds = run.processor_seconds;
+      }
+      if (runs.size() < 10) continue;
+      const CostFit& fit = result_.fits[static_cast<std::size_t>(technique)].emplace(fit_costs(runs, technique));
+      result_.costs[technique] = fit.costs;
+      errors.insert(errors.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
+    }
+    if (!errors.empty()) result_.left_out_median_error = median(std::move(errors));
+    result_.costs[Technique::sphere_cache_published] = result_.costs[Technique::sphere_cache];
+  }
+
+  const CalibrationOptions& options_;
+  Calibration result_;
+  std::array<std::vector<Run>, all_techniques.size()> runs_;
+  double wall_seconds_ = 0;
+  double processor_seconds_ = 0;
+  std::vector<std::pair<Technique, Setting>> too_long_;
+};
+
+}  // namespace
+
+Calibration calibrate(const CalibrationOptions& options) { return Calibrator(options).run(); }
+
+}  // namespace detp::validate

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <string>
+
+#include "calibrate.hpp"
+
+/// Calibrations on disc.
+namespace detp::validate {
+
+/// What a calibration depends on. It is only used where all of this is the same.
+struct CalibrationKey {
+  std::string cpu;              ///< model name
+  std::string instruction_set;  ///< of the float kernels
+  std::string caches;           ///< bytes of the levels 1 to 3
+  int threads = 0;              ///< that the machine runs at once
+  std::string compiler;
+  int cost_model = 0;  ///< version of the terms that are fitted
+
+  bool operator==(const CalibrationKey&) const = default;
+};
+
+/// The key of this program on this machine.
+[[nodiscard]] CalibrationKey this_machine();
+
+/// The first difference in words, as "its cpu is A, here it is B"; empty if the keys are equal.
+[[nodiscard]] std::string difference(const CalibrationKey& stored, const CalibrationKey& here);
+
+struct StoredCalibration {
+  CalibrationKey key;
+  std::string date;  ///< "2026-11-20"
+  CostTable costs;
+  double left_out_median_error = 0;
+};
+
+/// detp/calibration.json in $XDG_CACHE_HOME, or in ~/.cache if that is not set to an absolute path; empty if there is
+/// no home either.
+[[nodiscard]] std::string default_calibration_path();
+
+/// The content of a calibration's file: JSON with the key of this machine and today's date.
+[[nodiscard]] std::string calibration_text(const Calibration& calibration);
+
+/// Writes the file, and its folder if necessary. Throws sim::FileError.
+void write_calibration(const std::string& path, const Calibration& calibration);
+
+/// Throws sim::FileError if the file cannot be read, or if it is not a calibration.
+[[nodiscard]] StoredCalibration read_calibration(const std::string& path);
+
+/// The text as read_calibration reads it; `path` is for messages.
+[[nodiscard]] StoredCalibration parse_calibration(const std::string& text, const std::string& path);
+
+}  // namespace detp::validate

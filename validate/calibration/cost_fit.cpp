@@ -1,0 +1,138 @@
+#include "cost_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "detp/validate/statistics/non_negative_fit.hpp"
+#include "detp/validate/statistics/statistics.hpp"
+
+namespace detp::validate {
+namespace {
+
+using Terms = std::vector<const UnitCostTerm*>;
+
+constexpr UnitCosts no_costs = [] {
+  UnitCosts costs;
+  for (const UnitCostTerm& term : unit_cost_terms) costs.*term.cost = 0;
+  return costs;
+}();
+
+CostEngine engine_of(Technique technique) {
+  return record_of(technique).ray_by_ray ? CostEngine::ray_by_ray : CostEngine::lists;
+}
+
+/// The terms whose counts occur in the runs. Of terms with the same counts in all runs, only the first.
+Terms occurring_terms(std::span<const TimedRun> runs, Technique technique) {
+  Terms terms;
+  for (const UnitCostTerm& term : unit_cost_terms) {
+    if (term.engine != CostEngine::both && term.engine != engine_of(technique)) continue;
+    const bool occurs =
+        std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return term.quantity(run.counts) > 0; });
+    const bool known = std::any_of(terms.begin(), terms.end(), [&](const UnitCostTerm* other) {
+      return std::all_of(runs.begin(), runs.end(),
+                         [&](const auto& run) { return term.quantity(run.counts) == other->quantity(run.counts); });
+    });
+    if (occurs && !known) terms.push_back(&term);
+  }
+  return terms;
+}
+
+UnitCosts fit(std::span<const TimedRun> runs, const Terms& terms) {
+  std::vector<double> shares;  // count divided by the run's time, for each cost
+  for (const TimedRun& run : runs)
+    for (const UnitCostTerm* term : terms) shares.push_back(term->quantity(run.counts) / run.seconds);
+  const std::vector<double> x = non_negative_fit(shares, terms.size(), std::vector<double>(runs.size(), 1.0));
+  UnitCosts costs = no_costs;
+  for (std::size_t i = 0; i < terms.size(); ++i) costs.*terms[i]->cost = x[i];
+  return costs;
+}
+
+Terms positive_terms(const Terms& terms, const UnitCosts& costs) {
+  Terms positive;
+  for (const UnitCostTerm* term : terms)
+    if (costs.*term->cost > 0) positive.push_back(term);
+  return positive;
+}
+
+/// The ratio of the largest to the smallest singular value of the terms' columns.
+double condition_number(std::span<const TimedRun> runs, const Terms& terms) {
+  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(runs.size()), static_cast<Eigen::Index>(terms.size()));
+  for (std::size_t i = 0; i < runs.size(); ++i)
+    for (std::size_t j = 0; j < terms.size(); ++j)
+      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
+          terms[j]->quantity(runs[i].counts) / runs[i].seconds;
+  matrix.colwise().normalize();
+  const Eigen::VectorXd values = matrix.jacobiSvd().singularValues();
+  return values[0] / values[values.size() - 1];
+}
+
+/// The term that contributes the smallest share of the runs' times, summed over the runs.
+const UnitCostTerm* smallest_term(std::span<const TimedRun> runs, const Terms& terms, const UnitCosts& costs) {
+  const auto share = [&](const UnitCostTerm* term) {
+    double sum = 0;
+    for (const TimedRun& run : runs) sum += term->quantity(run.counts) * costs.*term->cost / run.seconds;
+    return sum;
+  };
+  return *std::min_element(terms.begin(), terms.end(),
+                           [&](const auto* a, const auto* b) { return share(a) < share(b); });
+}
+
+double median_error(std::span<const TimedRun> runs, const UnitCosts& costs, Technique technique) {
+  std::vector<double> errors;
+  for (const TimedRun& run : runs)
+    errors.push_back(std::abs(price(run.counts, costs, technique).total() / run.seconds - 1));
+  return median(std::move(errors));
+}
+
+/// The fit of the terms that the runs can tell apart; adds the others to `dropped`.
+UnitCosts fit_separable(std::span<const TimedRun> runs, Terms terms, CostFit& result) {
+  for (;;) {
+    const UnitCosts costs = fit(runs, terms);
+    const Terms positive = positive_terms(terms, costs);
+    result.condition = condition_number(runs, positive);
+    if (result.condition <= largest_condition || positive.size() == 1) {
+      for (const UnitCostTerm* term : positive) result.fitted.push_back(term->symbol);
+      return costs;
+    }
+    const UnitCostTerm* const smallest = smallest_term(runs, positive, costs);
+    result.dropped.push_back(smallest->symbol);
+    std::erase(terms, smallest);
+  }
+}
+
+std::vector<double> left_out_errors(std::span<const TimedRun> runs, const Terms& terms, Technique technique) {
+  constexpr std::size_t parts = 5;
+  std::vector<double> errors;
+  for (std::size_t part = 0; part < parts; ++part) {
+    std::vector<TimedRun> fitted;
+    std::vector<TimedRun> left_out;
+    for (const TimedRun& run : runs) (run.workload % parts == part ? left_out : fitted).push_back(run);
+    if (fitted.empty()) continue;
+    const UnitCosts costs = fit(fitted, terms);
+    for (const TimedRun& run : left_out)
+      errors.push_back(std::abs(price(run.counts, costs, technique).total() / run.seconds - 1));
+  }
+  return errors;
+}
+
+}  // namespace
+
+CostFit fit_costs(std::span<const TimedRun> runs, Technique technique) {
+  constexpr std::size_t least_runs = 10;
+  if (runs.size() < least_runs)
+    throw std::invalid_argument(fmt::format("a fit of unit costs takes at least {} runs of {} (got {})", least_runs,
+                                            name(technique), runs.size()));
+  for (const TimedRun& run : runs) require_positive("seconds of a run", run.seconds);
+  CostFit result{.costs = no_costs, .runs = runs.size()};
+  const Terms terms = occurring_terms(runs, technique);
+  result.costs = fit_separable(runs, terms, result);
+  result.median_error = median_error(runs, result.costs, technique);
+  result.left_out_errors = left_out_errors(runs, positive_terms(terms, result.costs), technique);
+  return result;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,67 @@
+#include "costs_in_use.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <stdexcept>
+#include <system_error>
+
+#include "detp/sim/files/file_error.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/calibration/calibration_file.hpp"
+#include "unit_cost_option.hpp"
+
+namespace detp::cli {
+namespace {
+
+CostsInUse built_in() {
+  return {
+      .costs = validate::built_in_unit_costs(),
+      .origin = "of each operation: built in, measured on another machine; detp calibrate measures those of this one",
+      .built_in = true};
+}
+
+CostsInUse calibrated(const validate::StoredCalibration& stored) {
+  return {.costs = stored.costs,
+          .origin = fmt::format("of each operation: of this machine, calibrated {} (median error {:.2g} %)",
+                                stored.date, 100 * stored.left_out_median_error)};
+}
+
+/// The stored calibration, unless it is missing, broken or of another machine.
+CostsInUse stored_or_built_in(const CommonOptions& common) {
+  const std::string path = validate::default_calibration_path();
+  std::error_code unknown;  // a file that cannot be looked at is not used
+  if (path.empty() || !std::filesystem::exists(path, unknown)) return built_in();
+  try {
+    const validate::StoredCalibration stored = validate::read_calibration(path);
+    const std::string differs = validate::difference(stored.key, validate::this_machine());
+    if (differs.empty()) return calibrated(stored);
+    note(common, fmt::format("{}: not used, {}; detp calibrate makes a new one", path, differs));
+  } catch (const sim::FileError& error) {
+    note(common, fmt::format("{}; not used", error.what()));
+  }
+  return built_in();
+}
+
+}  // namespace
+
+void CostOptions::add_to(CLI::App& command) {
+  command.add_option("--costs", costs_, unit_cost_help() + "\ndefault: those of --calibration");
+  command.add_option("--calibration", calibration_,
+                     "unit costs: none (the built-in ones), auto (those that detp calibrate stored, if any) or a file "
+                     "that it wrote; default: auto");
+}
+
+CostsInUse CostOptions::costs(const CommonOptions& common) const {
+  if (const auto given = parse_unit_costs(costs_)) return {.costs = *given, .origin = "of each operation, as given"};
+  if (calibration_ == "none") return built_in();
+  if (calibration_ == "auto") return stored_or_built_in(common);
+  const validate::StoredCalibration stored = validate::read_calibration(calibration_);
+  const std::string differs = validate::difference(stored.key, validate::this_machine());
+  if (!differs.empty())
+    throw std::invalid_argument(fmt::format(
+        "{} is of another machine or program: {}; make one here with detp calibrate", calibration_, differs));
+  return calibrated(stored);
+}
+
+}  // namespace detp::cli

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "command.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
+
+/// The unit costs of a command: given by the user, calibrated on this machine, or built in.
+namespace detp::cli {
+
+struct CostsInUse {
+  CostTable costs;
+  std::string origin;  ///< "of each operation: built in, ..."
+  bool built_in = false;
+};
+
+class CostOptions {
+ public:
+  void add_to(CLI::App& command);
+
+  /// --costs; else the calibration that --calibration names; with auto the stored one, if there is one for this machine
+  /// and program; else the built-in costs. Notes on standard error why a stored calibration is not used. Throws
+  /// std::invalid_argument for wrong options and for a named calibration of another machine; sim::FileError for a named
+  /// file that is no calibration.
+  [[nodiscard]] CostsInUse costs(const CommonOptions& common) const;
+
+ private:
+  std::string costs_;
+  std::string calibration_ = "auto";
+};
+
+}  // namespace detp::cli
