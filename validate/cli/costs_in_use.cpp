@@ -47,6 +47,10 @@ CostsInUse stored_or_built_in(const CommonOptions& common) {
 
 void CostOptions::add_to(CLI::App& command) {
   command.add_option("--costs", costs_, unit_cost_help() + "\ndefault: those of --calibration");
+  add_calibration_to(command);
+}
+
+void CostOptions::add_calibration_to(CLI::App& command) {
   command.add_option("--calibration", calibration_,
                      "unit costs: none (the built-in ones), auto (those that detp calibrate stored, if any) or a file "
                      "that it wrote; default: auto");

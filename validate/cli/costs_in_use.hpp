@@ -17,7 +17,9 @@ struct CostsInUse {
 
 class CostOptions {
  public:
+  /// --costs and --calibration.
   void add_to(CLI::App& command);
+  void add_calibration_to(CLI::App& command);
 
   /// --costs; else the calibration that --calibration names; with auto the stored one, if there is one for this machine
   /// and program; else the built-in costs. Notes on standard error why a stored calibration is not used. Throws

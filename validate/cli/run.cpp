@@ -4,12 +4,12 @@
 #include <stdexcept>
 
 #include "command.hpp"
+#include "costs_in_use.hpp"
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/files/writing_check.hpp"
-#include "detp/validate/calibration/built_in_costs.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"
 #include "run_report.hpp"
@@ -23,6 +23,7 @@ namespace {
 struct RunOptions {
   WorkloadOptions workload;
   CandidateOptions candidate;
+  CostOptions costs;
   int repeat = 0;
   std::optional<std::string> per_disc;
   bool standard_error = false;
@@ -31,8 +32,7 @@ struct RunOptions {
 
 /// Returns the requested technique, or the one that the closed forms predict to be fastest. The closed forms also
 /// choose the parameters that the options leave open.
-Candidate complete(const CandidateOptions& options, const Workload& workload) {
-  const CostTable costs = validate::built_in_unit_costs();
+Candidate complete(const CandidateOptions& options, const Workload& workload, const CostTable& costs) {
   const Technique technique = options.technique ? options.technique_or(Technique::brute_force)
                                                 : model::rank(workload, costs).front().candidate.technique;
   const model::FixedParameters fixed = options.fixed_parameters(technique);
@@ -106,9 +106,10 @@ bool can_stream(CandidateOptions& options, std::size_t rows) {
   return true;
 }
 
-RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CommonOptions& common,
-                  const std::stop_token& stop, const sim::ReportPhase& progress) {
-  RunAnswer answer{.candidate = complete(options.candidate, job.workload),
+RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
+                  const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
+  RunAnswer answer{.candidate = complete(options.candidate, job.workload, costs),
+                   .costs = costs,
                    .engine = options.candidate.engine,
                    .repeat = options.repeat,
                    .random_rays = !options.workload.request(common).ray_file};
@@ -164,6 +165,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   const std::size_t expected = rows_in(problems, candidates);
   check_files(options, common, expected);
   const bool stream = can_stream(options.candidate, candidates.rows());
+  const CostTable costs = options.costs.costs(common).costs;
   const ProgressLine progress(common);
   RowProgress rows(options, common);
   Json inputs;
@@ -178,7 +180,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     return job;
   };
   const auto answer = [&](const validate::Job& job) {
-    const RunAnswer found = run_one(options, job, common, stop, rows.next(progress.report()));
+    const RunAnswer found = run_one(options, job, costs, common, stop, rows.next(progress.report()));
     stopped = write_hits(options, found, common, stop);
     inputs["engine"] = name(options.candidate.engine);
     inputs["threads"] = sim::thread_count(common.threads);
@@ -205,6 +207,7 @@ Command run_command(CLI::App& program) {
   const auto options = std::make_shared<RunOptions>();
   options->workload.add_to(*app, Values::many);
   options->candidate.add_to(*app, Values::many, SphereStop::best);
+  options->costs.add_calibration_to(*app);
   add_number(*app, "--repeat", options->repeat,
              "time that many further runs, which do not count; the median is shown; default: 0");
   app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "detp/model/rank/predict.hpp"
-#include "detp/validate/calibration/built_in_costs.hpp"
 #include "sphere_stops.hpp"
 #include "text_table.hpp"
 #include "workload_options.hpp"
@@ -45,12 +44,11 @@ std::optional<Counts<double>> prediction(const Workload& workload, const Candida
   }
 }
 
-void add_stops(const Workload& workload, const Candidate& candidate, Json& json) {
+void add_stops(const Workload& workload, const Candidate& candidate, const CostTable& costs, Json& json) {
   const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters);
   if (cache == nullptr) return;
   const auto form = candidate.technique == Technique::sphere_cache ? Form::corrected : Form::published;
-  const SphereStops stops =
-      sphere_stops(workload, validate::built_in_unit_costs()[candidate.technique], form, {cache->ratio});
+  const SphereStops stops = sphere_stops(workload, costs[candidate.technique], form, {cache->ratio});
   json["k"] = cache->spheres;
   json["k_max"] = stops.max;
   json["k_best"] = stops.best;
@@ -93,7 +91,7 @@ std::string hits_text(const RunAnswer& answer) {
 Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
   Json json{{"technique", name(answer.candidate.technique)}, {"parameters", to_json(answer.candidate)}};
-  add_stops(job.workload, answer.candidate, json);
+  add_stops(job.workload, answer.candidate, answer.costs, json);
   json.update(outcome.stopped ? hits_so_far(answer)
                               : Json{{"hits", outcome.total_hits},
                                      {"hits_per_disc", hits_per_disc(outcome)},
@@ -101,7 +99,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   json["counts"] = to_json(outcome.counts);
   if (const auto predicted = prediction(job.workload, answer.candidate, answer.engine)) {
     json["predicted"] = to_json(*predicted);
-    json["predicted_seconds"] = price(*predicted, validate::built_in_unit_costs(), answer.candidate.technique).total();
+    json["predicted_seconds"] = price(*predicted, answer.costs, answer.candidate.technique).total();
   }
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
                {"read_seconds", job.read_seconds + answer.run.read_seconds},

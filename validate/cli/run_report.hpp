@@ -9,6 +9,7 @@ namespace detp::cli {
 
 struct RunAnswer {
   Candidate candidate = {};
+  CostTable costs = {};  ///< with which the candidate was chosen and its time predicted
   Engine engine = Engine::simd;
   TimedRun run = {};
   Timing timing = {};

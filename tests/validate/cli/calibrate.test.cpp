@@ -1,9 +1,10 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
-#include <filesystem>
 #include <string>
 
+#include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/calibration/calibration_file.hpp"
 #include "support/command.hpp"
 
 namespace detp::support {
@@ -31,7 +32,7 @@ TEST_SUITE("end to end") {
     const CacheFolder cache(folder.path("cache"));
     const Json before = detp(question).json();
     CHECK(before.at("unit_costs").get<std::string>().find("built in") != std::string::npos);
-    const Finished finished = detp("calibrate --seconds 1 --format json");
+    const Finished finished = detp("calibrate --seconds 0.1 --format json");
     CHECK(finished.code == 0);
     const Json calibrated = finished.json();
     CHECK(calibrated.at("schema").at("name") == "detp.calibrate");
@@ -45,19 +46,19 @@ TEST_SUITE("end to end") {
     CHECK(detp(question + " --calibration none").json().at("unit_costs") == before.at("unit_costs"));
   }
 
-  TEST_CASE("--output saves the calibration elsewhere, and --calibration uses it") {
+  TEST_CASE("--output saves the calibration elsewhere, and --calibration uses that file; so is the result in JSON") {
     const ScratchFolder folder;
     const std::string path = folder.path("mine.json");
-    const Finished finished = detp("calibrate --seconds 0.5 --output " + path);
+    const Finished finished = detp("calibrate --seconds 0.1 --format json --output " + path);
     CHECK(finished.code == 0);
-    CHECK(finished.out.find("saved     " + path) != std::string::npos);
-    const Finished chosen = detp(question + " --calibration " + path);
-    CHECK(chosen.code == 0);
-    CHECK(chosen.json().at("unit_costs").get<std::string>().find("of this machine") != std::string::npos);
-    // A result in JSON is a calibration, too.
-    const std::string result = folder.file(
-        "result.json", detp("calibrate --seconds 0.5 --format json --output " + folder.path("other.json")).out);
-    CHECK(detp(question + " --calibration " + result).code == 0);
+    CHECK(finished.json().at("saved") == path);
+    for (const std::string& calibration : {path, folder.file("result.json", finished.out)}) {
+      CAPTURE(calibration);
+      const Finished chosen = detp(question + " --calibration " + calibration);
+      CHECK(chosen.code == 0);
+      CHECK(chosen.json().at("unit_costs").get<std::string>().find("of this machine") != std::string::npos);
+      CHECK(detp("run @uniform --samples 100 --rays 100 --calibration " + calibration).code == 0);
+    }
   }
 }
 
@@ -65,8 +66,9 @@ TEST_SUITE("bad input") {
   TEST_CASE("a broken or foreign stored calibration is not used, with a word of why; a named one is refused") {
     const ScratchFolder folder;
     const std::string path = folder.path("cache/detp/calibration.json");
-    std::filesystem::create_directories(folder.path("cache/detp"));
-    REQUIRE(detp("calibrate --seconds 0.3 --output " + path).code == 0);
+    validate::Calibration calibration;
+    calibration.costs = validate::built_in_unit_costs();
+    validate::write_calibration(path, calibration);
     Json foreign = Json::parse(content_of(path));
     foreign["key"]["cpu"] = "another";
     const CacheFolder cache(folder.path("cache"));
