@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <string_view>
@@ -27,7 +28,7 @@ struct UnitCosts {
   double visit = 0;       ///< l: fixed cost of one disc's visit to a list, not including its tests
   double hit = 0;         ///< h: recording one hit
   double ray = 0;         ///< i: bringing one ray into a search
-  double far = 0;         ///< m: inserting one disc, for each doubling of the insertions above near_placements
+  double far = 0;         ///< m: handling one disc, for each doubling of their number above near_discs
   double start = 0;       ///< a: fixed cost of a run
 
   bool operator==(const UnitCosts&) const = default;
@@ -59,12 +60,14 @@ struct UnitCostTerm {
   std::string_view meaning;  ///< operation whose time it is
 };
 
-/// Up to about this many insertions into an index, the data stay in the second-level cache.
-inline constexpr double near_placements = 1e4;
+/// The data of up to about this many discs stay in the second-level cache.
+inline constexpr double near_discs = 1e4;
 
-/// Insertions × the binary logarithm of their number over near_placements: each doubling leaves fewer discs in a cache.
-[[nodiscard]] inline double far_placements(const Counts<double>& counts) {
-  return counts.placements > near_placements ? counts.placements * std::log2(counts.placements / near_placements) : 0;
+/// The number of discs that are sorted, placed or visited (the largest of the three), times the binary logarithm of this
+/// number over near_discs: each doubling leaves fewer of them in a cache.
+[[nodiscard]] inline double far_discs(const Counts<double>& counts) {
+  const double discs = std::max({counts.placements, counts.sorted, counts.visits});
+  return discs > near_discs ? discs * std::log2(discs / near_discs) : 0;
 }
 
 /// One count, for UnitCostTerm::quantity.
@@ -100,8 +103,8 @@ inline constexpr std::array unit_cost_terms{
                  "recording a hit"},
     UnitCostTerm{"i", &UnitCosts::ray, quantity_of<&Counts<double>::loaded>, CostEngine::both, &CostBreakdown::start,
                  "bringing a ray into a search"},
-    UnitCostTerm{"m", &UnitCosts::far, far_placements, CostEngine::both, &CostBreakdown::build,
-                 "placing a disc, for each doubling of the placed discs above 10 000"},
+    UnitCostTerm{"m", &UnitCosts::far, far_discs, CostEngine::both, &CostBreakdown::build,
+                 "handling a disc, for each doubling of the number of discs above 10 000"},
     UnitCostTerm{"a", &UnitCosts::start, [](const Counts<double>&) { return 1.0; }, CostEngine::both,
                  &CostBreakdown::start, "a run, whatever it does"},
 };

@@ -32,18 +32,29 @@ struct Nanoseconds {
 CostTable built_in_unit_costs() {
   CostTable costs;
   const auto set = [&](Technique technique, const Nanoseconds& of_one) { costs[technique] = of_one.seconds(); };
-  set(Technique::brute_force, {.u = 0.685, .l = 28, .i = 2.09, .a = 1.04e+04});
-  set(Technique::sphere_cache, {.t = 0.791, .u = 0.73, .c = 0.868, .s = 365, .r = 163, .i = 6.98});
-  set(Technique::sphere_cache_published, {.t = 0.791, .u = 0.73, .c = 0.868, .s = 365, .r = 163, .i = 6.98});
-  set(Technique::cell_spheres, {.t = 0.964, .u = 0.989, .r = 206, .l = 476, .i = 6.35});
-  set(Technique::sphere_tree, {.t = 13, .u = 6.48, .s = 158, .r = 19.1, .h = 107});
-  set(Technique::box_tree,
-      {.t = 0.826, .u = 0.546, .c = 1.36, .p = 90.4, .r = 143, .h = 0.676, .i = 8.22, .m = 24.3, .a = 7e+03});
-  set(Technique::octree, {.w = 5.43, .n = 72.8, .b = 218, .h = 88.9, .m = 417});
-  set(Technique::grid, {.w = 5.88, .v = 49.7, .b = 166, .h = 206, .m = 176});
-  set(Technique::bsp, {.w = 4.12, .n = 74.9, .b = 74.1, .h = 174});
-  set(Technique::bvh, {.w = 70.4, .b = 414, .h = 36.6, .i = 157, .a = 8.5e+04});
-  set(Technique::ray_map, {.w = 5.59, .n = 39.1, .c = 57.1, .h = 53.3});
+  set(Technique::brute_force, {.u = 0.611, .l = 42.5, .h = 1.02, .i = 6.67, .a = 5.5e+03});
+  set(Technique::sphere_cache,
+      {.t = 0.489, .u = 0.432, .c = 1.32, .r = 169, .l = 321, .h = 2.9, .i = 12.3, .m = 267, .a = 4e+03});
+  set(Technique::sphere_cache_published,
+      {.t = 0.489, .u = 0.432, .c = 1.32, .r = 169, .l = 321, .h = 2.9, .i = 12.3, .m = 267, .a = 4e+03});
+  set(Technique::cell_spheres,
+      {.t = 0.694, .u = 0.806, .s = 96.4, .r = 249, .l = 326, .i = 13.1, .m = 167, .a = 6.17e+03});
+  set(Technique::sphere_tree, {.t = 8.66, .u = 6.16, .c = 15.9, .s = 203, .r = 100, .h = 121, .m = 31.5});
+  set(Technique::box_tree, {.t = 0.702,
+                            .u = 0.545,
+                            .c = 1.51,
+                            .p = 69.3,
+                            .r = 168,
+                            .l = 6.83,
+                            .h = 0.316,
+                            .i = 5.12,
+                            .m = 13.3,
+                            .a = 1.08e+04});
+  set(Technique::octree, {.w = 5.55, .n = 105, .b = 168, .h = 146, .m = 221});
+  set(Technique::grid, {.w = 6.43, .v = 45.3, .b = 136, .h = 206, .m = 127});
+  set(Technique::bsp, {.w = 3.59, .n = 78.4, .b = 75.5, .h = 191, .a = 1.62e+03});
+  set(Technique::bvh, {.w = 91.6, .b = 384, .i = 108, .m = 14.3, .a = 7.69e+04});
+  set(Technique::ray_map, {.w = 2.85, .n = 48.3, .c = 53.7, .h = 113, .m = 20.9});
   return costs;
 }
 

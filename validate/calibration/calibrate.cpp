@@ -142,7 +142,7 @@ class Calibrator {
     const sim::Outcome counted = sim::run(problem, candidate, {.stop = limit.token()});
     if (counted.stopped) too_long_.emplace_back(candidate.technique, setting);
     if (counted.stopped || counted.seconds.total() > longest_run) return;
-    Run best{{place, as_expected(counted.counts), 0}, 0};
+    Run best{{.workload = place, .counts = as_expected(counted.counts)}, 0};
     double timed = 0;
     for (int repeat = 0; repeat < most_repeats && timed < enough_timed; ++repeat) {
       const sim::ProcessorStopwatch processor;
@@ -153,7 +153,10 @@ class Calibrator {
       timed += seconds;
       wall_seconds_ += seconds;
       processor_seconds_ += std::min(used, seconds);
-      if (repeat == 0 || seconds < best.timed.seconds) best.timed.seconds = seconds;
+      if (repeat == 0 || seconds < best.timed.seconds) {
+        best.timed.seconds = seconds;
+        best.timed.build_seconds = outcome.seconds.order + outcome.seconds.build;
+      }
       if (repeat == 0 || used < best.processor_seconds) best.processor_seconds = used;
     }
     if (best.timed.seconds > 0 && best.processor_seconds > 0)
@@ -167,7 +170,9 @@ class Calibrator {
       std::vector<TimedRun> runs;
       for (const Run& run : runs_[static_cast<std::size_t>(technique)]) {
         runs.push_back(run.timed);
-        if (result_.processor_share < busy_share) runs.back().seconds = run.processor_seconds;
+        if (result_.processor_share >= busy_share) continue;
+        runs.back().build_seconds *= run.processor_seconds / run.timed.seconds;
+        runs.back().seconds = run.processor_seconds;
       }
       if (runs.size() < 10) continue;
       const CostFit& fit = result_.fits[static_cast<std::size_t>(technique)].emplace(fit_costs(runs, technique));

@@ -41,11 +41,26 @@ Terms occurring_terms(std::span<const TimedRun> runs, Technique technique) {
   return terms;
 }
 
+/// True if the cost is a part of the seconds for sorting and building. (Discs far from the cache slow the search, too.)
+bool is_of_building(const UnitCostTerm& term) {
+  return term.cost != &UnitCosts::far && (term.part == &CostBreakdown::order || term.part == &CostBreakdown::build);
+}
+
 UnitCosts fit(std::span<const TimedRun> runs, const Terms& terms) {
-  std::vector<double> shares;  // count divided by the run's time, for each cost
-  for (const TimedRun& run : runs)
+  std::vector<double> shares;  // row by row: count divided by the measured time, for each cost
+  std::size_t rows = 0;
+  for (const TimedRun& run : runs) {
     for (const UnitCostTerm* term : terms) shares.push_back(term->quantity(run.counts) / run.seconds);
-  const std::vector<double> x = non_negative_fit(shares, terms.size(), std::vector<double>(runs.size(), 1.0));
+    ++rows;
+    const bool built = std::any_of(terms.begin(), terms.end(), [&](const UnitCostTerm* term) {
+      return is_of_building(*term) && term->quantity(run.counts) > 0;
+    });
+    if (!built || !(run.build_seconds > 0)) continue;
+    for (const UnitCostTerm* term : terms)
+      shares.push_back(is_of_building(*term) ? term->quantity(run.counts) / run.build_seconds : 0);
+    ++rows;
+  }
+  const std::vector<double> x = non_negative_fit(shares, terms.size(), std::vector<double>(rows, 1.0));
   UnitCosts costs = no_costs;
   for (std::size_t i = 0; i < terms.size(); ++i) costs.*terms[i]->cost = x[i];
   return costs;
@@ -58,16 +73,26 @@ Terms positive_terms(const Terms& terms, const UnitCosts& costs) {
   return positive;
 }
 
-/// The ratio of the largest to the smallest singular value of the terms' columns.
-double condition_number(std::span<const TimedRun> runs, const Terms& terms) {
+struct Separation {
+  double condition;           ///< ratio of the largest to the smallest singular value of the terms' columns
+  Terms hardest_to_separate;  ///< terms with a large component in the singular vector of the smallest singular value
+};
+
+Separation separation(std::span<const TimedRun> runs, const Terms& terms) {
+  constexpr double large = 0.3;
   Eigen::MatrixXd matrix(static_cast<Eigen::Index>(runs.size()), static_cast<Eigen::Index>(terms.size()));
   for (std::size_t i = 0; i < runs.size(); ++i)
     for (std::size_t j = 0; j < terms.size(); ++j)
       matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
           terms[j]->quantity(runs[i].counts) / runs[i].seconds;
   matrix.colwise().normalize();
-  const Eigen::VectorXd values = matrix.jacobiSvd().singularValues();
-  return values[0] / values[values.size() - 1];
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinV);
+  const auto last = static_cast<Eigen::Index>(terms.size()) - 1;
+  Separation found{svd.singularValues()[0] / svd.singularValues()[last], {}};
+  for (std::size_t j = 0; j < terms.size(); ++j)
+    if (std::abs(svd.matrixV()(static_cast<Eigen::Index>(j), last)) >= large)
+      found.hardest_to_separate.push_back(terms[j]);
+  return found;
 }
 
 /// The term that contributes the smallest share of the runs' times, summed over the runs.
@@ -93,12 +118,13 @@ UnitCosts fit_separable(std::span<const TimedRun> runs, Terms terms, CostFit& re
   for (;;) {
     const UnitCosts costs = fit(runs, terms);
     const Terms positive = positive_terms(terms, costs);
-    result.condition = condition_number(runs, positive);
+    const Separation separated = separation(runs, positive);
+    result.condition = separated.condition;
     if (result.condition <= largest_condition || positive.size() == 1) {
       for (const UnitCostTerm* term : positive) result.fitted.push_back(term->symbol);
       return costs;
     }
-    const UnitCostTerm* const smallest = smallest_term(runs, positive, costs);
+    const UnitCostTerm* const smallest = smallest_term(runs, separated.hardest_to_separate, costs);
     result.dropped.push_back(smallest->symbol);
     std::erase(terms, smallest);
   }
