@@ -1,8 +1,8 @@
 #pragma once
 
 #include "detp/sim/search/views.hpp"
-#include "measure.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
+#include "measure.hpp"
 
 namespace detp::validate {
 

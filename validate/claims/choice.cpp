@@ -97,7 +97,8 @@ bool is_claimed(const CountTerm<double>& term, Technique technique) {
   if (term.name == "loaded" || term.name == "sorted") return false;  // the numbers of rays and discs, which are inputs
   Counts<double> one;
   one.*term.term = 1;
-  return term.name == "hits" || price(one, built_in_unit_costs(), technique).total() > price({}, built_in_unit_costs(), technique).total();
+  return term.name == "hits" ||
+         price(one, built_in_unit_costs(), technique).total() > price({}, built_in_unit_costs(), technique).total();
 }
 
 std::string with_dashes(std::string_view text) {

@@ -6,8 +6,8 @@
 
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
-#include "detp/validate/choice/measure.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/choice/measure.hpp"
 
 using namespace detp;
 using namespace detp::validate;

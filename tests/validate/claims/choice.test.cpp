@@ -8,8 +8,8 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/choice/measure.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/choice/measure.hpp"
 #include "detp/validate/claims/experiments.hpp"
 
 using namespace detp;
