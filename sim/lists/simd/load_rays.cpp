@@ -7,6 +7,7 @@
 #include <hwy/cache_control.h>
 #include <hwy/highway.h>
 
+#include <algorithm>
 #include <cstddef>
 
 HWY_BEFORE_NAMESPACE();
@@ -222,7 +223,13 @@ namespace detp::sim::stream {
 HWY_EXPORT(LoadRays);
 
 RayTraits load_rays(std::span<const Ray> rays, const Frame& frame, RayLists& lists) {
-  return HWY_DYNAMIC_DISPATCH(LoadRays)(rays, frame, lists);
+  const RayTraits traits = HWY_DYNAMIC_DISPATCH(LoadRays)(rays, frame, lists);
+  for (const RayList& list : lists) {
+    for (float* const array : {list.a, list.b, list.p, list.q, list.from, list.to})
+      if (array != nullptr) std::fill_n(array + list.size, padding, 0.0F);
+    std::fill_n(list.id + list.size, padding, 0U);
+  }
+  return traits;
 }
 
 }  // namespace detp::sim::stream
