@@ -21,7 +21,7 @@ namespace detp::model {
 struct BestRatio {
   double ratio = 0;          ///< Q
   std::int64_t spheres = 0;  ///< k; 0: no sphere, each disc is tested with all rays
-  /// T at (Q, k), in the unit of the costs; without the costs of rays, hits and the start, which do not depend on Q and k
+  /// T at (Q, k), in the unit of the costs; without the costs of rays, hits and the start, which do not depend on Q or k
   double time = 0;
   std::int64_t evaluated_spheres = 0;  ///< spheres evaluated one by one by a search over Q
 };

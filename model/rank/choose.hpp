@@ -20,8 +20,8 @@ struct Ranked {
 /// ranking has only the techniques tried before the request, but at least one.
 ///
 /// Parameters: the sphere cache by best_ratio_and_stop; cell spheres and the octree by trying their depths; the sphere
-/// tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by trying leaves and then fan-outs; the grid by
-/// best_grid_cells. Throws std::invalid_argument for a workload out of range.
+/// tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by trying leaves from 4 to 256, and then
+/// fan-outs from 4 to 16; the grid by best_grid_cells. Throws std::invalid_argument for a workload out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                        const SearchLimits& limits = {});
 

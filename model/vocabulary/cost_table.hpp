@@ -34,7 +34,7 @@ void check(const CostTable& costs);
 
 /// The time of a technique's counts with its costs.
 [[nodiscard]] inline CostBreakdown price(const Counts<double>& counts, const CostTable& costs, Technique technique) {
-  return price(counts, costs.of_technique[static_cast<std::size_t>(technique)], technique);
+  return price(counts, costs[technique], technique);
 }
 
 }  // namespace detp

@@ -32,8 +32,9 @@ struct Calibration {
 inline constexpr double doubtful_error = 0.15;
 
 /// Times all exact techniques, with several parameters each, on uniform samples in a cube and on its faces and on
-/// isotropic lines: 10² … 10⁶ discs, 10² … 3·10⁵ rays, from few to very many hits. One thread. Each run is timed at
-/// least three times, and the shortest time counts. Fits the unit costs of each technique to its runs.
+/// isotropic lines: 10² … 10⁵ discs (10⁶ once), 10² … 10⁵ rays, from few to very many hits. One thread. Runs of more than
+/// 0.06 s are left out. A run is timed up to seven times, until 0.01 s have passed; the shortest time counts. Fits the
+/// unit costs of each technique to its runs, in seconds. A technique with fewer than 10 runs keeps the built-in costs.
 [[nodiscard]] Calibration calibrate(const CalibrationOptions& options = {});
 
 }  // namespace detp::validate
