@@ -33,7 +33,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const std::invalid_argument&) {
   }
   try {
-    (void)detp::cli::parse_unit_costs(std::string(text), {});
+    (void)detp::cli::parse_unit_costs(std::string(text));
   } catch (const std::invalid_argument&) {
   }
   return 0;
