@@ -45,6 +45,7 @@ struct TreeCounts {
   double discs = 0;
   double culls = 0;
   double visits = 0;
+  double made = 0;
 };
 
 /// Joins the inner nodes of the binary tree to wide nodes.
@@ -187,13 +188,16 @@ TreeCounts tree_counts(int dimension, const Valid<Workload>& workload, double sa
     if (kind > 0) counts.listed += wide * share;
     counts.culls += wide * children * blocks.with_any(share);
   });
-  for (std::size_t kind = 0; kind < nodes.size(); ++kind)
+  for (std::size_t kind = 0; kind < nodes.size(); ++kind) {
+    counts.made += nodes[kind].inner.count;
     for (const Leaves& leaves : nodes[kind].leaves) {
       const double share = kind > 0 ? crossing(leaves.surface, leaves.volume) : 1;
       if (kind > 0) counts.listed += leaves.count * share;
       counts.discs += leaves.count * leaves.discs * share;
       counts.visits += leaves.count * leaves.discs * blocks.with_any(share, leaves.spread);
+      counts.made += leaves.count;
     }
+  }
   return counts;
 }
 
@@ -209,6 +213,7 @@ Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxT
   if (samples <= parameters.leaf) {
     counts.disc_tests = rays * samples;
     counts.visits = blocks * samples;
+    counts.made = 1;
     return counts;
   }
   const int fan_out = std::min(parameters.fan_out, box_tree_most_children);
@@ -224,8 +229,8 @@ Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxT
   TreeCounts tree = counts_in(dimension < 3 ? 2 : 3);
   if (dimension > 2 && dimension < 3) {
     const TreeCounts volume = counts_in(3);
-    for (const auto term :
-         {&TreeCounts::tests, &TreeCounts::listed, &TreeCounts::discs, &TreeCounts::culls, &TreeCounts::visits})
+    for (const auto term : {&TreeCounts::tests, &TreeCounts::listed, &TreeCounts::discs, &TreeCounts::culls,
+                            &TreeCounts::visits, &TreeCounts::made})
       tree.*term = std::pow(tree.*term, 3 - dimension) * std::pow(volume.*term, dimension - 2);
   }
   counts.cull_tests = rays * tree.tests;
@@ -233,6 +238,7 @@ Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxT
   counts.disc_tests = rays * std::min(samples, in_one * tree.discs);
   counts.visits = std::min(blocks * samples, in_one * tree.visits);
   counts.culls = tree.culls;
+  counts.made = tree.made;
   return counts;
 }
 

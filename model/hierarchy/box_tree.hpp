@@ -42,7 +42,7 @@ namespace detp::model {
 inline constexpr int box_tree_most_children = 16;
 inline constexpr int box_tree_largest_leaf = 256;
 
-/// Expected counts of a search by either engine. `culls` counts lists, `visits` discs of leaves whose lists hold a ray,
+/// Expected counts of a search by either engine. `made` counts the nodes of the binary tree, `culls` counts lists, `visits` discs of leaves whose lists hold a ray,
 /// both once for each block of rays (ray_blocks).
 ///
 /// Source     our derivation.

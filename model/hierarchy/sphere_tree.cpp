@@ -145,6 +145,7 @@ Counts<double> sphere_tree_counts(const Valid<Workload>& workload, const Valid<S
   for (const TreeLevel& level : sphere_tree_levels(workload, parameters)) {
     counts.culls += level.nodes * -std::expm1(-around);  // nodes whose parent's list holds at least one ray
     counts.cull_tests += level.nodes * around;
+    counts.made += level.nodes;
     counts.listed += workload.samples / level.samples * level.rays;
     around = level.rays;
   }

@@ -21,6 +21,7 @@ struct Counts {
   T nodes{};       ///< tree nodes, inner nodes and leaves, visited by single rays or single discs
   T references{};  ///< disc references stored in an index
   T placements{};  ///< insertions of a disc into a cell or node while an index is built, at all levels
+  T made{};        ///< nodes made of a tree of boxes (of its binary tree) or of spheres
   T sorted{};      ///< discs sorted along a curve
   T hits{};        ///< (ray, disc) pairs found
 
@@ -37,7 +38,7 @@ struct CountTerm {
 
 /// All terms, in the order in which results list them.
 template <class T>
-inline constexpr std::array<CountTerm<T>, 13> count_terms{{{"loaded", &Counts<T>::loaded},
+inline constexpr std::array<CountTerm<T>, 14> count_terms{{{"loaded", &Counts<T>::loaded},
                                                            {"cull_tests", &Counts<T>::cull_tests},
                                                            {"culls", &Counts<T>::culls},
                                                            {"listed", &Counts<T>::listed},
@@ -48,6 +49,7 @@ inline constexpr std::array<CountTerm<T>, 13> count_terms{{{"loaded", &Counts<T>
                                                            {"nodes", &Counts<T>::nodes},
                                                            {"references", &Counts<T>::references},
                                                            {"placements", &Counts<T>::placements},
+                                                           {"made", &Counts<T>::made},
                                                            {"sorted", &Counts<T>::sorted},
                                                            {"hits", &Counts<T>::hits}}};
 

@@ -23,6 +23,7 @@ struct UnitCosts {
   double listed = 0;      ///< c: adding one ray to a list, not including its test
   double placement = 0;   ///< b: inserting one disc into one cell or node while an index is built
   double leaf = 0;        ///< p: inserting one disc into a leaf of a tree of spheres or boxes
+  double make = 0;        ///< g: making one node of a tree of boxes or spheres
   double sort = 0;        ///< s: sorting one disc along the curve
   double cull = 0;        ///< r: fixed cost of one list, not including its tests and rays
   double visit = 0;       ///< l: fixed cost of one disc's visit to a list, not including its tests
@@ -93,6 +94,8 @@ inline constexpr std::array unit_cost_terms{
                  &CostBreakdown::build, "placing a disc in a cell or node while an index is built"},
     UnitCostTerm{"p", &UnitCosts::leaf, quantity_of<&Counts<double>::placements>, CostEngine::lists,
                  &CostBreakdown::build, "placing a disc in a leaf of a tree that lists are culled down"},
+    UnitCostTerm{"g", &UnitCosts::make, quantity_of<&Counts<double>::made>, CostEngine::lists, &CostBreakdown::build,
+                 "making a node of a tree of boxes or spheres"},
     UnitCostTerm{"s", &UnitCosts::sort, quantity_of<&Counts<double>::sorted>, CostEngine::both, &CostBreakdown::order,
                  "sorting a disc along the curve"},
     UnitCostTerm{"r", &UnitCosts::cull, quantity_of<&Counts<double>::culls>, CostEngine::both, &CostBreakdown::rebuild,

@@ -1,5 +1,7 @@
 #include "random.hpp"
 
+#include <algorithm>
+
 #include <Random123/philox.h>
 
 namespace detp::sim {
@@ -16,6 +18,23 @@ std::array<double, 4> uniform4(std::uint64_t seed, Stream stream, std::uint64_t 
   const auto words = bits4(seed, stream, index, sub_index);
   const auto unit = [](std::uint64_t word) { return static_cast<double>(word >> 11) * 0x1p-53; };
   return {unit(words[0]), unit(words[1]), unit(words[2]), unit(words[3])};
+}
+
+std::vector<std::size_t> stratified_sample(std::size_t size, std::size_t count, std::uint64_t seed, Stream stream) {
+  count = std::min(count, size);
+  std::vector<std::size_t> sample(count);
+  std::array<double, 4> random{};
+  const auto start = [&](std::size_t i) {
+    return static_cast<std::size_t>(static_cast<double>(i) / static_cast<double>(count) * static_cast<double>(size));
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    if (i % 4 == 0) random = uniform4(seed, stream, i);
+    const std::size_t first = start(i);
+    const std::size_t end = i + 1 == count ? size : start(i + 1);
+    const auto offset = static_cast<std::size_t>(random[i % 4] * static_cast<double>(end - first));
+    sample[i] = size == count ? i : first + offset;
+  }
+  return sample;
 }
 
 }  // namespace detp::sim

@@ -1,14 +1,16 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 /// Counter-based random numbers (Philox4x64-10 of Random123): a pure function of (seed, stream, index, sub_index). So
 /// results do not depend on threads, ranks or order.
 namespace detp::sim {
 
 /// The purpose of the numbers. Streams never overlap.
-enum class Stream : std::uint64_t { line_field = 1, samples, thinning, photons, scene, tests };
+enum class Stream : std::uint64_t { line_field = 1, samples, thinning, photons, scene, tests, pilot, evidence };
 
 /// Four independent uniform numbers in [0, 1) with 53 bits.
 [[nodiscard]] std::array<double, 4> uniform4(std::uint64_t seed, Stream stream, std::uint64_t index,
@@ -17,5 +19,10 @@ enum class Stream : std::uint64_t { line_field = 1, samples, thinning, photons, 
 /// Four independent 64-bit words.
 [[nodiscard]] std::array<std::uint64_t, 4> bits4(std::uint64_t seed, Stream stream, std::uint64_t index,
                                                  std::uint64_t sub_index = 0);
+
+/// A stratified sample of 0 … size - 1: one number at random of each of `count` equally long runs, in rising order. All
+/// numbers if there are not more than `count`.
+[[nodiscard]] std::vector<std::size_t> stratified_sample(std::size_t size, std::size_t count, std::uint64_t seed,
+                                                         Stream stream);
 
 }  // namespace detp::sim

@@ -11,7 +11,7 @@ namespace detp::sim {
 /// The time and memory for building an index, and its counts.
 struct Built {
   Phases seconds;                ///< for sorting and building
-  Counts<std::uint64_t> counts;  ///< of building: sorted, placements, references
+  Counts<std::uint64_t> counts;  ///< of building: sorted, made, placements, references
   double bytes = 0;              ///< predicted peak memory while the index is built
 };
 

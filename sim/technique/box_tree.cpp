@@ -1,4 +1,8 @@
+#include "box_tree.hpp"
+
 #include <deque>
+#include <optional>
+#include <utility>
 
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/ray_box.hpp"
@@ -106,16 +110,19 @@ class PlainSearch {
 /// Culls lists of rays down a tree of boxes, and tests the leaves' lists against their discs.
 class BoxTreeIndex final : public Index {
  public:
-  BoxTreeIndex(const Problem& problem, const BoxTreeParameters& parameters, const RunOptions& options)
+  BoxTreeIndex(const Problem& problem, const BoxTreeParameters& parameters, const RunOptions& options,
+               std::optional<stream::SortedDiscs> sorted = {})
       : parameters_(parameters), simd_(options.engine == Engine::simd && stream::can_search(problem)), frame_(problem) {
     Stopwatch watch;
     const stream::TreeSize expected = stream::expected_tree(problem.discs().size(), parameters);
     checked_bytes(what, stream::boxes_bytes(stream::size_of(problem, options), parameters.fan_out, expected), problem);
-    tree_ = stream::make_disc_tree(problem, frame_, parameters, options);
+    if (!sorted) sorted = stream::sort_discs(problem, frame_, options);
+    tree_ = stream::make_disc_tree(std::move(*sorted), problem, frame_, parameters, options);
     const double built = stream::building_bytes(problem.discs().size(), static_cast<double>(tree_.binary_nodes),
                                                 static_cast<double>(tree_.nodes.size()));
     built_.bytes = checked_bytes(what, built, problem);
     built_.seconds.build = watch.lap();
+    built_.counts.made = tree_.binary_nodes;
     built_.counts.sorted = built_.counts.placements = built_.counts.references = problem.discs().size();
   }
 
@@ -139,6 +146,11 @@ class BoxTreeIndex final : public Index {
 };
 
 }  // namespace
+
+std::unique_ptr<Index> prepare_box_tree(const Problem& problem, stream::SortedDiscs discs,
+                                        const BoxTreeParameters& parameters, const RunOptions& options) {
+  return std::make_unique<BoxTreeIndex>(problem, parameters, options, std::move(discs));
+}
 
 std::unique_ptr<Index> prepare_box_tree(const Problem& problem, const Parameters& parameters,
                                         const RunOptions& options) {

@@ -100,6 +100,7 @@ class SphereTreeIndex final : public Index {
     built_.seconds.order = watch.lap();
     tree_ = make_sphere_tree(problem.discs(), order_, parameters, options.stop);
     built_.seconds.build = watch.lap();
+    built_.counts.made = tree_.nodes();
     built_.counts.sorted = order_.size();
   }
 

@@ -5,7 +5,7 @@ namespace {
 
 /// Costs in nanoseconds by symbol, as `detp calibrate` prints them. Costs that are not named are 0.
 struct Nanoseconds {
-  double t = 0, u = 0, w = 0, v = 0, n = 0, c = 0, b = 0, p = 0, s = 0, r = 0, l = 0, h = 0, i = 0, m = 0, a = 0;
+  double t = 0, u = 0, w = 0, v = 0, n = 0, c = 0, b = 0, p = 0, g = 0, s = 0, r = 0, l = 0, h = 0, i = 0, m = 0, a = 0;
 
   [[nodiscard]] UnitCosts seconds() const {
     constexpr double nano = 1e-9;
@@ -17,6 +17,7 @@ struct Nanoseconds {
             .listed = nano * c,
             .placement = nano * b,
             .leaf = nano * p,
+            .make = nano * g,
             .sort = nano * s,
             .cull = nano * r,
             .visit = nano * l,

@@ -24,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "detp.calibrate";
-constexpr int cost_model = 1;  // change it whenever the meaning of a unit cost or of a count changes
+constexpr int cost_model = 2;  // change it whenever the meaning of a unit cost or of a count changes
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
 std::string cpu_name() {

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include "detp/sim/base/radix_sort.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/geometry/ray_box.hpp"
 
 namespace detp::validate {
@@ -18,24 +20,27 @@ sim::Box box_of_centres(std::span<const sim::Disc> discs, sim::StopCheck& check)
   return box;
 }
 
-/// Number of occupied cells after each number of halvings, 0 … 16.
-std::vector<double> occupied_cells(std::span<const sim::Disc> discs, const std::stop_token& stop) {
+std::vector<std::size_t> sample_of(std::size_t size, std::size_t most) {
+  return sim::stratified_sample(size, most, 1, sim::Stream::evidence);
+}
+
+/// Number of cells that the sampled discs occupy after each number of halvings, 0 … 16.
+std::vector<double> occupied_cells(std::span<const sim::Disc> discs, const std::vector<std::size_t>& sample,
+                                   const std::stop_token& stop) {
   sim::StopCheck check(stop, "measuring the samples");
   const sim::Box box = box_of_centres(discs, check);
-  std::vector<std::uint64_t> codes;
-  codes.reserve(discs.size());
-  sim::for_each_checked(discs, check,
-                        [&](const sim::Disc& disc) { codes.push_back(sim::lebesgue_code(disc.centre, box)); });
-  std::sort(codes.begin(), codes.end(), [&](std::uint64_t a, std::uint64_t b) {
-    check.after(1);
-    return a < b;
+  std::vector<sim::KeyedIndex> codes;
+  codes.reserve(sample.size());
+  sim::for_each_checked(std::span(sample), check, [&](std::size_t disc) {
+    codes.push_back({sim::lebesgue_code(discs[disc].centre, box), 0});
   });
+  sim::radix_sort(codes, 48, stop);
   std::vector<double> occupied;
   for (int level = 0; level <= 16; ++level) {
     const int shift = 48 - 3 * level;
     double cells = 1;
     sim::for_each_checked(1, codes.size(), check,
-                          [&](std::size_t i) { cells += codes[i] >> shift != codes[i - 1] >> shift ? 1 : 0; });
+                          [&](std::size_t i) { cells += codes[i].key >> shift != codes[i - 1].key >> shift ? 1 : 0; });
     occupied.push_back(cells);
   }
   return occupied;
@@ -46,14 +51,14 @@ double mean_path_length(const sim::Problem& problem, const sim::Box& box, double
                         const std::stop_token& stop) {
   sim::StopCheck check(stop, "measuring the rays");
   const sim::Box grown{box.low - disc_radius, box.high + disc_radius};
+  if (!problem.segments()) return 0;
   double sum = 0;
-  bool segments = false;
-  sim::for_each_checked(problem.rays(), check, [&](const sim::Ray& ray) {
-    segments = segments || !ray.is_line();
-    const sim::RayInterval inside = sim::ClippedRay(ray).inside(grown);
+  const std::vector<std::size_t> sample = sample_of(problem.rays().size(), 1U << 14);
+  sim::for_each_checked(std::span(sample), check, [&](std::size_t ray) {
+    const sim::RayInterval inside = sim::ClippedRay(problem.rays()[ray]).inside(grown);
     if (!inside.empty()) sum += inside.to - inside.from;
   });
-  return segments ? sum / static_cast<double>(problem.rays().size()) : 0;
+  return sum / static_cast<double>(sample.size());
 }
 
 /// Root mean square radius. If all radii are equal, the result is exactly this radius.
@@ -73,9 +78,10 @@ double sample_dimension(std::span<const sim::Disc> discs, const std::stop_token&
   constexpr double least_points = 4096;
   constexpr double points_per_cell = 4;
   constexpr int levels = 3;
-  const auto points = static_cast<double>(discs.size());
+  const std::vector<std::size_t> sample = sample_of(discs.size(), 1U << 17);
+  const auto points = static_cast<double>(sample.size());
   if (points < least_points) return 3;
-  const std::vector<double> occupied = occupied_cells(discs, stop);
+  const std::vector<double> occupied = occupied_cells(discs, sample, stop);
   int last = levels;
   while (last < 16 && occupied[static_cast<std::size_t>(last) + 1] * points_per_cell <= points) ++last;
   Eigen::Matrix<double, levels, 2> line;

@@ -75,7 +75,9 @@ std::optional<Counted> count(const Experiment& experiment, const model::Ranked& 
   return counted;
 }
 
-bool adds_up_over_rays(std::string_view term) { return term != "culls" && term != "visits" && term != "placements"; }
+bool adds_up_over_rays(std::string_view term) {
+  return term != "culls" && term != "visits" && term != "placements" && term != "made";
+}
 
 /// The count for all the question's rays, scaled from the sampled rays. The standard error is that between the batches,
 /// but at least that of independent events whose expected number is `predicted`; infinite if there is a single ray; 0

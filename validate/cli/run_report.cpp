@@ -154,6 +154,7 @@ std::string_view meaning(std::string_view term) {
       {"nodes", "nodes of a tree visited"},
       {"references", "disc references stored in the index"},
       {"placements", "discs put into cells or nodes while building"},
+      {"made", "nodes of a tree of boxes or spheres made"},
       {"sorted", "discs sorted along a curve"},
       {"hits", "pairs of a ray and a disc that it hits"}};
   return meanings.at(term);

@@ -107,7 +107,8 @@ Counts<double> structural_box_tree(const sim::Problem& problem, const Lines& lin
   const BoxCrossing crossing(problem.enclosing().radius * frame.scale, frame.margin, lines.engine);
   const auto discs = static_cast<double>(problem.discs().size());
   const RayBlocks blocks = lines.blocks(problem);
-  Counts<double> counts{.references = discs, .placements = discs, .sorted = discs};
+  Counts<double> counts{
+      .references = discs, .placements = discs, .made = static_cast<double>(tree.binary_nodes), .sorted = discs};
   sim::StopCheck check(stop, "counting boxes");
   for (std::size_t i = 0; i < tree.nodes.size(); ++i) {
     const TreeNode& node = tree.nodes[i];

@@ -102,7 +102,7 @@ Counts<double> sphere_tree(const sim::Problem& problem, double rays, const Spher
   const Crossing crossing(problem.enclosing());
   const sim::SphereTree tree = sim::make_sphere_tree(
       problem.discs(), sim::along_curve(problem.discs(), SampleOrder::lebesgue, stop), parameters, stop);
-  Counts<double> counts{.cull_tests = 1, .culls = 1};
+  Counts<double> counts{.cull_tests = 1, .culls = 1, .made = static_cast<double>(tree.nodes())};
   for (std::size_t level = 0; level < tree.levels.size(); ++level) {
     std::vector<double> crossed;
     sim::for_each_checked(std::span(tree.levels[level]), check,

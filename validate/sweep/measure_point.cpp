@@ -74,7 +74,7 @@ Estimate allow_for_few(Estimate estimate, double events) {
 }
 
 bool depends_on_lines(std::string_view term) {
-  return term != "culls" && term != "visits" && term != "references" && term != "placements";
+  return term != "culls" && term != "visits" && term != "references" && term != "placements" && term != "made";
 }
 
 void compare_counts(Rows& rows, Form form, const Counts<double>& predicted,

@@ -4,6 +4,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "detp/sim/geometry/curve_sort.hpp"
 #include "detp/sim/search/outcome.hpp"
 #include "frame.hpp"
 #include "ray_list.hpp"
@@ -39,6 +40,15 @@ struct DiscTree {
 
 inline constexpr double binary_node_bytes = 40;
 
+/// Discs in the order of the Morton curve.
+struct SortedDiscs {
+  std::vector<CurvePlace> places;
+  DiscTree tree;  ///< discs and order; no nodes
+};
+
+/// Throws Stopped if a stop was requested, and std::length_error for 2³¹ or more discs.
+[[nodiscard]] SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOptions& options = {});
+
 /// Predicted peak bytes while the tree is built: sorted discs, nodes of the binary tree and of the final tree.
 [[nodiscard]] double building_bytes(std::size_t discs, double binary_nodes, double nodes);
 
@@ -51,16 +61,20 @@ struct DiscRun {
 /// The discs of the leaves below a node, or of a leaf.
 [[nodiscard]] DiscRun discs_below(const DiscTree& tree, const TreeNode& node);
 
-/// Sorts the discs along the Morton curve, and splits them where the curve leaves a cell. Discs with the same place on
-/// the curve are split in the middle. Keeps the splits that lower the expected cost, and merges the kept splits into
+/// Splits the sorted discs where the curve leaves a cell. Discs with the same place on the curve are split in the middle.
+/// Keeps the splits that lower the expected cost, and merges the kept splits into
 /// nodes with up to `fan_out` children. A leaf holds up to `leaf` discs, or up to 64 if that costs less than a split.
 ///
 /// The expected cost follows the surface-area heuristic: a line that crosses a node crosses a child with probability
 /// F(child)/F(node). (If nodes were runs of equal length along the curve, there would be 1.7 to 2.3 times as many
 /// tests, because the boxes of such runs span the curve's jumps.)
 ///
-/// Throws Stopped if a stop was requested. Throws std::length_error for 2³¹ or more discs and, naming the bytes, before
-/// the memory budget would be exceeded.
+/// Throws Stopped if a stop was requested. Throws std::length_error, naming the bytes, before the memory budget would be
+/// exceeded.
+[[nodiscard]] DiscTree make_disc_tree(SortedDiscs sorted, const Problem& problem, const Frame& frame,
+                                      const BoxTreeParameters& parameters, const RunOptions& options = {});
+
+/// Sorts the discs first.
 [[nodiscard]] DiscTree make_disc_tree(const Problem& problem, const Frame& frame, const BoxTreeParameters& parameters,
                                       const RunOptions& options = {});
 

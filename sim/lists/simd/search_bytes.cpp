@@ -10,7 +10,7 @@
 namespace detp::sim::stream {
 namespace {
 
-double rays_at_once(const SearchSize& size) {
+double rays_together(const SearchSize& size) {
   return static_cast<double>(std::min(rays_in_block(size.discs), size.rays));
 }
 
@@ -27,7 +27,7 @@ double floats_per_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
 /// closer together: they use pages that earlier lists left untouched.
 double list_bytes(const SearchSize& size, const ListCapacity& lists) {
   const auto last = static_cast<double>(size.rays % rays_in_block(size.discs));
-  const double rays = rays_at_once(size);
+  const double rays = rays_together(size);
   const double unfilled = std::max(0.0, 1 - lists.first) * rays;
   const double beside = last < rays ? std::min(unfilled, (1 + lists.all) * last) : 0;
   return sizeof(float) * floats_per_ray(size) * (rays * lists.all + beside);
@@ -54,7 +54,7 @@ SearchSize size_of(const Problem& problem, const RunOptions& options) {
 }
 
 std::size_t list_floats(const SearchSize& size, const ListCapacity& lists) {
-  return static_cast<std::size_t>(floats_per_ray(size) * rays_at_once(size) * (1 + lists.all));
+  return static_cast<std::size_t>(floats_per_ray(size) * rays_together(size) * (1 + lists.all));
 }
 
 double all_bytes(const SearchSize& size) { return searching_bytes(size, 0, 0); }
@@ -64,7 +64,7 @@ double walk_bytes(const SearchSize& size, const ListCapacity& lists) {
 }
 
 double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree) {
-  const bool alone = rays_at_once(size) * fan_out < static_cast<double>(least_work);
+  const bool alone = rays_together(size) * fan_out < static_cast<double>(least_work);
   const double lists = (alone ? 1 : thread_count(size.threads)) * list_bytes(size, tree.lists);
   return std::max(building_bytes(size.discs, tree.binary_nodes, tree.nodes),
                   searching_bytes(size, sizeof(TreeNode) * tree.nodes, lists));

@@ -1,0 +1,61 @@
+#include "binary_tree.hpp"
+
+#include <bit>
+#include <cmath>
+
+namespace detp::sim::stream {
+namespace {
+
+void make_leaf(const SortedDiscs& discs, BinaryNode& node) {
+  for (std::uint32_t i = node.first; i < node.first + node.count; ++i) node.box.include(box_of(discs.tree.discs[i]));
+  node.cost = static_cast<float>(node.count) * node.box.area();
+}
+
+}  // namespace
+
+FloatBox box_of(const FloatDisc& disc) {
+  FloatBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    const float u = disc.normal[(axis + 1) % 3];
+    const float v = disc.normal[(axis + 2) % 3];
+    const float reach = disc.radius * std::sqrt(u * u + v * v);
+    box.low[axis] = disc.centre[axis] - reach;
+    box.high[axis] = disc.centre[axis] + reach;
+  }
+  return box;
+}
+
+std::uint32_t boundary(std::span<const CurvePlace> places, std::uint32_t first, std::uint32_t count) {
+  const std::uint32_t low = place_code(places[first]);
+  const std::uint32_t high = place_code(places[first + count - 1]);
+  if (low == high) return first + count / 2;
+  const std::uint32_t start = high & ~(std::bit_floor(low ^ high) - 1);
+  const auto begin = places.begin() + first;
+  const auto found =
+      std::partition_point(begin, begin + count, [start](CurvePlace p) { return place_code(p) < start; });
+  return static_cast<std::uint32_t>(found - places.begin());
+}
+
+void join(BinaryNode& node, const BinaryNode& left, const BinaryNode& right, std::uint32_t right_number) {
+  node.box = left.box;
+  node.box.include(right.box);
+  const NodeCost cost(node.box.area(), node.count, left.box.area() + right.box.area(), left.cost + right.cost);
+  node.cost = cost.cost;
+  node.right = cost.inner ? right_number : 0;
+}
+
+std::uint32_t split_run(const SortedDiscs& discs, std::uint32_t leaf, std::uint32_t first, std::uint32_t count,
+                        BinaryNode* nodes, std::uint32_t number) {
+  nodes[number] = {.box = nothing, .first = first, .count = count, .right = 0, .cost = 0};
+  if (count <= leaf) {
+    make_leaf(discs, nodes[number]);
+    return number + 1;
+  }
+  const std::uint32_t middle = boundary(discs.places, first, count);
+  const std::uint32_t right = split_run(discs, leaf, first, middle - first, nodes, number + 1);
+  const std::uint32_t end = split_run(discs, leaf, middle, first + count - middle, nodes, right);
+  join(nodes[number], nodes[number + 1], nodes[right], right);
+  return nodes[number].leaf() ? number + 1 : end;
+}
+
+}  // namespace detp::sim::stream

@@ -1,0 +1,103 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "detp/sim/geometry/curve_sort.hpp"
+#include "disc_tree.hpp"
+
+/// The binary tree of boxes over sorted discs. Trees with wide nodes and larger leaves are made from it.
+namespace detp::sim::stream {
+
+struct FloatBox {
+  float low[3];
+  float high[3];
+
+  void include(const FloatBox& box) {
+    for (int axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], box.low[axis]);
+      high[axis] = std::max(high[axis], box.high[axis]);
+    }
+  }
+
+  /// Half the box's surface, which is proportional to the number of lines that cross the box.
+  [[nodiscard]] float area() const {
+    const float x = high[0] - low[0];
+    const float y = high[1] - low[1];
+    const float z = high[2] - low[2];
+    return x * y + y * z + z * x;
+  }
+};
+
+/// A box that holds nothing, in the frame's coordinates.
+inline constexpr FloatBox nothing{{2, 2, 2}, {-2, -2, -2}};
+
+[[nodiscard]] FloatBox box_of(const FloatDisc& disc);
+
+/// A node of the binary tree. An inner node's left child is the next node.
+struct BinaryNode {
+  FloatBox box;
+  std::uint32_t first;  ///< its discs are first … first + count - 1 in the order along the curve
+  std::uint32_t count;
+  std::uint32_t right;  ///< number of the right child; 0: a leaf
+  float cost;           ///< expected cost of a ray that crosses the box, times the box's area
+  [[nodiscard]] bool leaf() const { return right == 0; }
+};
+
+static_assert(sizeof(BinaryNode) == binary_node_bytes);
+
+/// The place at which a run of discs leaves the first half of the smallest cell that contains the run; the run's middle
+/// if all its discs have the same place on the curve.
+[[nodiscard]] std::uint32_t boundary(std::span<const CurvePlace> places, std::uint32_t first, std::uint32_t count);
+
+/// The cost of a node that is not empty, times the area of its box, and whether it is an inner node: it is a leaf if that
+/// costs less and if it has at most 64 discs. `children` is the sum of the areas of the children's boxes, `below` the
+/// sum of their costs.
+struct NodeCost {
+  float cost;
+  bool inner;
+
+  NodeCost(float area, std::uint32_t count, float children, float below) {
+    // Costs for one ray, in units of disc tests; measured on lists of a few hundred rays.
+    constexpr float cull = 1.6F;  // one test of a ray against a box, with its share of making the list
+    constexpr float list = 1.0F;  // each listed ray
+    constexpr std::uint32_t most_in_a_leaf = 64;
+    // Culls and lists count half: about every other split is merged into a wide node and then costs nothing.
+    const float as_inner = cull * area + 0.5F * list * children + below;
+    const float as_leaf = static_cast<float>(count) * area;
+    inner = as_leaf > as_inner || count > most_in_a_leaf;
+    cost = inner ? as_inner : as_leaf;
+  }
+};
+
+/// Gives an inner node the box of its children, and makes it a leaf if that costs less: sets `right` and `cost`.
+void join(BinaryNode& node, const BinaryNode& left, const BinaryNode& right, std::uint32_t right_number);
+
+/// Writes the binary tree over a run of discs to nodes[number] and the next nodes, at most 2 count - 1. Every run of at
+/// most `leaf` discs is a leaf. Returns the number after its last node.
+std::uint32_t split_run(const SortedDiscs& discs, std::uint32_t leaf, std::uint32_t first, std::uint32_t count,
+                        BinaryNode* nodes, std::uint32_t number);
+
+/// Replaces `children` by the children of the wide node at an inner node: starts with its two children, then replaces
+/// the inner node with the largest box by its own children, until there are `fan_out` children or only leaves.
+/// `inner_area(child)` returns the area of a child's box, or a negative number for a leaf; `halves(node)` returns the
+/// numbers of a node's two children.
+template <class InnerArea, class Halves>
+void open_wide_node(std::uint32_t node, std::size_t fan_out, const InnerArea& inner_area, const Halves& halves,
+                    std::vector<std::uint32_t>& children) {
+  const auto [left, right] = halves(node);
+  children.assign({left, right});
+  while (children.size() < fan_out) {
+    const auto largest = std::max_element(children.begin(), children.end(), [&](std::uint32_t x, std::uint32_t y) {
+      return inner_area(x) < inner_area(y);
+    });
+    if (inner_area(*largest) < 0) break;
+    const auto [first, second] = halves(*largest);
+    *largest = first;
+    children.insert(largest + 1, second);
+  }
+}
+
+}  // namespace detp::sim::stream

@@ -1,0 +1,384 @@
+#include "box_tree_pilot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <deque>
+#include <memory>
+#include <optional>
+
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/geometry/random.hpp"
+#include "load_rays.hpp"
+#include "tree_search.hpp"
+
+namespace detp::sim::stream {
+namespace {
+
+constexpr std::uint32_t most_in_a_subtree = 512;
+constexpr std::uint32_t coarse_leaf = 128;  ///< the nodes of subtrees that are not drawn are built down to this size
+constexpr std::uint32_t finest_leaf = 4;
+constexpr std::uint64_t seed = 1;
+
+/// A box that contains the discs, whatever their normals are.
+FloatBox box_around(std::span<const FloatDisc> discs) {
+  FloatBox box = nothing;
+  for (const FloatDisc& disc : discs)
+    for (int axis = 0; axis < 3; ++axis) {
+      box.low[axis] = std::min(box.low[axis], disc.centre[axis] - disc.radius);
+      box.high[axis] = std::max(box.high[axis], disc.centre[axis] + disc.radius);
+    }
+  return box;
+}
+
+TreeNode as_tree_node(const BinaryNode& node) {
+  TreeNode box{.centre = {}, .half = {}, .first = node.first, .count = node.count & 0x7fff'ffff, .leaf = 1};
+  for (int axis = 0; axis < 3; ++axis) {
+    box.centre[axis] = 0.5F * (node.box.low[axis] + node.box.high[axis]);
+    box.half[axis] = 0.5F * (node.box.high[axis] - node.box.low[axis]);
+  }
+  return box;
+}
+
+}  // namespace
+
+BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const SortedDiscs& discs,
+                           std::span<const Ray> sample, double rays, std::size_t subtrees, const std::stop_token& stop)
+    : discs_(discs),
+      rays_(rays),
+      sampled_(static_cast<double>(sample.size())),
+      blocks_(ray_blocks(rays, static_cast<double>(discs.tree.discs.size()), Engine::simd)),
+      work_(sample.size()) {
+  Problem of_sample = problem;
+  set_rays(of_sample, sample);
+  Worker worker(std::pmr::new_delete_resource(), stop);
+  RayLists lists;
+  for (RayList& list : lists) list = worker.lists.allocate(sample.size(), true);
+  const RayTraits traits = load_rays(sample, frame, lists);
+  // Only the pages of drawn subtrees are touched.
+  const auto hits = std::make_unique_for_overwrite<ClassCounts[]>(discs.tree.discs.size());
+  const BlockSearch block{.problem = of_sample,
+                          .frame = frame,
+                          .tree = discs.tree,
+                          .first_ray = 0,
+                          .segments = traits.segments,
+                          .pairs = false,
+                          .vectors = false,
+                          .hits = hits.get(),
+                          .totals = nullptr};
+  const std::size_t nodes = 4 * discs.tree.discs.size() / coarse_leaf + subtrees * most_in_a_subtree;
+  nodes_.reserve(nodes);
+  area_.reserve(nodes);
+  build_coarse(0, static_cast<std::uint32_t>(discs.tree.discs.size()));
+  coarse_ = static_cast<std::uint32_t>(nodes_.size());
+  for (const BinaryNode& node : nodes_) area_.push_back(node.box.area());
+  known_.resize(nodes_.size());
+  share_.resize(nodes_.size());
+  cull_top(block, lists, worker);
+  StopCheck(stop, "culling the pilot's rays").now();
+  draw_subtrees(subtrees);
+  for (Subtree& subtree : subtrees_)
+    if (subtree.weight > 0) {
+      refine(block, lists, subtree, worker);
+      StopCheck(stop, "culling the pilot's rays").now();
+    }
+}
+
+/// Builds the top of the tree, and the nodes below it down to coarse_leaf discs. Returns the node's number.
+std::uint32_t BoxTreePilot::build_coarse(std::uint32_t first, std::uint32_t count) {
+  const auto number = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.push_back({.box = nothing, .first = first, .count = count, .right = 0, .cost = 0});
+  if (count <= coarse_leaf) {
+    nodes_[number].box = box_around(std::span(discs_.tree.discs).subspan(first, count));
+    return number;
+  }
+  const std::uint32_t middle = boundary(discs_.places, first, count);
+  build_coarse(first, middle - first);
+  const std::uint32_t right = build_coarse(middle, first + count - middle);
+  nodes_[number].right = right;
+  nodes_[number].box = nodes_[number + 1].box;
+  nodes_[number].box.include(nodes_[right].box);
+  return number;
+}
+
+/// Sets the expected number of blocks that have a ray in the child's list.
+void BoxTreePilot::set_blocks(std::uint32_t child, std::uint32_t parent) {
+  constexpr float many = 16;  // sampled rays; then every block has some
+  Known& known = known_[child];
+  // The parent's surface counts for one ray.
+  const double surface = std::min(1.0F, area_[child] / area_[parent]);
+  share_[child] = share_[parent] * (known.rays + surface) / (known_[parent].rays + 1);
+  if (sampled_ >= rays_ || known.rays > many) {
+    known.blocks = known.rays > 0 ? static_cast<float>(blocks_.count()) : 0;
+    return;
+  }
+  // The rays of a block in the list are a Poisson variable, whose mean is a gamma variable of `shape`.
+  const double shape = known.rays + 1;
+  const auto without_any = [&](double rays) {
+    const double of_one = 1 / (1 + rays * share_[child] / shape);
+    double all = of_one;
+    for (float i = 0; i < known.rays; ++i) all *= of_one;
+    return all;
+  };
+  double blocks = blocks_.whole * (1 - without_any(blocks_.size));
+  if (blocks_.last > 0) blocks += 1 - without_any(blocks_.last);
+  known.blocks = static_cast<float>(blocks);
+}
+
+void BoxTreePilot::cull_top(const BlockSearch& block, const RayLists& rays, Worker& worker) {
+  known_[0].rays = static_cast<float>(size(rays));
+  known_[0].weight = 1;
+  known_[0].blocks = static_cast<float>(blocks_.count());
+  share_[0] = static_cast<double>(size(rays)) / sampled_;
+  cull_top_below(block, 0, rays, worker);
+}
+
+void BoxTreePilot::cull_top_below(const BlockSearch& block, std::uint32_t node, const RayLists& lists, Worker& worker) {
+  const BinaryNode& here = nodes_[node];
+  if (here.count <= most_in_a_subtree) {
+    const auto discs = static_cast<float>(std::sqrt(here.count));
+    subtrees_.push_back({.root = node, .work = (1.0 + known_[node].rays) * expected_work(node) / here.box.area()});
+    for (const RayList& list : lists)
+      for (std::size_t i = 0; i < list.size; ++i) work_[list.id[i] & ~falling] += discs;
+    return;
+  }
+  for (const std::uint32_t child : {node + 1, here.right}) {
+    const ArenaScope scope(worker.lists);
+    RayLists inside = worker.lists.allocate_like(lists, block.segments);
+    if (size(lists) > 0) cull_node(block, as_tree_node(nodes_[child]), lists, inside, worker);
+    known_[child].rays = static_cast<float>(size(inside));
+    known_[child].weight = 1;
+    set_blocks(child, node);
+    cull_top_below(block, child, inside, worker);
+  }
+}
+
+/// Expected work below a coarse node for a ray that crosses it, times the area of its box.
+double BoxTreePilot::expected_work(std::uint32_t node) const {
+  const BinaryNode& here = nodes_[node];
+  if (here.leaf()) return here.box.area() * std::sqrt(here.count);
+  return here.box.area() + expected_work(node + 1) + expected_work(here.right);
+}
+
+/// Draws subtrees systematically, with probabilities proportional to their work; those with much work for certain.
+void BoxTreePilot::draw_subtrees(std::size_t most) {
+  std::size_t left = std::min(most, subtrees_.size());
+  double total = 0;
+  for (const Subtree& subtree : subtrees_) total += subtree.work;
+  for (bool more = true; more && left > 0;) {
+    more = false;
+    for (Subtree& subtree : subtrees_)
+      if (subtree.weight == 0 && left > 0 && subtree.work * static_cast<double>(left) >= total) {
+        subtree.weight = 1;
+        total -= subtree.work;
+        --left;
+        more = true;
+      }
+  }
+  if (left == 0) return;
+  const double step = total / static_cast<double>(left);
+  double next = step * uniform4(seed, Stream::pilot, 0, 1)[0];
+  double sum = 0;
+  for (Subtree& subtree : subtrees_) {
+    if (subtree.weight == 1) continue;
+    sum += subtree.work;
+    if (sum <= next) continue;
+    subtree.weight = step / subtree.work;
+    next += step;
+  }
+}
+
+void BoxTreePilot::refine(const BlockSearch& block, const RayLists& rays, Subtree& subtree, Worker& worker) {
+  const BinaryNode root = nodes_[subtree.root];
+  subtree.first = static_cast<std::uint32_t>(nodes_.size());
+  nodes_.resize(nodes_.size() + 2 * root.count);
+  subtree.last = split_run(discs_, finest_leaf, root.first, root.count, nodes_.data(), subtree.first);
+  nodes_.resize(subtree.last);
+  for (std::uint32_t i = subtree.first; i < subtree.last; ++i) area_.push_back(nodes_[i].box.area());
+  known_.resize(subtree.last);
+  share_.resize(subtree.last);
+  known_[subtree.root].refined = subtree.first;
+  known_[subtree.first] = known_[subtree.root];
+  known_[subtree.first].refined = 0;
+  share_[subtree.first] = share_[subtree.root];
+  const ArenaScope scope(worker.lists);
+  RayLists inside = worker.lists.allocate_like(rays, block.segments);
+  cull_node(block, as_tree_node(nodes_[subtree.first]), rays, inside, worker);
+  const Counts<std::uint64_t> before = worker.counts;
+  cull_refined(block, subtree.first, inside, subtree.weight, worker);
+  doubtful_ += subtree.weight * static_cast<double>(worker.counts.doubtful - before.doubtful);
+  subtree.tests = static_cast<double>(tests(worker.counts) - tests(before));
+}
+
+void BoxTreePilot::cull_refined(const BlockSearch& block, std::uint32_t node, const RayLists& lists, double weight,
+                                Worker& worker) {
+  const BinaryNode& here = nodes_[node];
+  if (here.leaf()) {
+    if (size(lists) == 0) return;
+    std::fill_n(block.hits + here.first, here.count, ClassCounts{});
+    search_below(block, as_tree_node(here), lists, worker);
+    for (std::uint32_t place = here.first; place < here.first + here.count; ++place)
+      for (const std::uint32_t hits : block.hits[place]) hits_ += weight * hits;
+    return;
+  }
+  for (const std::uint32_t child : {node + 1, here.right}) {
+    const ArenaScope scope(worker.lists);
+    RayLists inside = worker.lists.allocate_like(lists, block.segments);
+    if (size(lists) > 0) cull_node(block, as_tree_node(nodes_[child]), lists, inside, worker);
+    known_[child].rays = static_cast<float>(size(inside));
+    known_[child].weight = static_cast<float>(weight);
+    set_blocks(child, node);
+    cull_refined(block, child, inside, weight, worker);
+  }
+}
+
+/// From the spread of the drawn subtrees' tests, and from that of the rays' work.
+double BoxTreePilot::relative_error() const {
+  double all = 0;  // tests in subtrees
+  double drawn = 0;
+  double sum = 0;
+  double squares = 0;
+  for (const Subtree& subtree : subtrees_) {
+    const double stands_for = subtree.weight * subtree.tests;
+    all += stands_for;
+    if (subtree.weight <= 1) continue;
+    drawn += 1;
+    sum += stands_for;
+    squares += stands_for * stands_for;
+  }
+  if (all == 0) return 0;
+  const double of_subtrees = drawn > 1 ? std::max(0.0, squares - sum * sum / drawn) * drawn / (drawn - 1) : 0;
+  double work = 0;
+  double work_squares = 0;
+  for (const double of_ray : work_) {
+    work += of_ray;
+    work_squares += of_ray * of_ray;
+  }
+  const double spread = std::max(0.0, sampled_ * work_squares / (work * work) - 1);
+  const double left = std::max(0.0, 1 - sampled_ / rays_);
+  return std::sqrt(of_subtrees / (all * all) + spread / sampled_ * left);
+}
+
+/// Follows the builder: decides which nodes are leaves, and joins the others into wide nodes.
+class BoxTreePilot::Evaluation {
+ public:
+  Evaluation(const BoxTreePilot& pilot, const BoxTreeParameters& parameters)
+      : pilot_(pilot),
+        fan_out_(static_cast<std::size_t>(parameters.fan_out)),
+        leaf_(std::max<std::uint32_t>(finest_leaf, static_cast<std::uint32_t>(parameters.leaf))),
+        nodes_(pilot.nodes_),
+        inner_(nodes_.size() - pilot.coarse_) {
+    for (const Subtree& subtree : pilot.subtrees_)
+      if (subtree.weight > 0) decide_leaves(subtree);
+  }
+
+  PilotCounts counts() {
+    const auto discs = static_cast<double>(pilot_.discs_.tree.discs.size());
+    is_inner(resolved(0)) ? visit(resolved(0), 0) : add_leaf(0, 1);
+    const double scale = pilot_.rays_ / pilot_.sampled_;
+    for (const auto per_ray : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests})
+      counts_.*per_ray *= scale;
+    counts_.loaded = pilot_.rays_;
+    counts_.hits = scale * pilot_.hits_;
+    counts_.doubtful = scale * pilot_.doubtful_;
+    counts_.sorted = counts_.placements = counts_.references = discs;
+    counts_.made = made_in_top(0);
+    return {counts_, pilot_.relative_error()};
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t resolved(std::uint32_t node) const {
+    const std::uint32_t refined = pilot_.known_[node].refined;
+    return refined > 0 ? refined : node;
+  }
+
+  [[nodiscard]] bool is_inner(std::uint32_t node) const {
+    if (node < pilot_.coarse_) return !nodes_[node].leaf() && nodes_[node].count > leaf_;
+    return inner_[node - pilot_.coarse_] != 0;
+  }
+
+  /// As `join` decides, with leaves of up to leaf_ discs. Children come after their parent.
+  void decide_leaves(const Subtree& subtree) {
+    costs_.resize(subtree.last - subtree.first);
+    for (std::uint32_t i = subtree.last; i-- > subtree.first;) {
+      const BinaryNode& node = nodes_[i];
+      float& cost = costs_[i - subtree.first];
+      cost = static_cast<float>(node.count) * area(i);
+      if (node.leaf() || node.count <= leaf_) continue;
+      const NodeCost decided(area(i), node.count, area(i + 1) + area(node.right),
+                             costs_[i + 1 - subtree.first] + costs_[node.right - subtree.first]);
+      cost = decided.cost;
+      inner_[i - pilot_.coarse_] = decided.inner ? 1 : 0;
+    }
+  }
+
+  [[nodiscard]] float area(std::uint32_t node) const { return pilot_.area_[node]; }
+
+  void add_leaf(std::uint32_t node, double weight) {
+    const Known& known = pilot_.known_[node];
+    counts_.disc_tests += weight * known.rays * nodes_[node].count;
+    counts_.visits += weight * known.blocks * nodes_[node].count;
+  }
+
+  void visit(std::uint32_t node, std::size_t level) {
+    if (children_.size() <= level) children_.resize(level + 1);
+    open_wide_node(
+        node, fan_out_, [this](std::uint32_t child) { return is_inner(child) ? area(child) : -1.0F; },
+        [this](std::uint32_t inner) { return std::pair(resolved(inner + 1), resolved(nodes_[inner].right)); },
+        children_[level]);
+    const Known& here = pilot_.known_[node];
+    for (std::size_t i = 0; i < children_[level].size(); ++i) {
+      const std::uint32_t child = children_[level][i];
+      const Known& known = pilot_.known_[child];
+      if (known.weight == 0) continue;  // below a subtree that was not drawn
+      counts_.cull_tests += known.weight * here.rays;
+      counts_.culls += known.weight * here.blocks;
+      counts_.listed += known.weight * known.rays;
+      if (!is_inner(child)) {
+        if (nodes_[child].count <= leaf_ || child >= pilot_.coarse_) add_leaf(child, known.weight);
+      } else if (nodes_[child].count > most_in_a_subtree || child >= pilot_.coarse_) {
+        visit(child, level + 1);  // not the root of a subtree that was not drawn
+      }
+    }
+  }
+
+  /// Nodes of the binary tree at and below a coarse node. A subtree has as many for each disc as the drawn ones.
+  [[nodiscard]] double made_in_top(std::uint32_t node) {
+    const BinaryNode& here = nodes_[node];
+    if (here.count <= leaf_) return 1;
+    if (here.count <= most_in_a_subtree) return made_for_each_disc() * here.count;
+    return 1 + made_in_top(node + 1) + made_in_top(here.right);
+  }
+
+  [[nodiscard]] double made_for_each_disc() {
+    if (made_for_each_disc_) return *made_for_each_disc_;
+    double made = 0;
+    double discs = 0;
+    for (const Subtree& subtree : pilot_.subtrees_)
+      if (subtree.weight > 0) {
+        made += made_below(subtree.first);
+        discs += nodes_[subtree.first].count;
+      }
+    return *(made_for_each_disc_ = made / discs);
+  }
+
+  [[nodiscard]] double made_below(std::uint32_t node) const {
+    return is_inner(node) ? 1 + made_below(node + 1) + made_below(nodes_[node].right) : 1;
+  }
+
+  const BoxTreePilot& pilot_;
+  std::size_t fan_out_;
+  std::uint32_t leaf_;
+  const std::vector<BinaryNode>& nodes_;
+  std::vector<char> inner_;
+  std::vector<float> costs_;
+  std::deque<std::vector<std::uint32_t>> children_;  ///< of the wide nodes on the way down
+  std::optional<double> made_for_each_disc_;
+  Counts<double> counts_;
+};
+
+PilotCounts BoxTreePilot::counts(const BoxTreeParameters& parameters) const {
+  return Evaluation(*this, parameters).counts();
+}
+
+}  // namespace detp::sim::stream

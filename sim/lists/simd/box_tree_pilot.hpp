@@ -1,0 +1,89 @@
+#pragma once
+
+#include <cstdint>
+#include <stop_token>
+#include <vector>
+
+#include "binary_tree.hpp"
+#include "block_search.hpp"
+#include "detp/model/vocabulary/ray_blocks.hpp"
+
+/// Predicts the counts of any box tree over given discs and rays from a sample of both, without building the tree.
+namespace detp::sim::stream {
+
+/// Counts of a box tree, predicted by a pilot.
+struct PilotCounts {
+  Counts<double> counts;      ///< of the search of all rays, building included
+  double relative_error = 0;  ///< relative standard error of the tests
+};
+
+/// A pilot culls a sample of the rays down a sample of the binary tree.
+///
+/// The top of the binary tree, down to subtrees of at most 512 discs, is built and culled whole. Of the subtrees, a few
+/// are drawn with probabilities proportional to their expected work: the sampled rays that cross them, times the sum of
+/// the surfaces of the boxes below, each times the root of its number of discs. They are built down to leaves of four
+/// discs and culled. Any box tree with leaves of at least four discs is made of nodes of the same binary tree, so its
+/// counts are sums over these nodes:
+///
+///     count = n_R/n Σ_top rays(node) + n_R/n Σ_drawn w Σ_node rays(node)
+///
+///   where  n    number of sampled rays
+///          w    number of subtrees for which a drawn subtree stands
+///
+/// The sums have no bias, except that wide nodes at the edge of subtrees that were not drawn may lack children. Lists
+/// are made, and discs visited, if a block of rays has a ray there. The probability comes from the share of the sampled
+/// rays in the list and, if there are few, from the surface of the box relative to the parent's.
+class BoxTreePilot {
+ public:
+  /// `sample` has rays that represent `rays` rays; all of them if it has as many. Draws up to `subtrees` subtrees.
+  /// Throws as set_rays for the sample; Stopped if a stop was requested.
+  BoxTreePilot(const Problem& problem, const Frame& frame, const SortedDiscs& discs, std::span<const Ray> sample,
+               double rays, std::size_t subtrees, const std::stop_token& stop = {});
+
+  /// Leaves of fewer than four discs are treated as leaves of four.
+  [[nodiscard]] PilotCounts counts(const BoxTreeParameters& parameters) const;
+
+ private:
+  /// What the pilot knows of a node of the binary tree.
+  struct Known {
+    float rays = 0;             ///< sampled rays in its list
+    float blocks = 0;           ///< expected number of blocks of all rays that have a ray in its list
+    float weight = 0;           ///< number of nodes for which it stands; 0: it was not culled
+    std::uint32_t refined = 0;  ///< number of the root of its refined subtree; 0: none
+  };
+  struct Subtree {
+    std::uint32_t root;       ///< in the coarse tree
+    double work;              ///< in proportion to which subtrees are drawn
+    double weight = 0;        ///< 0: not drawn
+    std::uint32_t first = 0;  ///< its refined nodes are first … last - 1
+    std::uint32_t last = 0;
+    double tests = 0;  ///< of the sampled rays in its refined nodes
+  };
+  class Evaluation;
+
+  std::uint32_t build_coarse(std::uint32_t first, std::uint32_t count);
+  void cull_top(const BlockSearch& block, const RayLists& rays, Worker& worker);
+  void cull_top_below(const BlockSearch& block, std::uint32_t node, const RayLists& lists, Worker& worker);
+  [[nodiscard]] double expected_work(std::uint32_t node) const;
+  void draw_subtrees(std::size_t most);
+  void refine(const BlockSearch& block, const RayLists& rays, Subtree& subtree, Worker& worker);
+  void cull_refined(const BlockSearch& block, std::uint32_t node, const RayLists& lists, double weight, Worker& worker);
+  void set_blocks(std::uint32_t child, std::uint32_t parent);
+  [[nodiscard]] double relative_error() const;
+
+  const SortedDiscs& discs_;
+  double rays_;     ///< number of all rays
+  double sampled_;  ///< number of rays in the sample
+  RayBlocks blocks_;
+  std::vector<BinaryNode> nodes_;  ///< the coarse tree, then the refined subtrees
+  std::uint32_t coarse_ = 0;       ///< number of nodes of the coarse tree
+  std::vector<Known> known_;
+  std::vector<float> area_;    ///< of the nodes' boxes
+  std::vector<double> share_;  ///< probability that a ray is in a node's list
+  std::vector<Subtree> subtrees_;
+  std::vector<float> work_;  ///< of each sampled ray, in the unit of Subtree::work
+  double hits_ = 0;          ///< expected, of the sampled rays
+  double doubtful_ = 0;
+};
+
+}  // namespace detp::sim::stream

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "detp/sim/lists/simd/box_tree_pilot.hpp"
+#include "detp/sim/lists/simd/search.hpp"
+#include "detp/sim/search/index.hpp"
+
+namespace detp::sim {
+
+/// Discs, sorted once: first a pilot predicts the counts of box trees with any parameters, then the best one is built.
+class PilotedDiscs {
+ public:
+  /// Whether float kernels can search the problem. A pilot needs them.
+  [[nodiscard]] static bool can_pilot(const Problem& problem) { return stream::can_search(problem); }
+
+  /// Sorts the problem's discs, and culls the sample (BoxTreePilot).
+  PilotedDiscs(const Problem& problem, std::span<const Ray> sample, double rays, std::size_t subtrees,
+               const RunOptions& options);
+
+  PilotedDiscs(const PilotedDiscs&) = delete;
+  PilotedDiscs& operator=(const PilotedDiscs&) = delete;
+
+  /// The predicted counts of a search of all rays, building included.
+  [[nodiscard]] stream::PilotCounts counts(const BoxTreeParameters& parameters) const {
+    return pilot_->counts(parameters);
+  }
+
+  /// Builds the box tree. Sorting is not repeated. The problem must be that of the
+  /// constructor. Call it once. Throws as `prepare`.
+  [[nodiscard]] std::unique_ptr<Index> build(const Problem& problem, const BoxTreeParameters& parameters,
+                                             const RunOptions& options) &&;
+
+  [[nodiscard]] double sort_seconds() const { return sort_seconds_; }
+  [[nodiscard]] double pilot_seconds() const { return pilot_seconds_; }
+
+ private:
+  stream::SortedDiscs discs_;
+  std::optional<stream::BoxTreePilot> pilot_;  ///< refers to discs_
+  double sort_seconds_ = 0;
+  double pilot_seconds_ = 0;
+};
+
+}  // namespace detp::sim

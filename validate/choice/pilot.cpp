@@ -1,0 +1,220 @@
+#include "pilot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "detp/model/rank/choose.hpp"
+#include "detp/model/sphere_cache/sphere_count.hpp"
+#include "detp/model/vocabulary/ray_blocks.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/technique/piloted_discs.hpp"
+#include "detp/sim/technique/registry.hpp"
+#include "measure.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr std::uint64_t pilot_seed = 1;
+
+Piloted priced(const Candidate& candidate, const Counts<double>& counts, const CostTable& costs,
+               double relative_error) {
+  const CostBreakdown time = price(counts, costs, candidate.technique);
+  return {candidate, counts, time, relative_error * (time.rebuild + time.copy + time.intersect)};
+}
+
+double seconds(const Piloted& one) { return one.time.total(); }
+
+/// Looks for the fastest box tree: its leaf with a fan-out of 8, from the middle in steps that halve or double it; then
+/// its fan-out.
+class ShapeSearch {
+ public:
+  ShapeSearch(const sim::PilotedDiscs& discs, const CostTable& costs) : discs_(discs), costs_(costs) {}
+
+  std::vector<Piloted> run() {
+    consider(8, 32);
+    const int up = walk(2);
+    if (up == 32) walk(0.5);
+    for (const int fan_out : {4, 16}) consider(fan_out, best_leaf());
+    if (best().fan_out == 16) consider(32, best_leaf());
+    std::stable_sort(tried_.begin(), tried_.end(),
+                     [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
+    return std::move(tried_);
+  }
+
+ private:
+  void consider(int fan_out, int leaf) {
+    const BoxTreeParameters shape{fan_out, leaf};
+    const auto predicted = discs_.counts(shape);
+    tried_.push_back(priced({Technique::box_tree, shape}, predicted.counts, costs_, predicted.relative_error));
+  }
+
+  /// Multiplies the leaf by `factor` as long as that is faster. Returns the fastest leaf.
+  int walk(double factor) {
+    for (int leaf = best_leaf();;) {
+      leaf = static_cast<int>(leaf * factor);
+      if (leaf < 4 || leaf > 1024) break;
+      consider(8, leaf);
+      if (best_leaf() != leaf) break;
+    }
+    return best_leaf();
+  }
+
+  [[nodiscard]] BoxTreeParameters best() const {
+    const auto least = std::min_element(tried_.begin(), tried_.end(),
+                                        [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
+    return std::get<BoxTreeParameters>(least->candidate.parameters);
+  }
+  [[nodiscard]] int best_leaf() const { return best().leaf; }
+
+  const sim::PilotedDiscs& discs_;
+  const CostTable& costs_;
+  std::vector<Piloted> tried_;
+};
+
+Piloted brute_force(double rays, double discs, double hits, const CostTable& costs) {
+  const double blocks = ray_blocks(rays, discs, Engine::simd).count();
+  const Counts<double> counts{.loaded = rays, .visits = blocks * discs, .disc_tests = rays * discs, .hits = hits};
+  return priced({Technique::brute_force, BruteForceParameters{}}, counts, costs, 0);
+}
+
+/// The least counts with which any technique can find the hits, other than brute force.
+Counts<double> least_counts(double rays, double discs, double hits) {
+  return {.loaded = rays, .visits = discs, .disc_tests = hits, .placements = discs, .sorted = discs, .hits = hits};
+}
+
+/// Parameters near the best ones, without a search for them.
+std::optional<Candidate> plain_candidate(Technique technique, const Workload& workload) {
+  const int levels = std::max(1, static_cast<int>(std::lround(std::log2(workload.samples) / 3)));
+  switch (technique) {
+    case Technique::sphere_cache: {
+      constexpr double ratio = 0.5;
+      if (workload.disc_radius >= workload.sphere_radius) return std::nullopt;
+      const auto most = model::sphere_count(Form::corrected, {ratio}, {workload.disc_radius}, {workload.sphere_radius});
+      return Candidate{technique, SphereCacheParameters{ratio, std::max<std::int64_t>(1, most - 1)}};
+    }
+    case Technique::cell_spheres:
+      return Candidate{technique, CellSpheresParameters{std::min(16, levels)}};
+    case Technique::octree:
+      return Candidate{technique, OctreeParameters{std::min(14, levels)}};
+    case Technique::grid:
+      return Candidate{technique, GridParameters{std::max(1, static_cast<int>(std::cbrt(workload.samples)))}};
+    default:
+      return default_candidate(technique);
+  }
+}
+
+/// Compares the other techniques with the best so far.
+class Others {
+ public:
+  Others(const sim::Problem& problem, double rays, const Valid<CostTable>& costs, PilotChoice& found,
+         const std::stop_token& stop)
+      : problem_(problem), rays_(rays), costs_(costs), found_(found), stop_(stop) {
+    least_ = least_counts(rays, static_cast<double>(problem.discs().size()), found.choice().counts.hits);
+  }
+
+  void compare() {
+    for (const TechniqueRecord& record : technique_records)
+      if (record.exact && record.technique != Technique::box_tree && record.technique != Technique::brute_force)
+        compare(record.technique);
+  }
+
+ private:
+  static constexpr double doubt = 2;            ///< by which a closed form may be off
+  static constexpr double worth_finding = 0.1;  ///< seconds; closed forms take some 2 ms
+
+  [[nodiscard]] double best() const { return seconds(found_.choice()); }
+
+  void compare(Technique technique) {
+    const double at_least = price(least_, costs_, technique).total();
+    if (at_least >= best()) return found_.ruled_out.push_back({technique, at_least, true});
+    if (!model::has_closed_form(technique) || best() < worth_finding || problem_.rays().empty())
+      return found_.unexamined.push_back(technique);
+    if (!workload_) {
+      workload_ = measure(problem_, {}, stop_);
+      workload_->rays = rays_;
+    }
+    const std::optional<Candidate> plain = plain_candidate(technique, *workload_);
+    if (!plain) return found_.unexamined.push_back(technique);
+    const double with_plain = model::assess(*workload_, *plain, costs_).time.total();
+    if (with_plain >= doubt * best()) return found_.ruled_out.push_back({technique, with_plain, false});
+    const auto tuned = model::best_of(technique, *workload_, costs_, {.stop = stop_});
+    if (!tuned) return found_.unexamined.push_back(technique);
+    const double fastest = tuned->time.total();
+    if (fastest >= doubt * best()) return found_.ruled_out.push_back({technique, fastest, false});
+    found_.candidates.push_back({tuned->candidate, tuned->counts, tuned->time, fastest * (1 - 1 / doubt)});
+  }
+
+  const sim::Problem& problem_;
+  double rays_;
+  const Valid<CostTable>& costs_;
+  PilotChoice& found_;
+  const std::stop_token& stop_;
+  Counts<double> least_;
+  std::optional<Workload> workload_;
+};
+
+/// The time of a run in units of some 50 ns, roughly.
+double work_of(double rays, double discs) { return discs + 4 * rays; }
+
+std::size_t subtrees_of(double rays, double discs) {
+  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 25'000, 6.0, 32.0));
+}
+
+}  // namespace
+
+std::size_t pilot_rays(double rays, double discs) {
+  return static_cast<std::size_t>(std::min(rays, std::clamp(work_of(rays, discs) / 400, 256.0, 4096.0)));
+}
+
+PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays,
+                            const Valid<CostTable>& costs, const PilotOptions& options) {
+  if (sample.empty()) throw std::invalid_argument("a pilot needs at least one ray");
+  if (!sim::PilotedDiscs::can_pilot(problem))
+    throw std::invalid_argument("rays start too far from the discs for float kernels; a pilot needs them");
+  const sim::Stopwatch watch;
+  const auto discs = static_cast<double>(problem.discs().size());
+  PilotChoice found;
+  found.sampled_rays = sample.size();
+  found.discs = std::make_shared<sim::PilotedDiscs>(problem, sample, rays, subtrees_of(rays, discs),
+                                                    sim::RunOptions{.stop = options.stop, .threads = options.threads});
+  found.sort_seconds = found.discs->sort_seconds();
+  found.candidates = ShapeSearch(*found.discs, costs).run();
+  const auto add = [&](auto&& more) {
+    more();
+    std::stable_sort(found.candidates.begin(), found.candidates.end(),
+                     [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
+  };
+  add([&] { found.candidates.push_back(brute_force(rays, discs, found.choice().counts.hits, costs)); });
+  add([&] { Others(problem, rays, costs, found, options.stop).compare(); });
+  if (found.choice().candidate.technique != Technique::box_tree) found.discs = nullptr;
+  found.pilot_seconds = watch.seconds() - found.sort_seconds;
+  return found;
+}
+
+PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>& costs, const PilotOptions& options) {
+  const sim::Stopwatch watch;
+  const auto rays = static_cast<double>(problem.rays().size());
+  std::vector<sim::Ray> sample;
+  for (const std::size_t ray :
+       sim::stratified_sample(problem.rays().size(), pilot_rays(rays, static_cast<double>(problem.discs().size())),
+                              pilot_seed, sim::Stream::pilot))
+    sample.push_back(problem.rays()[ray]);
+  const double sampling = watch.seconds();
+  PilotChoice found = choose_by_pilot(problem, sample, rays, costs, options);
+  found.pilot_seconds += sampling;
+  return found;
+}
+
+std::unique_ptr<sim::Index> build_choice(PilotChoice& choice, const sim::Problem& problem,
+                                         const sim::RunOptions& options) {
+  const Candidate& candidate = choice.choice().candidate;
+  if (!choice.discs) return sim::prepare(problem, candidate, options);
+  const auto discs = std::exchange(choice.discs, nullptr);
+  return std::move(*discs).build(problem, std::get<BoxTreeParameters>(candidate.parameters), options);
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,78 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/search/outcome.hpp"
+
+namespace detp::sim {
+class Index;
+class PilotedDiscs;
+class Problem;
+struct Ray;
+}  // namespace detp::sim
+
+/// Chooses by a pilot: some of the rays, through parts of the index.
+namespace detp::validate {
+
+/// A candidate as the pilot sees it.
+struct Piloted {
+  Candidate candidate;
+  Counts<double> counts;  ///< expected
+  CostBreakdown time;     ///< expected, seconds
+  double error = 0;       ///< standard error of the time because of sampling, seconds; 0 for brute force
+};
+
+/// A technique that was not tried, because it cannot be faster than the choice.
+struct RuledOut {
+  Technique technique;
+  double seconds;  ///< by_bound: the least that it could take; otherwise, by its closed form
+  bool by_bound;
+};
+
+struct PilotChoice {
+  std::vector<Piloted> candidates;  ///< the choice first, then the others in the order of their time
+  std::vector<RuledOut> ruled_out;
+  std::vector<Technique> unexamined;  ///< could still win, but finding out would take longer than it could save
+  double sort_seconds = 0;            ///< for sorting the discs, which the run needs anyway
+  double pilot_seconds = 0;           ///< for everything else
+  std::size_t sampled_rays = 0;
+  std::shared_ptr<sim::PilotedDiscs> discs;  ///< kept for the run; null if it is of no use for the choice
+
+  [[nodiscard]] const Piloted& choice() const { return candidates.front(); }
+};
+
+struct PilotOptions {
+  int threads = 1;
+  std::stop_token stop = {};
+};
+
+/// How many rays a pilot should sample of `rays`.
+[[nodiscard]] std::size_t pilot_rays(double rays, double discs);
+
+/// The candidate that finds the hits of `rays` rays fastest by the simd engine, and how long it will take. `sample` are
+/// some of these rays, drawn at random or in strata; pilot_rays says how many are enough.
+///
+/// The shapes of box trees are compared by sim::PilotedDiscs; brute force by its exact counts. Every other exact
+/// technique is ruled out if a search with the least counts that are possible takes longer than the best box tree:
+/// each disc sorted, placed and visited once, each ray loaded, each hit tested. A technique that this does not rule out
+/// is compared by its closed form, if the best takes more than 0.1 s, so that 2 ms do not matter; it is ruled out if it
+/// takes twice as long as the best.
+///
+/// Throws std::invalid_argument if the problem cannot be piloted (PilotedDiscs::can_pilot), for an empty
+/// sample or for invalid costs; sim::Stopped on a stop request.
+[[nodiscard]] PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays,
+                                          const Valid<CostTable>& costs, const PilotOptions& options = {});
+
+/// The same for the problem's rays, of which it takes a stratified sample.
+[[nodiscard]] PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>& costs,
+                                          const PilotOptions& options = {});
+
+/// The choice's index, from what the pilot has sorted. Call it once.
+[[nodiscard]] std::unique_ptr<sim::Index> build_choice(PilotChoice& choice, const sim::Problem& problem,
+                                                       const sim::RunOptions& options);
+
+}  // namespace detp::validate
