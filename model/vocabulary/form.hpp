@@ -14,10 +14,11 @@ inline constexpr std::array<std::string_view, 2> choice_names<Form>{"published",
 
 /// What a choice is based on.
 enum class Rigor {
-  estimate,   ///< closed forms alone
-  structural  ///< the structures that the techniques build from the discs
+  estimate,    ///< closed forms alone
+  structural,  ///< the structures that the techniques build from the discs
+  pilot        ///< some of the rays, through parts of the index
 };
 template <>
-inline constexpr std::array<std::string_view, 2> choice_names<Rigor>{"estimate", "structural"};
+inline constexpr std::array<std::string_view, 3> choice_names<Rigor>{"estimate", "structural", "pilot"};
 
 }  // namespace detp

@@ -27,19 +27,16 @@ class PilotedDiscs {
     return pilot_->counts(parameters);
   }
 
-  /// Builds the box tree. Sorting is not repeated. The problem must be that of the
+  /// Builds the box tree. Sorting is not repeated; its time is part of the index's. The problem must be that of the
   /// constructor. Call it once. Throws as `prepare`.
   [[nodiscard]] std::unique_ptr<Index> build(const Problem& problem, const BoxTreeParameters& parameters,
                                              const RunOptions& options) &&;
 
-  [[nodiscard]] double sort_seconds() const { return sort_seconds_; }
-  [[nodiscard]] double pilot_seconds() const { return pilot_seconds_; }
+  [[nodiscard]] double sort_seconds() const { return discs_.seconds; }
 
  private:
   stream::SortedDiscs discs_;
   std::optional<stream::BoxTreePilot> pilot_;  ///< refers to discs_
-  double sort_seconds_ = 0;
-  double pilot_seconds_ = 0;
 };
 
 }  // namespace detp::sim

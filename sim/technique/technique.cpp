@@ -4,7 +4,6 @@
 
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/search/index.hpp"
 #include "registry.hpp"
 
 namespace detp::sim {
@@ -21,8 +20,12 @@ Outcome run(const Problem& problem, const Valid<Candidate>& candidate, const Run
     outcome.seconds.build = watch.lap();
     return outcome;
   }
-  Outcome outcome = search(*index, problem, options);
-  const Built& built = index->built();
+  return run(problem, *index, options);
+}
+
+Outcome run(const Problem& problem, const Index& index, const RunOptions& options) {
+  Outcome outcome = search(index, problem, options);
+  const Built& built = index.built();
   outcome.seconds.order += built.seconds.order;
   outcome.seconds.build += built.seconds.build;
   outcome.bytes = std::max(outcome.bytes, built.bytes);

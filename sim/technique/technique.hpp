@@ -1,5 +1,6 @@
 #pragma once
 
+#include "detp/sim/search/index.hpp"
 #include "detp/sim/search/outcome.hpp"
 #include "detp/sim/search/problem.hpp"
 
@@ -11,5 +12,8 @@ namespace detp::sim {
 /// threads out of range and for totals of other discs; std::length_error, naming the bytes, if an index would not fit
 /// in memory. Does not throw Stopped: if a stop was requested, the outcome has `stopped` set and is partial.
 [[nodiscard]] Outcome run(const Problem& problem, const Valid<Candidate>& candidate, const RunOptions& options = {});
+
+/// The same with an index that has been prepared for the problem's discs. Times and counts include those of building it.
+[[nodiscard]] Outcome run(const Problem& problem, const Index& index, const RunOptions& options = {});
 
 }  // namespace detp::sim

@@ -188,7 +188,9 @@ class JobMaker {
     const sim::Problem problem =
         sim::make_problem(job_.stream ? block : job_.rays, job_.discs, job_.front_facing, 1, stop_);
     job_.warnings = outlier_warnings(problem, stop_);
+    const sim::Stopwatch watch;
     Workload workload = measure(problem, surface_, stop_);
+    job_.measure_seconds = watch.seconds();
     if (job_.stream)
       workload.rays = static_cast<double>(job_.stream->size());
     else if (request_.workload_only && !request_.ray_file)

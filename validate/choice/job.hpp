@@ -69,7 +69,8 @@ struct Job {
   /// warnings about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
   bool front_facing = false;
-  double read_seconds = 0;  ///< time for reading or making scene and rays
+  double read_seconds = 0;     ///< time for reading or making scene and rays
+  double measure_seconds = 0;  ///< time for measuring the workload
 
   /// The problem. It refers to this job's rays and discs. Throws std::invalid_argument if the rays are a stream.
   [[nodiscard]] sim::Problem problem(int threads = 1, const std::stop_token& stop = {}) const {

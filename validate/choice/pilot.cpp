@@ -18,8 +18,6 @@
 namespace detp::validate {
 namespace {
 
-constexpr std::uint64_t pilot_seed = 1;
-
 Piloted priced(const Candidate& candidate, const Counts<double>& counts, const CostTable& costs,
                double relative_error) {
   const CostBreakdown time = price(counts, costs, candidate.technique);
@@ -166,8 +164,13 @@ std::size_t subtrees_of(double rays, double discs) {
 
 }  // namespace
 
-std::size_t pilot_rays(double rays, double discs) {
-  return static_cast<std::size_t>(std::min(rays, std::clamp(work_of(rays, discs) / 400, 256.0, 4096.0)));
+std::vector<sim::Ray> pilot_sample(const sim::Problem& problem) {
+  const double work = work_of(static_cast<double>(problem.rays().size()), static_cast<double>(problem.discs().size()));
+  const auto enough = static_cast<std::size_t>(std::clamp(work / 400, 256.0, 4096.0));
+  std::vector<sim::Ray> sample;
+  for (const std::size_t ray : sim::stratified_sample(problem.rays().size(), enough, 1, sim::Stream::pilot))
+    sample.push_back(problem.rays()[ray]);
+  return sample;
 }
 
 PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays,
@@ -190,21 +193,15 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   };
   add([&] { found.candidates.push_back(brute_force(rays, discs, found.choice().counts.hits, costs)); });
   add([&] { Others(problem, rays, costs, found, options.stop).compare(); });
-  if (found.choice().candidate.technique != Technique::box_tree) found.discs = nullptr;
   found.pilot_seconds = watch.seconds() - found.sort_seconds;
   return found;
 }
 
 PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>& costs, const PilotOptions& options) {
   const sim::Stopwatch watch;
-  const auto rays = static_cast<double>(problem.rays().size());
-  std::vector<sim::Ray> sample;
-  for (const std::size_t ray :
-       sim::stratified_sample(problem.rays().size(), pilot_rays(rays, static_cast<double>(problem.discs().size())),
-                              pilot_seed, sim::Stream::pilot))
-    sample.push_back(problem.rays()[ray]);
+  const std::vector<sim::Ray> sample = pilot_sample(problem);
   const double sampling = watch.seconds();
-  PilotChoice found = choose_by_pilot(problem, sample, rays, costs, options);
+  PilotChoice found = choose_by_pilot(problem, sample, static_cast<double>(problem.rays().size()), costs, options);
   found.pilot_seconds += sampling;
   return found;
 }
@@ -212,7 +209,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>&
 std::unique_ptr<sim::Index> build_choice(PilotChoice& choice, const sim::Problem& problem,
                                          const sim::RunOptions& options) {
   const Candidate& candidate = choice.choice().candidate;
-  if (!choice.discs) return sim::prepare(problem, candidate, options);
+  if (!choice.discs || candidate.technique != Technique::box_tree) return sim::prepare(problem, candidate, options);
   const auto discs = std::exchange(choice.discs, nullptr);
   return std::move(*discs).build(problem, std::get<BoxTreeParameters>(candidate.parameters), options);
 }

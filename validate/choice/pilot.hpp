@@ -20,10 +20,10 @@ namespace detp::validate {
 
 /// A candidate as the pilot sees it.
 struct Piloted {
-  Candidate candidate;
-  Counts<double> counts;  ///< expected
-  CostBreakdown time;     ///< expected, seconds
-  double error = 0;       ///< standard error of the time because of sampling, seconds; 0 for brute force
+  Candidate candidate = {};
+  Counts<double> counts = {};  ///< expected
+  CostBreakdown time = {};     ///< expected, seconds
+  double error = 0;            ///< standard error of the time because of sampling, seconds; 0 for brute force
 };
 
 /// A technique that was not tried, because it cannot be faster than the choice.
@@ -40,7 +40,7 @@ struct PilotChoice {
   double sort_seconds = 0;            ///< for sorting the discs, which the run needs anyway
   double pilot_seconds = 0;           ///< for everything else
   std::size_t sampled_rays = 0;
-  std::shared_ptr<sim::PilotedDiscs> discs;  ///< kept for the run; null if it is of no use for the choice
+  std::shared_ptr<sim::PilotedDiscs> discs;  ///< kept for the run
 
   [[nodiscard]] const Piloted& choice() const { return candidates.front(); }
 };
@@ -50,11 +50,11 @@ struct PilotOptions {
   std::stop_token stop = {};
 };
 
-/// How many rays a pilot should sample of `rays`.
-[[nodiscard]] std::size_t pilot_rays(double rays, double discs);
+/// A stratified sample of the problem's rays, large enough for a pilot.
+[[nodiscard]] std::vector<sim::Ray> pilot_sample(const sim::Problem& problem);
 
 /// The candidate that finds the hits of `rays` rays fastest by the simd engine, and how long it will take. `sample` are
-/// some of these rays, drawn at random or in strata; pilot_rays says how many are enough.
+/// some of these rays, drawn at random or in strata, as by pilot_sample.
 ///
 /// The shapes of box trees are compared by sim::PilotedDiscs; brute force by its exact counts. Every other exact
 /// technique is ruled out if a search with the least counts that are possible takes longer than the best box tree:

@@ -9,6 +9,7 @@
 #include "detp/model/rank/paper_rule.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "progress_line.hpp"
 #include "unit_cost_option.hpp"
@@ -20,15 +21,12 @@ namespace {
 struct ChooseOptions {
   WorkloadOptions workload;
   CostOptions costs;
-  std::string rigor = "estimate";
+  std::optional<std::string> rigor;
   bool analyze = false;
 };
 
-/// Returns the progress if a stop request ended the ranking, else nothing.
-std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs, const std::stop_token& stop) {
-  const sim::Stopwatch watch;
-  answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
-  answer.choosing_seconds = watch.seconds();
+/// Throws std::invalid_argument if the predicted times cannot be compared. Adds the candidate of the paper's rule.
+void check_ranking(ChooseAnswer& answer, const CostTable& costs) {
   const double fastest = answer.ranking.front().time.total();
   if (!(fastest > 0))
     throw std::invalid_argument(fmt::format(
@@ -41,10 +39,29 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs
         fmt::format("with these unit costs the time of {} exceeds 1.8e308 s and cannot be compared; give smaller costs",
                     name(answer.ranking.back().candidate.technique)));
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs);
+}
+
+/// Returns the progress if a stop request ended the ranking, else nothing.
+std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs, const std::stop_token& stop) {
+  const sim::Stopwatch watch;
+  answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
+  answer.choosing_seconds = answer.evidence_seconds + watch.seconds();
+  check_ranking(answer, costs);
   const auto all = std::count_if(all_techniques.begin(), all_techniques.end(),
                                  [](Technique one) { return record_of(one).exact && model::has_closed_form(one); });
   if (!stop.stop_requested() || std::ssize(answer.ranking) >= all) return std::nullopt;
   return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
+}
+
+void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs, int threads,
+                     const std::stop_token& stop) {
+  const sim::Problem problem = job.problem(threads, stop);
+  answer.pilot = validate::choose_by_pilot(problem, validate::pilot_sample(problem), job.workload.rays, costs,
+                                           {.threads = threads, .stop = stop});
+  for (const validate::Piloted& one : answer.pilot->candidates)
+    answer.ranking.push_back({one.candidate, one.counts, one.time, {}});
+  answer.choosing_seconds = answer.pilot->pilot_seconds;
+  check_ranking(answer, costs);
 }
 
 model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const CostTable& costs,
@@ -68,6 +85,14 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
   } catch (const sim::Stopped&) {
     return std::nullopt;
   }
+}
+
+/// The pilot's prediction of a box tree; of any other candidate that of its closed form.
+std::optional<model::Ranked> predicted_by_pilot(const Candidate& candidate, const validate::PilotChoice& pilot,
+                                                const validate::Job& job, const CostTable& costs) {
+  if (candidate.technique != Technique::box_tree || !pilot.discs) return predicted(candidate, job, false, costs, {});
+  const auto counts = pilot.discs->counts(std::get<BoxTreeParameters>(candidate.parameters)).counts;
+  return model::Ranked{candidate, counts, price(counts, costs, candidate.technique), {}};
 }
 
 /// After a stop request, leaves the ranking unchanged and returns the number of counted candidates; else returns
@@ -107,13 +132,20 @@ std::string describe_numbers(const Workload& workload) {
                      workload.rays, workload.samples, workload.disc_radius, workload.sphere_radius, workload.dimension);
 }
 
-Result run_choose(const ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
-  const auto rigor = choice_named<Rigor>(options.rigor);
+/// The rigor that the option names; nothing if it is not set. Throws std::invalid_argument for an unknown name.
+std::optional<Rigor> requested_rigor(const ChooseOptions& options) {
+  if (!options.rigor) return std::nullopt;
+  const auto rigor = choice_named<Rigor>(*options.rigor);
   if (!rigor)
     throw std::invalid_argument(
-        fmt::format("rigor '{}' is not offered by this version; 'estimate' and 'structural' are, with --analyze to "
-                    "run the candidates",
-                    options.rigor));
+        fmt::format("rigor '{}' is not offered by this version; 'estimate', 'structural' and 'pilot' are, with "
+                    "--analyze to run the candidates",
+                    *options.rigor));
+  return rigor;
+}
+
+Result run_choose(const ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  const auto rigor = requested_rigor(options);
   const bool structural = rigor == Rigor::structural;
   const CostsInUse costs_in_use = options.costs.costs(common);
   const CostTable& costs = costs_in_use.costs;
@@ -121,7 +153,9 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   request.workload_only = !options.analyze;
   Result result;
   ChooseAnswer answer;
-  answer.rigor = *rigor;
+  if (request.numbers_alone() && rigor == Rigor::pilot)
+    throw std::invalid_argument("--rigor pilot needs rays: give a scene or files, or --rigor estimate");
+  answer.rigor = rigor.value_or(Rigor::estimate);
   if (request.numbers_alone() && !options.analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
     result.stopped = decide(answer, costs, stop);
@@ -133,17 +167,27 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);
     answer.workload = job.workload;
-    result.stopped = decide(answer, costs, stop);
+    if (!rigor && !request.numbers_alone() && sim::PilotedDiscs::can_pilot(job.problem())) answer.rigor = Rigor::pilot;
+    if (answer.rigor == Rigor::pilot) {
+      decide_by_pilot(answer, job, costs, common.threads, stop);
+    } else {
+      answer.evidence_seconds = job.measure_seconds;
+      result.stopped = decide(answer, costs, stop);
+    }
     if (structural && !result.stopped)
       result.stopped = decide_structurally(answer, job, costs, stop,
                                            sim::part_of(progress.report(), share_of_job, options.analyze ? 0.6 : 1));
     if (structural && result.stopped) answer.rigor = Rigor::estimate;
     if (options.analyze && !result.stopped) {
-      answer.analysis = validate::analyse(
-          job.problem(), answer.ranking,
-          {.stop = stop,
-           .predict = [&](const Candidate& candidate) { return predicted(candidate, job, structural, costs, stop); },
-           .progress = sim::part_of(progress.report(), share_of_job, 1)});
+      answer.analysis = validate::analyse(job.problem(), answer.ranking,
+                                          {.stop = stop,
+                                           .predict =
+                                               [&](const Candidate& candidate) {
+                                                 return answer.pilot
+                                                            ? predicted_by_pilot(candidate, *answer.pilot, job, costs)
+                                                            : predicted(candidate, job, structural, costs, stop);
+                                               },
+                                           .progress = sim::part_of(progress.report(), share_of_job, 1)});
       if (answer.analysis->stopped) result.stopped = measured(*answer.analysis);
     }
     result.inputs = to_json(job, request);
@@ -151,7 +195,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     answer.warnings = job.warnings;
   }
   result.inputs["unit_costs"] = to_json(costs);
-  result.inputs["rigor"] = options.rigor;
+  result.inputs["rigor"] = name(answer.rigor);
   result.inputs["analyze"] = options.analyze;
   answer.costs = costs;
   answer.costs_origin = costs_in_use.origin;
@@ -170,7 +214,8 @@ Command choose_command(CLI::App& program) {
   options->workload.add_to(*app);
   options->costs.add_to(*app);
   app->add_option("--rigor", options->rigor,
-                  "estimate: closed forms only; structural: the built structures, no rays; default: estimate");
+                  "estimate: closed forms only; structural: the built structures, no rays; pilot: some of the rays, "
+                  "through parts of the index; default: pilot, where there are rays");
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);

@@ -57,22 +57,42 @@ std::string why_not(const ChooseAnswer& answer, const Row& row) {
                      largest_part(time));
 }
 
+/// Candidates whose times differ by less than this cannot be told apart: the error of unit costs.
+constexpr double distinguishable = 0.15;
+
+/// The pilot's standard error of the row's time, seconds; nothing if a pilot did not predict it.
+std::optional<double> error_of(const ChooseAnswer& answer, const Row& row) {
+  if (!answer.pilot) return std::nullopt;
+  for (const validate::Piloted& one : answer.pilot->candidates)
+    if (one.candidate == row.candidate) return one.error;
+  return std::nullopt;
+}
+
+bool could_win(const ChooseAnswer& answer, const Row& row) {
+  return row.predicted->time.total() < (1 + distinguishable) * answer.ranking.front().time.total();
+}
+
 Json candidate_json(const ChooseAnswer& answer, const Row& row) {
   Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate)}};
   if (row.predicted != nullptr) {
     json["predicted"] = to_json(row.predicted->counts);
     json["predicted_seconds"] = row.predicted->time.total();
     json.update(extrapolated_json(row.predicted->extrapolated));
+    if (const auto error = error_of(answer, row)) {
+      json["predicted_seconds_error"] = *error;
+      json["could_still_win"] = could_win(answer, row);
+    }
   }
   if (!row.chosen) json["why_not"] = why_not(answer, row);
   if (row.run != nullptr) add_measured(json, *answer.analysis, *row.run);
   return json;
 }
 
-Json choice_json(const Row& row) {
+Json choice_json(const ChooseAnswer& answer, const Row& row) {
   Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate)}};
   if (row.predicted != nullptr) {
     json["predicted_seconds"] = row.predicted->time.total();
+    if (const auto error = error_of(answer, row)) json["predicted_seconds_error"] = *error;
     json.update(extrapolated_json(row.predicted->extrapolated));
   }
   if (row.run != nullptr && row.run->seconds) {
@@ -82,12 +102,22 @@ Json choice_json(const Row& row) {
   return json;
 }
 
+/// Why techniques that are not among the candidates were not considered.
+void add_left_out(Json& json, const validate::PilotChoice& pilot) {
+  json["ruled_out"] = Json::array();
+  for (const validate::RuledOut& one : pilot.ruled_out)
+    json["ruled_out"].push_back(
+        {{"technique", name(one.technique)}, {one.by_bound ? "at_least_seconds" : "predicted_seconds", one.seconds}});
+  json["not_examined"] = Json::array();
+  for (const Technique technique : pilot.unexamined) json["not_examined"].push_back(name(technique));
+}
+
 }  // namespace
 
 Json to_json(const ChooseAnswer& answer) {
   const std::vector<Row> rows = rows_of(answer);
   const Row& chosen = *std::find_if(rows.begin(), rows.end(), [](const Row& row) { return row.chosen; });
-  Json json{{"choice", choice_json(chosen)},
+  Json json{{"choice", choice_json(answer, chosen)},
             {"candidates", Json::array()},
             {"paper_rule",
              {{"technique", name(answer.paper.candidate.technique)},
@@ -96,8 +126,13 @@ Json to_json(const ChooseAnswer& answer) {
             {"effects", effects_json(answer.workload)},
             {"rigor", name(answer.rigor)},
             {"unit_costs", answer.costs_origin},
-            {"choosing_seconds", answer.choosing_seconds},
+            {"choosing_seconds",
+             {{"total", answer.choosing_seconds},
+              {"evidence", answer.evidence_seconds},
+              {"pilot", answer.pilot ? answer.pilot->pilot_seconds : 0}}},
+            {"choosing_share", answer.choosing_seconds / answer.ranking.front().time.total()},
             {"warnings", answer.warnings}};
+  if (answer.pilot) add_left_out(json, *answer.pilot);
   json["paper_rule"].update(extrapolated_json(answer.paper.extrapolated));
   for (const Row& row : rows) json["candidates"].push_back(candidate_json(answer, row));
   if (answer.analysis) add_analysis(json, answer);
@@ -111,6 +146,14 @@ namespace {
 std::vector<TextCell> comparison_cells(const ChooseAnswer& answer, const Row& row) {
   const CostBreakdown& time = row.predicted->time;
   return {{fmt::format("{:.3g}", time.total() / answer.ranking.front().time.total())}, {largest_part(time)}};
+}
+
+/// "no, 3.4 times", "yes, 2 %", or nothing for the choice.
+std::vector<TextCell> pilot_cells(const ChooseAnswer& answer, const Row& row) {
+  if (row.chosen) return {{}};
+  const double ratio = row.predicted->time.total() / answer.ranking.front().time.total();
+  const std::string more = ratio < 2 ? fmt::format("+{:.2g} %", 100 * (ratio - 1)) : fmt::format("{:.3g} times", ratio);
+  return {{fmt::format("{}, {}", could_win(answer, row) ? "yes" : "no", more)}};
 }
 
 std::string verdict(const ChooseAnswer& answer, const Row& row) {
@@ -128,6 +171,8 @@ std::string table(const ChooseAnswer& answer, const Screen& screen) {
                                   {.head = "seconds", .align = Align::left, .group = "predicted"}};
   if (answer.analysis)
     for (const TextColumn& column : measured_table_columns()) columns.push_back(column);
+  else if (answer.pilot)
+    columns.push_back({.head = "could still win", .align = Align::left});
   else
     columns.insert(columns.end(),
                    {{.head = "times the first", .spare = 3}, {.head = "mostly", .align = Align::left, .spare = 2}});
@@ -139,10 +184,14 @@ std::string table(const ChooseAnswer& answer, const Screen& screen) {
     if (row.predicted != nullptr) {
       const char* const mark = row.predicted->extrapolated.empty() ? "" : "~";
       cells.push_back({fmt::format("{:.3g}", tests(row.predicted->counts))});
-      cells.push_back({fmt::format("{:.3g}{}", row.predicted->time.total(), mark)});
+      const double error = error_of(answer, row).value_or(0);
+      cells.push_back({fmt::format("{:.3g}{}{}", row.predicted->time.total(), mark,
+                                   error > 0 ? fmt::format(" ± {:.1g}", error) : "")});
     }
     cells.resize(4);
-    for (const TextCell& cell : answer.analysis ? measured_cells(*row.run) : comparison_cells(answer, row))
+    for (const TextCell& cell : answer.analysis ? measured_cells(*row.run)
+                                : answer.pilot  ? pilot_cells(answer, row)
+                                                : comparison_cells(answer, row))
       cells.push_back(cell);
     cells.push_back({verdict(answer, row), row.chosen ? Style::good : Style::faint});
     table.add(std::move(cells));
@@ -161,17 +210,60 @@ std::string notes(const ChooseAnswer& answer, const Screen& screen) {
       "radius of the sphere around all discs.";
   if (answer.analysis)
     text +=
-        " ±: half the range of the timed runs; none where there was one run. !: predicted seconds off by more than a "
-        "factor of two.";
+        " ± of measured seconds: half the range of the timed runs; none where there was one run. !: predicted seconds "
+        "off by more than a factor of two.";
+  if (answer.pilot)
+    text +=
+        " ± of predicted seconds: standard error of the pilot. Could still win: less than 15 % slower than the choice, "
+        "which is about the error of unit costs.";
   const std::string extrapolated = extrapolated_note(predictions);
   return (extrapolated.empty() ? "" : wrapped(extrapolated, screen.text_width(), 2)) + legend(screen, text);
 }
 
+/// The least predicted time of a technique other than the choice; nothing if there is none.
+std::optional<std::pair<Technique, double>> next_technique(const ChooseAnswer& answer) {
+  const Technique chosen = answer.ranking.front().candidate.technique;
+  std::optional<std::pair<Technique, double>> next;
+  const auto consider = [&](Technique technique, double seconds) {
+    if (technique != chosen && (!next || seconds < next->second)) next = {technique, seconds};
+  };
+  for (const model::Ranked& ranked : answer.ranking) consider(ranked.candidate.technique, ranked.time.total());
+  if (answer.pilot)
+    for (const validate::RuledOut& one : answer.pilot->ruled_out) consider(one.technique, one.seconds);
+  return next;
+}
+
 std::string margin(const ChooseAnswer& answer) {
-  if (answer.ranking.size() < 2) return "no other candidate";
-  return fmt::format("predicted {:.3g} s, {:.2f} times faster than {}", answer.ranking[0].time.total(),
-                     answer.ranking[1].time.total() / answer.ranking[0].time.total(),
-                     name(answer.ranking[1].candidate.technique));
+  const double seconds = answer.ranking.front().time.total();
+  const double error = answer.pilot ? answer.pilot->choice().error : 0;
+  const std::string predicted =
+      fmt::format("predicted {:.3g}{} s", seconds, error > 0 ? fmt::format(" ± {:.1g}", error) : "");
+  const auto next = next_technique(answer);
+  if (!next) return predicted + ", no other technique";
+  return fmt::format("{}, {}{:.2f} times faster than {}", predicted, answer.pilot ? "at least " : "",
+                     next->second / seconds, name(next->first));
+}
+
+std::string ruled_out_line(const validate::PilotChoice& pilot) {
+  std::string list;
+  for (const validate::RuledOut& one : pilot.ruled_out)
+    list += fmt::format("{}{} ({}{:.2g} s)", list.empty() ? "" : ", ", name(one.technique),
+                        one.by_bound ? "at least " : "", one.seconds);
+  return "ruled out " + (list.empty() ? "none" : list);
+}
+
+std::string not_examined_line(const validate::PilotChoice& pilot) {
+  std::string list;
+  for (const Technique technique : pilot.unexamined) list += (list.empty() ? "" : ", ") + std::string(name(technique));
+  return "unknown   " + list + ": to find out would take longer than it could save";
+}
+
+std::string how_chosen(const ChooseAnswer& answer) {
+  if (answer.pilot)
+    return fmt::format("{} of {:.6g} rays, through parts of the tree of boxes; the discs that it sorted are kept",
+                       answer.pilot->sampled_rays, answer.workload.rays);
+  return answer.rigor == Rigor::structural ? "parameters by closed forms, counts by the structures built with them"
+                                           : "closed forms alone";
 }
 
 std::string effects_line(const Workload& workload) {
@@ -195,14 +287,14 @@ std::string to_text(const ChooseAnswer& answer, const Screen& screen) {
   if (!answer.analysis || !answer.analysis->best)
     text += choice_text(fmt::format("{}: {}", title(answer.ranking.front().candidate), margin(answer)), screen);
   if (answer.analysis) text += measured_lines(answer, screen);
+  if (answer.pilot) add(ruled_out_line(*answer.pilot));
+  if (answer.pilot && !answer.pilot->unexamined.empty()) add(not_examined_line(*answer.pilot));
   add(fmt::format("paper     its rule takes {}: predicted {:.3g} s, {:.3g} times as long as the predicted choice",
                   title(answer.paper.candidate), answer.paper.time.total(), answer.paper.time.total() / fastest));
   const double share = answer.choosing_seconds / fastest;
-  add(fmt::format(
-      "planning  {:.2g} ms ({} the predicted run), rigor {}: {}", 1e3 * answer.choosing_seconds,
-      share < 1 ? fmt::format("{:.2g} % of", 100 * share) : fmt::format("{:.3g} times", share), name(answer.rigor),
-      answer.rigor == Rigor::structural ? "parameters by closed forms, counts by the structures built with them"
-                                        : "closed forms alone"));
+  add(fmt::format("planning  {:.2g} ms ({} the predicted run), rigor {}: {}", 1e3 * answer.choosing_seconds,
+                  share < 1 ? fmt::format("{:.2g} % of", 100 * share) : fmt::format("{:.3g} times", share),
+                  name(answer.rigor), how_chosen(answer)));
   add(fmt::format("costs     {}", answer.costs_origin));
   return text;
 }
@@ -221,7 +313,8 @@ Json cells_of(const model::Ranked& ranked) {
 Json cells_of(const ChooseAnswer& answer, const Row& row) {
   Json cells = row.predicted != nullptr ? cells_of(*row.predicted) : candidate_cells(row.candidate);
   const Json json = candidate_json(answer, row);
-  for (const char* name : {"measured_seconds", "measured_spread", "given_up_after_seconds", "not_run", "why_not"})
+  for (const char* name : {"predicted_seconds_error", "could_still_win", "measured_seconds", "measured_spread",
+                           "given_up_after_seconds", "not_run", "why_not"})
     if (json.contains(name)) cells[name] = json[name];
   if (row.run == nullptr) return cells;
   if (row.run->counted) cells.update(count_cells(*row.run->counted, "counted_"));
@@ -239,7 +332,9 @@ const char* role_of(const ChooseAnswer& answer, const Row& row, bool first) {
 std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
   const Columns of_all{"tried", "regret", "rigor", "unit_costs", "choosing_seconds"};
   Table table(workload_columns() + effect_columns() + Columns{"warnings", "role"} + candidate_columns() +
-              count_columns("predicted_") + Columns{"predicted_seconds", "extrapolated", "extrapolated_because"} +
+              count_columns("predicted_") +
+              Columns{"predicted_seconds", "predicted_seconds_error", "could_still_win", "extrapolated",
+                      "extrapolated_because"} +
               count_columns("counted_") +
               Columns{"measured_seconds", "measured_spread", "given_up_after_seconds", "not_run", "why_not",
                       "seconds_ratio", "counts_ratio", "unit_costs_ratio", "worst_count", "worst_count_ratio"} +
@@ -250,6 +345,7 @@ std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
   shared["warnings"] = joined(answer.warnings);
   for (const std::string& name : of_all)
     if (json.contains(name)) shared[name] = json[name];
+  shared["choosing_seconds"] = answer.choosing_seconds;
   const auto add = [&](const char* role, const Json& cells) {
     Json row = shared;
     row["role"] = role;

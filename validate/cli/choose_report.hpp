@@ -7,19 +7,22 @@
 #include "command.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/validate/choice/analysis.hpp"
+#include "detp/validate/choice/pilot.hpp"
 
 namespace detp::cli {
 
 struct ChooseAnswer {
   std::string title;  ///< first lines of the text: scene and rays
   Workload workload;
-  std::vector<model::Ranked> ranking;
+  std::vector<model::Ranked> ranking;          ///< fastest first
+  std::optional<validate::PilotChoice> pilot;  ///< its candidates are the ranking's, in the same order
   model::Ranked paper;  ///< the paper's rule of thumb
   std::optional<validate::Analysis> analysis;
   Rigor rigor = Rigor::estimate;
   CostTable costs;
   std::string costs_origin;  ///< "of each operation: built in, ..."
-  double choosing_seconds = 0;
+  double evidence_seconds = 0;  ///< for measuring rays and discs, as far as the choice needs it
+  double choosing_seconds = 0;  ///< with evidence and pilot
   std::vector<std::string> warnings;
 };
 

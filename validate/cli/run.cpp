@@ -7,9 +7,13 @@
 #include "costs_in_use.hpp"
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/files/writing_check.hpp"
+#include "detp/sim/technique/piloted_discs.hpp"
+#include "detp/validate/base/search_work.hpp"
+#include "detp/validate/choice/pilot.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"
 #include "run_report.hpp"
@@ -106,9 +110,35 @@ bool can_stream(CandidateOptions& options, std::size_t rows) {
   return true;
 }
 
+/// True if the choice is left to the command, the rays are in memory, and a pilot can be made.
+bool is_chosen_by_pilot(const RunOptions& options, const validate::Job& job) {
+  return !options.candidate.technique && options.candidate.engine == Engine::simd && !job.stream &&
+         sim::PilotedDiscs::can_pilot(job.problem());
+}
+
+/// Chooses by a pilot, and runs the choice with what the pilot has sorted.
+void choose_and_run(RunAnswer& answer, const validate::Job& job, const sim::RunOptions& options,
+                    const sim::ReportPhase& progress) {
+  const sim::Stopwatch watch;
+  const sim::Problem problem = job.problem(options.threads, options.stop);
+  answer.run.prepare_seconds = watch.seconds();
+  answer.run.rays_in_memory = job.rays.size();
+  answer.pilot = validate::choose_by_pilot(problem, answer.costs, {.threads = options.threads, .stop = options.stop});
+  answer.candidate = answer.pilot->choice().candidate;
+  if (progress)
+    progress({std::string(name(answer.candidate.technique)), 0, 1,
+              validate::search_work(answer.pilot->choice().counts, options.engine)});
+  try {
+    answer.run.outcome = sim::run(problem, *validate::build_choice(*answer.pilot, problem, options), options);
+  } catch (const sim::Stopped&) {  // stopped while the index was built
+    answer.run.outcome = sim::unsearched_outcome(problem, options);
+  }
+}
+
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
                   const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
-  RunAnswer answer{.candidate = complete(options.candidate, job.workload, costs),
+  const bool by_pilot = is_chosen_by_pilot(options, job);
+  RunAnswer answer{.candidate = by_pilot ? Candidate{} : complete(options.candidate, job.workload, costs),
                    .costs = costs,
                    .engine = options.candidate.engine,
                    .repeat = options.repeat,
@@ -117,7 +147,10 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
   sim::RunOptions run{.pairs = options.pairs.has_value(), .engine = engine, .stop = stop, .threads = common.threads};
   run.standard_error = options.standard_error;
   const double share_of_first = 1.0 / (1 + options.repeat);
-  answer.run = run_job(job, answer.candidate, run, sim::part_of(progress, 0, share_of_first));
+  if (by_pilot)
+    choose_and_run(answer, job, run, sim::part_of(progress, 0, share_of_first));
+  else
+    answer.run = run_job(job, answer.candidate, run, sim::part_of(progress, 0, share_of_first));
   run.count = run.pairs = run.standard_error = false;
   answer.timing = time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run,
                             sim::part_of(progress, share_of_first, 1));

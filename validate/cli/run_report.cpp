@@ -34,11 +34,12 @@ double hits_per_disc(const sim::Outcome& outcome) {
   return static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size());
 }
 
-/// The predicted counts; nothing if the candidate has no closed form.
-std::optional<Counts<double>> prediction(const Workload& workload, const Candidate& candidate, Engine engine) {
-  if (!model::has_closed_form(candidate.technique)) return {};
+/// The counts that the pilot predicted, or else the closed form; nothing if the candidate has none.
+std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer) {
+  if (answer.pilot) return answer.pilot->choice().counts;
+  if (!model::has_closed_form(answer.candidate.technique)) return {};
   try {
-    return model::predict(workload, candidate, engine);
+    return model::predict(workload, answer.candidate, answer.engine);
   } catch (const std::invalid_argument&) {  // no closed form for these parameters: another order, tree or traversal
     return {};
   }
@@ -97,7 +98,8 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                                      {"hits_per_disc", hits_per_disc(outcome)},
                                      {"mean_irradiance", mean_irradiance(outcome)}});
   json["counts"] = to_json(outcome.counts);
-  if (const auto predicted = prediction(job.workload, answer.candidate, answer.engine)) {
+  if (answer.pilot) json["choosing_seconds"] = answer.pilot->pilot_seconds;
+  if (const auto predicted = prediction(job.workload, answer)) {
     json["predicted"] = to_json(*predicted);
     json["predicted_seconds"] = price(*predicted, answer.costs, answer.candidate.technique).total();
   }
@@ -161,7 +163,7 @@ std::string_view meaning(std::string_view term) {
 }
 
 std::string counts_table(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
-  const auto predicted = prediction(job.workload, answer.candidate, answer.engine);
+  const auto predicted = prediction(job.workload, answer);
   TextTable table({{.head = "count", .align = Align::left},
                    {.head = "counted"},
                    {.head = "predicted"},
@@ -195,9 +197,9 @@ Columns run_columns() {
   return workload_columns() + Columns{"engine", "threads"} + candidate_columns() +
          Columns{"k", "k_max", "k_best", "hits_per_disc", "mean_irradiance"} + count_columns() +
          count_columns("predicted_") +
-         Columns{"predicted_seconds", "seconds",       "prepare_seconds",    "order_seconds",  "build_seconds",
-                 "search_seconds",    "timed_runs",    "read_seconds",       "rays_in_memory", "stopped",
-                 "hits_so_far",       "hits_estimate", "hits_estimate_error"};
+         Columns{"predicted_seconds", "choosing_seconds", "seconds",       "prepare_seconds",    "order_seconds",
+                 "build_seconds",     "search_seconds",   "timed_runs",    "read_seconds",       "rays_in_memory",
+                 "stopped",           "hits_so_far",      "hits_estimate", "hits_estimate_error"};
 }
 
 TextColumns run_text_columns(const Screen& screen) {
@@ -212,7 +214,10 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   const Timing& timing = answer.timing;
   std::string text = wrapped(describe(job), screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
-  add("technique " + title(answer.candidate));
+  add("technique " + title(answer.candidate) +
+      (answer.pilot ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays", 1e3 * answer.pilot->pilot_seconds,
+                                  answer.pilot->sampled_rays)
+                    : ""));
   add("hits      " + hits_text(answer));
   add(fmt::format(
       "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before{}",

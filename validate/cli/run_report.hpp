@@ -3,13 +3,15 @@
 #include <string>
 
 #include "answer_rows.hpp"
+#include "detp/validate/choice/pilot.hpp"
 #include "timed_run.hpp"
 
 namespace detp::cli {
 
 struct RunAnswer {
   Candidate candidate = {};
-  CostTable costs = {};  ///< with which the candidate was chosen and its time predicted
+  CostTable costs = {};                             ///< with which the candidate was chosen and its time predicted
+  std::optional<validate::PilotChoice> pilot = {};  ///< by which the candidate was chosen
   Engine engine = Engine::simd;
   TimedRun run = {};
   Timing timing = {};

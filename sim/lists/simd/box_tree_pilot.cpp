@@ -82,6 +82,7 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
       refine(block, lists, subtree, worker);
       StopCheck(stop, "culling the pilot's rays").now();
     }
+  set_blocks();
 }
 
 /// Builds the top of the tree, and the nodes below it down to coarse_leaf discs. Returns the node's number.
@@ -101,28 +102,77 @@ std::uint32_t BoxTreePilot::build_coarse(std::uint32_t first, std::uint32_t coun
   return number;
 }
 
-/// Sets the expected number of blocks that have a ray in the child's list.
-void BoxTreePilot::set_blocks(std::uint32_t child, std::uint32_t parent) {
-  constexpr float many = 16;  // sampled rays; then every block has some
-  Known& known = known_[child];
-  // The parent's surface counts for one ray.
-  const double surface = std::min(1.0F, area_[child] / area_[parent]);
-  share_[child] = share_[parent] * (known.rays + surface) / (known_[parent].rays + 1);
-  if (sampled_ >= rays_ || known.rays > many) {
-    known.blocks = known.rays > 0 ? static_cast<float>(blocks_.count()) : 0;
-    return;
-  }
-  // The rays of a block in the list are a Poisson variable, whose mean is a gamma variable of `shape`.
-  const double shape = known.rays + 1;
-  const auto without_any = [&](double rays) {
-    const double of_one = 1 / (1 + rays * share_[child] / shape);
-    double all = of_one;
-    for (float i = 0; i < known.rays; ++i) all *= of_one;
-    return all;
+/// Calls visit(child, parent) for all nodes that were culled, parents before their children.
+template <class Visit>
+void BoxTreePilot::for_each_culled_child(const Visit& visit) const {
+  const auto both = [&](std::uint32_t parent) {
+    visit(parent + 1, parent);
+    visit(nodes_[parent].right, parent);
   };
-  double blocks = blocks_.whole * (1 - without_any(blocks_.size));
-  if (blocks_.last > 0) blocks += 1 - without_any(blocks_.last);
-  known.blocks = static_cast<float>(blocks);
+  for (std::uint32_t node = 0; node < coarse_; ++node)
+    if (nodes_[node].count > most_in_a_subtree) both(node);
+  for (const Subtree& subtree : subtrees_)
+    for (std::uint32_t node = subtree.first; node < subtree.last; ++node)
+      if (!nodes_[node].leaf()) both(node);
+}
+
+double BoxTreePilot::surface_share(std::uint32_t child, std::uint32_t parent) const {
+  return std::min(1.0F, area_[child] / area_[parent]);
+}
+
+/// Sets the share of all rays in each list, and the expected number of blocks that have a ray there.
+///
+/// Of a parent's n rays, c reach a child: a beta-binomial variable. Its mean is f n q, where q is the child's surface
+/// relative to the parent's and f makes the sums of both sides equal. Its variance exceeds that of independent rays by
+/// 1 + (n - 1)/(s + 1). So s is large if rays are spread evenly, and small if they are bundled. Then the expected share
+/// of the parent's rays, given c, is (c + s f q)/(n + s).
+void BoxTreePilot::set_blocks() {
+  double reached = 0;
+  double by_surface = 0;
+  for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
+    reached += known_[child].rays;
+    by_surface += known_[parent].rays * surface_share(child, parent);
+  });
+  const double factor = by_surface > 0 ? reached / by_surface : 1;
+  const auto share_of = [&](std::uint32_t child, std::uint32_t parent) {
+    return std::min(1.0, factor * surface_share(child, parent));
+  };
+  double squares = 0;
+  double independent = 0;
+  double pairs = 0;
+  for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
+    const double rays = known_[parent].rays;
+    const double share = share_of(child, parent);
+    squares += std::pow(known_[child].rays - rays * share, 2);
+    independent += rays * share * (1 - share);
+    pairs += rays * (rays - 1) * share * (1 - share);
+  });
+  const double bundled = pairs > 0 ? std::clamp((squares - independent) / pairs, 0.001, 0.8) : 0.5;
+  const double strength = 1 / bundled - 1;
+  std::vector<float> shape(nodes_.size());  // of the gamma distribution of a node's share
+  const auto pass_on_to_refined = [&](std::uint32_t node) {
+    const std::uint32_t refined = known_[node].refined;
+    if (refined == 0) return;
+    known_[refined].blocks = known_[node].blocks;
+    share_[refined] = share_[node];
+    shape[refined] = shape[node];
+  };
+  shape[0] = known_[0].rays;
+  pass_on_to_refined(0);
+  for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
+    const double prior = strength * share_of(child, parent);
+    const double rays = known_[child].rays;
+    share_[child] = share_[parent] * (rays + prior) / (known_[parent].rays + strength);
+    shape[child] = static_cast<float>(rays > 0 ? rays + prior : 1 / (1 / prior + 1 / (shape[parent] + 1e-3)));
+    known_[child].blocks = static_cast<float>(blocks_with_a_ray(child, shape[child]));
+    pass_on_to_refined(child);
+  });
+}
+
+double BoxTreePilot::blocks_with_a_ray(std::uint32_t node, double shape) const {
+  constexpr double many = 16;  // sampled rays; then every block has some
+  if (sampled_ >= rays_ || known_[node].rays > many) return known_[node].rays > 0 ? blocks_.count() : 0;
+  return blocks_.with_any(share_[node], 1 / shape);
 }
 
 void BoxTreePilot::cull_top(const BlockSearch& block, const RayLists& rays, Worker& worker) {
@@ -148,7 +198,6 @@ void BoxTreePilot::cull_top_below(const BlockSearch& block, std::uint32_t node, 
     if (size(lists) > 0) cull_node(block, as_tree_node(nodes_[child]), lists, inside, worker);
     known_[child].rays = static_cast<float>(size(inside));
     known_[child].weight = 1;
-    set_blocks(child, node);
     cull_top_below(block, child, inside, worker);
   }
 }
@@ -200,10 +249,10 @@ void BoxTreePilot::refine(const BlockSearch& block, const RayLists& rays, Subtre
   known_[subtree.root].refined = subtree.first;
   known_[subtree.first] = known_[subtree.root];
   known_[subtree.first].refined = 0;
-  share_[subtree.first] = share_[subtree.root];
   const ArenaScope scope(worker.lists);
   RayLists inside = worker.lists.allocate_like(rays, block.segments);
   cull_node(block, as_tree_node(nodes_[subtree.first]), rays, inside, worker);
+  if (subtree.root != 0) known_[subtree.first].rays = static_cast<float>(size(inside));
   const Counts<std::uint64_t> before = worker.counts;
   cull_refined(block, subtree.first, inside, subtree.weight, worker);
   doubtful_ += subtree.weight * static_cast<double>(worker.counts.doubtful - before.doubtful);
@@ -227,7 +276,6 @@ void BoxTreePilot::cull_refined(const BlockSearch& block, std::uint32_t node, co
     if (size(lists) > 0) cull_node(block, as_tree_node(nodes_[child]), lists, inside, worker);
     known_[child].rays = static_cast<float>(size(inside));
     known_[child].weight = static_cast<float>(weight);
-    set_blocks(child, node);
     cull_refined(block, child, inside, weight, worker);
   }
 }
@@ -278,6 +326,7 @@ class BoxTreePilot::Evaluation {
     const double scale = pilot_.rays_ / pilot_.sampled_;
     for (const auto per_ray : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests})
       counts_.*per_ray *= scale;
+    counts_.visits = std::min(counts_.visits, discs * pilot_.blocks_.count());
     counts_.loaded = pilot_.rays_;
     counts_.hits = scale * pilot_.hits_;
     counts_.doubtful = scale * pilot_.doubtful_;

@@ -68,7 +68,11 @@ class BoxTreePilot {
   void draw_subtrees(std::size_t most);
   void refine(const BlockSearch& block, const RayLists& rays, Subtree& subtree, Worker& worker);
   void cull_refined(const BlockSearch& block, std::uint32_t node, const RayLists& lists, double weight, Worker& worker);
-  void set_blocks(std::uint32_t child, std::uint32_t parent);
+  template <class Visit>
+  void for_each_culled_child(const Visit& visit) const;
+  [[nodiscard]] double surface_share(std::uint32_t child, std::uint32_t parent) const;
+  void set_blocks();
+  [[nodiscard]] double blocks_with_a_ray(std::uint32_t node, double shape) const;
   [[nodiscard]] double relative_error() const;
 
   const SortedDiscs& discs_;

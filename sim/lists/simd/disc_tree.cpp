@@ -15,6 +15,7 @@
 
 #include "binary_tree.hpp"
 #include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/run_memory.hpp"
 
@@ -184,6 +185,7 @@ SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOpti
     throw std::length_error(
         fmt::format("{} discs are too many for a tree of boxes; the most is 2147483647", problem.discs().size()));
   SortedDiscs sorted;
+  const Stopwatch watch;
   on_threads(thread_count(options.threads), [&] {
     sorted.places = sort_along_curve(problem.discs(), options.stop);
     std::vector<std::uint32_t> order;
@@ -191,6 +193,7 @@ SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOpti
     for (const CurvePlace place : sorted.places) order.push_back(place_index(place));
     sorted.tree = tree_in_order(problem, frame, std::move(order), options.stop);
   });
+  sorted.seconds = watch.seconds();
   return sorted;
 }
 

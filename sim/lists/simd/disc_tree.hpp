@@ -43,7 +43,8 @@ inline constexpr double binary_node_bytes = 40;
 /// Discs in the order of the Morton curve.
 struct SortedDiscs {
   std::vector<CurvePlace> places;
-  DiscTree tree;  ///< discs and order; no nodes
+  DiscTree tree;       ///< discs and order; no nodes
+  double seconds = 0;  ///< for sorting
 };
 
 /// Throws Stopped if a stop was requested, and std::length_error for 2³¹ or more discs.

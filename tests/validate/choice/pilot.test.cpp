@@ -1,0 +1,120 @@
+#include "detp/validate/choice/pilot.hpp"
+
+#include <doctest/doctest.h>
+
+#include <map>
+#include <stdexcept>
+#include <vector>
+
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
+
+using namespace detp;
+using doctest::Approx;
+
+namespace {
+
+struct Example {
+  Example(std::size_t samples, double radius, std::size_t count)
+      : discs(sim::uniform_discs(sim::Body::cube_faces, 2, samples, radius, 3)),
+        rays(sim::LineField(sim::enclosing_sphere(discs), 4).lines(0, count)),
+        problem(sim::make_problem(rays, discs)) {}
+
+  std::vector<sim::Disc> discs;
+  std::vector<sim::Ray> rays;
+  sim::Problem problem;
+};
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("each exact technique is a candidate, ruled out or not examined") {
+    for (const std::size_t rays : {1UL, 300UL, 20'000UL}) {
+      const Example example(5000, 0.02, rays);
+      const auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+      std::map<Technique, int> places;
+      for (const auto& one : found.candidates) places[one.candidate.technique] |= 1;
+      for (const auto& one : found.ruled_out) places[one.technique] |= 2;
+      for (const Technique technique : found.unexamined) places[technique] |= 4;
+      for (const TechniqueRecord& record : technique_records) {
+        CAPTURE(record.name);
+        const int place = places[record.technique];
+        CHECK((place == 1 || place == 2 || place == 4) == record.exact);
+      }
+      for (std::size_t i = 1; i < found.candidates.size(); ++i)
+        CHECK(found.candidates[i - 1].time.total() <= found.candidates[i].time.total());
+      for (const auto& one : found.ruled_out) CHECK(one.seconds >= found.choice().time.total());
+    }
+  }
+
+  TEST_CASE("the same rays and discs give the same choice and the same predictions") {
+    const Example example(5000, 0.02, 5000);
+    const auto one = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+    const auto two = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs(), {.threads = 2});
+    REQUIRE(one.candidates.size() == two.candidates.size());
+    for (std::size_t i = 0; i < one.candidates.size(); ++i) {
+      CHECK(one.candidates[i].candidate == two.candidates[i].candidate);
+      CHECK(one.candidates[i].counts == two.candidates[i].counts);
+    }
+  }
+
+  TEST_CASE("the choice's index finds the hits of brute force, with the counts of a run of its own") {
+    const Example example(5000, 0.02, 5000);
+    auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+    const Candidate choice = found.choice().candidate;
+    const auto index = validate::build_choice(found, example.problem, {});
+    const sim::Outcome outcome = sim::run(example.problem, *index);
+    const sim::Outcome alone = sim::run(example.problem, choice);
+    CHECK(outcome.hits == sim::run(example.problem, {Technique::brute_force, BruteForceParameters{}}).hits);
+    CHECK(outcome.irradiance == alone.irradiance);
+    CHECK(outcome.counts == alone.counts);
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the counts of the choice are predicted within a tenth") {
+    const Example example(20'000, 0.05, 20'000);
+    const auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+    CHECK(found.sampled_rays < example.rays.size() / 10);
+    const auto& choice = found.choice();
+    REQUIRE(choice.candidate.technique == Technique::box_tree);
+    const Counts<double> counted = as_expected(sim::run(example.problem, choice.candidate).counts);
+    CHECK(tests(choice.counts) == Approx(tests(counted)).epsilon(0.1));
+    CHECK(choice.counts.hits == Approx(counted.hits).epsilon(0.1));
+    CHECK(choice.error > 0);
+    CHECK(choice.error < 0.3 * choice.time.total());
+  }
+
+  TEST_CASE("two rays do not pay for sorting: brute force is chosen") {
+    const Example example(500, 0.02, 2);
+    const auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+    CHECK(found.choice().candidate.technique == Technique::brute_force);
+    CHECK(found.choice().counts.disc_tests == 1000);
+  }
+
+  TEST_CASE("a sample stands for the number of rays that is given") {
+    const Example example(5000, 0.02, 1000);
+    const auto few = validate::choose_by_pilot(example.problem, example.rays, 1e3, validate::built_in_unit_costs());
+    const auto many = validate::choose_by_pilot(example.problem, example.rays, 1e9, validate::built_in_unit_costs());
+    CHECK(many.choice().counts.loaded == 1e9);
+    CHECK(many.choice().counts.hits == Approx(1e6 * few.choice().counts.hits).epsilon(0.2));
+    CHECK(many.choice().time.total() > 1e5 * few.choice().time.total());
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("no rays, rays too far away for floats, and a stop request") {
+    const Example example(500, 0.02, 100);
+    const CostTable costs = validate::built_in_unit_costs();
+    CHECK_THROWS_AS(validate::choose_by_pilot(example.problem, {}, 1, costs), std::invalid_argument);
+    std::stop_source source;
+    source.request_stop();
+    CHECK_THROWS_AS(validate::choose_by_pilot(example.problem, costs, {.stop = source.get_token()}), sim::Stopped);
+    const std::vector<sim::Ray> far{{.origin = {1e13, 0, 0}, .direction = {-1, 0, 0}}};
+    const sim::Problem problem = sim::make_problem(far, example.discs);
+    CHECK_THROWS_AS(validate::choose_by_pilot(problem, costs), std::invalid_argument);
+  }
+}
