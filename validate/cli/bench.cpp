@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "bench_regret.hpp"
 #include "bench_report.hpp"
 #include "command.hpp"
 #include "progress_line.hpp"
@@ -24,6 +25,7 @@ struct BenchCommand {
   std::string embree_modes = "best";
   int repeat = 5;
   std::optional<double> most_hits;
+  RegretCommand regret;
 };
 
 std::vector<double> counts_of(std::string_view option, const std::string& list) {
@@ -103,6 +105,8 @@ Json inputs_json(const BenchCommand& command, const validate::BenchSet& set, con
 }
 
 Result run_command_bench(const BenchCommand& command, const CommonOptions& common, const std::stop_token& stop) {
+  if (command.regret.wanted)
+    return run_bench_regret(command.regret, command.effort, command.scene, command.fields, common, stop);
   const ProgressLine progress(common);
   const validate::BenchOptions options = options_of(command, common, stop, progress);
   const char* folder = std::getenv("DETP_SCENES");
@@ -118,7 +122,7 @@ Result run_command_bench(const BenchCommand& command, const CommonOptions& commo
 Command bench_command(CLI::App& program) {
   CLI::App* app =
       program.add_subcommand("bench", "Our techniques and Embree on the same rays and discs, timed in turns");
-  app->footer("Example: detp bench @tree --rays 1e4,1e5 --disc-radius 1%,4%");
+  app->footer("Example: detp bench @tree --rays 1e4,1e5 --disc-radius 1%,4%\nExample: detp bench --regret");
   const auto command = std::make_shared<BenchCommand>();
   app->add_option("SCENE", command->scene, "a mesh or a built-in scene; default: the effort's set of scenes");
   app->add_option("--rays", command->rays, "a list or a range, as 1e3,1e5; default: the effort's");
@@ -136,6 +140,7 @@ Command bench_command(CLI::App& program) {
       ->check(CLI::IsMember({"best", "all"}));
   add_number(*app, "--repeat", command->repeat, "rounds, at most; medians are shown; default: 5");
   add_number(*app, "--most-hits", command->most_hits, "skip workloads with more hits; default: 1e6, thorough 5e6");
+  command->regret.add_to(*app);
   return {app, [command](const CommonOptions& common, const std::stop_token& stop) {
             return run_command_bench(*command, common, stop);
           }};

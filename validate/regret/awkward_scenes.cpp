@@ -65,7 +65,7 @@ glm::dvec3 position(AwkwardScene scene, std::uint64_t seed, std::uint64_t number
 }  // namespace
 
 std::string_view name(AwkwardScene scene) {
-  constexpr std::array<std::string_view, 5> names{"clusters", "tiny object", "thin sheet", "strays", "mixed radii"};
+  constexpr std::array<std::string_view, 5> names{"clusters", "tiny-object", "thin-sheet", "strays", "mixed-radii"};
   return names[static_cast<std::size_t>(scene)];
 }
 

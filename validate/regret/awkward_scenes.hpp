@@ -17,6 +17,7 @@ enum class AwkwardScene {
   mixed_radii   ///< uniform in a cube, with log-normal radii: a factor of e is one standard deviation
 };
 
+/// "tiny-object".
 [[nodiscard]] std::string_view name(AwkwardScene scene);
 
 /// `count` discs with isotropic normals. `radius` is the (median) disc radius; the longest side of the cube, floor or

@@ -1,10 +1,13 @@
 #include "exhaustive.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
-#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/base/in_turns.hpp"
 #include "detp/validate/base/stop_after.hpp"
@@ -13,14 +16,18 @@
 namespace detp::validate {
 namespace {
 
-constexpr double least_patience = 0.005;
+constexpr double least_patience = 0.005;  ///< seconds
+constexpr double short_run = 0.02;        ///< seconds; the first time of shorter runs is the shortest of three
+constexpr double enough_timed = 0.01;     ///< seconds of one candidate after which the rounds need not go on
 constexpr int most_rounds_of_neighbours = 6;
+constexpr int most_rounds_far_behind = 2;
 constexpr double infinite = std::numeric_limits<double>::infinity();
+// Expected shares of the time, for progress only.
+constexpr double share_of_first_runs = 0.5;
+constexpr double share_of_selecting = 0.3;
 
-double least_of_every_second(const std::vector<double>& seconds, std::size_t first) {
-  double least = infinite;
-  for (std::size_t i = first; i < seconds.size(); i += 2) least = std::min(least, seconds[i]);
-  return least;
+double least(const std::vector<double>& seconds) {
+  return seconds.empty() ? infinite : *std::min_element(seconds.begin(), seconds.end());
 }
 
 class Search {
@@ -28,109 +35,148 @@ class Search {
   Search(const sim::Problem& problem, const ExhaustiveOptions& options) : problem_(problem), options_(options) {}
 
   /// Runs the candidates once, unless they have been run.
-  void add(std::span<const Candidate> candidates) {
+  void add(std::span<const Candidate> candidates, double patience) {
     for (const Candidate& candidate : candidates)
-      if (!options_.stop.stop_requested() && !has(candidate)) run_first(candidate);
+      if (!stopped() && found_.find(candidate) == nullptr) run_first(candidate, patience);
   }
 
-  [[nodiscard]] std::vector<Candidate> candidates() const {
-    std::vector<Candidate> all;
-    for (const Timed& one : found_.candidates) all.push_back(one.candidate);
-    return all;
-  }
-
-  void add_neighbours() {
+  void add_others() {
+    std::vector<Candidate> asked;
+    for (const Timed& one : found_.candidates) asked.push_back(one.candidate);
+    asked_ = asked.size();
+    add(techniques_left_out(asked), options_.patience);
     for (int round = 0; round < most_rounds_of_neighbours; ++round) {
       const std::size_t before = found_.candidates.size();
-      for (const Candidate& leader : leaders()) add(neighbours(leader));
+      for (const Candidate& leader : leaders()) add(neighbours(leader), options_.patience);
       if (found_.candidates.size() == before) return;
     }
   }
 
-  Exhaustive time_all(std::size_t asked) && {
-    in_turns(found_.candidates.size(), options_.repeats, [&](std::size_t i, int round) {
-      if (options_.stop.stop_requested()) return false;
-      if (first_[i] > options_.behind * fastest_ && (i >= asked || round >= 2)) return true;
-      if (!found_.candidates[i].abandoned) time(found_.candidates[i]);
-      return true;
-    });
-    double least = infinite;
-    for (std::size_t i = 0; i < found_.candidates.size(); ++i) {
-      const Timed& one = found_.candidates[i];
-      if (one.abandoned || one.seconds.size() < 2 || one.selecting_seconds() >= least) continue;
-      least = one.selecting_seconds();
-      found_.best = i;
-    }
-    const Timed& best = found_.candidates[found_.best];
-    found_.noise = best.judging_seconds() / best.selecting_seconds();
-    found_.stopped = options_.stop.stop_requested();
+  void select() {
+    report("selecting the best", share_of_first_runs, share_of_first_runs + share_of_selecting);
+    std::vector<Timed*> entries;
+    for (Timed& one : found_.candidates)
+      if (!one.abandoned && !is_far_behind(one)) entries.push_back(&one);
+    time_in_turns(entries, &Timed::selecting);
+    found_.best = fastest_selected(found_.candidates);
+  }
+
+  void judge() {
+    if (!found_.best) return;
+    report("judging", share_of_first_runs + share_of_selecting, 1);
+    Timed& best = found_.candidates[*found_.best];
+    Timed twin = best;
+    std::vector<Timed*> entries;
+    for (std::size_t i = 0; i < found_.candidates.size(); ++i)
+      if (Timed& one = found_.candidates[i]; &one == &best || (i < asked_ && !one.abandoned)) entries.push_back(&one);
+    entries.push_back(&twin);
+    time_in_turns(entries, &Timed::judging);
+    if (!best.judging.empty() && !twin.judging.empty()) found_.noise = twin.judging_seconds() / best.judging_seconds();
+  }
+
+  Exhaustive result() && {
+    found_.stopped = stopped();
     return std::move(found_);
   }
 
  private:
-  [[nodiscard]] bool has(const Candidate& candidate) const {
-    return std::any_of(found_.candidates.begin(), found_.candidates.end(),
-                       [&](const Timed& one) { return one.candidate == candidate; });
+  [[nodiscard]] bool stopped() const { return options_.stop.stop_requested(); }
+  [[nodiscard]] bool is_far_behind(const Timed& one) const { return one.first_seconds > options_.behind * fastest_; }
+
+  void report(std::string_view what, double from, double to) const {
+    if (options_.progress) options_.progress({std::string(what), from, to});
   }
 
   [[nodiscard]] std::vector<Candidate> leaders() const {
-    std::vector<std::size_t> places;
-    for (std::size_t i = 0; i < first_.size(); ++i)
-      if (!found_.candidates[i].abandoned) places.push_back(i);
-    std::sort(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return first_[a] < first_[b]; });
-    places.resize(std::min<std::size_t>(places.size(), 2));
-    std::vector<Candidate> found;
-    for (const std::size_t place : places) found.push_back(found_.candidates[place].candidate);
-    return found;
+    std::vector<const Timed*> finished;
+    for (const Timed& one : found_.candidates)
+      if (!one.abandoned) finished.push_back(&one);
+    std::sort(finished.begin(), finished.end(),
+              [](const Timed* a, const Timed* b) { return a->first_seconds < b->first_seconds; });
+    finished.resize(std::min<std::size_t>(finished.size(), 2));
+    std::vector<Candidate> first;
+    for (const Timed* one : finished) first.push_back(one->candidate);
+    return first;
   }
 
-  void run_first(const Candidate& candidate) {
+  void run_first(const Candidate& candidate, double patience) {
     Timed one{.candidate = candidate};
-    const double patience = std::max(least_patience, options_.patience * fastest_);
-    sim::Outcome outcome;
+    const double limit = fastest_ < infinite ? std::max(least_patience, patience * fastest_) : 1e9;
     try {
-      const StopAfter limit(options_.stop, fastest_ < infinite ? patience : 1e6);
-      outcome = sim::run(problem_, candidate, {.stop = limit.token(), .threads = options_.threads});
+      const StopAfter clock(options_.stop, limit);
+      const sim::Outcome outcome = sim::run(problem_, candidate, {.stop = clock.token(), .threads = options_.threads});
+      one.abandoned = outcome.stopped;
+      one.first_seconds = outcome.stopped ? limit : outcome.seconds.total();
+      if (!outcome.stopped) one.counts = outcome.counts;
     } catch (const std::length_error&) {  // its index does not fit in memory
       return;
     }
-    one.abandoned = outcome.stopped;
-    const double seconds = one.abandoned ? patience : outcome.seconds.total();
-    if (one.abandoned) one.seconds = {patience, patience};
-    if (!one.abandoned) {
-      one.counts = outcome.counts;
-      one.vectors = outcome.vectors;
-      fastest_ = std::min(fastest_, seconds);
+    if (!one.abandoned && one.first_seconds < short_run) {
+      std::vector<double> again;
+      if (!time(one, again) || !time(one, again)) return;
+      one.first_seconds = least(again);
     }
-    first_.push_back(seconds);
+    if (stopped()) return;
+    if (!one.abandoned) fastest_ = std::min(fastest_, one.first_seconds);
     found_.candidates.push_back(std::move(one));
   }
 
-  void time(Timed& one) {
-    const sim::Phases phases = sim::run(problem_, one.candidate, {.count = false, .threads = options_.threads}).seconds;
-    if (one.seconds.empty() || phases.total() < one.phases.total()) one.phases = phases;
-    one.seconds.push_back(phases.total());
+  /// Appends the time of a run without counting. Returns false if a stop request ended the run.
+  [[nodiscard]] bool time(const Timed& one, std::vector<double>& seconds) const {
+    const sim::Outcome outcome =
+        sim::run(problem_, one.candidate, {.count = false, .stop = options_.stop, .threads = options_.threads});
+    if (outcome.stopped) return false;
+    seconds.push_back(outcome.seconds.total());
+    return true;
+  }
+
+  void time_in_turns(const std::vector<Timed*>& entries, std::vector<double> Timed::*half) const {
+    const sim::Stopwatch watch;
+    const double enough = std::clamp<double>(enough_timed / fastest_, options_.repeats, 5.0 * options_.repeats);
+    in_turns(entries.size(), static_cast<int>(std::ceil(enough)), [&](std::size_t i, int round) {
+      if (i == 0 && round > 0 && watch.seconds() > options_.most_seconds) return false;
+      Timed& one = *entries[i];
+      if (round >= most_rounds_far_behind && is_far_behind(one)) return true;
+      return time(one, one.*half);
+    });
   }
 
   const sim::Problem& problem_;
   const ExhaustiveOptions& options_;
   Exhaustive found_;
-  std::vector<double> first_;  ///< seconds of the first run of each
-  double fastest_ = infinite;
+  std::size_t asked_ = 0;      ///< number of candidates asked for that fit in memory
+  double fastest_ = infinite;  ///< shortest first_seconds of those that were not abandoned
 };
 
 }  // namespace
 
-double Timed::selecting_seconds() const { return least_of_every_second(seconds, 0); }
-double Timed::judging_seconds() const { return least_of_every_second(seconds, 1); }
+double Timed::selecting_seconds() const { return least(selecting); }
+double Timed::judging_seconds() const { return abandoned ? first_seconds : least(judging); }
+
+std::optional<std::size_t> fastest_selected(std::span<const Timed> candidates) {
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < candidates.size(); ++i)
+    if (!candidates[i].selecting.empty() &&
+        (!best || candidates[i].selecting_seconds() < candidates[*best].selecting_seconds()))
+      best = i;
+  return best;
+}
+
+const Timed* Exhaustive::find(const Candidate& candidate) const {
+  const auto found =
+      std::find_if(candidates.begin(), candidates.end(), [&](const Timed& one) { return one.candidate == candidate; });
+  return found == candidates.end() ? nullptr : &*found;
+}
 
 Exhaustive measure_all(const sim::Problem& problem, std::span<const Candidate> asked,
                        const ExhaustiveOptions& options) {
   Search search(problem, options);
-  search.add(asked);
-  search.add(techniques_left_out(search.candidates()));
-  search.add_neighbours();
-  return std::move(search).time_all(asked.size());
+  if (options.progress) options.progress({"first runs", 0, share_of_first_runs});
+  search.add(asked, options.patience_if_asked);
+  search.add_others();
+  search.select();
+  search.judge();
+  return std::move(search).result();
 }
 
 }  // namespace detp::validate

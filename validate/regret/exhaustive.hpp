@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
-#include "detp/sim/search/outcome.hpp"
+#include "detp/sim/base/phase.hpp"
 
 namespace detp::sim {
 class Problem;
@@ -16,38 +16,55 @@ class Problem;
 /// Measures many candidates on the same rays and discs, and finds the fastest.
 namespace detp::validate {
 
-/// A candidate that was measured.
+/// A candidate that was run. Its times are in seconds and include sorting, building and searching.
 struct Timed {
   Candidate candidate;
-  bool abandoned = false;             ///< it took too long; its seconds are a lower bound
-  std::vector<double> seconds = {};   ///< of each run: sorting, building, searching
-  sim::Phases phases = {};            ///< of the fastest run
-  Counts<std::uint64_t> counts = {};  ///< of the first run; zero if it was abandoned
-  sim::Vectors vectors = {};          ///< of the first run
+  bool abandoned = false;              ///< it took too long; its seconds are a lower bound
+  double first_seconds = 0;            ///< of the first run, or the time after which that run was abandoned
+  Counts<std::uint64_t> counts = {};   ///< of the first run; zero if it was abandoned
+  std::vector<double> selecting = {};  ///< times from which the best candidate is selected
+  std::vector<double> judging = {};    ///< times by which the candidates are judged
 
-  /// The shortest time of the runs with even numbers, on which the best candidate is selected.
+  /// The shortest of the times `selecting`; infinite if there is none.
   [[nodiscard]] double selecting_seconds() const;
-  /// The shortest time of the runs with odd numbers, on which all are judged.
+  /// The shortest of the times `judging`; `first_seconds`, a lower bound, if the candidate was abandoned. Infinite if
+  /// the candidate was not judged.
   [[nodiscard]] double judging_seconds() const;
 };
 
+/// The index of the candidate with the shortest selecting time; nullopt if none has one.
+[[nodiscard]] std::optional<std::size_t> fastest_selected(std::span<const Timed> candidates);
+
 struct ExhaustiveOptions {
-  int repeats = 6;      ///< timed runs of the candidates that are not far behind; at least 2
-  double patience = 4;  ///< a first run is abandoned after this many times the shortest time so far, but at least 5 ms
-  double behind = 1.5;  ///< candidates that first take more than this many times the shortest time are run only twice
+  int repeats = 3;  ///< rounds of each half; up to five times as many if the runs are shorter than 10 ms
+  /// no further round of a half begins after this many seconds
+  double most_seconds = 3;
+  /// a first run is abandoned after this many times the shortest time so far, but at least 5 ms
+  double patience = 4;
+  double patience_if_asked = 10;  ///< the same for a candidate that was asked for
+  double behind =
+      1.5;  ///< a candidate that first takes more than this many times the shortest time is not selected from
   int threads = 1;
   std::stop_token stop = {};
+  sim::ReportPhase progress = {};
 };
 
 struct Exhaustive {
-  std::vector<Timed> candidates;  ///< first those that were asked for, in their order, then neighbours
-  std::size_t best = 0;           ///< the fastest on the selecting half
-  double noise = 1;               ///< judging over selecting time of the best
-  bool stopped = false;
+  /// those asked for, in their order, then the others; those whose index does not fit in memory are left out
+  std::vector<Timed> candidates;
+  std::optional<std::size_t> best;  ///< the fastest on the selecting half; nullopt if the search was stopped before
+  double noise = 1;  ///< judging seconds of the best, timed a second time as if it were another candidate, over its own
+  bool stopped = false;  ///< a stop was requested before the end
+
+  /// Null if the candidate was not run.
+  [[nodiscard]] const Timed* find(const Candidate& candidate) const;
 };
 
-/// Measures the candidates `asked`, all exact techniques with their default parameters, and neighbours of the fastest
-/// two until none of them is faster. Then times those in turns, round after round.
+/// Runs each of these candidates once: those `asked` for, all other exact techniques with default parameters, and
+/// neighbours of the fastest two until none of them is faster. The candidates that are not far behind then take turns,
+/// and the fastest of them is the best. Then the candidates asked for and the best, entered twice, take turns and are
+/// judged. So no candidate is judged by the times for which it was selected. The first candidate asked for is never
+/// abandoned. Throws as sim::run does, but leaves out candidates whose index does not fit in memory.
 [[nodiscard]] Exhaustive measure_all(const sim::Problem& problem, std::span<const Candidate> asked,
                                      const ExhaustiveOptions& options = {});
 

@@ -1,7 +1,5 @@
 #include "regret_workloads.hpp"
 
-#include <fmt/format.h>
-
 #include <array>
 #include <filesystem>
 
@@ -12,8 +10,11 @@ namespace detp::validate {
 namespace {
 
 constexpr std::array radii{0.0025, 0.01, 0.04, 0.16};
-constexpr std::array rays{1e2, 1e3, 1e4, 1e5, 1e6};
-constexpr double most_hits = 3e7;  // expected for spread-out discs
+constexpr std::array ray_counts{1e2, 1e3, 1e4, 1e5, 1e6};
+constexpr std::array meshes{"stanford_bunny.obj", "sponza.ply", "bedroom.ply", "mountain.obj", "grove_fine.ply"};
+constexpr double most_hits = 3e7;        ///< expected if the discs are spread out
+constexpr double usual_vertices = 1e5;   ///< order of magnitude, of scenes with a sample for each vertex
+constexpr std::size_t quick_stride = 3;  ///< the quick effort takes every third workload
 
 struct Scene {
   std::string name;
@@ -23,51 +24,59 @@ struct Scene {
   bool held_out = false;
 };
 
-std::vector<Scene> all_scenes(RegretEffort effort, const std::string& folder) {
+Scene awkward(AwkwardScene scene, std::vector<double> samples, bool held_out) {
+  return {std::string(name(scene)), scene, false, std::move(samples), held_out};
+}
+
+std::vector<Scene> scenes_of(RegretEffort effort, const std::string& folder, std::vector<std::string>& missing) {
   const bool all = effort == RegretEffort::thorough;
+  const std::vector<double> vertices = all ? std::vector{0.0} : std::vector{1e4};
+  const std::vector<double> many = all ? std::vector{1e4, 1e5} : std::vector{1e4};
   std::vector<Scene> scenes{
       {"@uniform", "@uniform", false, all ? std::vector{1e2, 1e3, 1e4, 1e5, 1e6} : std::vector{1e3, 1e4}},
-      {"@tree", "@tree", true, all ? std::vector{0.0} : std::vector{1e4}},
-      {"@courtyard", "@courtyard", true, all ? std::vector{0.0} : std::vector{1e4}},
-      {"clusters", AwkwardScene::clusters, false, all ? std::vector{1e4, 1e5} : std::vector{1e4}},
-      {"strays", AwkwardScene::strays, false, {1e4}},
-      {"@cornell", "@cornell", true, all ? std::vector{0.0} : std::vector{1e4}, true},
-      {"tiny object", AwkwardScene::tiny_object, false, all ? std::vector{1e4, 1e5} : std::vector{1e4}, true},
-      {"thin sheet", AwkwardScene::thin_sheet, false, {1e4}, true},
-      {"mixed radii", AwkwardScene::mixed_radii, false, {1e4}, true}};
-  for (const char* mesh : {"stanford_bunny.obj", "sponza.ply", "bedroom.ply", "mountain.obj", "grove_fine.ply"})
-    if (all && !folder.empty() && std::filesystem::exists(std::filesystem::path(folder) / mesh))
-      scenes.push_back({std::filesystem::path(mesh).stem().string(),
-                        (std::filesystem::path(folder) / mesh).string(),
-                        true,
-                        {0},
-                        true});
+      {"@tree", "@tree", true, vertices},
+      {"@courtyard", "@courtyard", true, vertices},
+      awkward(AwkwardScene::clusters, many, false),
+      awkward(AwkwardScene::strays, {1e4}, false),
+      {"@cornell", "@cornell", true, vertices, true},
+      awkward(AwkwardScene::tiny_object, many, true),
+      awkward(AwkwardScene::thin_sheet, {1e4}, true),
+      awkward(AwkwardScene::mixed_radii, {1e4}, true)};
+  if (!all) return scenes;
+  for (const std::filesystem::path mesh : meshes) {
+    const std::string stem = mesh.stem().string();
+    if (folder.empty())
+      missing.push_back(stem + ": DETP_SCENES, the folder of its file, is not set");
+    else if (!std::filesystem::exists(folder / mesh))
+      missing.push_back(stem + ": " + (folder / mesh).string() + " does not exist");
+    else
+      scenes.push_back({stem, (folder / mesh).string(), true, {0}, true});
+  }
   return scenes;
 }
 
-/// Whether the workload belongs to the set: the fields alternate, and 10⁶ rays only meet small discs.
-bool is_wanted(RegretEffort effort, const RegretWorkload& one, std::size_t place) {
-  if (effort == RegretEffort::small && (one.rays > 1e4 || one.rays < 1e3 || place % 3 != 0)) return false;
-  const double samples = one.samples > 0 ? one.samples : 1e5;
+bool is_in(RegretEffort effort, const RegretWorkload& one, std::size_t place) {
+  if (effort == RegretEffort::quick && (one.rays > 1e4 || one.rays < 1e3 || place % quick_stride != 0)) return false;
+  const double samples = one.samples > 0 ? one.samples : usual_vertices;
   if (one.rays * samples * one.radius * one.radius > most_hits) return false;
   return one.rays < 1e6 || one.radius < 0.02;
 }
 
 }  // namespace
 
-std::vector<RegretWorkload> regret_workloads(RegretEffort effort, const std::string& folder) {
-  std::vector<RegretWorkload> workloads;
+RegretSet regret_set(RegretEffort effort, const std::string& folder) {
+  RegretSet set;
   std::size_t place = 0;
-  for (const Scene& scene : all_scenes(effort, folder))
+  for (const Scene& scene : scenes_of(effort, folder, set.missing))
     for (const double samples : scene.samples)
       for (const sim::Field field : {sim::Field::isotropic, sim::Field::photons})
         for (const double radius : radii)
-          for (const double count : rays) {
+          for (const double rays : ray_counts) {
             if (field == sim::Field::photons && !scene.light) continue;
-            const RegretWorkload one{scene.name, scene.discs, field, samples, radius, count, scene.held_out};
-            if (is_wanted(effort, one, place++)) workloads.push_back(one);
+            const RegretWorkload one{scene.name, scene.discs, field, samples, radius, rays, scene.held_out};
+            if (is_in(effort, one, place++)) set.workloads.push_back(one);
           }
-  return workloads;
+  return set;
 }
 
 Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const std::stop_token& stop) {

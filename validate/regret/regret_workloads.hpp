@@ -1,5 +1,6 @@
 #pragma once
 
+#include <stop_token>
 #include <string>
 #include <variant>
 #include <vector>
@@ -11,7 +12,7 @@
 namespace detp::validate {
 
 struct RegretWorkload {
-  std::string scene;                              ///< name to show
+  std::string scene;                              ///< name to show: "@tree", "sponza", "thin-sheet"
   std::variant<std::string, AwkwardScene> discs;  ///< a built-in scene or a file to open, or discs to make
   sim::Field field = sim::Field::isotropic;
   double samples = 0;  ///< 0: one for each vertex
@@ -21,14 +22,19 @@ struct RegretWorkload {
 };
 
 enum class RegretEffort {
-  small,    ///< 24 workloads of at most 10⁴ rays and 10⁴ discs
+  quick,    ///< workloads of 10³ and 10⁴ rays and at most 10⁴ discs; no meshes
   thorough  ///< all
 };
 
-/// The workloads, scene by scene. `folder` holds the meshes, all of which are held out; without it, the held-out scenes
-/// are only some of those made by a program. Every scene has the radii 0.25, 1, 4 and 16 %; the numbers of rays, fields
-/// and samples vary.
-[[nodiscard]] std::vector<RegretWorkload> regret_workloads(RegretEffort effort, const std::string& folder);
+struct RegretSet {
+  std::vector<RegretWorkload> workloads;
+  std::vector<std::string> missing;  ///< the name of each mesh that was left out, and why
+};
+
+/// The workloads, scene by scene, first those that are not held out. `folder` holds the meshes, all of which are held
+/// out; empty if unknown. Every scene has the radii 0.25, 1, 4 and 16 % of its longest side; the numbers of rays, fields
+/// and samples vary. Workloads with more than about 3·10⁷ hits are left out, and so are 10⁶ rays on large discs.
+[[nodiscard]] RegretSet regret_set(RegretEffort effort, const std::string& folder);
 
 /// The rays and discs. Throws as make_job does.
 [[nodiscard]] Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const std::stop_token& stop);

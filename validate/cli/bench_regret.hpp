@@ -1,0 +1,29 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "costs_in_use.hpp"
+
+/// `bench --regret`.
+namespace detp::cli {
+
+struct RegretCommand {
+  bool wanted = false;  ///< --regret
+  CostOptions costs;
+
+  /// Adds --regret, --costs and --calibration.
+  void add_to(CLI::App& bench);
+};
+
+/// The regret of the choices over the workloads of the effort: "quick" or "thorough". With a scene or fields, only over
+/// those of them. Throws std::invalid_argument if there are none.
+[[nodiscard]] Result run_bench_regret(const RegretCommand& command, const std::string& effort,
+                                      const std::optional<std::string>& scene, const std::vector<std::string>& fields,
+                                      const CommonOptions& common, const std::stop_token& stop);
+
+}  // namespace detp::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "detp/validate/choice/job.hpp"
+
+/// The ways to choose a candidate (tiers) whose regret is measured.
+namespace detp::validate {
+
+struct Choice {
+  Candidate candidate;
+  double predicted_seconds = 0;  ///< of a run with the candidate; 0: not predicted
+  double choosing_seconds = 0;   ///< time that choosing took
+};
+
+struct Chooser {
+  std::string name;  ///< of the tier: "estimate"
+  std::function<Choice(const sim::Problem&, const Job&)> choose;
+};
+
+/// All tiers, one line each in choosers.cpp. `costs` are the unit costs with which they predict times.
+///
+///     estimate   the first candidate of model::rank for the job's workload; choosing_seconds are those of model::rank
+[[nodiscard]] std::vector<Chooser> all_choosers(const CostTable& costs);
+
+}  // namespace detp::validate

@@ -1,0 +1,136 @@
+#include "regret.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+#include <stdexcept>
+
+#include "detp/sim/base/stopped.hpp"
+#include "reason.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double share_of_job = 0.05;  ///< rough share of a workload's time for making scene and rays, for progress
+
+/// Roughly proportional to the time of the workload, for progress.
+double effort(const RegretWorkload& workload) { return workload.rays + 3e4; }
+
+class Runner {
+ public:
+  Runner(std::span<const RegretWorkload> workloads, std::span<const Chooser> choosers, const RegretOptions& options)
+      : workloads_(workloads), choosers_(choosers), options_(options) {
+    result_.workloads = workloads.size();
+  }
+
+  RegretResult run_all() && {
+    const double whole = std::accumulate(workloads_.begin(), workloads_.end(), 0.0,
+                                         [](double sum, const auto& one) { return sum + effort(one); });
+    double before = 0;
+    for (std::size_t i = 0; i < workloads_.size() && !options_.stop.stop_requested(); ++i) {
+      const double after = before + effort(workloads_[i]) / whole;
+      try {
+        if (run(i, sim::part_of(options_.progress, before, after))) ++result_.done;
+      } catch (const sim::Stopped&) {  // while making rays
+      } catch (const std::length_error& error) {
+        result_.skipped.push_back({workloads_[i], error.what()});
+        ++result_.done;
+      }
+      before = after;
+    }
+    result_.stopped = result_.done < workloads_.size();
+    return std::move(result_);
+  }
+
+ private:
+  /// Returns false if a stop request ended it.
+  bool run(std::size_t place, const sim::ReportPhase& progress) {
+    const RegretWorkload& workload = workloads_[place];
+    if (progress) progress({fmt::format("{}, making {:g} rays", workload.scene, workload.rays), 0, share_of_job});
+    const Job job = make_regret_job(workload, options_.seed, options_.stop);
+    std::vector<int> threads{options_.threads};
+    if (options_.more_threads > 0 && has_more_threads(place)) threads.push_back(options_.more_threads);
+    const double each = (1 - share_of_job) / static_cast<double>(threads.size());
+    double before = share_of_job;
+    for (const int number : threads) {
+      const auto part = sim::part_of(progress, before, before + each);
+      if (!run(workload, job, number, part)) return false;
+      before += each;
+    }
+    return true;
+  }
+
+  bool run(const RegretWorkload& workload, const Job& job, int threads, const sim::ReportPhase& progress) {
+    const sim::Problem problem = job.problem(threads, options_.stop);
+    std::vector<Choice> choices;
+    for (const Chooser& chooser : choosers_) choices.push_back(chooser.choose(problem, job));
+    std::vector<std::vector<Candidate>> options;
+    for (const Baseline& baseline : baselines()) options.push_back(baseline.candidates(job.workload));
+    std::vector<Candidate> asked;
+    for (const Choice& choice : choices) asked.push_back(choice.candidate);
+    for (const auto& candidates : options) asked.insert(asked.end(), candidates.begin(), candidates.end());
+    ExhaustiveOptions search = options_.search;
+    search.threads = threads;
+    search.stop = options_.stop;
+    search.progress = titled(progress, fmt::format("{}, {:g} rays", workload.scene, workload.rays));
+    const Exhaustive found = measure_all(problem, asked, search);
+    if (found.stopped) return false;
+    if (!found.best) throw std::length_error("no candidate's index fits in memory");
+    RegretRow row{.workload = workload,
+                  .rays = job.workload.rays,
+                  .samples = job.workload.samples,
+                  .disc_radius = job.workload.disc_radius,
+                  .threads = threads,
+                  .best = found.candidates[*found.best].candidate,
+                  .best_seconds = found.candidates[*found.best].judging_seconds(),
+                  .noise = found.noise,
+                  .tried = found.candidates.size(),
+                  .choices = {},
+                  .baselines = {}};
+    for (std::size_t i = 0; i < choices.size(); ++i)
+      row.choices.push_back(choice_row(choosers_[i].name, choices[i], job.workload, found));
+    for (const auto& candidates : options) {
+      BaselineRow& regrets = row.baselines.emplace_back();
+      for (const Candidate& candidate : candidates) regrets.push_back(regret(found, found.find(candidate)));
+    }
+    result_.rows.push_back(std::move(row));
+    return true;
+  }
+
+  static sim::ReportPhase titled(const sim::ReportPhase& progress, const std::string& title) {
+    if (!progress) return {};
+    return [progress, title](sim::Phase phase) {
+      phase.what = fmt::format("{}: {}", title, phase.what);
+      progress(phase);
+    };
+  }
+
+  static std::optional<Regret> regret(const Exhaustive& found, const Timed* candidate) {
+    if (candidate == nullptr) return std::nullopt;
+    return Regret{candidate->judging_seconds() / found.candidates[*found.best].judging_seconds(), candidate->abandoned};
+  }
+
+  [[nodiscard]] ChoiceRow choice_row(const std::string& tier, const Choice& choice, const Workload& workload,
+                                     const Exhaustive& found) const {
+    const Timed* chosen = found.find(choice.candidate);
+    if (chosen == nullptr)
+      throw std::length_error(
+          fmt::format("{}, the choice of {}, does not fit in memory", title(choice.candidate), tier));
+    return {tier, choice, chosen->judging_seconds(), *regret(found, chosen),
+            reason_of_regret(workload, options_.costs, *chosen, found.candidates[*found.best], found.noise)};
+  }
+
+  std::span<const RegretWorkload> workloads_;
+  std::span<const Chooser> choosers_;
+  const RegretOptions& options_;
+  RegretResult result_;
+};
+
+}  // namespace
+
+RegretResult run_regret(std::span<const RegretWorkload> workloads, std::span<const Chooser> choosers,
+                        const RegretOptions& options) {
+  return Runner(workloads, choosers, options).run_all();
+}
+
+}  // namespace detp::validate

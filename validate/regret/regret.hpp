@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "baselines.hpp"
+#include "choosers.hpp"
+#include "exhaustive.hpp"
+#include "regret_workloads.hpp"
+
+/// Measures the regret of choices: the time of what was chosen over the time of the best of all candidates.
+namespace detp::validate {
+
+/// The judging time of a candidate over that of the best.
+struct Regret {
+  double value = 1;
+  bool at_least = false;  ///< the candidate was abandoned, so this is a lower bound
+};
+
+/// What a tier chose for a workload.
+struct ChoiceRow {
+  std::string tier;
+  Choice choice;
+  double seconds = 0;  ///< judging time; a lower bound if regret.at_least
+  Regret regret;
+  std::string reason;  ///< reason_of_regret()
+};
+
+/// The options of one baseline, in its order. nullopt: its index does not fit in memory.
+using BaselineRow = std::vector<std::optional<Regret>>;
+
+/// One workload with one number of threads.
+struct RegretRow {
+  RegretWorkload workload;
+  double rays = 0;         ///< actual number, with all segments of photon paths
+  double samples = 0;      ///< actual number
+  double disc_radius = 0;  ///< in scene units
+  int threads = 1;
+  Candidate best;
+  double best_seconds = 0;             ///< judging time
+  double noise = 1;                    ///< Exhaustive::noise
+  std::size_t tried = 0;               ///< number of candidates
+  std::vector<ChoiceRow> choices;      ///< one for each tier
+  std::vector<BaselineRow> baselines;  ///< in the order of baselines()
+};
+
+struct RegretOptions {
+  CostTable costs;                ///< unit costs with which the reasons are found
+  int threads = 1;                ///< each workload is run with this number of threads
+  int more_threads = 0;           ///< unless 0: a fifth of the workloads are also run with this number
+  ExhaustiveOptions search = {};  ///< its threads, stop and progress are not used
+  std::uint64_t seed = 1;
+  std::stop_token stop = {};
+  sim::ReportPhase progress = {};
+};
+
+struct RegretSkip {
+  RegretWorkload workload;
+  std::string why;
+};
+
+struct RegretResult {
+  std::vector<RegretRow> rows;
+  std::vector<RegretSkip> skipped;
+  std::size_t workloads = 0;  ///< number of requested workloads
+  std::size_t done = 0;       ///< number of workloads run to the end or skipped
+  bool stopped = false;       ///< a stop request came before the end
+};
+
+/// Whether the workload with this number is also run with RegretOptions::more_threads: one of five successive ones,
+/// each time another one.
+[[nodiscard]] constexpr bool has_more_threads(std::size_t place) { return place % 5 == place / 5 % 5; }
+
+/// Runs the choosers and the exhaustive search on each workload. Skips workloads that do not fit in memory. Throws as
+/// make_job does for a file that cannot be read.
+[[nodiscard]] RegretResult run_regret(std::span<const RegretWorkload> workloads, std::span<const Chooser> choosers,
+                                      const RegretOptions& options);
+
+}  // namespace detp::validate

@@ -1,0 +1,122 @@
+#include "regret_summary.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "detp/validate/statistics/statistics.hpp"
+
+namespace detp::validate {
+namespace {
+
+using Rows = std::vector<const RegretRow*>;
+/// The ratio of a row; nullopt if the row has none.
+using RatioOf = std::function<std::optional<Regret>(const RegretRow&)>;
+
+template <class IsIn>
+Figures figures_where(const Rows& rows, const RatioOf& ratio_of, IsIn is_in) {
+  std::vector<Regret> ratios;
+  for (const RegretRow* row : rows)
+    if (is_in(*row))
+      if (const auto ratio = ratio_of(*row)) ratios.push_back(*ratio);
+  return figures_of(ratios);
+}
+
+Figures all_figures(const Rows& rows, const RatioOf& ratio_of) {
+  return figures_where(rows, ratio_of, [](const RegretRow& /*row*/) { return true; });
+}
+
+Figures fitted_figures(const Rows& rows, const RatioOf& ratio_of) {
+  return figures_where(rows, ratio_of, [](const RegretRow& row) { return !row.workload.held_out; });
+}
+
+RegretFigures regret_figures(const Rows& rows, const RatioOf& ratio_of) {
+  return {all_figures(rows, ratio_of), fitted_figures(rows, ratio_of),
+          figures_where(rows, ratio_of, [](const RegretRow& row) { return row.workload.held_out; })};
+}
+
+PredictionFigures prediction_figures(const Rows& rows, std::size_t tier) {
+  std::vector<double> errors;
+  for (const RegretRow* row : rows) {
+    const ChoiceRow& one = row->choices[tier];
+    if (one.choice.predicted_seconds > 0 && !one.regret.at_least)
+      errors.push_back(std::abs(one.choice.predicted_seconds / one.seconds - 1));
+  }
+  if (errors.empty()) return {};
+  return {errors.size(), median(errors), quantile(errors, 0.95)};
+}
+
+TierSummary tier_summary(const Rows& rows, std::size_t tier) {
+  const auto price = [tier](const RegretRow& row) -> std::optional<Regret> {
+    const ChoiceRow& one = row.choices[tier];
+    if (row.best_seconds < shortest_priced_run) return std::nullopt;
+    return Regret{(one.choice.choosing_seconds + one.seconds) / row.best_seconds, one.regret.at_least};
+  };
+  return {rows.front()->choices[tier].tier,
+          regret_figures(rows, [tier](const RegretRow& row) { return row.choices[tier].regret; }),
+          all_figures(rows, price), prediction_figures(rows, tier)};
+}
+
+RatioOf option_of(std::size_t baseline, std::size_t option) {
+  return [baseline, option](const RegretRow& row) { return row.baselines[baseline][option]; };
+}
+
+BaselineSummary baseline_summary(const Rows& rows, std::size_t baseline) {
+  BaselineSummary summary;
+  double least = 0;
+  for (std::size_t option = 0; option < rows.front()->baselines[baseline].size(); ++option) {
+    const Figures fitted = fitted_figures(rows, option_of(baseline, option));
+    if (fitted.rows == 0 || (least > 0 && fitted.geometric_mean >= least)) continue;
+    least = fitted.geometric_mean;
+    summary.option = option;
+  }
+  summary.regret = regret_figures(rows, option_of(baseline, summary.option));
+  return summary;
+}
+
+}  // namespace
+
+Figures figures_of(std::span<const Regret> ratios) {
+  Figures figures{.rows = ratios.size()};
+  if (ratios.empty()) return figures;
+  std::vector<double> values;
+  double logarithms = 0;
+  for (const Regret& ratio : ratios) {
+    values.push_back(ratio.value);
+    logarithms += std::log(ratio.value);
+    if (ratio.at_least) ++figures.at_least;
+  }
+  figures.geometric_mean = std::exp(logarithms / static_cast<double>(ratios.size()));
+  figures.worst = *std::max_element(values.begin(), values.end());
+  figures.p95 = quantile(std::move(values), 0.95);
+  return figures;
+}
+
+RegretSummary summarise(std::span<const RegretRow> rows, int threads) {
+  Rows of_threads;
+  for (const RegretRow& row : rows)
+    if (row.threads == threads) of_threads.push_back(&row);
+  RegretSummary summary{.threads = threads, .rows = of_threads.size(), .tiers = {}, .baselines = {}, .noise = {}};
+  if (of_threads.empty()) return summary;
+  for (std::size_t tier = 0; tier < of_threads.front()->choices.size(); ++tier)
+    summary.tiers.push_back(tier_summary(of_threads, tier));
+  for (std::size_t baseline = 0; baseline < of_threads.front()->baselines.size(); ++baseline)
+    summary.baselines.push_back(baseline_summary(of_threads, baseline));
+  summary.noise =
+      all_figures(of_threads, [](const RegretRow& row) { return Regret{std::max(row.noise, 1 / row.noise)}; });
+  return summary;
+}
+
+std::vector<ChoicePlace> worst_choices(std::span<const RegretRow> rows, std::size_t most) {
+  std::vector<ChoicePlace> places;
+  for (std::size_t row = 0; row < rows.size(); ++row)
+    for (std::size_t choice = 0; choice < rows[row].choices.size(); ++choice)
+      if (rows[row].choices[choice].choice.candidate != rows[row].best) places.push_back({row, choice});
+  const auto regret = [&](const ChoicePlace& place) { return rows[place.row].choices[place.choice].regret.value; };
+  std::stable_sort(places.begin(), places.end(),
+                   [&](const ChoicePlace& a, const ChoicePlace& b) { return regret(a) > regret(b); });
+  places.resize(std::min(places.size(), most));
+  return places;
+}
+
+}  // namespace detp::validate
