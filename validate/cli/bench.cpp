@@ -105,7 +105,7 @@ Json inputs_json(const BenchCommand& command, const validate::BenchSet& set, con
 }
 
 Result run_command_bench(const BenchCommand& command, const CommonOptions& common, const std::stop_token& stop) {
-  if (command.regret.wanted)
+  if (command.regret.is_wanted())
     return run_bench_regret(command.regret, command.effort, command.scene, command.fields, common, stop);
   const ProgressLine progress(common);
   const validate::BenchOptions options = options_of(command, common, stop, progress);

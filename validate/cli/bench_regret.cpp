@@ -52,16 +52,25 @@ Json inputs_json(const std::vector<RegretWorkload>& workloads, const std::string
 }  // namespace
 
 void RegretCommand::add_to(CLI::App& bench) {
-  CLI::Option* regret = bench.add_flag(
-      "--regret", wanted,
+  bench_ = &bench;
+  bench.add_flag(
+      "--regret", wanted_,
       "how much slower the chosen candidates are than the best of all, instead of a race with Embree; the effort quick "
-      "takes a minute, thorough hours; only SCENE, --field and --effort select workloads, and the default is one "
-      "thread");
-  costs.add_to(bench);
-  for (const char* option : {"--costs", "--calibration"}) bench.get_option(option)->needs(regret);
+      "takes a minute, thorough hours; SCENE and --field select some of its workloads");
+  costs_.add_to(bench);
+}
+
+bool RegretCommand::is_wanted() const {
+  const auto is_given = [&](const char* option) { return bench_->get_option(option)->count() > 0; };
   for (const char* option :
        {"--rays", "--samples", "--disc-radius", "--techniques", "--embree-modes", "--repeat", "--most-hits"})
-    regret->excludes(bench.get_option(option));
+    if (wanted_ && is_given(option))
+      throw std::invalid_argument(fmt::format(
+          "{} and --regret exclude each other; SCENE, --field and --effort select the workloads of --regret", option));
+  for (const char* option : {"--costs", "--calibration"})
+    if (!wanted_ && is_given(option))
+      throw std::invalid_argument(fmt::format("bench uses {} only with --regret", option));
+  return wanted_;
 }
 
 Result run_bench_regret(const RegretCommand& command, const std::string& effort,
@@ -73,7 +82,7 @@ Result run_bench_regret(const RegretCommand& command, const std::string& effort,
       thorough ? validate::RegretEffort::thorough : validate::RegretEffort::quick, folder != nullptr ? folder : "");
   if (scene) keep_scene(set.workloads, *scene);
   if (!fields.empty()) keep_fields(set.workloads, fields);
-  const CostsInUse costs = command.costs.costs(common);
+  const CostsInUse costs = command.costs(common);
   const ProgressLine progress(common);
   validate::RegretOptions options{.costs = costs.costs,
                                   .threads = std::max(1, common.threads),

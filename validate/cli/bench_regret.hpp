@@ -12,12 +12,21 @@
 /// `bench --regret`.
 namespace detp::cli {
 
-struct RegretCommand {
-  bool wanted = false;  ///< --regret
-  CostOptions costs;
-
+class RegretCommand {
+ public:
   /// Adds --regret, --costs and --calibration.
   void add_to(CLI::App& bench);
+
+  /// Whether --regret was given. Throws std::invalid_argument if other options were given that exclude --regret or need
+  /// it.
+  [[nodiscard]] bool is_wanted() const;
+
+  [[nodiscard]] CostsInUse costs(const CommonOptions& common) const { return costs_.costs(common); }
+
+ private:
+  bool wanted_ = false;
+  CostOptions costs_;
+  const CLI::App* bench_ = nullptr;
 };
 
 /// The regret of the choices over the workloads of the effort: "quick" or "thorough". With a scene or fields, only over

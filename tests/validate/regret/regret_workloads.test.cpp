@@ -1,0 +1,103 @@
+#include "detp/validate/regret/regret_workloads.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "support/scratch_file.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+
+namespace {
+
+const std::vector<std::string> mesh_files{"stanford_bunny.obj", "sponza.ply", "bedroom.ply", "mountain.obj",
+                                          "grove_fine.ply"};
+
+/// All workloads, with meshes whose files are empty.
+std::vector<RegretWorkload> workloads_with_meshes() {
+  const support::ScratchFolder folder;
+  for (const std::string& mesh : mesh_files) folder.file(mesh, "");
+  const RegretSet set = regret_set(RegretEffort::thorough, folder.path(""));
+  CHECK(set.missing.empty());
+  return set.workloads;
+}
+
+template <class Value>
+std::set<Value> values_of(const std::vector<RegretWorkload>& workloads, Value RegretWorkload::*member) {
+  std::set<Value> values;
+  for (const RegretWorkload& one : workloads) values.insert(one.*member);
+  return values;
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("there are at least 300 workloads, of all radii, numbers of rays and both fields in both halves") {
+    const auto workloads = workloads_with_meshes();
+    CHECK(workloads.size() >= 300);
+    for (const bool held_out : {false, true}) {
+      CAPTURE(held_out);
+      std::vector<RegretWorkload> half;
+      for (const RegretWorkload& one : workloads)
+        if (one.held_out == held_out) half.push_back(one);
+      CHECK(half.size() >= 100);
+      CHECK(values_of(half, &RegretWorkload::radius) == std::set{0.0025, 0.01, 0.04, 0.16});
+      CHECK(values_of(half, &RegretWorkload::rays) == std::set{1e2, 1e3, 1e4, 1e5, 1e6});
+      CHECK(values_of(half, &RegretWorkload::field).size() == 2);
+    }
+  }
+
+  TEST_CASE("no scene is in both halves, all meshes are held out, and no workload occurs twice") {
+    const auto workloads = workloads_with_meshes();
+    std::map<std::string, std::set<bool>> halves;
+    std::set<std::tuple<std::string, sim::Field, double, double, double>> distinct;
+    for (const RegretWorkload& one : workloads) {
+      halves[one.scene].insert(one.held_out);
+      distinct.insert({one.scene, one.field, one.samples, one.radius, one.rays});
+    }
+    CHECK(distinct.size() == workloads.size());
+    CHECK(halves.size() == 14);
+    for (const auto& half : halves) CHECK(half.second.size() == 1);
+    CHECK(halves.at("sponza") == std::set{true});
+    CHECK(halves.at("@tree") == std::set{false});
+  }
+
+  TEST_CASE("the quick effort is small, needs no meshes, and has both halves and all radii") {
+    const RegretSet set = regret_set(RegretEffort::quick, "");
+    CHECK(set.missing.empty());
+    CHECK(set.workloads.size() >= 20);
+    CHECK(set.workloads.size() <= 40);
+    CHECK(values_of(set.workloads, &RegretWorkload::held_out).size() == 2);
+    CHECK(values_of(set.workloads, &RegretWorkload::radius).size() == 4);
+    CHECK(values_of(set.workloads, &RegretWorkload::rays) == std::set{1e3, 1e4});
+    CHECK(values_of(set.workloads, &RegretWorkload::scene).size() == 9);
+    for (const RegretWorkload& one : set.workloads) CHECK((one.samples > 0 && one.samples <= 1e4));
+  }
+
+  TEST_CASE("meshes that are missing are named, with the reason") {
+    const RegretSet unknown = regret_set(RegretEffort::thorough, "");
+    REQUIRE(unknown.missing.size() == mesh_files.size());
+    CHECK(unknown.missing[0] == "stanford_bunny: DETP_SCENES, the folder of its file, is not set");
+    const RegretSet absent = regret_set(RegretEffort::thorough, "/nowhere");
+    CHECK(absent.missing[1] == "sponza: /nowhere/sponza.ply does not exist");
+  }
+
+  TEST_CASE("the job has the rays, discs and radius of the workload, from a scene or made") {
+    const RegretWorkload uniform{
+        .scene = "@uniform", .discs = "@uniform", .samples = 200, .radius = 0.04, .rays = 100, .held_out = false};
+    const RegretWorkload sheet{
+        .scene = "thin-sheet", .discs = AwkwardScene::thin_sheet, .samples = 200, .radius = 0.04, .rays = 100};
+    for (const RegretWorkload& workload : {uniform, sheet}) {
+      CAPTURE(workload.scene);
+      const Job job = make_regret_job(workload, 1, {});
+      CHECK(job.rays.size() == 100);
+      CHECK(job.discs.size() == 200);
+      CHECK(job.workload.rays == 100);
+      CHECK(job.workload.samples == 200);
+      CHECK(job.workload.disc_radius / scene_side(job.workload) == doctest::Approx(0.04).epsilon(0.1));
+    }
+  }
+}
