@@ -18,7 +18,8 @@ namespace {
 
 constexpr double least_patience = 0.005;  ///< seconds
 constexpr double short_run = 0.02;        ///< seconds; the first time of shorter runs is the shortest of three
-constexpr double enough_timed = 0.01;     ///< seconds of one candidate after which the rounds need not go on
+constexpr double enough_timed = 0.01;     ///< seconds of the fastest; more rounds of a half are not needed
+constexpr int most_rounds = 60;           ///< of a half, unless more repeats are asked for
 constexpr int most_rounds_of_neighbours = 6;
 constexpr int most_rounds_far_behind = 2;
 constexpr double infinite = std::numeric_limits<double>::infinity();
@@ -132,8 +133,8 @@ class Search {
 
   void time_in_turns(const std::vector<Timed*>& entries, std::vector<double> Timed::*half) const {
     const sim::Stopwatch watch;
-    const double enough = std::clamp<double>(enough_timed / fastest_, options_.repeats, 5.0 * options_.repeats);
-    in_turns(entries.size(), static_cast<int>(std::ceil(enough)), [&](std::size_t i, int round) {
+    const double enough = std::min<double>(most_rounds, std::ceil(enough_timed / fastest_));
+    in_turns(entries.size(), std::max(options_.repeats, static_cast<int>(enough)), [&](std::size_t i, int round) {
       if (i == 0 && round > 0 && watch.seconds() > options_.most_seconds) return false;
       Timed& one = *entries[i];
       if (round >= most_rounds_far_behind && is_far_behind(one)) return true;

@@ -36,14 +36,14 @@ struct Timed {
 [[nodiscard]] std::optional<std::size_t> fastest_selected(std::span<const Timed> candidates);
 
 struct ExhaustiveOptions {
-  int repeats = 3;  ///< rounds of each half; up to five times as many if the runs are shorter than 10 ms
+  int repeats = 5;  ///< rounds of each half; more, up to 60, if the fastest run takes less than 2 ms
   /// no further round of a half begins after this many seconds
   double most_seconds = 3;
   /// a first run is abandoned after this many times the shortest time so far, but at least 5 ms
   double patience = 4;
   double patience_if_asked = 10;  ///< the same for a candidate that was asked for
-  double behind =
-      1.5;  ///< a candidate that first takes more than this many times the shortest time is not selected from
+  /// a candidate whose first run takes more than this many times the shortest time cannot be selected
+  double behind = 1.5;
   int threads = 1;
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
