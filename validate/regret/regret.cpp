@@ -31,8 +31,8 @@ class Runner {
       const double after = before + effort(workloads_[i]) / whole;
       try {
         if (run(i, sim::part_of(options_.progress, before, after))) ++result_.done;
-      } catch (const sim::Stopped&) {  // while making rays
-      } catch (const std::length_error& error) {
+      } catch (const sim::Stopped&) {            // while making rays
+      } catch (const std::logic_error& error) {  // too long for the memory, or an invalid argument
         result_.skipped.push_back({workloads_[i], error.what()});
         ++result_.done;
       }

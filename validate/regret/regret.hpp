@@ -75,8 +75,8 @@ struct RegretResult {
 /// each time another one.
 [[nodiscard]] constexpr bool has_more_threads(std::size_t place) { return place % 5 == place / 5 % 5; }
 
-/// Runs the choosers and the exhaustive search on each workload. Skips workloads that do not fit in memory. Throws as
-/// make_job does for a file that cannot be read.
+/// Runs the choosers and the exhaustive search on each workload. Skips a workload, with the reason, if it does not fit
+/// in memory or if a chooser or technique refuses it. Throws as make_job does for a file that cannot be read.
 [[nodiscard]] RegretResult run_regret(std::span<const RegretWorkload> workloads, std::span<const Chooser> choosers,
                                       const RegretOptions& options);
 

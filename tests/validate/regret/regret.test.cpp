@@ -2,6 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include <stdexcept>
+
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/regret/regret_summary.hpp"
 #include "support/sanitized.hpp"
@@ -75,6 +77,19 @@ TEST_SUITE("known answer") {
       CHECK(found == 1);
       CHECK(has_more_threads(first + first / 5));
     }
+  }
+
+  TEST_CASE("a workload that a chooser refuses is skipped, with the reason") {
+    const Chooser refusing{"refusing", [](const sim::Problem&, const Job&) -> validate::Choice {
+                             throw std::invalid_argument("too flat");
+                           }};
+    const RegretResult result =
+        run_regret(std::vector{tiny_workload(false)}, std::vector{refusing}, {.costs = built_in_unit_costs()});
+    CHECK(result.rows.empty());
+    REQUIRE(result.skipped.size() == 1);
+    CHECK(result.skipped[0].why == "too flat");
+    CHECK(result.done == 1);
+    CHECK_FALSE(result.stopped);
   }
 
   TEST_CASE("a stop request before the first workload leaves no rows") {
