@@ -199,7 +199,8 @@ inline Json without_times(const Json& json) {
   for (const auto& [key, value] : json.items()) {
     if (json.is_array()) {
       rest.push_back(without_times(value));
-    } else if (!key.starts_with("measured_") && !key.ends_with("seconds") && key != "threads" && key != "regret") {
+    } else if (!key.starts_with("measured_") && !key.ends_with("seconds") && key != "threads" && key != "regret" &&
+               key != "choosing_share") {
       rest[key] = without_times(value);
     } else if (key == "predicted_seconds") {
       rest[key] = value;

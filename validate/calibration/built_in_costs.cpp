@@ -33,29 +33,27 @@ struct Nanoseconds {
 CostTable built_in_unit_costs() {
   CostTable costs;
   const auto set = [&](Technique technique, const Nanoseconds& of_one) { costs[technique] = of_one.seconds(); };
-  set(Technique::brute_force, {.u = 0.611, .l = 42.5, .h = 1.02, .i = 6.67, .a = 5.5e+03});
-  set(Technique::sphere_cache,
-      {.t = 0.489, .u = 0.432, .c = 1.32, .r = 169, .l = 321, .h = 2.9, .i = 12.3, .m = 267, .a = 4e+03});
+  set(Technique::brute_force, {.u = 0.438, .l = 21.8, .i = 5.87, .m = 0.715, .a = 3.69e+03});
+  set(Technique::sphere_cache, {.t = 0.487, .u = 0.401, .c = 0.916, .r = 111, .l = 184, .i = 5.23, .m = 87.8});
   set(Technique::sphere_cache_published,
-      {.t = 0.489, .u = 0.432, .c = 1.32, .r = 169, .l = 321, .h = 2.9, .i = 12.3, .m = 267, .a = 4e+03});
-  set(Technique::cell_spheres,
-      {.t = 0.694, .u = 0.806, .s = 96.4, .r = 249, .l = 326, .i = 13.1, .m = 167, .a = 6.17e+03});
-  set(Technique::sphere_tree, {.t = 8.66, .u = 6.16, .c = 15.9, .s = 203, .r = 100, .h = 121, .m = 31.5});
-  set(Technique::box_tree, {.t = 0.702,
-                            .u = 0.545,
-                            .c = 1.51,
-                            .p = 69.3,
-                            .r = 168,
-                            .l = 6.83,
-                            .h = 0.316,
-                            .i = 5.12,
-                            .m = 13.3,
-                            .a = 1.08e+04});
-  set(Technique::octree, {.w = 5.55, .n = 105, .b = 168, .h = 146, .m = 221});
-  set(Technique::grid, {.w = 6.43, .v = 45.3, .b = 136, .h = 206, .m = 127});
-  set(Technique::bsp, {.w = 3.59, .n = 78.4, .b = 75.5, .h = 191, .a = 1.62e+03});
-  set(Technique::bvh, {.w = 91.6, .b = 384, .i = 108, .m = 14.3, .a = 7.69e+04});
-  set(Technique::ray_map, {.w = 2.85, .n = 48.3, .c = 53.7, .h = 113, .m = 20.9});
+      {.t = 0.487, .u = 0.401, .c = 0.916, .r = 111, .l = 184, .i = 5.23, .m = 87.8});
+  set(Technique::cell_spheres, {.t = 0.62, .u = 0.494, .s = 68.1, .r = 133, .l = 233, .i = 10.2, .m = 205});
+  set(Technique::sphere_tree, {.t = 7.32, .u = 3.86, .c = 4.57, .g = 163, .s = 118, .h = 73.7, .m = 22.5});
+  set(Technique::box_tree, {.t = 0.554,
+                            .u = 0.449,
+                            .c = 1.33,
+                            .p = 44.3,
+                            .g = 57.6,
+                            .r = 37.4,
+                            .l = 15.3,
+                            .i = 4.48,
+                            .m = 7.5,
+                            .a = 3.62e+03});
+  set(Technique::octree, {.w = 3.07, .n = 74.6, .b = 98.1, .h = 97, .m = 49.9});
+  set(Technique::grid, {.w = 3.77, .v = 34.8, .b = 92.3, .h = 148, .i = 4.54, .m = 115});
+  set(Technique::bsp, {.w = 2.78, .n = 42.3, .b = 46.7, .h = 110, .m = 7.67});
+  set(Technique::bvh, {.b = 292, .h = 155, .i = 101, .m = 1.77, .a = 3.18e+04});
+  set(Technique::ray_map, {.w = 0.564, .n = 43.6, .c = 36.3, .h = 51, .m = 14.5});
   return costs;
 }
 

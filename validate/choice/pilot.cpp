@@ -26,39 +26,44 @@ Piloted priced(const Candidate& candidate, const Counts<double>& counts, const C
 
 double seconds(const Piloted& one) { return one.time.total(); }
 
-/// Looks for the fastest box tree: its leaf with a fan-out of 8, from the middle in steps that halve or double it; then
-/// its fan-out.
+/// Looks for the fastest box tree: halves and doubles leaf and fan-out in turn, as long as that is faster.
 class ShapeSearch {
  public:
   ShapeSearch(const sim::PilotedDiscs& discs, const CostTable& costs) : discs_(discs), costs_(costs) {}
 
   std::vector<Piloted> run() {
-    consider(8, 32);
-    const int up = walk(2);
-    if (up == 32) walk(0.5);
-    for (const int fan_out : {4, 16}) consider(fan_out, best_leaf());
-    if (best().fan_out == 16) consider(32, best_leaf());
+    consider({8, 32});
+    for (BoxTreeParameters before{}; !(before == best());) {
+      before = best();
+      walk(&BoxTreeParameters::leaf, 4, 1024);
+      walk(&BoxTreeParameters::fan_out, 4, 64);
+    }
     std::stable_sort(tried_.begin(), tried_.end(),
                      [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
     return std::move(tried_);
   }
 
  private:
-  void consider(int fan_out, int leaf) {
-    const BoxTreeParameters shape{fan_out, leaf};
+  /// Returns true if the shape is the best so far, and was not tried before.
+  bool consider(const BoxTreeParameters& shape) {
+    const Candidate candidate{Technique::box_tree, shape};
+    for (const Piloted& one : tried_)
+      if (one.candidate == candidate) return false;
     const auto predicted = discs_.counts(shape);
-    tried_.push_back(priced({Technique::box_tree, shape}, predicted.counts, costs_, predicted.relative_error));
+    tried_.push_back(priced(candidate, predicted.counts, costs_, predicted.relative_error));
+    return best() == shape;
   }
 
-  /// Multiplies the leaf by `factor` as long as that is faster. Returns the fastest leaf.
-  int walk(double factor) {
-    for (int leaf = best_leaf();;) {
-      leaf = static_cast<int>(leaf * factor);
-      if (leaf < 4 || leaf > 1024) break;
-      consider(8, leaf);
-      if (best_leaf() != leaf) break;
-    }
-    return best_leaf();
+  void walk(int BoxTreeParameters::*parameter, int least, int most) {
+    const auto step = [&](bool up) {
+      BoxTreeParameters next = best();
+      next.*parameter = up ? next.*parameter * 2 : next.*parameter / 2;
+      return next.*parameter >= least && next.*parameter <= most && consider(next);
+    };
+    bool rose = false;
+    while (step(true)) rose = true;
+    if (!rose)
+      while (step(false)) continue;
   }
 
   [[nodiscard]] BoxTreeParameters best() const {
@@ -66,7 +71,6 @@ class ShapeSearch {
                                         [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
     return std::get<BoxTreeParameters>(least->candidate.parameters);
   }
-  [[nodiscard]] int best_leaf() const { return best().leaf; }
 
   const sim::PilotedDiscs& discs_;
   const CostTable& costs_;
@@ -159,14 +163,14 @@ class Others {
 double work_of(double rays, double discs) { return discs + 4 * rays; }
 
 std::size_t subtrees_of(double rays, double discs) {
-  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 25'000, 6.0, 32.0));
+  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 50'000, 4.0, 32.0));
 }
 
 }  // namespace
 
 std::vector<sim::Ray> pilot_sample(const sim::Problem& problem) {
   const double work = work_of(static_cast<double>(problem.rays().size()), static_cast<double>(problem.discs().size()));
-  const auto enough = static_cast<std::size_t>(std::clamp(work / 400, 256.0, 4096.0));
+  const auto enough = static_cast<std::size_t>(std::clamp(work / 600, 256.0, 4096.0));
   std::vector<sim::Ray> sample;
   for (const std::size_t ray : sim::stratified_sample(problem.rays().size(), enough, 1, sim::Stream::pilot))
     sample.push_back(problem.rays()[ray]);

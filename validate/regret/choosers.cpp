@@ -2,6 +2,7 @@
 
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/validate/choice/pilot.hpp"
 
 namespace detp::validate {
 namespace {
@@ -9,13 +10,19 @@ namespace {
 Choice estimate(const Job& job, const CostTable& costs) {
   const sim::Stopwatch watch;
   const model::Ranked first = model::rank(job.workload, costs).front();
-  return {first.candidate, first.time.total(), watch.seconds()};
+  return {first.candidate, first.time.total(), job.measure_seconds + watch.seconds()};
+}
+
+Choice pilot(const sim::Problem& problem, const CostTable& costs) {
+  const PilotChoice found = choose_by_pilot(problem, costs);
+  return {found.choice().candidate, found.choice().time.total(), found.pilot_seconds};
 }
 
 }  // namespace
 
 std::vector<Chooser> all_choosers(const CostTable& costs) {
-  return {{"estimate", [costs](const sim::Problem& /*problem*/, const Job& job) { return estimate(job, costs); }}};
+  return {{"pilot", [costs](const sim::Problem& problem, const Job& /*job*/) { return pilot(problem, costs); }},
+          {"estimate", [costs](const sim::Problem& /*problem*/, const Job& job) { return estimate(job, costs); }}};
 }
 
 }  // namespace detp::validate

@@ -22,7 +22,9 @@ struct Chooser {
 
 /// All tiers, one line each in choosers.cpp. `costs` are the unit costs with which they predict times.
 ///
-///     estimate   the first candidate of model::rank for the job's workload; choosing_seconds are those of model::rank
+///     pilot      choose_by_pilot; choosing_seconds do not include sorting the discs, which the run needs anyway
+///     estimate   the first candidate of model::rank for the job's workload; choosing_seconds include those of
+///                measuring the workload
 [[nodiscard]] std::vector<Chooser> all_choosers(const CostTable& costs);
 
 }  // namespace detp::validate

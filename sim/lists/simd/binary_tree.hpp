@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "detp/sim/geometry/curve_sort.hpp"
@@ -80,23 +81,27 @@ void join(BinaryNode& node, const BinaryNode& left, const BinaryNode& right, std
 std::uint32_t split_run(const SortedDiscs& discs, std::uint32_t leaf, std::uint32_t first, std::uint32_t count,
                         BinaryNode* nodes, std::uint32_t number);
 
+/// A child of a wide node.
+struct WideChild {
+  std::uint32_t node;
+  float inner_area;  ///< area of its box; negative for a leaf
+};
+
 /// Replaces `children` by the children of the wide node at an inner node: starts with its two children, then replaces
 /// the inner node with the largest box by its own children, until there are `fan_out` children or only leaves.
-/// `inner_area(child)` returns the area of a child's box, or a negative number for a leaf; `halves(node)` returns the
-/// numbers of a node's two children.
-template <class InnerArea, class Halves>
-void open_wide_node(std::uint32_t node, std::size_t fan_out, const InnerArea& inner_area, const Halves& halves,
-                    std::vector<std::uint32_t>& children) {
-  const auto [left, right] = halves(node);
-  children.assign({left, right});
+/// `halves(node)` returns a node's two children.
+template <class Halves>
+void open_wide_node(std::uint32_t node, std::size_t fan_out, const Halves& halves, std::vector<WideChild>& children) {
+  const std::pair<WideChild, WideChild> two = halves(node);
+  children.assign({two.first, two.second});
   while (children.size() < fan_out) {
-    const auto largest = std::max_element(children.begin(), children.end(), [&](std::uint32_t x, std::uint32_t y) {
-      return inner_area(x) < inner_area(y);
+    const auto largest = std::max_element(children.begin(), children.end(), [](const WideChild& x, const WideChild& y) {
+      return x.inner_area < y.inner_area;
     });
-    if (inner_area(*largest) < 0) break;
-    const auto [first, second] = halves(*largest);
-    *largest = first;
-    children.insert(largest + 1, second);
+    if (largest->inner_area < 0) break;
+    const std::pair<WideChild, WideChild> parts = halves(largest->node);
+    *largest = parts.first;
+    children.insert(largest + 1, parts.second);
   }
 }
 

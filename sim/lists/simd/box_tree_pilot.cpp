@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <deque>
 #include <memory>
 #include <optional>
@@ -20,15 +21,20 @@ constexpr std::uint32_t coarse_leaf = 128;  ///< the nodes of subtrees that are 
 constexpr std::uint32_t finest_leaf = 4;
 constexpr std::uint64_t seed = 1;
 
-/// A box that contains the discs, whatever their normals are.
+/// A box that contains the discs, whatever their normals are. The fourth number is not used: with it the compiler works
+/// on vectors.
 FloatBox box_around(std::span<const FloatDisc> discs) {
-  FloatBox box = nothing;
-  for (const FloatDisc& disc : discs)
-    for (int axis = 0; axis < 3; ++axis) {
-      box.low[axis] = std::min(box.low[axis], disc.centre[axis] - disc.radius);
-      box.high[axis] = std::max(box.high[axis], disc.centre[axis] + disc.radius);
+  std::array<float, 4> low{2, 2, 2, 2};
+  std::array<float, 4> high{-2, -2, -2, -2};
+  for (const FloatDisc& disc : discs) {
+    std::array<float, 4> centre;
+    std::memcpy(centre.data(), &disc, sizeof(centre));
+    for (std::size_t axis = 0; axis < 4; ++axis) {
+      low[axis] = std::min(low[axis], centre[axis] - disc.radius);
+      high[axis] = std::max(high[axis], centre[axis] + disc.radius);
     }
-  return box;
+  }
+  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
 }
 
 TreeNode as_tree_node(const BinaryNode& node) {
@@ -57,6 +63,8 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
   const RayTraits traits = load_rays(sample, frame, lists);
   // Only the pages of drawn subtrees are touched.
   const auto hits = std::make_unique_for_overwrite<ClassCounts[]>(discs.tree.discs.size());
+  const auto totals =
+      problem.front_facing() ? std::make_unique_for_overwrite<DiscTotals[]>(discs.tree.discs.size()) : nullptr;
   const BlockSearch block{.problem = of_sample,
                           .frame = frame,
                           .tree = discs.tree,
@@ -65,7 +73,7 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
                           .pairs = false,
                           .vectors = false,
                           .hits = hits.get(),
-                          .totals = nullptr};
+                          .totals = totals.get()};
   const std::size_t nodes = 4 * discs.tree.discs.size() / coarse_leaf + subtrees * most_in_a_subtree;
   nodes_.reserve(nodes);
   area_.reserve(nodes);
@@ -172,7 +180,12 @@ void BoxTreePilot::set_blocks() {
 double BoxTreePilot::blocks_with_a_ray(std::uint32_t node, double shape) const {
   constexpr double many = 16;  // sampled rays; then every block has some
   if (sampled_ >= rays_ || known_[node].rays > many) return known_[node].rays > 0 ? blocks_.count() : 0;
-  return blocks_.with_any(share_[node], 1 / shape);
+  // The rays of a block in the list are a Poisson variable, whose mean is a gamma variable of that shape.
+  const auto any = [&](double rays) {
+    const auto power = static_cast<float>(shape);
+    return 1 - std::exp(-power * std::log(1 + static_cast<float>(rays * share_[node]) / power));
+  };
+  return blocks_.whole * any(blocks_.size) + (blocks_.last > 0 ? any(blocks_.last) : 0);
 }
 
 void BoxTreePilot::cull_top(const BlockSearch& block, const RayLists& rays, Worker& worker) {
@@ -341,6 +354,11 @@ class BoxTreePilot::Evaluation {
     return refined > 0 ? refined : node;
   }
 
+  [[nodiscard]] WideChild child_at(std::uint32_t node) const {
+    const std::uint32_t child = resolved(node);
+    return {child, is_inner(child) ? area(child) : -1.0F};
+  }
+
   [[nodiscard]] bool is_inner(std::uint32_t node) const {
     if (node < pilot_.coarse_) return !nodes_[node].leaf() && nodes_[node].count > leaf_;
     return inner_[node - pilot_.coarse_] != 0;
@@ -372,12 +390,12 @@ class BoxTreePilot::Evaluation {
   void visit(std::uint32_t node, std::size_t level) {
     if (children_.size() <= level) children_.resize(level + 1);
     open_wide_node(
-        node, fan_out_, [this](std::uint32_t child) { return is_inner(child) ? area(child) : -1.0F; },
-        [this](std::uint32_t inner) { return std::pair(resolved(inner + 1), resolved(nodes_[inner].right)); },
+        node, fan_out_,
+        [this](std::uint32_t inner) { return std::pair(child_at(inner + 1), child_at(nodes_[inner].right)); },
         children_[level]);
     const Known& here = pilot_.known_[node];
     for (std::size_t i = 0; i < children_[level].size(); ++i) {
-      const std::uint32_t child = children_[level][i];
+      const std::uint32_t child = children_[level][i].node;
       const Known& known = pilot_.known_[child];
       if (known.weight == 0) continue;  // below a subtree that was not drawn
       counts_.cull_tests += known.weight * here.rays;
@@ -421,7 +439,7 @@ class BoxTreePilot::Evaluation {
   const std::vector<BinaryNode>& nodes_;
   std::vector<char> inner_;
   std::vector<float> costs_;
-  std::deque<std::vector<std::uint32_t>> children_;  ///< of the wide nodes on the way down
+  std::deque<std::vector<WideChild>> children_;  ///< of the wide nodes on the way down
   std::optional<double> made_for_each_disc_;
   Counts<double> counts_;
 };

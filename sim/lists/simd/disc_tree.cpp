@@ -77,18 +77,19 @@ class Builder {
       write(node, place, node.first, node.count, true);
       return;
     }
-    std::vector<std::uint32_t> children;
+    std::vector<WideChild> children;
+    const auto child = [this](std::uint32_t one) { return WideChild{one, inner_area(one)}; };
     open_wide_node(
-        number, fan_out_, [this](std::uint32_t child) { return inner_area(child); },
-        [this](std::uint32_t inner) { return std::pair(inner + 1, binary_[inner].right); }, children);
+        number, fan_out_, [&](std::uint32_t inner) { return std::pair(child(inner + 1), child(binary_[inner].right)); },
+        children);
     const std::size_t first = tree_.nodes.size();
     tree_.nodes.resize(first + children.size());
     write(node, place, static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(children.size()), false);
     if (number == 0)
-      for (const std::uint32_t child : children) tree_.lists.first = std::max(tree_.lists.first, share(child));
+      for (const WideChild& one : children) tree_.lists.first = std::max(tree_.lists.first, share(one.node));
     const double room = number == 0 ? tree_.lists.first : around + share(number);
     tree_.lists.all = std::max(tree_.lists.all, room);
-    for (std::size_t i = 0; i < children.size(); ++i) widen(children[i], first + i, room);
+    for (std::size_t i = 0; i < children.size(); ++i) widen(children[i].node, first + i, room);
   }
 
   /// Share of the lines through S₀ that cross a node's box.

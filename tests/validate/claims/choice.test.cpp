@@ -63,6 +63,7 @@ TEST_SUITE("identity") {
         const auto counts = as_expected(sim::run(problem, ranked.candidate).counts);
         const auto check = [&](const char* term, double predicted, double counted) {
           if (predicted == 0 && counted == 0) return;
+          if (built_in_unit_costs()[ranked.candidate.technique].cull == 0 && term == std::string("culls")) return;
           const Finding& finding = of(findings, ranked, term);
           CHECK(finding.predictions.at(0).value == predicted);
           CHECK(finding.technique == name(ranked.candidate.technique));
@@ -115,15 +116,18 @@ TEST_SUITE("known answer") {
     const std::vector<Claim> of_both = judge_all(choice_findings(both));
     REQUIRE(claims.size() == of_both.size());
     int of_hits = 0;
-    for (std::size_t i = 0; i < claims.size(); ++i) {
-      const bool hits = claims[i].id.find(".hits.") != std::string::npos;
-      CAPTURE(claims[i].id);
-      CHECK(claims[i].verdict == Verdict::agrees);
-      CHECK(claims[i].predicted == (hits ? 0.5 : 1) * of_both[i].predicted);
+    for (const Claim& claim : claims) {
+      const bool hits = claim.id.find(".hits.") != std::string::npos;
+      CAPTURE(claim.id);
+      const auto both_faces =
+          std::find_if(of_both.begin(), of_both.end(), [&](const Claim& one) { return one.id == claim.id; });
+      REQUIRE(both_faces != of_both.end());
+      CHECK(claim.verdict == Verdict::agrees);
+      CHECK(claim.predicted == (hits ? 0.5 : 1) * both_faces->predicted);
       if (!hits) continue;
       ++of_hits;
-      CHECK(claims[i].observed.mean < 0.55 * of_both[i].observed.mean);
-      CHECK(claims[i].observed.mean > 0.45 * of_both[i].observed.mean);
+      CHECK(claim.observed.mean < 0.55 * both_faces->observed.mean);
+      CHECK(claim.observed.mean > 0.45 * both_faces->observed.mean);
     }
     CHECK(of_hits >= 5);
   }
@@ -133,7 +137,7 @@ TEST_SUITE("known answer") {
     experiment.choice->rays.resize(1);
     for (const Claim& claim : judge_all(choice_findings(experiment)))
       if (claim.id.find("culls") == std::string::npos && claim.id.find("placements") == std::string::npos &&
-          claim.id.find("visits") == std::string::npos)
+          claim.id.find("visits") == std::string::npos && claim.id.find(".made.") == std::string::npos)
         CHECK(claim.verdict == Verdict::undecided);
     std::stop_source source;
     source.request_stop();

@@ -30,7 +30,7 @@ void check_ranked(const Json& json) {
 TEST_SUITE("end to end") {
   TEST_CASE("structural rigor ranks by counts on the built structures, for isotropic lines only") {
     const std::string uniform = "choose @uniform --samples 2000 --rays 20000 --disc-radius 2% --format json";
-    const Json estimate = detp(uniform).json();
+    const Json estimate = detp(uniform + " --rigor estimate").json();
     const Finished finished = detp(uniform + " --rigor structural --analyze");
     CHECK(finished.code == 0);
     const Json structural = finished.json();
@@ -91,10 +91,10 @@ TEST_SUITE("end to end") {
     };
     for (const std::string& workload : {numbers, scene}) {
       CAPTURE(workload);
-      const Json fronts = result_of("choose " + workload + " --front-facing");
+      const std::string choose = "choose --rigor estimate " + workload;
+      const Json fronts = result_of(choose + " --front-facing");
       CHECK(fronts.at("inputs").at("front_facing") == true);
-      check_half(result_of("choose " + workload).at("candidates")[0].at("predicted"),
-                 fronts.at("candidates")[0].at("predicted"));
+      check_half(result_of(choose).at("candidates")[0].at("predicted"), fronts.at("candidates")[0].at("predicted"));
       const std::string grid = workload + " --technique grid --cells 8";
       check_half(result_of("model " + grid).at("counts"), result_of("model " + grid + " --front-facing").at("counts"));
       check_half(result_of("run " + grid).at("predicted"),

@@ -53,7 +53,7 @@ TEST_SUITE("known answer") {
       CHECK(row.samples == 100);
       CHECK(row.tried > 12);
       REQUIRE(row.choices.size() == choosers.size());
-      CHECK(row.choices[0].tier == "estimate");
+      CHECK(row.choices[0].tier == "pilot");
       CHECK(row.choices[0].choice.predicted_seconds > 0);
       CHECK(row.choices[0].choice.choosing_seconds > 0);
       CHECK(row.choices.back().choice.candidate == constant);
