@@ -1,7 +1,7 @@
 #pragma once
 
-/// The header for a program that embeds detp: chooses a technique for rays and discs, and searches them with it.
+/// The header for a program that embeds detp: plans a search for rays and discs, and executes it.
 /// Headers of single formulas (detp/model), scenes and rays (detp/sim) and claims (detp/validate) are installed too.
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/sim/technique/streamed.hpp"
-#include "detp/validate/choice/choose.hpp"
+#include "detp/validate/choice/plan.hpp"

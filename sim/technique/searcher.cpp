@@ -5,16 +5,13 @@
 #include "registry.hpp"
 
 namespace detp::sim {
-namespace {
 
-Problem problem_of(std::span<const Disc> discs, std::optional<double> farthest, bool front_facing,
-                   const std::stop_token& stop) {
+Problem searched_problem(std::span<const Disc> discs, std::optional<double> farthest, bool front_facing,
+                         const std::stop_token& stop) {
   constexpr double radii = 1000;
   if (!farthest) farthest = radii * enclosing_sphere(discs, stop).radius;
   return make_problem_without_rays(discs, *farthest, front_facing, stop);
 }
-
-}  // namespace
 
 Searcher::Searcher(std::span<const Disc> discs, const Candidate& candidate, std::optional<double> farthest,
                    bool front_facing, const RunOptions& options)
@@ -27,7 +24,7 @@ Searcher::Searcher(const DiscsView& discs, const Candidate& candidate, std::opti
 Searcher::Searcher(std::vector<Disc> copies, std::span<const Disc> borrowed, const Candidate& candidate,
                    std::optional<double> farthest, bool front_facing, const RunOptions& options)
     : own_discs_(std::move(copies)),
-      problem_(problem_of(own_discs_.empty() ? borrowed : own_discs_, farthest, front_facing, options.stop)) {
+      problem_(searched_problem(own_discs_.empty() ? borrowed : own_discs_, farthest, front_facing, options.stop)) {
   check_options(options, problem_);
   index_ = prepare(problem_, candidate, options);
 }

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "detp/sim/base/scratch.hpp"
@@ -9,6 +10,11 @@
 #include "detp/sim/search/views.hpp"
 
 namespace detp::sim {
+
+/// The problem of a Searcher: without rays, which may start at most `farthest` from the centre of S₀, the sphere around
+/// all discs (default: 1000 radii of S₀). Throws as make_problem_without_rays.
+[[nodiscard]] Problem searched_problem(std::span<const Disc> discs, std::optional<double> farthest, bool front_facing,
+                                       const std::stop_token& stop);
 
 /// Memory for one search at a time, kept for the next search.
 struct SearchScratch {
@@ -34,6 +40,10 @@ class Searcher {
   /// The same, but copies the discs.
   Searcher(const DiscsView& discs, const Candidate& candidate, std::optional<double> farthest = {},
            bool front_facing = false, const RunOptions& options = {});
+
+  /// Takes a problem without rays (searched_problem), and an index that was prepared for it. The problem's discs
+  /// must outlive the searcher.
+  Searcher(Problem problem, std::unique_ptr<Index> index) : problem_(std::move(problem)), index_(std::move(index)) {}
 
   /// Finds the hits of the rays, as run does. Returns scratch.outcome, which is valid until the scratch's next search.
   /// Counts and seconds are those of the search alone. Throws as run does, and std::invalid_argument if a ray starts

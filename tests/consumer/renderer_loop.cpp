@@ -27,13 +27,15 @@ int main() {
   };
 
   trace_photons();
-  const detp::Candidate best = detp::validate::choose(rays, discs);  // of all techniques, by their cost models
-  const detp::sim::Searcher searcher(discs, best);                   // the index over the samples, built once
+  // Technique and parameters, chosen by a pilot; the index over the samples, built once.
+  const detp::validate::Plan plan = detp::validate::plan(discs, rays);
+  std::printf("planned in %.2g ms, predicted %.2g ms\n", 1e3 * plan.planning_seconds(), 1e3 * plan.predicted_seconds());
   detp::sim::SearchScratch scratch;
   for (int frame = 0; frame < 3; ++frame) {
     trace_photons();
-    const detp::sim::Outcome& found = searcher.search(rays, scratch, {.count = false, .standard_error = true});
-    std::printf("%s: %llu hits; irradiance of sample 0: %.3f +- %.3f\n", detp::title(best).c_str(),
+    const detp::sim::Outcome& found =
+        detp::validate::execute(plan, rays, scratch, {.count = false, .standard_error = true});
+    std::printf("%s: %llu hits; irradiance of sample 0: %.3f +- %.3f\n", detp::title(plan.candidate()).c_str(),
                 static_cast<unsigned long long>(found.total_hits), found.irradiance[0], found.standard_error[0]);
     if (found.total_hits == 0) return 1;
   }

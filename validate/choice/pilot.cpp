@@ -168,12 +168,12 @@ std::size_t subtrees_of(double rays, double discs) {
 
 }  // namespace
 
-std::vector<sim::Ray> pilot_sample(const sim::Problem& problem) {
-  const double work = work_of(static_cast<double>(problem.rays().size()), static_cast<double>(problem.discs().size()));
+std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t discs) {
+  const double work = work_of(static_cast<double>(rays.size()), static_cast<double>(discs));
   const auto enough = static_cast<std::size_t>(std::clamp(work / 600, 256.0, 4096.0));
   std::vector<sim::Ray> sample;
-  for (const std::size_t ray : sim::stratified_sample(problem.rays().size(), enough, 1, sim::Stream::pilot))
-    sample.push_back(problem.rays()[ray]);
+  for (const std::size_t ray : sim::stratified_sample(rays.size(), enough, 1, sim::Stream::pilot))
+    sample.push_back(rays[ray]);
   return sample;
 }
 
@@ -203,7 +203,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
 
 PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>& costs, const PilotOptions& options) {
   const sim::Stopwatch watch;
-  const std::vector<sim::Ray> sample = pilot_sample(problem);
+  const std::vector<sim::Ray> sample = pilot_sample(problem.rays(), problem.discs().size());
   const double sampling = watch.seconds();
   PilotChoice found = choose_by_pilot(problem, sample, static_cast<double>(problem.rays().size()), costs, options);
   found.pilot_seconds += sampling;

@@ -50,8 +50,8 @@ struct PilotOptions {
   std::stop_token stop = {};
 };
 
-/// A stratified sample of the problem's rays, large enough for a pilot.
-[[nodiscard]] std::vector<sim::Ray> pilot_sample(const sim::Problem& problem);
+/// A stratified sample of the rays, large enough for a pilot.
+[[nodiscard]] std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t discs);
 
 /// The candidate that finds the hits of `rays` rays fastest by the simd engine, and how long it will take. `sample` are
 /// some of these rays, drawn at random or in strata, as by pilot_sample.

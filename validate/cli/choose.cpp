@@ -56,7 +56,7 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs
 void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs, int threads,
                      const std::stop_token& stop) {
   const sim::Problem problem = job.problem(threads, stop);
-  answer.pilot = validate::choose_by_pilot(problem, validate::pilot_sample(problem), job.workload.rays, costs,
+  answer.pilot = validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()), job.workload.rays, costs,
                                            {.threads = threads, .stop = stop});
   for (const validate::Piloted& one : answer.pilot->candidates)
     answer.ranking.push_back({one.candidate, one.counts, one.time, {}});

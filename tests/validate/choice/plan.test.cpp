@@ -1,0 +1,79 @@
+#include "detp/validate/choice/plan.hpp"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/technique/technique.hpp"
+
+using namespace detp;
+using doctest::Approx;
+
+namespace {
+
+std::vector<sim::Disc> some_discs() { return sim::uniform_discs(sim::Body::cube_faces, 2, 3000, 0.03, 3); }
+
+std::vector<sim::Ray> some_rays(const std::vector<sim::Disc>& discs, std::uint64_t seed, std::size_t count) {
+  return sim::LineField(sim::enclosing_sphere(discs), seed).lines(0, count);
+}
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("a plan finds the hits of brute force, for each frame of rays") {
+    const auto discs = some_discs();
+    const auto made = validate::plan(discs, some_rays(discs, 1, 2000));
+    sim::SearchScratch scratch;
+    for (std::uint64_t frame = 1; frame <= 3; ++frame) {
+      const auto rays = some_rays(discs, frame, 2000);
+      const auto all = sim::run(sim::make_problem(rays, discs), {Technique::brute_force, BruteForceParameters{}});
+      const sim::Outcome& found = validate::execute(made, rays, scratch);
+      CHECK(found.hits == all.hits);
+      CHECK(found.irradiance == all.irradiance);
+    }
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the plan depends on the number of rays that is announced") {
+    const auto discs = some_discs();
+    const auto rays = some_rays(discs, 1, 300);
+    const auto few = validate::plan(discs, rays, {.rays = 2});
+    const auto many = validate::plan(discs, rays, {.rays = 1e8});
+    CHECK(few.candidate().technique == Technique::brute_force);
+    CHECK(many.candidate().technique == Technique::box_tree);
+    CHECK(many.predicted_seconds() > 1000 * few.predicted_seconds());
+    CHECK(many.predicted_error() > 0);
+    CHECK(many.planning_seconds() > 0);
+  }
+
+  TEST_CASE("rays from too far away for floats are planned by closed forms") {
+    const auto discs = some_discs();
+    std::vector<sim::Ray> rays = some_rays(discs, 1, 50);
+    for (sim::Ray& ray : rays) ray.origin -= 1e12 * ray.direction;
+    const auto made = validate::plan(discs, rays, {.farthest = 2e12});
+    sim::SearchScratch scratch;
+    const auto all = sim::run(sim::make_problem(rays, discs), {Technique::brute_force, BruteForceParameters{}});
+    CHECK(validate::execute(made, rays, scratch).hits == all.hits);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("no rays, no discs, a ray too far away, a stop request") {
+    const auto discs = some_discs();
+    const auto rays = some_rays(discs, 1, 50);
+    CHECK_THROWS_AS(validate::plan(discs, {}), std::invalid_argument);
+    CHECK_THROWS_AS(validate::plan({}, rays), std::invalid_argument);
+    std::stop_source source;
+    source.request_stop();
+    CHECK_THROWS_AS(validate::plan(discs, rays, {.stop = source.get_token()}), sim::Stopped);
+    const auto made = validate::plan(discs, rays);
+    sim::SearchScratch scratch;
+    const std::vector<sim::Ray> far{{.origin = {1e9, 0, 0}, .direction = {1, 0, 0}}};
+    CHECK_THROWS_AS(validate::execute(made, far, scratch), std::invalid_argument);
+  }
+}
