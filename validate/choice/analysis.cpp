@@ -195,7 +195,11 @@ Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& 
   std::vector<Analysed> ranked;
   for (const model::Ranked& one : ranking) ranked.push_back({.candidate = one.candidate, .predicted = one});
   analyser.count(ranked);
-  analyser.count(predicted(techniques_left_out(analyser.candidates())));
+  std::vector<Candidate> left_out = techniques_left_out(analyser.candidates());
+  std::erase_if(left_out, [&](const Candidate& one) {
+    return std::find(options.disabled.begin(), options.disabled.end(), one.technique) != options.disabled.end();
+  });
+  analyser.count(predicted(left_out));
   for (const Candidate& leader : analyser.leaders()) analyser.count(predicted(neighbours(leader)));
   return std::move(analyser).finish();
 }

@@ -39,6 +39,7 @@ struct AnalysisOptions {
   double patience = 5;      ///< a run is abandoned after this many times the shortest time so far, but at least 20 ms
   double far_behind = 2;    ///< a candidate that takes more than this many times the shortest time is timed only once
   std::size_t leaders = 2;  ///< number of fastest candidates whose neighbours are tried
+  std::vector<Technique> disabled = {};  ///< techniques that are not added to the ranked ones
   std::stop_token stop = {};
   /// Returns the models' prediction for a candidate that was not ranked, or nothing if the candidate has no closed
   /// form.

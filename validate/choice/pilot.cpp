@@ -109,18 +109,23 @@ std::optional<Candidate> plain_candidate(Technique technique, const Workload& wo
   }
 }
 
+bool is_allowed(Technique technique, const PilotOptions& options) {
+  return std::find(options.disabled.begin(), options.disabled.end(), technique) == options.disabled.end();
+}
+
 /// Compares the other techniques with the best so far.
 class Others {
  public:
   Others(const sim::Problem& problem, double rays, const Valid<CostTable>& costs, PilotChoice& found,
-         const std::stop_token& stop)
-      : problem_(problem), rays_(rays), costs_(costs), found_(found), stop_(stop) {
+         const PilotOptions& options)
+      : problem_(problem), rays_(rays), costs_(costs), found_(found), options_(options) {
     least_ = least_counts(rays, static_cast<double>(problem.discs().size()), found.choice().counts.hits);
   }
 
   void compare() {
     for (const TechniqueRecord& record : technique_records)
-      if (record.exact && record.technique != Technique::box_tree && record.technique != Technique::brute_force)
+      if (record.exact && record.technique != Technique::box_tree && record.technique != Technique::brute_force &&
+          is_allowed(record.technique, options_))
         compare(record.technique);
   }
 
@@ -136,14 +141,14 @@ class Others {
     if (!model::has_closed_form(technique) || best() < worth_finding || problem_.rays().empty())
       return found_.unexamined.push_back(technique);
     if (!workload_) {
-      workload_ = measure(problem_, {}, stop_);
+      workload_ = measure(problem_, {}, options_.stop);
       workload_->rays = rays_;
     }
     const std::optional<Candidate> plain = plain_candidate(technique, *workload_);
     if (!plain) return found_.unexamined.push_back(technique);
     const double with_plain = model::assess(*workload_, *plain, costs_).time.total();
     if (with_plain >= doubt * best()) return found_.ruled_out.push_back({technique, with_plain, false});
-    const auto tuned = model::best_of(technique, *workload_, costs_, {.stop = stop_});
+    const auto tuned = model::best_of(technique, *workload_, costs_, {.stop = options_.stop});
     if (!tuned) return found_.unexamined.push_back(technique);
     const double fastest = tuned->time.total();
     if (fastest >= doubt * best()) return found_.ruled_out.push_back({technique, fastest, false});
@@ -154,7 +159,7 @@ class Others {
   double rays_;
   const Valid<CostTable>& costs_;
   PilotChoice& found_;
-  const std::stop_token& stop_;
+  const PilotOptions& options_;
   Counts<double> least_;
   std::optional<Workload> workload_;
 };
@@ -180,6 +185,8 @@ std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t d
 PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays,
                             const Valid<CostTable>& costs, const PilotOptions& options) {
   if (sample.empty()) throw std::invalid_argument("a pilot needs at least one ray");
+  if (!is_allowed(Technique::box_tree, options))
+    throw std::invalid_argument("a pilot needs box-tree, which is disabled");
   if (!sim::PilotedDiscs::can_pilot(problem))
     throw std::invalid_argument("rays start too far from the discs for float kernels; a pilot needs them");
   const sim::Stopwatch watch;
@@ -195,8 +202,9 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
     std::stable_sort(found.candidates.begin(), found.candidates.end(),
                      [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
   };
-  add([&] { found.candidates.push_back(brute_force(rays, discs, found.choice().counts.hits, costs)); });
-  add([&] { Others(problem, rays, costs, found, options.stop).compare(); });
+  if (is_allowed(Technique::brute_force, options))
+    add([&] { found.candidates.push_back(brute_force(rays, discs, found.choice().counts.hits, costs)); });
+  add([&] { Others(problem, rays, costs, found, options).compare(); });
   found.pilot_seconds = watch.seconds() - found.sort_seconds;
   return found;
 }

@@ -47,6 +47,7 @@ struct PilotChoice {
 
 struct PilotOptions {
   int threads = 1;
+  std::vector<Technique> disabled = {};  ///< techniques that may not be chosen; box-tree must be allowed
   std::stop_token stop = {};
 };
 

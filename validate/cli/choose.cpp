@@ -18,12 +18,32 @@
 namespace detp::cli {
 namespace {
 
+bool is_in(const std::vector<Technique>& list, Technique technique) {
+  return std::find(list.begin(), list.end(), technique) != list.end();
+}
+
 struct ChooseOptions {
   WorkloadOptions workload;
   CostOptions costs;
   std::optional<std::string> rigor;
+  std::vector<std::string> disable;
   bool analyze = false;
 };
+
+/// The techniques that the option names. Throws std::invalid_argument for an unknown name, and if none is left.
+std::vector<Technique> disabled_techniques(const ChooseOptions& options) {
+  std::vector<Technique> disabled;
+  for (const std::string& text : options.disable) {
+    CandidateOptions named;
+    named.technique = text;
+    disabled.push_back(named.technique_or(Technique::brute_force));
+  }
+  const bool all = std::all_of(technique_records.begin(), technique_records.end(), [&](const TechniqueRecord& record) {
+    return !record.exact || !model::has_closed_form(record.technique) || is_in(disabled, record.technique);
+  });
+  if (all) throw std::invalid_argument("--disable leaves no technique that can be predicted");
+  return disabled;
+}
 
 /// Throws std::invalid_argument if the predicted times cannot be compared. Adds the candidate of the paper's rule.
 void check_ranking(ChooseAnswer& answer, const CostTable& costs) {
@@ -42,22 +62,27 @@ void check_ranking(ChooseAnswer& answer, const CostTable& costs) {
 }
 
 /// Returns the progress if a stop request ended the ranking, else nothing.
-std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs, const std::stop_token& stop) {
+std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs,
+                                    const std::vector<Technique>& disabled, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
+  std::erase_if(answer.ranking, [&](const model::Ranked& one) { return is_in(disabled, one.candidate.technique); });
+  if (answer.ranking.empty()) throw sim::Stopped("stopped before a technique that is not disabled was ranked");
   answer.choosing_seconds = answer.evidence_seconds + watch.seconds();
   check_ranking(answer, costs);
-  const auto all = std::count_if(all_techniques.begin(), all_techniques.end(),
-                                 [](Technique one) { return record_of(one).exact && model::has_closed_form(one); });
+  const auto all = std::count_if(all_techniques.begin(), all_techniques.end(), [&](Technique one) {
+    return record_of(one).exact && model::has_closed_form(one) && !is_in(disabled, one);
+  });
   if (!stop.stop_requested() || std::ssize(answer.ranking) >= all) return std::nullopt;
   return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
 }
 
-void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs, int threads,
-                     const std::stop_token& stop) {
+void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs,
+                     const std::vector<Technique>& disabled, int threads, const std::stop_token& stop) {
   const sim::Problem problem = job.problem(threads, stop);
-  answer.pilot = validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()), job.workload.rays, costs,
-                                           {.threads = threads, .stop = stop});
+  answer.pilot =
+      validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()),
+                                job.workload.rays, costs, {.threads = threads, .disabled = disabled, .stop = stop});
   for (const validate::Piloted& one : answer.pilot->candidates)
     answer.ranking.push_back({one.candidate, one.counts, one.time, {}});
   answer.choosing_seconds = answer.pilot->pilot_seconds;
@@ -147,6 +172,7 @@ std::optional<Rigor> requested_rigor(const ChooseOptions& options) {
 Result run_choose(const ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const auto rigor = requested_rigor(options);
   const bool structural = rigor == Rigor::structural;
+  const std::vector<Technique> disabled = disabled_techniques(options);
   const CostsInUse costs_in_use = options.costs.costs(common);
   const CostTable& costs = costs_in_use.costs;
   validate::JobRequest request = options.workload.request(common);
@@ -158,7 +184,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   answer.rigor = rigor.value_or(Rigor::estimate);
   if (request.numbers_alone() && !options.analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
-    result.stopped = decide(answer, costs, stop);
+    result.stopped = decide(answer, costs, disabled, stop);
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
   } else {
@@ -167,26 +193,28 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);
     answer.workload = job.workload;
-    if (!rigor && !request.numbers_alone() && sim::PilotedDiscs::can_pilot(job.problem())) answer.rigor = Rigor::pilot;
+    if (!rigor && !request.numbers_alone() && !is_in(disabled, Technique::box_tree) &&
+        sim::PilotedDiscs::can_pilot(job.problem()))
+      answer.rigor = Rigor::pilot;
     if (answer.rigor == Rigor::pilot) {
-      decide_by_pilot(answer, job, costs, common.threads, stop);
+      decide_by_pilot(answer, job, costs, disabled, common.threads, stop);
     } else {
       answer.evidence_seconds = job.measure_seconds;
-      result.stopped = decide(answer, costs, stop);
+      result.stopped = decide(answer, costs, disabled, stop);
     }
     if (structural && !result.stopped)
       result.stopped = decide_structurally(answer, job, costs, stop,
                                            sim::part_of(progress.report(), share_of_job, options.analyze ? 0.6 : 1));
     if (structural && result.stopped) answer.rigor = Rigor::estimate;
     if (options.analyze && !result.stopped) {
+      const auto predict = [&](const Candidate& candidate) {
+        return answer.pilot ? predicted_by_pilot(candidate, *answer.pilot, job, costs)
+                            : predicted(candidate, job, structural, costs, stop);
+      };
       answer.analysis = validate::analyse(job.problem(), answer.ranking,
-                                          {.stop = stop,
-                                           .predict =
-                                               [&](const Candidate& candidate) {
-                                                 return answer.pilot
-                                                            ? predicted_by_pilot(candidate, *answer.pilot, job, costs)
-                                                            : predicted(candidate, job, structural, costs, stop);
-                                               },
+                                          {.disabled = disabled,
+                                           .stop = stop,
+                                           .predict = predict,
                                            .progress = sim::part_of(progress.report(), share_of_job, 1)});
       if (answer.analysis->stopped) result.stopped = measured(*answer.analysis);
     }
@@ -216,6 +244,7 @@ Command choose_command(CLI::App& program) {
   app->add_option("--rigor", options->rigor,
                   "estimate: closed forms only; structural: the built structures, no rays; pilot: some of the rays, "
                   "through parts of the index; default: pilot, where there are rays");
+  app->add_option("--disable", options->disable, "a list of techniques that may not be chosen")->delimiter(',');
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);

@@ -49,6 +49,35 @@ TEST_SUITE("end to end") {
     check_refused({{"choose @tree --rays 1000 --rigor structural", "--field isotropic"}});
   }
 
+  TEST_CASE("a disabled technique is neither ranked nor run") {
+    const auto technique_of = [](const std::string& arguments) {
+      return result_of("choose " + arguments).at("choice").at("technique").get<std::string>();
+    };
+    const std::string scene = "@uniform --samples 2000 --rays 2000 --disc-radius 2%";
+    CHECK(technique_of(scene) == "box-tree");
+    CHECK(technique_of(scene + " --disable box-tree") != "box-tree");
+    CHECK(technique_of(scene + " --disable box-tree,grid --rigor estimate") != "box-tree");
+    const std::set<std::string> disabled{"bvh", "grid", "octree", "ray-map", "bsp"};
+    const Json analysed = result_of("choose " + scene + " --disable bvh,grid,octree,ray-map,bsp --analyze");
+    for (const Json& candidate : analysed.at("candidates")) CHECK(disabled.count(candidate.at("technique")) == 0);
+    check_refused(
+        {{"choose " + scene + " --disable tree", "sphere-tree"},
+         {"choose " + scene + " --disable box-tree --rigor pilot", "box-tree"},
+         {"choose " + scene + " --disable brute-force,sphere-cache,cell-spheres,sphere-tree,box-tree,octree,grid",
+          "leaves no technique"}});
+  }
+
+  TEST_CASE("the default is a pilot; each candidate has an error, the others are ruled out or not examined") {
+    const Json json = result_of("choose @tree --samples 20000 --rays 20000 --disc-radius 1%");
+    CHECK(json.at("rigor") == "pilot");
+    CHECK(json.at("choice").at("predicted_seconds_error") > 0);
+    CHECK(json.at("candidates")[0].at("could_still_win") == true);
+    CHECK(json.at("choosing_seconds").at("total") == json.at("choosing_seconds").at("pilot"));
+    CHECK(json.at("choosing_share") > 0);
+    CHECK(json.at("ruled_out").size() + json.at("not_examined").size() == 8);
+    CHECK(result_of("choose --rays 10 --samples 10 --disc-radius 0.1 --scene-side 1").at("rigor") == "estimate");
+  }
+
   TEST_CASE("a workload without a scene is ranked by predicted time") {
     for (const std::string workload :
          {"--rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2", "--rays 1 --samples 1 --disc-radius 1e-3",
