@@ -3,11 +3,13 @@
 #include <utility>
 
 #include "box_tree.hpp"
+#include "detp/sim/search/run_memory.hpp"
 
 namespace detp::sim {
 
 PilotedDiscs::PilotedDiscs(const Problem& problem, std::span<const Ray> sample, double rays, std::size_t subtrees,
                            const RunOptions& options) {
+  require_memory_for("the sorted discs", stream::building_bytes(problem.discs().size(), 0, 0), problem);
   const stream::Frame frame(problem);
   discs_ = stream::sort_discs(problem, frame, options);
   pilot_.emplace(problem, frame, discs_, sample, rays, subtrees, options.stop);

@@ -15,7 +15,8 @@ class PilotedDiscs {
   /// Whether float kernels can search the problem. A pilot needs them.
   [[nodiscard]] static bool can_pilot(const Problem& problem) { return stream::can_search(problem); }
 
-  /// Sorts the problem's discs, and culls the sample (BoxTreePilot).
+  /// Sorts the problem's discs, and culls the sample. Throws as BoxTreePilot, and std::length_error, naming the bytes, if
+  /// the discs would not fit in memory.
   PilotedDiscs(const Problem& problem, std::span<const Ray> sample, double rays, std::size_t subtrees,
                const RunOptions& options);
 

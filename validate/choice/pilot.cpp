@@ -185,6 +185,7 @@ std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t d
 PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays,
                             const Valid<CostTable>& costs, const PilotOptions& options) {
   if (sample.empty()) throw std::invalid_argument("a pilot needs at least one ray");
+  require_count("number of rays", rays, 1, 1e18);
   if (!is_allowed(Technique::box_tree, options))
     throw std::invalid_argument("a pilot needs box-tree, which is disabled");
   if (!sim::PilotedDiscs::can_pilot(problem))

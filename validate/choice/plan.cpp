@@ -30,8 +30,14 @@ Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays, cons
     made.planning_seconds_ = planning;
     return made;
   }
-  PilotChoice choice = choose_by_pilot(problem, pilot_sample(rays, discs.size()), count, options.costs,
-                                       {.threads = options.threads, .stop = options.stop});
+  PilotChoice choice;
+  try {
+    choice = choose_by_pilot(problem, pilot_sample(rays, discs.size()), count, options.costs,
+                             {.threads = options.threads, .stop = options.stop});
+  } catch (const std::invalid_argument&) {  // names a malformed ray by its number in the sample
+    static_cast<void>(sim::make_problem(rays, discs, options.front_facing, options.threads, options.stop));
+    throw;
+  }
   const double planning = watch.seconds() - choice.sort_seconds;
   auto index = build_choice(choice, problem, building);
   Plan made(choice.choice().candidate, sim::Searcher(std::move(problem), std::move(index)));

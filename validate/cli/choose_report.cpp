@@ -240,8 +240,10 @@ std::string margin(const ChooseAnswer& answer) {
       fmt::format("predicted {:.3g}{} s", seconds, error > 0 ? fmt::format(" ± {:.1g}", error) : "");
   const auto next = next_technique(answer);
   if (!next) return predicted + ", no other technique";
-  return fmt::format("{}, {}{:.2f} times faster than {}", predicted, answer.pilot ? "at least " : "",
-                     next->second / seconds, name(next->first));
+  const double times = next->second / seconds;
+  return answer.pilot ? fmt::format("{}, at least {:.2f} times faster than any other technique{}", predicted, times,
+                                    answer.pilot->unexamined.empty() ? "" : " that was examined")
+                      : fmt::format("{}, {:.2f} times faster than {}", predicted, times, name(next->first));
 }
 
 std::string ruled_out_line(const validate::PilotChoice& pilot) {

@@ -178,11 +178,12 @@ void BoxTreePilot::set_blocks() {
 }
 
 double BoxTreePilot::blocks_with_a_ray(std::uint32_t node, double shape) const {
-  constexpr double many = 16;  // sampled rays; then every block has some
+  constexpr double many = 16;           // sampled rays; then every block has some
+  constexpr double least_shape = 1e-6;  // practically no block has one
   if (sampled_ >= rays_ || known_[node].rays > many) return known_[node].rays > 0 ? blocks_.count() : 0;
   // The rays of a block in the list are a Poisson variable, whose mean is a gamma variable of that shape.
   const auto any = [&](double rays) {
-    const auto power = static_cast<float>(shape);
+    const auto power = static_cast<float>(std::max(shape, least_shape));
     return 1 - std::exp(-power * std::log(1 + static_cast<float>(rays * share_[node]) / power));
   };
   return blocks_.whole * any(blocks_.size) + (blocks_.last > 0 ? any(blocks_.last) : 0);
@@ -200,7 +201,9 @@ void BoxTreePilot::cull_top_below(const BlockSearch& block, std::uint32_t node, 
   const BinaryNode& here = nodes_[node];
   if (here.count <= most_in_a_subtree) {
     const auto discs = static_cast<float>(std::sqrt(here.count));
-    subtrees_.push_back({.root = node, .work = (1.0 + known_[node].rays) * expected_work(node) / here.box.area()});
+    const double area = here.box.area();  // 0 if the discs are in one point and too small for floats
+    const double of_a_ray = area > 0 ? expected_work(node) / area : discs;
+    subtrees_.push_back({.root = node, .work = (1 + known_[node].rays) * of_a_ray});
     for (const RayList& list : lists)
       for (std::size_t i = 0; i < list.size; ++i) work_[list.id[i] & ~falling] += discs;
     return;

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <map>
 #include <stdexcept>
 #include <vector>
@@ -111,6 +112,31 @@ TEST_SUITE("known answer") {
     CHECK(many.choice().counts.loaded == 1e9);
     CHECK(many.choice().counts.hits == Approx(1e6 * few.choice().counts.hits).epsilon(0.2));
     CHECK(many.choice().time.total() > 1e5 * few.choice().time.total());
+  }
+}
+
+TEST_SUITE("degenerate input") {
+  TEST_CASE(
+      "discs in one point or on one line, tiny discs, rays that miss everything: finite predictions, the same hits") {
+    const auto rays = sim::LineField({{0, 0, 0}, 2}, 4).lines(0, 3000);
+    for (const double radius : {1e-8, 1e-3, 1.0})
+      for (const double length : {0.0, 1.0, 1e9}) {
+        CAPTURE(radius);
+        CAPTURE(length);
+        std::vector<sim::Disc> discs;
+        for (int i = 0; i < 2000; ++i) discs.push_back({.centre = {length * i / 2000, 0, 0}, .radius = radius});
+        const sim::Problem problem = sim::make_problem(rays, discs);
+        auto found = validate::choose_by_pilot(problem, validate::built_in_unit_costs());
+        for (const auto& one : found.candidates) {
+          CHECK(one.time.total() > 0);
+          CHECK(std::isfinite(one.time.total()));
+          CHECK(std::isfinite(one.error));
+          for_each_term(one.counts, [](std::string_view, double count) { CHECK(std::isfinite(count)); });
+        }
+        const auto index = validate::build_choice(found, problem, {});
+        CHECK(sim::run(problem, *index).total_hits ==
+              sim::run(problem, {Technique::brute_force, BruteForceParameters{}}).total_hits);
+      }
   }
 }
 
