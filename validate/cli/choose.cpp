@@ -244,7 +244,8 @@ Command choose_command(CLI::App& program) {
   app->add_option("--rigor", options->rigor,
                   "estimate: closed forms only; structural: the built structures, no rays; pilot: some of the rays, "
                   "through parts of the index; default: pilot, where there are rays");
-  app->add_option("--disable", options->disable, "a list of techniques that may not be chosen; default: none")->delimiter(',');
+  app->add_option("--disable", options->disable, "a list of techniques that may not be chosen; default: none")
+      ->delimiter(',');
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);

@@ -16,11 +16,11 @@ struct ChooseAnswer {
   Workload workload;
   std::vector<model::Ranked> ranking;          ///< fastest first
   std::optional<validate::PilotChoice> pilot;  ///< its candidates are the ranking's, in the same order
-  model::Ranked paper;  ///< the paper's rule of thumb
+  model::Ranked paper;                         ///< the paper's rule of thumb
   std::optional<validate::Analysis> analysis;
   Rigor rigor = Rigor::estimate;
   CostTable costs;
-  std::string costs_origin;  ///< "of each operation: built in, ..."
+  std::string costs_origin;     ///< "of each operation: built in, ..."
   double evidence_seconds = 0;  ///< for measuring rays and discs, as far as the choice needs it
   double choosing_seconds = 0;  ///< with evidence and pilot
   std::vector<std::string> warnings;

@@ -113,7 +113,7 @@ TEST_SUITE("known answer") {
       in_errors += std::pow((ratio - 1) / predicted.relative_error, 2);
     }
     CHECK(sum / sets == Approx(1).epsilon(0.03));
-    CHECK(visits / sets == Approx(1).epsilon(0.15));  // where most lists hold about one ray: 11 % too few
+    CHECK(visits / sets == Approx(1).epsilon(0.15));       // where most lists hold about one ray: 11 % too few
     const double deviation = std::sqrt(in_errors / sets);  // in stated errors
     CHECK(deviation > 0.3);
     CHECK(deviation < 1.3);
