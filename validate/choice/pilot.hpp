@@ -26,7 +26,7 @@ struct Piloted {
   double error = 0;            ///< standard error of the time because of sampling, seconds; 0 for brute force
 };
 
-/// A technique that was not tried, because it cannot be faster than the choice.
+/// A technique that was not tried, because the unit costs say that it is slower than the choice.
 struct RuledOut {
   Technique technique;
   double seconds;  ///< by_bound: the least that it could take; otherwise, by its closed form
@@ -59,12 +59,13 @@ struct PilotOptions {
 ///
 /// The shapes of box trees are compared by sim::PilotedDiscs; brute force by its exact counts. Every other exact
 /// technique is ruled out if a search with the least counts that are possible takes longer than the best box tree:
-/// each disc sorted, placed and visited once, each ray loaded, each hit tested. A technique that this does not rule out
+/// each disc sorted, placed and visited once, each ray loaded, each hit tested. (If rays reach few of the discs, a search
+/// may visit fewer.) A technique that this does not rule out
 /// is compared by its closed form, if the best takes more than 0.1 s, so that 2 ms do not matter; it is ruled out if it
 /// takes twice as long as the best.
 ///
-/// Throws std::invalid_argument if the problem cannot be piloted (PilotedDiscs::can_pilot), for an empty
-/// sample or for invalid costs; sim::Stopped on a stop request.
+/// Throws std::invalid_argument if the problem cannot be piloted (PilotedDiscs::can_pilot), for an empty sample, for a
+/// number of rays out of 1 … 1e18 and if box-tree is disabled; sim::Stopped on a stop request.
 [[nodiscard]] PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays,
                                           const Valid<CostTable>& costs, const PilotOptions& options = {});
 

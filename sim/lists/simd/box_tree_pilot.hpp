@@ -20,9 +20,9 @@ struct PilotCounts {
 /// A pilot culls a sample of the rays down a sample of the binary tree.
 ///
 /// The top of the binary tree, down to subtrees of at most 512 discs, is built and culled whole. Of the subtrees, a few
-/// are drawn with probabilities proportional to their expected work: the sampled rays that cross them, times the sum of
-/// the surfaces of the boxes below, each times the root of its number of discs. They are built down to leaves of four
-/// discs and culled. Any box tree with leaves of at least four discs is made of nodes of the same binary tree, so its
+/// are drawn with probabilities proportional to their expected work: one plus the sampled rays that cross them, times the
+/// sum of the surfaces of the boxes below (those of at most 128 discs times the root of their number of discs), over the
+/// surface of the subtree's box. They are built down to leaves of four discs and culled. Any box tree with leaves of at least four discs is made of nodes of the same binary tree, so its
 /// counts are sums over these nodes:
 ///
 ///     count = n_R/n Σ_top rays(node) + n_R/n Σ_drawn w Σ_node rays(node)
@@ -86,7 +86,7 @@ class BoxTreePilot {
   std::vector<float> area_;    ///< of the nodes' boxes
   std::vector<double> share_;  ///< probability that a ray is in a node's list
   std::vector<Subtree> subtrees_;
-  std::vector<float> work_;  ///< of each sampled ray, in the unit of Subtree::work
+  std::vector<float> work_;  ///< of each sampled ray: sum, over the subtrees that it crosses, of √(number of discs)
   double hits_ = 0;          ///< expected, of the sampled rays
   double doubtful_ = 0;
 };
