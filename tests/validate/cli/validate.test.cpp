@@ -9,7 +9,8 @@ namespace detp::support {
 TEST_SUITE("end to end") {
   TEST_CASE("on a scene, choose's predictions are claims too, and exit code 1 means that one is refuted" *
             doctest::test_suite("long")) {
-    // Photon paths in a box: choose predicts the tests and hits of isotropic lines, about half of the counted numbers.
+    // Photon paths in a box: the closed forms of choose predict the tests and hits of isotropic lines, about half of the
+    // counted numbers.
     const std::string scene = " @cornell --samples 300 --rays 3200 --disc-radius 4%";
     const Finished finished = detp("validate" + scene + " --format json");
     const Json claims = finished.json().at("claims");
@@ -24,7 +25,7 @@ TEST_SUITE("end to end") {
     CHECK(finished.json().at("warnings").empty());
     CHECK(finished.code == (refuted ? 1 : 0));
     CHECK(refuted);
-    const Json choice = result_of("choose" + scene);
+    const Json choice = result_of("choose --rigor estimate" + scene);
     for (const Json& candidate : choice.at("candidates")) {
       const std::string technique = candidate.at("technique");
       CHECK(by_id.at("choice." + technique + ".disc-tests.corrected").at("predicted") ==
