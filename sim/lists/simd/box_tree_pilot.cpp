@@ -4,9 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <deque>
 #include <memory>
-#include <optional>
 
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/random.hpp"
@@ -16,9 +14,7 @@
 namespace detp::sim::stream {
 namespace {
 
-constexpr std::uint32_t most_in_a_subtree = 512;
 constexpr std::uint32_t coarse_leaf = 128;  ///< the nodes of subtrees that are not drawn are built down to this size
-constexpr std::uint32_t finest_leaf = 4;
 constexpr std::uint64_t seed = 1;
 
 /// A box that contains the discs, whatever their normals are. The fourth number is not used: with it the compiler works
@@ -91,6 +87,7 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
       StopCheck(stop, "culling the pilot's rays").now();
     }
   set_blocks();
+  set_relative_error();
 }
 
 /// Builds the top of the tree, and the nodes below it down to coarse_leaf discs. Returns the node's number.
@@ -197,6 +194,16 @@ void BoxTreePilot::cull_top(const BlockSearch& block, const RayLists& rays, Work
   cull_top_below(block, 0, rays, worker);
 }
 
+/// Returns the child's lists, which stay in the worker's arena until the caller's scope ends, and notes their size.
+RayLists BoxTreePilot::cull_child(const BlockSearch& block, std::uint32_t child, const RayLists& lists, double weight,
+                                  Worker& worker) {
+  RayLists inside = worker.lists.allocate_like(lists, block.segments);
+  if (size(lists) > 0) cull_node(block, as_tree_node(nodes_[child]), lists, inside, worker);
+  known_[child].rays = static_cast<float>(size(inside));
+  known_[child].weight = static_cast<float>(weight);
+  return inside;
+}
+
 void BoxTreePilot::cull_top_below(const BlockSearch& block, std::uint32_t node, const RayLists& lists, Worker& worker) {
   const BinaryNode& here = nodes_[node];
   if (here.count <= most_in_a_subtree) {
@@ -210,11 +217,7 @@ void BoxTreePilot::cull_top_below(const BlockSearch& block, std::uint32_t node, 
   }
   for (const std::uint32_t child : {node + 1, here.right}) {
     const ArenaScope scope(worker.lists);
-    RayLists inside = worker.lists.allocate_like(lists, block.segments);
-    if (size(lists) > 0) cull_node(block, as_tree_node(nodes_[child]), lists, inside, worker);
-    known_[child].rays = static_cast<float>(size(inside));
-    known_[child].weight = 1;
-    cull_top_below(block, child, inside, worker);
+    cull_top_below(block, child, cull_child(block, child, lists, 1, worker), worker);
   }
 }
 
@@ -288,16 +291,12 @@ void BoxTreePilot::cull_refined(const BlockSearch& block, std::uint32_t node, co
   }
   for (const std::uint32_t child : {node + 1, here.right}) {
     const ArenaScope scope(worker.lists);
-    RayLists inside = worker.lists.allocate_like(lists, block.segments);
-    if (size(lists) > 0) cull_node(block, as_tree_node(nodes_[child]), lists, inside, worker);
-    known_[child].rays = static_cast<float>(size(inside));
-    known_[child].weight = static_cast<float>(weight);
-    cull_refined(block, child, inside, weight, worker);
+    cull_refined(block, child, cull_child(block, child, lists, weight, worker), weight, worker);
   }
 }
 
 /// From the spread of the drawn subtrees' tests, and from that of the rays' work.
-double BoxTreePilot::relative_error() const {
+void BoxTreePilot::set_relative_error() {
   double all = 0;  // tests in subtrees
   double drawn = 0;
   double sum = 0;
@@ -310,7 +309,7 @@ double BoxTreePilot::relative_error() const {
     sum += stands_for;
     squares += stands_for * stands_for;
   }
-  if (all == 0) return 0;
+  if (all == 0) return;
   const double of_subtrees = drawn > 1 ? std::max(0.0, squares - sum * sum / drawn) * drawn / (drawn - 1) : 0;
   double work = 0;
   double work_squares = 0;
@@ -320,135 +319,7 @@ double BoxTreePilot::relative_error() const {
   }
   const double spread = std::max(0.0, sampled_ * work_squares / (work * work) - 1);
   const double left = std::max(0.0, 1 - sampled_ / rays_);
-  return std::sqrt(of_subtrees / (all * all) + spread / sampled_ * left);
-}
-
-/// Follows the builder: decides which nodes are leaves, and joins the others into wide nodes.
-class BoxTreePilot::Evaluation {
- public:
-  Evaluation(const BoxTreePilot& pilot, const BoxTreeParameters& parameters)
-      : pilot_(pilot),
-        fan_out_(static_cast<std::size_t>(parameters.fan_out)),
-        leaf_(std::max<std::uint32_t>(finest_leaf, static_cast<std::uint32_t>(parameters.leaf))),
-        nodes_(pilot.nodes_),
-        inner_(nodes_.size() - pilot.coarse_) {
-    for (const Subtree& subtree : pilot.subtrees_)
-      if (subtree.weight > 0) decide_leaves(subtree);
-  }
-
-  PilotCounts counts() {
-    const auto discs = static_cast<double>(pilot_.discs_.tree.discs.size());
-    is_inner(resolved(0)) ? visit(resolved(0), 0) : add_leaf(0, 1);
-    const double scale = pilot_.rays_ / pilot_.sampled_;
-    for (const auto per_ray : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests})
-      counts_.*per_ray *= scale;
-    counts_.visits = std::min(counts_.visits, discs * pilot_.blocks_.count());
-    counts_.loaded = pilot_.rays_;
-    counts_.hits = scale * pilot_.hits_;
-    counts_.doubtful = scale * pilot_.doubtful_;
-    counts_.sorted = counts_.placements = counts_.references = discs;
-    counts_.made = made_in_top(0);
-    return {counts_, pilot_.relative_error()};
-  }
-
- private:
-  [[nodiscard]] std::uint32_t resolved(std::uint32_t node) const {
-    const std::uint32_t refined = pilot_.known_[node].refined;
-    return refined > 0 ? refined : node;
-  }
-
-  [[nodiscard]] WideChild child_at(std::uint32_t node) const {
-    const std::uint32_t child = resolved(node);
-    return {child, is_inner(child) ? area(child) : -1.0F};
-  }
-
-  [[nodiscard]] bool is_inner(std::uint32_t node) const {
-    if (node < pilot_.coarse_) return !nodes_[node].leaf() && nodes_[node].count > leaf_;
-    return inner_[node - pilot_.coarse_] != 0;
-  }
-
-  /// As `join` decides, with leaves of up to leaf_ discs. Children come after their parent.
-  void decide_leaves(const Subtree& subtree) {
-    costs_.resize(subtree.last - subtree.first);
-    for (std::uint32_t i = subtree.last; i-- > subtree.first;) {
-      const BinaryNode& node = nodes_[i];
-      float& cost = costs_[i - subtree.first];
-      cost = static_cast<float>(node.count) * area(i);
-      if (node.leaf() || node.count <= leaf_) continue;
-      const NodeCost decided(area(i), node.count, area(i + 1) + area(node.right),
-                             costs_[i + 1 - subtree.first] + costs_[node.right - subtree.first]);
-      cost = decided.cost;
-      inner_[i - pilot_.coarse_] = decided.inner ? 1 : 0;
-    }
-  }
-
-  [[nodiscard]] float area(std::uint32_t node) const { return pilot_.area_[node]; }
-
-  void add_leaf(std::uint32_t node, double weight) {
-    const Known& known = pilot_.known_[node];
-    counts_.disc_tests += weight * known.rays * nodes_[node].count;
-    counts_.visits += weight * known.blocks * nodes_[node].count;
-  }
-
-  void visit(std::uint32_t node, std::size_t level) {
-    if (children_.size() <= level) children_.resize(level + 1);
-    open_wide_node(
-        node, fan_out_,
-        [this](std::uint32_t inner) { return std::pair(child_at(inner + 1), child_at(nodes_[inner].right)); },
-        children_[level]);
-    const Known& here = pilot_.known_[node];
-    for (std::size_t i = 0; i < children_[level].size(); ++i) {
-      const std::uint32_t child = children_[level][i].node;
-      const Known& known = pilot_.known_[child];
-      if (known.weight == 0) continue;  // below a subtree that was not drawn
-      counts_.cull_tests += known.weight * here.rays;
-      counts_.culls += known.weight * here.blocks;
-      counts_.listed += known.weight * known.rays;
-      if (!is_inner(child)) {
-        if (nodes_[child].count <= leaf_ || child >= pilot_.coarse_) add_leaf(child, known.weight);
-      } else if (nodes_[child].count > most_in_a_subtree || child >= pilot_.coarse_) {
-        visit(child, level + 1);  // not the root of a subtree that was not drawn
-      }
-    }
-  }
-
-  /// Nodes of the binary tree at and below a coarse node. A subtree has as many for each disc as the drawn ones.
-  [[nodiscard]] double made_in_top(std::uint32_t node) {
-    const BinaryNode& here = nodes_[node];
-    if (here.count <= leaf_) return 1;
-    if (here.count <= most_in_a_subtree) return made_for_each_disc() * here.count;
-    return 1 + made_in_top(node + 1) + made_in_top(here.right);
-  }
-
-  [[nodiscard]] double made_for_each_disc() {
-    if (made_for_each_disc_) return *made_for_each_disc_;
-    double made = 0;
-    double discs = 0;
-    for (const Subtree& subtree : pilot_.subtrees_)
-      if (subtree.weight > 0) {
-        made += made_below(subtree.first);
-        discs += nodes_[subtree.first].count;
-      }
-    return *(made_for_each_disc_ = made / discs);
-  }
-
-  [[nodiscard]] double made_below(std::uint32_t node) const {
-    return is_inner(node) ? 1 + made_below(node + 1) + made_below(nodes_[node].right) : 1;
-  }
-
-  const BoxTreePilot& pilot_;
-  std::size_t fan_out_;
-  std::uint32_t leaf_;
-  const std::vector<BinaryNode>& nodes_;
-  std::vector<char> inner_;
-  std::vector<float> costs_;
-  std::deque<std::vector<WideChild>> children_;  ///< of the wide nodes on the way down
-  std::optional<double> made_for_each_disc_;
-  Counts<double> counts_;
-};
-
-PilotCounts BoxTreePilot::counts(const BoxTreeParameters& parameters) const {
-  return Evaluation(*this, parameters).counts();
+  relative_error_ = std::sqrt(of_subtrees / (all * all) + spread / sampled_ * left);
 }
 
 }  // namespace detp::sim::stream

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <stop_token>
 #include <vector>
 
@@ -60,10 +61,15 @@ class BoxTreePilot {
     std::uint32_t last = 0;
     double tests = 0;  ///< of the sampled rays in its refined nodes
   };
-  class Evaluation;
+  class Evaluation;  ///< box_tree_pilot_counts.cpp
+
+  static constexpr std::uint32_t most_in_a_subtree = 512;
+  static constexpr std::uint32_t finest_leaf = 4;
 
   std::uint32_t build_coarse(std::uint32_t first, std::uint32_t count);
   void cull_top(const BlockSearch& block, const RayLists& rays, Worker& worker);
+  [[nodiscard]] RayLists cull_child(const BlockSearch& block, std::uint32_t child, const RayLists& lists, double weight,
+                                    Worker& worker);
   void cull_top_below(const BlockSearch& block, std::uint32_t node, const RayLists& lists, Worker& worker);
   [[nodiscard]] double expected_work(std::uint32_t node) const;
   void draw_subtrees(std::size_t most);
@@ -74,7 +80,7 @@ class BoxTreePilot {
   [[nodiscard]] double surface_share(std::uint32_t child, std::uint32_t parent) const;
   void set_blocks();
   [[nodiscard]] double blocks_with_a_ray(std::uint32_t node, double shape) const;
-  [[nodiscard]] double relative_error() const;
+  void set_relative_error();
 
   const SortedDiscs& discs_;
   double rays_;     ///< number of all rays
@@ -89,6 +95,7 @@ class BoxTreePilot {
   std::vector<float> work_;  ///< of each sampled ray: sum, over the subtrees that it crosses, of √(number of discs)
   double hits_ = 0;          ///< expected, of the sampled rays
   double doubtful_ = 0;
+  double relative_error_ = 0;
 };
 
 }  // namespace detp::sim::stream
