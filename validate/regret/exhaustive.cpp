@@ -9,9 +9,9 @@
 
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/base/in_turns.hpp"
 #include "detp/validate/base/stop_after.hpp"
 #include "detp/validate/choice/neighbours.hpp"
+#include "timed_rounds.hpp"
 
 namespace detp::validate {
 namespace {
@@ -21,7 +21,9 @@ constexpr double short_run = 0.02;        ///< seconds; the first time of shorte
 constexpr double enough_timed = 0.01;     ///< seconds of the fastest; more rounds of a half are not needed
 constexpr int most_rounds = 60;           ///< of a half, unless more repeats are asked for
 constexpr int most_rounds_of_neighbours = 6;
-constexpr int most_rounds_far_behind = 2;
+/// A candidate takes part in the selection if its first time is at most this many times the fastest. First runs do not
+/// take turns, so the machine's speed may have changed between two of them.
+constexpr double may_be_fastest = 3;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 // Expected shares of the time, for progress only.
 constexpr double share_of_first_runs = 0.5;
@@ -57,7 +59,7 @@ class Search {
     report("selecting the best", share_of_first_runs, share_of_first_runs + share_of_selecting);
     std::vector<Timed*> entries;
     for (Timed& one : found_.candidates)
-      if (!one.abandoned && !is_far_behind(one)) entries.push_back(&one);
+      if (!one.abandoned && one.first_seconds <= may_be_fastest * fastest_) entries.push_back(&one);
     time_in_turns(entries, &Timed::selecting);
     found_.best = fastest_selected(found_.candidates);
   }
@@ -82,7 +84,6 @@ class Search {
 
  private:
   [[nodiscard]] bool stopped() const { return options_.stop.stop_requested(); }
-  [[nodiscard]] bool is_far_behind(const Timed& one) const { return one.first_seconds > options_.behind * fastest_; }
 
   void report(std::string_view what, double from, double to) const {
     if (options_.progress) options_.progress({std::string(what), from, to});
@@ -113,33 +114,32 @@ class Search {
       return;
     }
     if (!one.abandoned && one.first_seconds < short_run) {
-      std::vector<double> again;
-      if (!time(one, again) || !time(one, again)) return;
-      one.first_seconds = least(again);
+      const auto second = time(one);
+      const auto third = time(one);
+      if (!second || !third) return;
+      one.first_seconds = std::min(*second, *third);
     }
     if (stopped()) return;
     if (!one.abandoned) fastest_ = std::min(fastest_, one.first_seconds);
     found_.candidates.push_back(std::move(one));
   }
 
-  /// Appends the time of a run without counting. Returns false if a stop request ended the run.
-  [[nodiscard]] bool time(const Timed& one, std::vector<double>& seconds) const {
+  /// The time of a run without counting; nullopt if a stop request ended the run.
+  [[nodiscard]] std::optional<double> time(const Timed& one) const {
     const sim::Outcome outcome =
         sim::run(problem_, one.candidate, {.count = false, .stop = options_.stop, .threads = options_.threads});
-    if (outcome.stopped) return false;
-    seconds.push_back(outcome.seconds.total());
-    return true;
+    if (outcome.stopped) return std::nullopt;
+    return outcome.seconds.total();
   }
 
   void time_in_turns(const std::vector<Timed*>& entries, std::vector<double> Timed::*half) const {
-    const sim::Stopwatch watch;
     const double enough = std::min<double>(most_rounds, std::ceil(enough_timed / fastest_));
-    in_turns(entries.size(), std::max(options_.repeats, static_cast<int>(enough)), [&](std::size_t i, int round) {
-      if (i == 0 && round > 0 && watch.seconds() > options_.most_seconds) return false;
-      Timed& one = *entries[i];
-      if (round >= most_rounds_far_behind && is_far_behind(one)) return true;
-      return time(one, one.*half);
-    });
+    const auto times = timed_rounds(entries.size(),
+                                    {.rounds = std::max(options_.repeats, static_cast<int>(enough)),
+                                     .behind = options_.behind,
+                                     .most_seconds = options_.most_seconds},
+                                    [&](std::size_t i) { return time(*entries[i]); });
+    for (std::size_t i = 0; i < entries.size(); ++i) entries[i]->*half = times[i];
   }
 
   const sim::Problem& problem_;

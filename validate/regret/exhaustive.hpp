@@ -42,8 +42,7 @@ struct ExhaustiveOptions {
   /// a first run is abandoned after this many times the shortest time so far, but at least 5 ms
   double patience = 4;
   double patience_if_asked = 10;  ///< the same for a candidate that was asked for
-  /// a candidate whose first run takes more than this many times the shortest time cannot be selected
-  double behind = 1.5;
+  double behind = 1.5;            ///< as RoundLimits::behind
   int threads = 1;
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
@@ -61,8 +60,8 @@ struct Exhaustive {
 };
 
 /// Runs each of these candidates once: those `asked` for, all other exact techniques with default parameters, and
-/// neighbours of the fastest two until none of them is faster. The candidates that are not far behind then take turns,
-/// and the fastest of them is the best. Then the candidates asked for and the best, entered twice, take turns and are
+/// neighbours of the fastest two until none of them is faster. The candidates whose first time is at most three times the
+/// shortest then take turns (timed_rounds), and the fastest of them is the best. Then the candidates asked for and the best, entered twice, take turns and are
 /// judged. So no candidate is judged by the times for which it was selected. The first candidate asked for is never
 /// abandoned. Throws as sim::run does, but leaves out candidates whose index does not fit in memory.
 [[nodiscard]] Exhaustive measure_all(const sim::Problem& problem, std::span<const Candidate> asked,
