@@ -15,10 +15,11 @@ inline constexpr std::array<std::string_view, 2> choice_names<Form>{"published",
 /// What a choice is based on.
 enum class Rigor {
   estimate,    ///< closed forms alone
-  structural,  ///< the structures that the techniques build from the discs
-  pilot        ///< some of the rays, through parts of the index
+  structural,  ///< rays of the same kind, but not those of the run, through parts of the index
+  pilot,       ///< some of the rays, through parts of the index
+  measure      ///< runs of the candidates
 };
 template <>
-inline constexpr std::array<std::string_view, 3> choice_names<Rigor>{"estimate", "structural", "pilot"};
+inline constexpr std::array<std::string_view, 4> choice_names<Rigor>{"estimate", "structural", "pilot", "measure"};
 
 }  // namespace detp

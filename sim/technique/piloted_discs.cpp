@@ -7,12 +7,12 @@
 
 namespace detp::sim {
 
-PilotedDiscs::PilotedDiscs(const Problem& problem, std::span<const Ray> sample, double rays, std::size_t subtrees,
+PilotedDiscs::PilotedDiscs(const Problem& problem, const stream::PilotRays& rays, std::size_t subtrees,
                            const RunOptions& options) {
   require_memory_for("the sorted discs", stream::building_bytes(problem.discs().size(), 0, 0), problem);
   const stream::Frame frame(problem);
   discs_ = stream::sort_discs(problem, frame, options);
-  pilot_.emplace(problem, frame, discs_, sample, rays, subtrees, options.stop);
+  pilot_.emplace(problem, frame, discs_, rays, subtrees, options.stop);
 }
 
 std::unique_ptr<Index> PilotedDiscs::build(const Problem& problem, const BoxTreeParameters& parameters,

@@ -17,8 +17,7 @@ class PilotedDiscs {
 
   /// Sorts the problem's discs, and culls the sample. Throws as BoxTreePilot, and std::length_error, naming the bytes, if
   /// the discs would not fit in memory.
-  PilotedDiscs(const Problem& problem, std::span<const Ray> sample, double rays, std::size_t subtrees,
-               const RunOptions& options);
+  PilotedDiscs(const Problem& problem, const stream::PilotRays& rays, std::size_t subtrees, const RunOptions& options);
 
   PilotedDiscs(const PilotedDiscs&) = delete;
   PilotedDiscs& operator=(const PilotedDiscs&) = delete;

@@ -55,6 +55,9 @@ class Analyser {
 
   Analysis finish() && {
     time_all();
+    if (options_.stop.stop_requested())  // then a counting run is better than nothing
+      for (std::size_t i = 0; i < all_.candidates.size(); ++i)
+        if (Analysed& one = all_.candidates[i]; one.counted && !one.seconds) one.seconds = first_seconds_[i];
     for (std::size_t i = 0; i < all_.candidates.size(); ++i)
       if (const auto& seconds = all_.candidates[i].seconds;
           seconds && (!all_.best || *seconds < *all_.candidates[*all_.best].seconds))

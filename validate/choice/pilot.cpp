@@ -134,14 +134,15 @@ class Others {
   static constexpr double worth_finding = 0.1;  ///< seconds; closed forms take some 2 ms
 
   [[nodiscard]] double best() const { return seconds(found_.choice()); }
+  [[nodiscard]] bool can_measure() const { return options_.workload || !problem_.rays().empty(); }
 
   void compare(Technique technique) {
     const double at_least = price(least_, costs_, technique).total();
     if (at_least >= best()) return found_.ruled_out.push_back({technique, at_least, true});
-    if (!model::has_closed_form(technique) || best() < worth_finding || problem_.rays().empty())
+    if (!model::has_closed_form(technique) || best() < worth_finding || !can_measure())
       return found_.unexamined.push_back(technique);
     if (!workload_) {
-      workload_ = measure(problem_, {}, options_.stop);
+      workload_ = options_.workload ? *options_.workload : measure(problem_, {}, options_.stop);
       workload_->rays = rays_;
     }
     const std::optional<Candidate> plain = plain_candidate(technique, *workload_);
@@ -168,14 +169,17 @@ class Others {
 double work_of(double rays, double discs) { return discs + 4 * rays; }
 
 std::size_t subtrees_of(double rays, double discs) {
-  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 50'000, 4.0, 32.0));
+  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 25'000, 4.0, 32.0));
 }
 
 }  // namespace
 
+std::size_t pilot_size(double rays, double discs) {
+  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 1000, 64.0, 2048.0));
+}
+
 std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t discs) {
-  const double work = work_of(static_cast<double>(rays.size()), static_cast<double>(discs));
-  const auto enough = static_cast<std::size_t>(std::clamp(work / 600, 256.0, 4096.0));
+  const std::size_t enough = pilot_size(static_cast<double>(rays.size()), static_cast<double>(discs));
   std::vector<sim::Ray> sample;
   for (const std::size_t ray : sim::stratified_sample(rays.size(), enough, 1, sim::Stream::pilot))
     sample.push_back(rays[ray]);
@@ -194,8 +198,9 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   const auto discs = static_cast<double>(problem.discs().size());
   PilotChoice found;
   found.sampled_rays = sample.size();
-  found.discs = std::make_shared<sim::PilotedDiscs>(problem, sample, rays, subtrees_of(rays, discs),
-                                                    sim::RunOptions{.stop = options.stop, .threads = options.threads});
+  found.discs = std::make_shared<sim::PilotedDiscs>(
+      problem, sim::stream::PilotRays{sample, rays, options.independent_sample, options.expected_hits},
+      subtrees_of(rays, discs), sim::RunOptions{.stop = options.stop, .threads = options.threads});
   found.sort_seconds = found.discs->sort_seconds();
   found.candidates = ShapeSearch(*found.discs, costs).run();
   const auto add = [&](auto&& more) {

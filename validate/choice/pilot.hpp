@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -47,11 +48,18 @@ struct PilotChoice {
 
 struct PilotOptions {
   int threads = 1;
+  bool independent_sample = false;           ///< as sim::PilotRays::independent
+  std::optional<double> expected_hits = {};  ///< as sim::PilotRays::hits
+  /// for the closed forms of other techniques; default: measured, if the problem has rays and the closed forms are needed
+  std::optional<Workload> workload = {};
   std::vector<Technique> disabled = {};  ///< techniques that may not be chosen; box-tree must be allowed
   std::stop_token stop = {};
 };
 
-/// A stratified sample of the rays, large enough for a pilot.
+/// The number of rays that a pilot samples: 64 to 2048, the more the longer the search will take.
+[[nodiscard]] std::size_t pilot_size(double rays, double discs);
+
+/// A stratified sample of the rays, of pilot_size.
 [[nodiscard]] std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t discs);
 
 /// The candidate that finds the hits of `rays` rays fastest by the simd engine, and how long it will take. `sample` are

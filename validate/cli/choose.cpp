@@ -7,9 +7,11 @@
 #include "choose_report.hpp"
 #include "costs_in_use.hpp"
 #include "detp/model/rank/paper_rule.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
+#include "detp/validate/choice/structural_choice.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "progress_line.hpp"
 #include "unit_cost_option.hpp"
@@ -80,12 +82,17 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs
 void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs,
                      const std::vector<Technique>& disabled, int threads, const std::stop_token& stop) {
   const sim::Problem problem = job.problem(threads, stop);
+  const validate::PilotOptions options{
+      .threads = threads, .workload = job.workload, .disabled = disabled, .stop = stop};
   answer.pilot =
-      validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()),
-                                job.workload.rays, costs, {.threads = threads, .disabled = disabled, .stop = stop});
+      answer.rigor == Rigor::structural
+          ? validate::choose_by_structure(problem, job.workload, costs, options)
+          : validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()),
+                                      job.workload.rays, costs, options);
   for (const validate::Piloted& one : answer.pilot->candidates)
     answer.ranking.push_back({one.candidate, one.counts, one.time, {}});
-  answer.choosing_seconds = answer.pilot->pilot_seconds;
+  if (answer.rigor == Rigor::structural) answer.evidence_seconds = job.measure_seconds;
+  answer.choosing_seconds = answer.evidence_seconds + answer.pilot->pilot_seconds;
   check_ranking(answer, costs);
 }
 
@@ -96,8 +103,8 @@ model::Ranked assess_structurally(const validate::Job& job, const Candidate& can
   return {candidate, counts, price(counts, costs, candidate.technique), {}};
 }
 
-/// The prediction from structural counts if `structural`, otherwise from the closed form. Returns nothing if the
-/// candidate has no such prediction, if its index does not fit in memory, or if a stop was requested.
+/// The prediction from structural counts (of isotropic lines) if `structural`, otherwise from the closed form. Returns
+/// nothing if the candidate has no such prediction, if its index does not fit in memory, or if a stop was requested.
 std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
                                        const CostTable& costs, const std::stop_token& stop) {
   try {
@@ -114,36 +121,12 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
 
 /// The pilot's prediction of a box tree; of any other candidate that of its closed form.
 std::optional<model::Ranked> predicted_by_pilot(const Candidate& candidate, const validate::PilotChoice& pilot,
-                                                const validate::Job& job, const CostTable& costs) {
-  if (candidate.technique != Technique::box_tree || !pilot.discs) return predicted(candidate, job, false, costs, {});
+                                                const validate::Job& job, bool structural, const CostTable& costs,
+                                                const std::stop_token& stop) {
+  if (candidate.technique != Technique::box_tree || !pilot.discs)
+    return predicted(candidate, job, structural && job.field == sim::Field::isotropic, costs, stop);
   const auto counts = pilot.discs->counts(std::get<BoxTreeParameters>(candidate.parameters)).counts;
   return model::Ranked{candidate, counts, price(counts, costs, candidate.technique), {}};
-}
-
-/// After a stop request, leaves the ranking unchanged and returns the number of counted candidates; else returns
-/// nothing.
-std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs,
-                                                 const std::stop_token& stop, const sim::ReportPhase& progress) {
-  if (job.field != sim::Field::isotropic)
-    throw std::invalid_argument(
-        "--rigor structural counts isotropic lines; give --field isotropic, or --rigor estimate");
-  const sim::Stopwatch watch;
-  std::vector<model::Ranked> ranking;
-  try {
-    for (const model::Ranked& ranked : answer.ranking) {
-      const double each = 1 / static_cast<double>(answer.ranking.size());
-      const double before = each * static_cast<double>(ranking.size());
-      if (progress) progress({fmt::format("structure of {}", name(ranked.candidate.technique)), before, before + each});
-      ranking.push_back(assess_structurally(job, ranked.candidate, costs, stop));
-    }
-  } catch (const sim::Stopped&) {
-    return sim::Progress{ranking.size(), answer.ranking.size(), "candidates counted by their structures"};
-  }
-  answer.ranking = std::move(ranking);
-  std::stable_sort(answer.ranking.begin(), answer.ranking.end(),
-                   [](const model::Ranked& a, const model::Ranked& b) { return a.time.total() < b.time.total(); });
-  answer.choosing_seconds += watch.seconds();
-  return std::nullopt;
 }
 
 sim::Progress measured(const validate::Analysis& analysis) {
@@ -163,53 +146,48 @@ std::optional<Rigor> requested_rigor(const ChooseOptions& options) {
   const auto rigor = choice_named<Rigor>(*options.rigor);
   if (!rigor)
     throw std::invalid_argument(
-        fmt::format("rigor '{}' is not offered by this version; 'estimate', 'structural' and 'pilot' are, with "
-                    "--analyze to run the candidates",
-                    *options.rigor));
+        fmt::format("rigor must be estimate, structural, pilot or measure (got '{}')", shortened(*options.rigor)));
   return rigor;
 }
 
 Result run_choose(const ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const auto rigor = requested_rigor(options);
   const bool structural = rigor == Rigor::structural;
+  const bool analyze = options.analyze || rigor == Rigor::measure;
   const std::vector<Technique> disabled = disabled_techniques(options);
   const CostsInUse costs_in_use = options.costs.costs(common);
   const CostTable& costs = costs_in_use.costs;
   validate::JobRequest request = options.workload.request(common);
-  request.workload_only = !options.analyze;
+  request.workload_only = !analyze;
   Result result;
   ChooseAnswer answer;
   if (request.numbers_alone() && rigor == Rigor::pilot)
     throw std::invalid_argument("--rigor pilot needs rays: give a scene or files, or --rigor estimate");
-  answer.rigor = rigor.value_or(Rigor::estimate);
-  if (request.numbers_alone() && !options.analyze && !structural) {
+  answer.rigor = structural || rigor == Rigor::pilot ? *rigor : Rigor::estimate;
+  if (request.numbers_alone() && !analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
     result.stopped = decide(answer, costs, disabled, stop);
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
   } else {
     const ProgressLine progress(common);
-    const double share_of_job = options.analyze || structural ? 0.3 : 1;  // a guess
+    const double share_of_job = analyze ? 0.3 : 1;  // a guess
     const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);
     answer.workload = job.workload;
-    if (!rigor && !request.numbers_alone() && !is_in(disabled, Technique::box_tree) &&
-        sim::PilotedDiscs::can_pilot(job.problem()))
+    if (!structural && rigor != Rigor::estimate && (!request.numbers_alone() || rigor == Rigor::measure) &&
+        !is_in(disabled, Technique::box_tree) && sim::PilotedDiscs::can_pilot(job.problem()))
       answer.rigor = Rigor::pilot;
-    if (answer.rigor == Rigor::pilot) {
+    if (answer.rigor != Rigor::estimate) {
       decide_by_pilot(answer, job, costs, disabled, common.threads, stop);
     } else {
       answer.evidence_seconds = job.measure_seconds;
       result.stopped = decide(answer, costs, disabled, stop);
     }
-    if (structural && !result.stopped)
-      result.stopped = decide_structurally(answer, job, costs, stop,
-                                           sim::part_of(progress.report(), share_of_job, options.analyze ? 0.6 : 1));
-    if (structural && result.stopped) answer.rigor = Rigor::estimate;
-    if (options.analyze && !result.stopped) {
+    if (analyze && !result.stopped) {
       const auto predict = [&](const Candidate& candidate) {
-        return answer.pilot ? predicted_by_pilot(candidate, *answer.pilot, job, costs)
-                            : predicted(candidate, job, structural, costs, stop);
+        return answer.pilot ? predicted_by_pilot(candidate, *answer.pilot, job, structural, costs, stop)
+                            : predicted(candidate, job, false, costs, stop);
       };
       answer.analysis = validate::analyse(job.problem(), answer.ranking,
                                           {.disabled = disabled,
@@ -217,6 +195,10 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
                                            .predict = predict,
                                            .progress = sim::part_of(progress.report(), share_of_job, 1)});
       if (answer.analysis->stopped) result.stopped = measured(*answer.analysis);
+      if (rigor == Rigor::measure && answer.analysis->best) {
+        answer.rigor = Rigor::measure;
+        result.answers_at_limit = true;
+      }
     }
     result.inputs = to_json(job, request);
     answer.title = describe(job);
@@ -224,7 +206,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   }
   result.inputs["unit_costs"] = to_json(costs);
   result.inputs["rigor"] = name(answer.rigor);
-  result.inputs["analyze"] = options.analyze;
+  result.inputs["analyze"] = analyze;
   answer.costs = costs;
   answer.costs_origin = costs_in_use.origin;
   result.json = to_json(answer);
@@ -242,8 +224,9 @@ Command choose_command(CLI::App& program) {
   options->workload.add_to(*app);
   options->costs.add_to(*app);
   app->add_option("--rigor", options->rigor,
-                  "estimate: closed forms only; structural: the built structures, no rays; pilot: some of the rays, "
-                  "through parts of the index; default: pilot, where there are rays");
+                  "estimate: closed forms only; structural: rays of the same kind through parts of the index; pilot: "
+                  "some of the rays themselves; measure: runs of the candidates, until --time-limit; default: pilot, "
+                  "where there are rays");
   app->add_option("--disable", options->disable, "a list of techniques that may not be chosen; default: none")
       ->delimiter(',');
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");

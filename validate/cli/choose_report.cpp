@@ -261,11 +261,14 @@ std::string not_examined_line(const validate::PilotChoice& pilot) {
 }
 
 std::string how_chosen(const ChooseAnswer& answer) {
-  if (answer.pilot)
-    return fmt::format("{} of {:.6g} rays, through parts of the tree of boxes; the discs that it sorted are kept",
-                       answer.pilot->sampled_rays, answer.workload.rays);
-  return answer.rigor == Rigor::structural ? "parameters by closed forms, counts by the structures built with them"
-                                           : "closed forms alone";
+  const std::string run =
+      answer.rigor == Rigor::measure ? fmt::format("{} candidates run; before that, ", answer.analysis->tried) : "";
+  if (!answer.pilot) return run + "closed forms alone";
+  const std::string sample = answer.rigor == Rigor::structural
+                                 ? fmt::format("{} {} of the field, not those of the run", answer.pilot->sampled_rays,
+                                               answer.workload.path_length > 0 ? "segments" : "lines")
+                                 : fmt::format("{} of {:.6g} rays", answer.pilot->sampled_rays, answer.workload.rays);
+  return fmt::format("{}{}, through parts of the tree of boxes; the discs that it sorted are kept", run, sample);
 }
 
 std::string effects_line(const Workload& workload) {

@@ -47,7 +47,7 @@ Interruption::Interruption() {
         sim::remove_all_part_files_for_good();
         std::_Exit(130);
       }
-      request();
+      request(false);
     }
   });
 }
@@ -61,7 +61,7 @@ void Interruption::limit(double seconds) {
     std::condition_variable_any never;
     std::unique_lock lock(mutex);
     never.wait_until(lock, end, end_of_time, [] { return false; });
-    if (!end.stop_requested()) request();
+    if (!end.stop_requested()) request(true);
   });
 }
 
@@ -70,9 +70,9 @@ double Interruption::seconds_since_request() const {
   return requested == Clock::time_point{} ? 0 : std::chrono::duration<double>(Clock::now() - requested).count();
 }
 
-void Interruption::request() {
+void Interruption::request(bool by_limit) {
   Clock::time_point none{};
-  requested_.compare_exchange_strong(none, Clock::now());
+  if (requested_.compare_exchange_strong(none, Clock::now())) by_limit_ = by_limit;
   stop_.request_stop();
 }
 

@@ -21,16 +21,21 @@ class Interruption {
 
   [[nodiscard]] std::stop_token token() const { return stop_.get_token(); }
 
+  /// The stop request came from the time limit.
+  [[nodiscard]] bool by_limit() const { return by_limit_; }
+
   /// Seconds since the stop request; 0 if there was none.
   [[nodiscard]] double seconds_since_request() const;
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  void request();
+  /// The first request counts.
+  void request(bool by_limit);
 
   Clock::time_point start_ = Clock::now();
   std::atomic<Clock::time_point> requested_ = Clock::time_point{};
+  std::atomic<bool> by_limit_ = false;
   std::stop_source stop_;
   std::jthread signals_;
   std::jthread clock_;

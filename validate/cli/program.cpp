@@ -83,6 +83,7 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   Result result = sim::in_memory(fmt::format("detp {} was at work", command.app->get_name()),
                                  [&] { return result_of(command, common, interruption.token()); });
   if (result.code == ExitCode::stopped && !result.stopped) result.stopped.emplace();
+  if (result.answers_at_limit && interruption.by_limit()) result.stopped.reset();
   result.json["stopped"] = result.stopped.has_value();
   if (result.stopped) mark_stopped(result, interruption.seconds_since_request(), common.screen());
   const auto output = result.output_is_written ? std::optional<std::string>() : common.output;

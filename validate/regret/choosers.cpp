@@ -2,7 +2,7 @@
 
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/choice/structural_choice.hpp"
 
 namespace detp::validate {
 namespace {
@@ -18,11 +18,18 @@ Choice pilot(const sim::Problem& problem, const CostTable& costs) {
   return {found.choice().candidate, found.choice().time.total(), found.pilot_seconds};
 }
 
+Choice structural(const sim::Problem& problem, const Job& job, const CostTable& costs) {
+  const PilotChoice found = choose_by_structure(problem, job.workload, costs);
+  return {found.choice().candidate, found.choice().time.total(), job.measure_seconds + found.pilot_seconds};
+}
+
 }  // namespace
 
 std::vector<Chooser> all_choosers(const CostTable& costs) {
-  return {{"pilot", [costs](const sim::Problem& problem, const Job& /*job*/) { return pilot(problem, costs); }},
-          {"estimate", [costs](const sim::Problem& /*problem*/, const Job& job) { return estimate(job, costs); }}};
+  return {
+      {"pilot", [costs](const sim::Problem& problem, const Job& /*job*/) { return pilot(problem, costs); }},
+      {"structural", [costs](const sim::Problem& problem, const Job& job) { return structural(problem, job, costs); }},
+      {"estimate", [costs](const sim::Problem& /*problem*/, const Job& job) { return estimate(job, costs); }}};
 }
 
 }  // namespace detp::validate

@@ -23,6 +23,7 @@ struct Chooser {
 /// All tiers, one line each in choosers.cpp. `costs` are the unit costs with which they predict times.
 ///
 ///     pilot      choose_by_pilot; choosing_seconds do not include sorting the discs, which the run needs anyway
+///     structural choose_by_structure; choosing_seconds include those of measuring the workload, but not the sorting
 ///     estimate   the first candidate of model::rank for the job's workload; choosing_seconds include those of
 ///                measuring the workload
 [[nodiscard]] std::vector<Chooser> all_choosers(const CostTable& costs);

@@ -17,20 +17,38 @@ namespace {
 constexpr std::uint32_t coarse_leaf = 128;  ///< the nodes of subtrees that are not drawn are built down to this size
 constexpr std::uint64_t seed = 1;
 
-/// A box that contains the discs, whatever their normals are. The fourth number is not used: with it the compiler works
-/// on vectors.
-FloatBox box_around(std::span<const FloatDisc> discs) {
-  std::array<float, 4> low{2, 2, 2, 2};
-  std::array<float, 4> high{-2, -2, -2, -2};
-  for (const FloatDisc& disc : discs) {
-    std::array<float, 4> centre;
-    std::memcpy(centre.data(), &disc, sizeof(centre));
-    for (std::size_t axis = 0; axis < 4; ++axis) {
-      low[axis] = std::min(low[axis], centre[axis] - disc.radius);
-      high[axis] = std::max(high[axis], centre[axis] + disc.radius);
-    }
+using FourFloats = float __attribute__((vector_size(16)));
+
+/// A box as vectors, the fourth number of which is not used.
+struct VectorBox {
+  FourFloats low{2, 2, 2, 2};
+  FourFloats high{-2, -2, -2, -2};
+
+  void include(const FloatDisc& disc) {
+    FourFloats centre;
+    std::memcpy(&centre, &disc, sizeof(centre));
+    const FourFloats from = centre - disc.radius;
+    const FourFloats to = centre + disc.radius;
+    low = from < low ? from : low;
+    high = to > high ? to : high;
   }
-  return {{low[0], low[1], low[2]}, {high[0], high[1], high[2]}};
+};
+
+/// A box that contains the discs, whatever their normals are.
+FloatBox box_around(std::span<const FloatDisc> discs) {
+  VectorBox even;
+  VectorBox odd;  // two boxes, because each has to wait for its last disc
+  for (std::size_t i = 0; i + 1 < discs.size(); i += 2) {
+    even.include(discs[i]);
+    odd.include(discs[i + 1]);
+  }
+  if (!discs.empty()) even.include(discs.back());
+  FloatBox box;
+  for (int axis = 0; axis < 3; ++axis) {
+    box.low[axis] = std::min(even.low[axis], odd.low[axis]);
+    box.high[axis] = std::max(even.high[axis], odd.high[axis]);
+  }
+  return box;
 }
 
 TreeNode as_tree_node(const BinaryNode& node) {
@@ -44,13 +62,15 @@ TreeNode as_tree_node(const BinaryNode& node) {
 
 }  // namespace
 
-BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const SortedDiscs& discs,
-                           std::span<const Ray> sample, double rays, std::size_t subtrees, const std::stop_token& stop)
+BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const SortedDiscs& discs, const PilotRays& rays,
+                           std::size_t subtrees, const std::stop_token& stop)
     : discs_(discs),
-      rays_(rays),
-      sampled_(static_cast<double>(sample.size())),
-      blocks_(ray_blocks(rays, static_cast<double>(discs.tree.discs.size()), Engine::simd)),
-      work_(sample.size()) {
+      rays_(rays.all),
+      sampled_(static_cast<double>(rays.sample.size())),
+      unseen_(rays.independent ? 1 : std::max(0.0, 1 - sampled_ / rays_)),
+      blocks_(ray_blocks(rays_, static_cast<double>(discs.tree.discs.size()), Engine::simd)),
+      work_(rays.sample.size()) {
+  const std::span<const Ray> sample = rays.sample;
   Problem of_sample = problem;
   set_rays(of_sample, sample);
   Worker worker(std::pmr::new_delete_resource(), stop);
@@ -86,6 +106,7 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
       refine(block, lists, subtree, worker);
       StopCheck(stop, "culling the pilot's rays").now();
     }
+  hits_ = rays.hits.value_or(hits_ * rays_ / sampled_);
   set_blocks();
   set_relative_error();
 }
@@ -125,35 +146,84 @@ double BoxTreePilot::surface_share(std::uint32_t child, std::uint32_t parent) co
   return std::min(1.0F, area_[child] / area_[parent]);
 }
 
+/// How the rays of lists go on to the children: f and s (see set_blocks), for classes of lists by their number of sampled
+/// rays. A class with too few lists has those of the next class with more rays, or if there is none, with fewer.
+class BoxTreePilot::Spread {
+ public:
+  explicit Spread(const BoxTreePilot& pilot) : pilot_(pilot) {
+    pilot.for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
+      Class& one = class_of(parent);
+      one.children += 1;
+      one.reached += pilot.known_[child].rays;
+      one.by_surface += pilot.known_[parent].rays * pilot.surface_share(child, parent);
+    });
+    for (Class& one : classes_)
+      if (one.by_surface > 0) one.factor = one.reached / one.by_surface;
+    pilot.for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
+      const double rays = pilot.known_[parent].rays;
+      const double share = expected_share(child, parent);
+      const double variance = rays * share * (1 - share);
+      Class& one = class_of(parent);
+      one.squares += std::pow(pilot.known_[child].rays - rays * share, 2);
+      one.independent += variance;
+      one.pairs += (rays - 1) * variance;
+    });
+    const Class* known = nullptr;
+    for (Class& one : classes_)
+      if (one.is_known()) known = &one;
+    for (std::size_t i = classes_.size(); known != nullptr && i-- > 0;) {
+      Class& one = classes_[i];
+      if (!one.is_known()) {
+        one = *known;
+        continue;
+      }
+      known = &one;
+      one.strength = 1 / std::clamp((one.squares - one.independent) / one.pairs, 0.001, 0.8) - 1;
+    }
+  }
+
+  /// f q
+  [[nodiscard]] double expected_share(std::uint32_t child, std::uint32_t parent) const {
+    return std::min(1.0, class_of(parent).factor * pilot_.surface_share(child, parent));
+  }
+  /// s
+  [[nodiscard]] double strength(std::uint32_t parent) const { return class_of(parent).strength; }
+
+ private:
+  struct Class {
+    double factor = 1;
+    double strength = 1;
+    double children = 0;
+    double reached = 0;
+    double by_surface = 0;
+    double squares = 0;      ///< of the deviations from the expected numbers of rays
+    double independent = 0;  ///< their expectation if the rays were independent
+    double pairs = 0;        ///< of rays of a list, times the variance for one ray
+    [[nodiscard]] bool is_known() const { return children >= 40 && pairs > 0; }
+  };
+
+  static std::size_t place_of(float rays) {
+    constexpr std::array<float, 4> bounds{8, 32, 128, 512};
+    return static_cast<std::size_t>(std::upper_bound(bounds.begin(), bounds.end(), rays) - bounds.begin());
+  }
+  [[nodiscard]] const Class& class_of(std::uint32_t parent) const {
+    return classes_[place_of(pilot_.known_[parent].rays)];
+  }
+  [[nodiscard]] Class& class_of(std::uint32_t parent) { return classes_[place_of(pilot_.known_[parent].rays)]; }
+
+  const BoxTreePilot& pilot_;
+  std::array<Class, 5> classes_;
+};
+
 /// Sets the share of all rays in each list, and the expected number of blocks that have a ray there.
 ///
 /// Of a parent's n rays, c reach a child: a beta-binomial variable. Its mean is f n q, where q is the child's surface
 /// relative to the parent's and f makes the sums of both sides equal. Its variance exceeds that of independent rays by
 /// 1 + (n - 1)/(s + 1). So s is large if rays are spread evenly, and small if they are bundled. Then the expected share
-/// of the parent's rays, given c, is (c + s f q)/(n + s).
+/// of the parent's rays, given c, is (c + s f q)/(n + s). Light is more even within a small box than in the whole scene,
+/// so f and s are those of parents with about the same number of rays.
 void BoxTreePilot::set_blocks() {
-  double reached = 0;
-  double by_surface = 0;
-  for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
-    reached += known_[child].rays;
-    by_surface += known_[parent].rays * surface_share(child, parent);
-  });
-  const double factor = by_surface > 0 ? reached / by_surface : 1;
-  const auto share_of = [&](std::uint32_t child, std::uint32_t parent) {
-    return std::min(1.0, factor * surface_share(child, parent));
-  };
-  double squares = 0;
-  double independent = 0;
-  double pairs = 0;
-  for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
-    const double rays = known_[parent].rays;
-    const double share = share_of(child, parent);
-    squares += std::pow(known_[child].rays - rays * share, 2);
-    independent += rays * share * (1 - share);
-    pairs += rays * (rays - 1) * share * (1 - share);
-  });
-  const double bundled = pairs > 0 ? std::clamp((squares - independent) / pairs, 0.001, 0.8) : 0.5;
-  const double strength = 1 / bundled - 1;
+  const Spread spread(*this);
   std::vector<float> shape(nodes_.size());  // of the gamma distribution of a node's share
   const auto pass_on_to_refined = [&](std::uint32_t node) {
     const std::uint32_t refined = known_[node].refined;
@@ -165,7 +235,8 @@ void BoxTreePilot::set_blocks() {
   shape[0] = known_[0].rays;
   pass_on_to_refined(0);
   for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
-    const double prior = strength * share_of(child, parent);
+    const double strength = spread.strength(parent);
+    const double prior = strength * spread.expected_share(child, parent);
     const double rays = known_[child].rays;
     share_[child] = share_[parent] * (rays + prior) / (known_[parent].rays + strength);
     shape[child] = static_cast<float>(rays > 0 ? rays + prior : 1 / (1 / prior + 1 / (shape[parent] + 1e-3)));
@@ -177,7 +248,7 @@ void BoxTreePilot::set_blocks() {
 double BoxTreePilot::blocks_with_a_ray(std::uint32_t node, double shape) const {
   constexpr double many = 16;           // sampled rays; then every block has some
   constexpr double least_shape = 1e-6;  // practically no block has one
-  if (sampled_ >= rays_ || known_[node].rays > many) return known_[node].rays > 0 ? blocks_.count() : 0;
+  if (unseen_ == 0 || known_[node].rays > many) return known_[node].rays > 0 ? blocks_.count() : 0;
   // The rays of a block in the list are a Poisson variable, whose mean is a gamma variable of that shape.
   const auto any = [&](double rays) {
     const auto power = static_cast<float>(std::max(shape, least_shape));
@@ -318,8 +389,7 @@ void BoxTreePilot::set_relative_error() {
     work_squares += of_ray * of_ray;
   }
   const double spread = std::max(0.0, sampled_ * work_squares / (work * work) - 1);
-  const double left = std::max(0.0, 1 - sampled_ / rays_);
-  relative_error_ = std::sqrt(of_subtrees / (all * all) + spread / sampled_ * left);
+  relative_error_ = std::sqrt(of_subtrees / (all * all) + spread / sampled_ * unseen_);
 }
 
 }  // namespace detp::sim::stream

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <vector>
@@ -11,6 +12,17 @@
 
 /// Predicts the counts of any box tree over given discs and rays from a sample of both, without building the tree.
 namespace detp::sim::stream {
+
+/// The rays that a pilot culls, and the rays for which they stand.
+struct PilotRays {
+  std::span<const Ray> sample;
+  double all;  ///< number of rays of the search
+  /// The sample is not a part of the search's rays, but has the same distribution. Then all of it is uncertain, even if
+  /// it has as many rays as the search.
+  bool independent = false;
+  /// Expected hits of the search, if they are known. Otherwise the sample's hits are counted.
+  std::optional<double> hits = {};
+};
 
 /// Counts of a box tree, predicted by a pilot.
 struct PilotCounts {
@@ -33,14 +45,16 @@ struct PilotCounts {
 ///
 /// The sums have no bias, except that wide nodes at the edge of subtrees that were not drawn may lack children. Lists
 /// are made, and discs visited, if a block of rays has a ray there. The probability comes from the share of the sampled
-/// rays in the list and, if there are few, from the surface of the box relative to the parent's. (For lists of about one
-/// ray, visits are predicted 11 % too few; tests/sim/lists/simd/box_tree_pilot.test.cpp.)
+/// rays in the list and, if there are few, from the surface of the box relative to the parent's.
+///
+/// Accuracy   visits in the mean over shapes and samples of 256 to 4096 rays, all subtrees culled: isotropic lines (3
+///            scenes) 0 to 1 % off; photon paths 1 % too many on a mountain, 6 to 10 % in a hall, 20 to 28 % in a courtyard:
+///            the estimate does not know that some discs are dark.
 class BoxTreePilot {
  public:
-  /// `sample` has rays that represent `rays` rays; all of them if it has as many. Draws up to `subtrees` subtrees.
-  /// Throws as set_rays for the sample; Stopped if a stop was requested.
-  BoxTreePilot(const Problem& problem, const Frame& frame, const SortedDiscs& discs, std::span<const Ray> sample,
-               double rays, std::size_t subtrees, const std::stop_token& stop = {});
+  /// Draws up to `subtrees` subtrees. Throws as set_rays for the sample; Stopped if a stop was requested.
+  BoxTreePilot(const Problem& problem, const Frame& frame, const SortedDiscs& discs, const PilotRays& rays,
+               std::size_t subtrees, const std::stop_token& stop = {});
 
   /// Leaves of fewer than four discs are treated as leaves of four.
   [[nodiscard]] PilotCounts counts(const BoxTreeParameters& parameters) const;
@@ -78,6 +92,7 @@ class BoxTreePilot {
   template <class Visit>
   void for_each_culled_child(const Visit& visit) const;
   [[nodiscard]] double surface_share(std::uint32_t child, std::uint32_t parent) const;
+  class Spread;
   void set_blocks();
   [[nodiscard]] double blocks_with_a_ray(std::uint32_t node, double shape) const;
   void set_relative_error();
@@ -85,6 +100,7 @@ class BoxTreePilot {
   const SortedDiscs& discs_;
   double rays_;     ///< number of all rays
   double sampled_;  ///< number of rays in the sample
+  double unseen_;   ///< share of the rays that the sample does not show
   RayBlocks blocks_;
   std::vector<BinaryNode> nodes_;  ///< the coarse tree, then the refined subtrees
   std::uint32_t coarse_ = 0;       ///< number of nodes of the coarse tree
@@ -93,7 +109,7 @@ class BoxTreePilot {
   std::vector<double> share_;  ///< probability that a ray is in a node's list
   std::vector<Subtree> subtrees_;
   std::vector<float> work_;  ///< of each sampled ray: sum, over the subtrees that it crosses, of √(number of discs)
-  double hits_ = 0;          ///< expected, of the sampled rays
+  double hits_ = 0;          ///< expected, of all rays
   double doubtful_ = 0;
   double relative_error_ = 0;
 };

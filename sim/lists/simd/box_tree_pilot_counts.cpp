@@ -28,7 +28,7 @@ class BoxTreePilot::Evaluation {
       counts_.*per_ray *= scale;
     counts_.visits = std::min(counts_.visits, discs * pilot_.blocks_.count());
     counts_.loaded = pilot_.rays_;
-    counts_.hits = scale * pilot_.hits_;
+    counts_.hits = pilot_.hits_;
     counts_.doubtful = scale * pilot_.doubtful_;
     counts_.sorted = counts_.placements = counts_.references = discs;
     counts_.made = made_in_top(0);

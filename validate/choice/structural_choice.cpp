@@ -1,0 +1,66 @@
+#include "structural_choice.hpp"
+
+#include <algorithm>
+
+#include "detp/model/lines/line_measure.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/geometry/ray_box.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/search/problem.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr std::uint64_t sample_seed = 0x5eed;  // not the seed of a run's lines
+
+/// The first `count` lines that cross the box, cut to their chords.
+std::vector<sim::Ray> chords(const sim::LineField& lines, const sim::Box& box, std::size_t count) {
+  const std::uint64_t most_tried = 100 * count;  // a flat box is crossed by a few percent of the lines
+  std::vector<sim::Ray> found;
+  for (std::uint64_t i = 0; i < most_tried && found.size() < count; ++i) {
+    sim::Ray ray = lines.line(i);
+    const sim::RayInterval inside = sim::ClippedRay(ray).inside(box);
+    if (inside.empty() || !(inside.to > inside.from)) continue;
+    ray.origin += inside.from * ray.direction;
+    ray.length = inside.to - inside.from;
+    found.push_back(ray);
+  }
+  return found;
+}
+
+}  // namespace
+
+std::vector<sim::Ray> structural_sample(const sim::Sphere& sphere, const Valid<Workload>& workload, std::size_t count) {
+  const sim::LineField lines(sphere, sample_seed);
+  if (workload.path_length == 0) return lines.lines(0, count);
+  const glm::dvec3 half = 0.5 * glm::dvec3(workload.box[0], workload.box[1], workload.box[2]) + workload.disc_radius;
+  std::vector<sim::Ray> sample = chords(lines, {sphere.centre - half, sphere.centre + half}, count);
+  if (sample.empty()) return lines.lines(0, count);  // the box is too thin for any of them
+  double sum = 0;
+  for (const sim::Ray& ray : sample) sum += ray.length;
+  const double share = std::min(1.0, workload.path_length * static_cast<double>(sample.size()) / sum);
+  for (std::size_t i = 0; i < sample.size(); ++i) {
+    sim::Ray& ray = sample[i];
+    const double place = sim::uniform4(sample_seed, sim::Stream::structure, i)[0];
+    ray.origin += place * (1 - share) * ray.length * ray.direction;
+    ray.length *= share;
+  }
+  return sample;
+}
+
+PilotChoice choose_by_structure(const sim::Problem& problem, const Valid<Workload>& workload,
+                                const Valid<CostTable>& costs, const PilotOptions& options) {
+  const sim::Stopwatch watch;
+  const auto sample = structural_sample(problem.enclosing(), workload, pilot_size(workload.rays, workload.samples));
+  PilotOptions by_structure = options;
+  by_structure.independent_sample = true;
+  by_structure.expected_hits = model::expected_hits(workload);
+  by_structure.workload = workload;
+  const double sampling = watch.seconds();
+  PilotChoice found = choose_by_pilot(problem, sample, workload.rays, costs, by_structure);
+  found.pilot_seconds += sampling;
+  return found;
+}
+
+}  // namespace detp::validate
