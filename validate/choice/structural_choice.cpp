@@ -1,6 +1,10 @@
 #include "structural_choice.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <stdexcept>
 
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/sim/base/stopwatch.hpp"
@@ -14,13 +18,17 @@ namespace {
 
 constexpr std::uint64_t sample_seed = 0x5eed;  // not the seed of a run's lines
 
-/// The first `count` lines that cross the box, cut to their chords.
-std::vector<sim::Ray> chords(const sim::LineField& lines, const sim::Box& box, std::size_t count) {
+/// The first `count` lines that cross the box, cut to their chords of box and sphere.
+std::vector<sim::Ray> chords(const sim::LineField& lines, const sim::Sphere& sphere, const sim::Box& box,
+                             std::size_t count) {
   const std::uint64_t most_tried = 100 * count;  // a flat box is crossed by a few percent of the lines
   std::vector<sim::Ray> found;
   for (std::uint64_t i = 0; i < most_tried && found.size() < count; ++i) {
     sim::Ray ray = lines.line(i);
-    const sim::RayInterval inside = sim::ClippedRay(ray).inside(box);
+    sim::RayInterval inside = sim::ClippedRay(ray).inside(box);
+    const glm::dvec3 nearest = ray.origin - sphere.centre;  // of the line's points
+    const double half = std::sqrt(std::max(0.0, sphere.radius * sphere.radius - glm::dot(nearest, nearest)));
+    inside = {std::max(inside.from, -half), std::min(inside.to, half)};
     if (inside.empty() || !(inside.to > inside.from)) continue;
     ray.origin += inside.from * ray.direction;
     ray.length = inside.to - inside.from;
@@ -35,7 +43,7 @@ std::vector<sim::Ray> structural_sample(const sim::Sphere& sphere, const Valid<W
   const sim::LineField lines(sphere, sample_seed);
   if (workload.path_length == 0) return lines.lines(0, count);
   const glm::dvec3 half = 0.5 * glm::dvec3(workload.box[0], workload.box[1], workload.box[2]) + workload.disc_radius;
-  std::vector<sim::Ray> sample = chords(lines, {sphere.centre - half, sphere.centre + half}, count);
+  std::vector<sim::Ray> sample = chords(lines, sphere, {sphere.centre - half, sphere.centre + half}, count);
   if (sample.empty()) return lines.lines(0, count);  // the box is too thin for any of them
   double sum = 0;
   for (const sim::Ray& ray : sample) sum += ray.length;
@@ -51,6 +59,10 @@ std::vector<sim::Ray> structural_sample(const sim::Sphere& sphere, const Valid<W
 
 PilotChoice choose_by_structure(const sim::Problem& problem, const Valid<Workload>& workload,
                                 const Valid<CostTable>& costs, const PilotOptions& options) {
+  if (problem.farthest() < problem.enclosing().radius)
+    throw std::invalid_argument(fmt::format(
+        "a structural choice needs a problem for rays that start up to {} from the centre of the discs (got {})",
+        problem.enclosing().radius, problem.farthest()));
   const sim::Stopwatch watch;
   const auto sample = structural_sample(problem.enclosing(), workload, pilot_size(workload.rays, workload.samples));
   PilotOptions by_structure = options;

@@ -11,6 +11,7 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
+#include "detp/sim/technique/searcher.hpp"
 #include "detp/validate/choice/structural_choice.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "progress_line.hpp"
@@ -81,17 +82,18 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs
 
 void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs,
                      const std::vector<Technique>& disabled, int threads, const std::stop_token& stop) {
-  const sim::Problem problem = job.problem(threads, stop);
+  const bool structural = answer.rigor == Rigor::structural;
+  const sim::Problem problem =
+      structural ? sim::searched_problem(job.discs, {}, job.front_facing, stop) : job.problem(threads, stop);
   const validate::PilotOptions options{
       .threads = threads, .workload = job.workload, .disabled = disabled, .stop = stop};
   answer.pilot =
-      answer.rigor == Rigor::structural
-          ? validate::choose_by_structure(problem, job.workload, costs, options)
-          : validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()),
-                                      job.workload.rays, costs, options);
+      structural ? validate::choose_by_structure(problem, job.workload, costs, options)
+                 : validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()),
+                                             job.workload.rays, costs, options);
   for (const validate::Piloted& one : answer.pilot->candidates)
     answer.ranking.push_back({one.candidate, one.counts, one.time, {}});
-  if (answer.rigor == Rigor::structural) answer.evidence_seconds = job.measure_seconds;
+  if (structural) answer.evidence_seconds = job.measure_seconds;
   answer.choosing_seconds = answer.evidence_seconds + answer.pilot->pilot_seconds;
   check_ranking(answer, costs);
 }
@@ -189,6 +191,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
         return answer.pilot ? predicted_by_pilot(candidate, *answer.pilot, job, structural, costs, stop)
                             : predicted(candidate, job, false, costs, stop);
       };
+      const sim::Stopwatch analysing;
       answer.analysis = validate::analyse(job.problem(), answer.ranking,
                                           {.disabled = disabled,
                                            .stop = stop,
@@ -197,6 +200,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
       if (answer.analysis->stopped) result.stopped = measured(*answer.analysis);
       if (rigor == Rigor::measure && answer.analysis->best) {
         answer.rigor = Rigor::measure;
+        answer.choosing_seconds += analysing.seconds();
         result.answers_at_limit = true;
       }
     }

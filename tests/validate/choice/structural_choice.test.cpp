@@ -32,7 +32,8 @@ struct FieldExample {
   }
 
   [[nodiscard]] validate::PilotChoice choose(const validate::PilotOptions& options = {}) const {
-    return validate::choose_by_structure(*problem, workload, validate::built_in_unit_costs(), options);
+    return validate::choose_by_structure(sim::make_problem_without_rays(discs, 10), workload,
+                                         validate::built_in_unit_costs(), options);
   }
 
   std::vector<sim::Disc> discs;
@@ -46,9 +47,10 @@ struct FieldExample {
 TEST_SUITE("identity") {
   TEST_CASE("the rays of the run decide nothing: without them, the choice and its counts are the same") {
     const FieldExample example(5000, 0.02, 5000);
-    const auto with_rays = example.choose();
-    const auto without = validate::choose_by_structure(sim::make_problem_without_rays(example.discs, 10),
-                                                       example.workload, validate::built_in_unit_costs());
+    sim::Problem problem = sim::make_problem_without_rays(example.discs, 10);
+    sim::set_rays(problem, example.rays);
+    const auto with_rays = validate::choose_by_structure(problem, example.workload, validate::built_in_unit_costs());
+    const auto without = example.choose();
     REQUIRE(with_rays.candidates.size() == without.candidates.size());
     for (std::size_t i = 0; i < without.candidates.size(); ++i) {
       CHECK(with_rays.candidates[i].candidate == without.candidates[i].candidate);
@@ -62,9 +64,9 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("a run of fewer rays than the sample has an uncertain prediction, too") {
-    const FieldExample example(5000, 0.05, 100);
+    const FieldExample example(5000, 0.05, 40);
     const auto found = example.choose();
-    REQUIRE(found.sampled_rays > 100);
+    REQUIRE(found.sampled_rays > 40);
     for (const validate::Piloted& one : found.candidates)
       if (one.candidate.technique == Technique::box_tree) CHECK(one.error > 0);
   }
@@ -93,6 +95,7 @@ TEST_SUITE("known answer") {
     double sum = 0;
     for (const sim::Ray& ray : sample) {
       sum += ray.length;
+      CHECK(glm::distance(ray.origin, sphere.centre) <= sphere.radius * (1 + 1e-12));
       for (const glm::dvec3& end : {ray.origin, ray.origin + ray.length * ray.direction})
         for (int axis = 0; axis < 3; ++axis) CHECK(std::abs(end[axis] - sphere.centre[axis]) <= 1.0201);
     }
@@ -128,6 +131,9 @@ TEST_SUITE("bad input") {
     std::stop_source source;
     source.request_stop();
     CHECK_THROWS_AS(static_cast<void>(example.choose({.stop = source.get_token()})), sim::Stopped);
+    CHECK_THROWS_AS(static_cast<void>(validate::choose_by_structure(sim::make_problem_without_rays(example.discs, 0.1),
+                                                                    example.workload, validate::built_in_unit_costs())),
+                    std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(example.choose({.disabled = {Technique::box_tree}})), std::invalid_argument);
   }
 }
