@@ -1,9 +1,8 @@
 #include "choosers.hpp"
 
-#include <algorithm>
-
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/technique/searcher.hpp"
 #include "detp/validate/choice/structural_choice.hpp"
 
 namespace detp::validate {
@@ -21,8 +20,7 @@ Choice pilot(const sim::Problem& problem, const CostTable& costs) {
 }
 
 Choice structural(const sim::Problem& problem, const Job& job, const CostTable& costs) {
-  const double farthest = std::max(problem.farthest(), problem.enclosing().radius);
-  const sim::Problem for_lines = sim::make_problem_without_rays(problem.discs(), farthest, problem.front_facing());
+  const sim::Problem for_lines = sim::searched_problem(problem.discs(), {}, problem.front_facing());
   const PilotChoice found = choose_by_structure(for_lines, job.workload, costs);
   return {found.choice().candidate, found.choice().time.total(), job.measure_seconds + found.pilot_seconds};
 }
