@@ -9,6 +9,7 @@
 #include "detp/model/rank/paper_rule.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "progress_line.hpp"
@@ -26,6 +27,7 @@ struct ChooseOptions {
   WorkloadOptions workload;
   CostOptions costs;
   std::optional<std::string> rigor;
+  std::string engine = "simd";
   std::vector<std::string> disable;
   bool analyze = false;
 };
@@ -46,7 +48,7 @@ std::vector<Technique> disabled_techniques(const ChooseOptions& options) {
 }
 
 /// Throws std::invalid_argument if the predicted times cannot be compared. Adds the candidate of the paper's rule.
-void check_ranking(ChooseAnswer& answer, const CostTable& costs) {
+void check_ranking(ChooseAnswer& answer, const CostTable& costs, int threads) {
   const double fastest = answer.ranking.front().time.total();
   if (!(fastest > 0))
     throw std::invalid_argument(fmt::format(
@@ -58,18 +60,18 @@ void check_ranking(ChooseAnswer& answer, const CostTable& costs) {
     throw std::invalid_argument(
         fmt::format("with these unit costs the time of {} exceeds 1.8e308 s and cannot be compared; give smaller costs",
                     name(answer.ranking.back().candidate.technique)));
-  answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs);
+  answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs, threads);
 }
 
 /// Returns the progress if a stop request ended the ranking, else nothing.
 std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs,
-                                    const std::vector<Technique>& disabled, const std::stop_token& stop) {
+                                    const std::vector<Technique>& disabled, int threads, const std::stop_token& stop) {
   const sim::Stopwatch watch;
-  answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
+  answer.ranking = model::rank(answer.workload, costs, {.threads = threads, .stop = stop});
   std::erase_if(answer.ranking, [&](const model::Ranked& one) { return is_in(disabled, one.candidate.technique); });
   if (answer.ranking.empty()) throw sim::Stopped("stopped before a technique that is not disabled was ranked");
   answer.choosing_seconds = answer.evidence_seconds + watch.seconds();
-  check_ranking(answer, costs);
+  check_ranking(answer, costs, threads);
   const auto all = std::count_if(all_techniques.begin(), all_techniques.end(), [&](Technique one) {
     return record_of(one).exact && model::has_closed_form(one) && !is_in(disabled, one);
   });
@@ -84,25 +86,30 @@ void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostT
       validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()),
                                 job.workload.rays, costs, {.threads = threads, .disabled = disabled, .stop = stop});
   for (const validate::Piloted& one : answer.pilot->candidates)
-    answer.ranking.push_back({one.candidate, one.counts, one.time, {}});
+    answer.ranking.push_back({one.candidate, one.counts, one.time, {}, one.threads});
   answer.choosing_seconds = answer.pilot->pilot_seconds;
-  check_ranking(answer, costs);
+  check_ranking(answer, costs, threads);
+}
+
+model::Ranked priced(const Candidate& candidate, const Counts<double>& counts, const CostTable& costs, int threads) {
+  const TimeOnThreads fastest = fastest_price(counts, costs, candidate.technique, threads);
+  return {candidate, counts, fastest.time, {}, fastest.threads};
 }
 
 model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const CostTable& costs,
-                                  const std::stop_token& stop) {
+                                  int threads, const std::stop_token& stop) {
   const Counts<double> counts =
-      validate::structural_counts(job.discs, job.workload.rays, candidate, stop, job.front_facing);
-  return {candidate, counts, price(counts, costs, candidate.technique), {}};
+      validate::structural_counts(job.discs, job.workload.rays, candidate, stop, job.front_facing, costs.engine);
+  return priced(candidate, counts, costs, threads);
 }
 
 /// The prediction from structural counts if `structural`, otherwise from the closed form. Returns nothing if the
 /// candidate has no such prediction, if its index does not fit in memory, or if a stop was requested.
 std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
-                                       const CostTable& costs, const std::stop_token& stop) {
+                                       const CostTable& costs, int threads, const std::stop_token& stop) {
   try {
-    return structural ? assess_structurally(job, candidate, costs, stop)
-                      : model::assess(job.workload, candidate, costs);
+    return structural ? assess_structurally(job, candidate, costs, threads, stop)
+                      : model::assess(job.workload, candidate, costs, threads);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   } catch (const std::length_error&) {
@@ -114,16 +121,18 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
 
 /// The pilot's prediction of a box tree; of any other candidate that of its closed form.
 std::optional<model::Ranked> predicted_by_pilot(const Candidate& candidate, const validate::PilotChoice& pilot,
-                                                const validate::Job& job, const CostTable& costs) {
-  if (candidate.technique != Technique::box_tree || !pilot.discs) return predicted(candidate, job, false, costs, {});
+                                                const validate::Job& job, const CostTable& costs, int threads) {
+  if (candidate.technique != Technique::box_tree || !pilot.discs)
+    return predicted(candidate, job, false, costs, threads, {});
   const auto counts = pilot.discs->counts(std::get<BoxTreeParameters>(candidate.parameters)).counts;
-  return model::Ranked{candidate, counts, price(counts, costs, candidate.technique), {}};
+  return priced(candidate, counts, costs, threads);
 }
 
 /// After a stop request, leaves the ranking unchanged and returns the number of counted candidates; else returns
 /// nothing.
 std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs,
-                                                 const std::stop_token& stop, const sim::ReportPhase& progress) {
+                                                 int threads, const std::stop_token& stop,
+                                                 const sim::ReportPhase& progress) {
   if (job.field != sim::Field::isotropic)
     throw std::invalid_argument(
         "--rigor structural counts isotropic lines; give --field isotropic, or --rigor estimate");
@@ -134,7 +143,7 @@ std::optional<sim::Progress> decide_structurally(ChooseAnswer& answer, const val
       const double each = 1 / static_cast<double>(answer.ranking.size());
       const double before = each * static_cast<double>(ranking.size());
       if (progress) progress({fmt::format("structure of {}", name(ranked.candidate.technique)), before, before + each});
-      ranking.push_back(assess_structurally(job, ranked.candidate, costs, stop));
+      ranking.push_back(assess_structurally(job, ranked.candidate, costs, threads, stop));
     }
   } catch (const sim::Stopped&) {
     return sim::Progress{ranking.size(), answer.ranking.size(), "candidates counted by their structures"};
@@ -173,8 +182,12 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   const auto rigor = requested_rigor(options);
   const bool structural = rigor == Rigor::structural;
   const std::vector<Technique> disabled = disabled_techniques(options);
+  const Engine engine = parse_engine(options.engine);
+  if (engine == Engine::plain && rigor == Rigor::pilot)
+    throw std::invalid_argument("--rigor pilot counts for the simd engine; with --engine plain give --rigor estimate");
+  const int threads = sim::useful_threads(common.threads);
   const CostsInUse costs_in_use = options.costs.costs(common);
-  const CostTable& costs = costs_in_use.costs;
+  const CostTable& costs = costs_in_use.of(engine);
   validate::JobRequest request = options.workload.request(common);
   request.workload_only = !options.analyze;
   Result result;
@@ -184,7 +197,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   answer.rigor = rigor.value_or(Rigor::estimate);
   if (request.numbers_alone() && !options.analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
-    result.stopped = decide(answer, costs, disabled, stop);
+    result.stopped = decide(answer, costs, disabled, threads, stop);
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
   } else {
@@ -193,26 +206,28 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);
     answer.workload = job.workload;
-    if (!rigor && !request.numbers_alone() && !is_in(disabled, Technique::box_tree) &&
+    if (!rigor && engine == Engine::simd && !request.numbers_alone() && !is_in(disabled, Technique::box_tree) &&
         sim::PilotedDiscs::can_pilot(job.problem()))
       answer.rigor = Rigor::pilot;
     if (answer.rigor == Rigor::pilot) {
-      decide_by_pilot(answer, job, costs, disabled, common.threads, stop);
+      decide_by_pilot(answer, job, costs, disabled, threads, stop);
     } else {
       answer.evidence_seconds = job.measure_seconds;
-      result.stopped = decide(answer, costs, disabled, stop);
+      result.stopped = decide(answer, costs, disabled, threads, stop);
     }
     if (structural && !result.stopped)
-      result.stopped = decide_structurally(answer, job, costs, stop,
+      result.stopped = decide_structurally(answer, job, costs, threads, stop,
                                            sim::part_of(progress.report(), share_of_job, options.analyze ? 0.6 : 1));
     if (structural && result.stopped) answer.rigor = Rigor::estimate;
     if (options.analyze && !result.stopped) {
       const auto predict = [&](const Candidate& candidate) {
-        return answer.pilot ? predicted_by_pilot(candidate, *answer.pilot, job, costs)
-                            : predicted(candidate, job, structural, costs, stop);
+        return answer.pilot ? predicted_by_pilot(candidate, *answer.pilot, job, costs, threads)
+                            : predicted(candidate, job, structural, costs, threads, stop);
       };
       answer.analysis = validate::analyse(job.problem(), answer.ranking,
                                           {.disabled = disabled,
+                                           .engine = engine,
+                                           .threads = threads,
                                            .stop = stop,
                                            .predict = predict,
                                            .progress = sim::part_of(progress.report(), share_of_job, 1)});
@@ -225,6 +240,8 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   result.inputs["unit_costs"] = to_json(costs);
   result.inputs["rigor"] = name(answer.rigor);
   result.inputs["analyze"] = options.analyze;
+  result.inputs["engine"] = name(engine);
+  result.inputs["threads"] = threads;
   answer.costs = costs;
   answer.costs_origin = costs_in_use.origin;
   result.json = to_json(answer);
@@ -243,9 +260,10 @@ Command choose_command(CLI::App& program) {
   options->costs.add_to(*app);
   app->add_option("--rigor", options->rigor,
                   "estimate: closed forms only; structural: the built structures, no rays; pilot: some of the rays, "
-                  "through parts of the index; default: pilot, where there are rays");
+                  "through parts of the index; default: pilot, where there are rays and the engine is simd");
   app->add_option("--disable", options->disable, "a list of techniques that may not be chosen; default: none")
       ->delimiter(',');
+  app->add_option("--engine", options->engine, engine_help);
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);
