@@ -51,12 +51,11 @@ double busy_threads(double pieces, int threads) {
 }
 
 CostBreakdown on_threads(const CostBreakdown& one, const Pieces& pieces, const ThreadCosts& costs, int threads) {
-  if (threads == 1) return one;
-  const auto share = [&](double of_pieces, double serial) {
-    return serial + (1 - serial) / busy_threads(of_pieces, threads);
-  };
-  const double preparing = share(pieces.preparing, costs.serial_preparing);
-  const double search = share(pieces.search, costs.serial_search);
+  const double preparing_threads = busy_threads(pieces.preparing, threads);
+  const double search_threads = busy_threads(pieces.search, threads);
+  if (preparing_threads == 1 && search_threads == 1) return one;
+  const double preparing = costs.serial_preparing + (1 - costs.serial_preparing) / preparing_threads;
+  const double search = costs.serial_search + (1 - costs.serial_search) / search_threads;
   return {.start = search * one.start + costs.start * (threads - 1),
           .order = preparing * one.order,
           .build = preparing * one.build,

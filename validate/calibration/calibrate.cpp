@@ -163,12 +163,10 @@ class Calibrator {
           time(problem, setting, candidate, engine, place);
   }
 
-  /// The numbers of threads on which a search is timed.
-  [[nodiscard]] std::vector<int> numbers_of(Technique technique, Engine engine, std::size_t place) const {
-    const WorkDivision& division = record_of(technique).division;
-    const bool divided =
-        division.preparing || (engine == Engine::plain ? division.plain : division.simd) != Division::none;
-    return divided && place % 2 == 0 ? numbers_ : std::vector<int>{1};
+  /// Whether two threads would be busy.
+  [[nodiscard]] static bool is_divided(const Counts<double>& counts, Technique technique, Engine engine) {
+    const Pieces pieces = pieces_of(counts, technique, engine);
+    return busy_threads(pieces.preparing, 2) > 1 || busy_threads(pieces.search, 2) > 1;
   }
 
   /// Whether the technique took too long with fewer rays and discs.
@@ -185,7 +183,9 @@ class Calibrator {
     const sim::Outcome counted = sim::run(problem, candidate, {.engine = engine, .stop = limit.token()});
     if (counted.stopped) too_long_.push_back({candidate.technique, engine, setting});
     if (counted.stopped || counted.seconds.total() > longest_run) return;
-    const std::vector<int> numbers = numbers_of(candidate.technique, engine, place);
+    const Counts<double> counts = as_expected(counted.counts);
+    const bool divided = place % 2 == 0 && is_divided(counts, candidate.technique, engine);
+    const std::vector<int> numbers = divided ? numbers_ : std::vector<int>{1};
     std::vector<Shortest> shortest(numbers.size());
     double timed = 0;
     for (int repeat = 0; repeat < most_repeats && timed < enough_timed; ++repeat)
@@ -205,7 +205,6 @@ class Calibrator {
     const Shortest& one = shortest.front();
     if (!(one.seconds > 0 && one.processor_seconds > 0)) return;
     Runs& runs = runs_of(engine, candidate.technique);
-    const Counts<double> counts = as_expected(counted.counts);
     runs.on_one_thread.push_back({{place, counts, one.seconds, one.preparing}, one.processor_seconds});
     for (std::size_t i = 1; i < numbers.size(); ++i)
       if (shortest[i].seconds > 0)
@@ -251,9 +250,10 @@ class Calibrator {
   void fit_threads_of(Technique technique, Engine engine, std::vector<double>& errors) {
     const std::vector<ThreadedRun>& runs = runs_of(engine, technique).on_more;
     if (runs.size() < 5) return;
+    const ThreadFit fit = fit_threads(runs, technique, engine);
+    if (fit.left_out_errors.empty()) return;  // too few workloads
     EngineCalibration& result = result_.of(engine);
-    const ThreadFit& fit =
-        result.thread_fits[static_cast<std::size_t>(technique)].emplace(fit_threads(runs, technique, engine));
+    result.thread_fits[static_cast<std::size_t>(technique)] = fit;
     result.costs.threads_of(technique) = fit.costs;
     errors.insert(errors.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
   }

@@ -48,7 +48,7 @@ inline constexpr double doubtful_error = 0.15;
 /// isotropic lines: 10² … 10⁵ discs (10⁶ once), 10² … 10⁵ rays, from few to very many hits; by both engines where they
 /// differ. Runs of more than 0.06 s are left out. A run is timed up to seven times, until 0.01 s have passed; the shortest
 /// time counts. Fits the unit costs of each technique and engine to its runs on one thread, in seconds. On every second
-/// workload, each run on one thread alternates with runs on 2, 4, … threads; the costs of threads are fitted to these. A
+/// workload, each run whose work is divided alternates with runs on 2, 4, … threads; the costs of threads are fitted to these. A
 /// technique with too few runs (10, or 5 on more threads) keeps the built-in costs.
 [[nodiscard]] Calibration calibrate(const CalibrationOptions& options = {});
 

@@ -31,7 +31,8 @@ class ThreadFitter {
         for (const double one : {p, s, a}) rows.push_back(one / measured);
         right.push_back((measured - least) / measured);
       };
-      add(run.seconds, preparing + search, more_preparing, more_search, run.threads - 1);
+      const bool divided = more_preparing > 0 || more_search > 0;
+      add(run.seconds, preparing + search, more_preparing, more_search, divided ? run.threads - 1 : 0);
       if (run.preparing > 0 && more_preparing > 0) add(run.preparing, preparing, more_preparing, 0, 0);
     }
     const std::vector<double> x = non_negative_fit(rows, thread_unknowns, right);
