@@ -45,6 +45,20 @@ TEST_SUITE("known answer") {
     CHECK(time.start == 21);
   }
 
+  TEST_CASE("discs that are visited again for each block of rays cost time of the search, not of building") {
+    CostTable costs = divided_costs();
+    costs[Technique::box_tree].cull_test = 0;
+    costs[Technique::box_tree].far = 1e-9;
+    costs.threads_of(Technique::box_tree) = {.serial_preparing = 1, .serial_search = 0, .start = 0};
+    const Counts<double> counts{.loaded = 1e8, .visits = 1e7, .sorted = 1e4};
+    const double one = price(counts, costs, Technique::box_tree).total();
+    CHECK(one == Approx(price(counts, costs[Technique::box_tree]).total()));
+    CHECK(price(counts, costs, Technique::box_tree, 2).total() == Approx(one / 2));
+    const Counts<double> built{.loaded = 1e8, .visits = 1e7, .sorted = 1e7};
+    CHECK(price(built, costs, Technique::box_tree, 2).total() ==
+          Approx(price(built, costs, Technique::box_tree).total()));
+  }
+
   TEST_CASE("three equal pieces keep 1.5 of two threads busy, and three of four") {
     CHECK(busy_threads(3, 2) == 1.5);
     CHECK(busy_threads(3, 4) == 3);
