@@ -27,16 +27,21 @@ bool are_all_numbers_fixed(const FixedParameters& fixed, Technique technique) {
 
 }  // namespace
 
-Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<CostTable>& costs) {
-  const Counts<double> counts = predict(workload, candidate);
-  return {candidate, counts, price(counts, costs, candidate.technique), extrapolations(workload, candidate)};
+Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<CostTable>& costs,
+              int most_threads) {
+  require_count("number of threads", most_threads, 1, 1e6);
+  const Counts<double> counts = predict(workload, candidate, costs.engine);
+  const auto fastest = fastest_price(counts, costs, candidate.technique, most_threads);
+  return {candidate, counts, fastest.time, extrapolations(workload, candidate), fastest.threads};
 }
 
 std::optional<Candidate> complete(Technique technique, const FixedParameters& fixed, const Valid<Workload>& workload,
                                   const Valid<CostTable>& costs, const SearchLimits& limits) {
   Candidate candidate = candidate_with(technique, fixed);
   if (model_of(technique).best == nullptr || are_all_numbers_fixed(fixed, technique)) return candidate;
-  const auto best = model_of(technique).best(workload, costs_of(costs, technique), fixed, limits);
+  SearchLimits of_engine = limits;
+  of_engine.engine = costs.engine;
+  const auto best = model_of(technique).best(workload, costs_of(costs, technique), fixed, of_engine);
   if (!best) return std::nullopt;
   candidate.parameters = *best;
   for (const auto& [name, value] : fixed.values) set_parameter(candidate, name, value);
@@ -50,7 +55,7 @@ std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& worklo
   if (!candidate) return std::nullopt;
   const auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
   if (cache != nullptr && cache->spheres == 0) return std::nullopt;  // this is brute force
-  return assess(workload, *candidate, costs);
+  return assess(workload, *candidate, costs, limits.threads);
 }
 
 std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs, const SearchLimits& limits) {

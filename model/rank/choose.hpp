@@ -14,6 +14,7 @@ struct Ranked {
   Counts<double> counts;                  ///< expected
   CostBreakdown time;                     ///< expected, in the unit of the costs
   std::vector<std::string> extrapolated;  ///< reasons why the counts are extrapolations; empty if they are not
+  int threads = 1;                        ///< for which the time is expected
 };
 
 /// All exact techniques with a closed form, each with its best parameters, fastest first. After a stop request, the
@@ -21,7 +22,9 @@ struct Ranked {
 ///
 /// Parameters: the sphere cache by best_ratio_and_stop; cell spheres and the octree by trying their depths; the sphere
 /// tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by trying leaves from 4 to 256, and then
-/// fan-outs from 4 to 16; the grid by best_grid_cells. Throws std::invalid_argument for a workload out of range.
+/// fan-outs from 4 to 16; the grid by best_grid_cells. They are those for one thread; then the number of threads is
+/// chosen, at most limits.threads (fastest_price). The counts are those of the costs' engine. Throws
+/// std::invalid_argument for a workload or a number of threads out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                        const SearchLimits& limits = {});
 
@@ -37,8 +40,8 @@ struct Ranked {
                                                 const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                                 const SearchLimits& limits = {});
 
-/// One candidate as `rank` would return it.
+/// One candidate as `rank` would return it, on the number of threads, at most `most_threads`, that is fastest.
 [[nodiscard]] Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate,
-                            const Valid<CostTable>& costs);
+                            const Valid<CostTable>& costs, int most_threads = 1);
 
 }  // namespace detp::model

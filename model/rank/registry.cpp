@@ -124,7 +124,7 @@ std::optional<Parameters> best_box_tree(const Valid<Workload>& workload, const V
   const auto consider = [&](std::int64_t fan_out, std::int64_t leaf) {
     if (fastest.best() && limits.stop.stop_requested()) return;
     const BoxTreeParameters tree{static_cast<int>(fan_out), static_cast<int>(leaf)};
-    fastest.consider(tree, box_tree_counts(workload, tree, Engine::simd));
+    fastest.consider(tree, box_tree_counts(workload, tree, limits.engine));
   };
   const auto fixed_fan_out = fixed.value<std::int64_t>("fan-out");
   const auto fixed_leaf = fixed.value<std::int64_t>("leaf");

@@ -18,6 +18,8 @@ struct SearchLimits {
   int most_depth = 14;           ///< of an octree, and of cells with spheres
   double most_cells = 1 << 26;   ///< total number in a grid: 8 bytes each
   double most_references = 1e9;  ///< references to discs in an index: 4 bytes each
+  int threads = 1;               ///< most threads of a search, at least 1
+  Engine engine = Engine::simd;  ///< whose counts `best` compares; complete and best_of set that of the costs
   std::stop_token stop = {};     ///< ends the search, which then returns what it has found so far
 };
 

@@ -30,6 +30,10 @@ void require_ratio(std::string_view what, double value) {
   if (!(value > 0 && value < 1)) refuse(what, "between 0 and 1, both excluded", value);
 }
 
+void require_share(std::string_view what, double value) {
+  if (!(value >= 0 && value <= 1)) refuse(what, "from 0 to 1", value);
+}
+
 void require_count(std::string_view what, double value, double least, double most) {
   if (!(value >= least && value <= most && value == std::floor(value)))
     refuse(what, fmt::format("a whole number from {} to {}", least, most), value);

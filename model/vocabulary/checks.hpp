@@ -18,6 +18,9 @@ void require_finite(std::string_view what, double value);
 /// Accepts only 0 < value < 1.
 void require_ratio(std::string_view what, double value);
 
+/// Accepts only 0 <= value <= 1.
+void require_share(std::string_view what, double value);
+
 /// Accepts only whole numbers from least to most. The value is a double because counts reach 1e18.
 void require_count(std::string_view what, double value, double least, double most);
 

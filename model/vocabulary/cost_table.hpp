@@ -2,23 +2,30 @@
 
 #include <array>
 
-#include "unit_costs.hpp"
+#include "thread_costs.hpp"
 #include "valid.hpp"
 
 namespace detp {
 
-/// The unit costs of each technique. The same operation may take a different time in each: the kernels, the sizes of
-/// the lists and the memory in use differ.
+/// The unit costs of each technique by one engine. The same operation may take a different time in each: the kernels, the
+/// sizes of the lists and the memory in use differ.
 struct CostTable {
   std::array<UnitCosts, all_techniques.size()> of_technique{};  ///< in the order of Technique
+  std::array<ThreadCosts, all_techniques.size()> threads{};     ///< default: more threads are no faster
+  Engine engine = Engine::simd;                                 ///< whose costs these are
 
   CostTable() = default;
-  /// The same costs for all techniques.
+  /// The same costs for all techniques, on one thread.
   CostTable(const UnitCosts& costs) { of_technique.fill(costs); }
 
   [[nodiscard]] UnitCosts& operator[](Technique technique) { return of_technique[static_cast<std::size_t>(technique)]; }
   [[nodiscard]] const UnitCosts& operator[](Technique technique) const {
     return of_technique[static_cast<std::size_t>(technique)];
+  }
+
+  [[nodiscard]] ThreadCosts& threads_of(Technique technique) { return threads[static_cast<std::size_t>(technique)]; }
+  [[nodiscard]] const ThreadCosts& threads_of(Technique technique) const {
+    return threads[static_cast<std::size_t>(technique)];
   }
 
   bool operator==(const CostTable&) const = default;
@@ -32,9 +39,19 @@ void check(const CostTable& costs);
   return Valid<UnitCosts>(costs, costs[technique]);
 }
 
-/// The time of a technique's counts with its costs.
-[[nodiscard]] inline CostBreakdown price(const Counts<double>& counts, const CostTable& costs, Technique technique) {
-  return price(counts, costs[technique], technique);
-}
+/// The time of a technique's counts with its costs, on `threads` threads.
+[[nodiscard]] CostBreakdown price(const Counts<double>& counts, const CostTable& costs, Technique technique,
+                                  int threads = 1);
+
+/// A time and the number of threads that it takes.
+struct TimeOnThreads {
+  int threads = 1;
+  CostBreakdown time = {};
+};
+
+/// The shortest time of a technique's counts on 1, 2, 4, … or `most_threads` threads. If times are equal, the smaller
+/// number.
+[[nodiscard]] TimeOnThreads fastest_price(const Counts<double>& counts, const CostTable& costs, Technique technique,
+                                          int most_threads);
 
 }  // namespace detp

@@ -29,6 +29,17 @@ inline constexpr std::array<std::string_view, 2> choice_names<Engine>{"plain", "
   return std::clamp(std::bit_ceil(std::min(4 * discs, most)), least, most);
 }
 
+/// Number of rays in the pieces that threads search in turn, one ray after another.
+inline constexpr std::size_t rays_in_chunk = 64;
+
+/// Number of discs that the simd engine's brute force tests against all rays of a block, as one piece of work. Their data
+/// stay in the first-level cache.
+inline constexpr std::size_t discs_in_chunk = 512;
+
+/// The simd engine searches the children of a tree's node as separate tasks if testing the node's rays against them
+/// takes at least this many tests.
+inline constexpr std::size_t tests_in_task = std::size_t{1} << 16;
+
 /// Number of blocks of rays_in_block rays for `rays` rays.
 [[nodiscard]] inline double blocks_of(double rays, double discs) {
   constexpr double many = 1e9;  // more discs make no difference

@@ -96,6 +96,21 @@ inline constexpr std::array photon_map{number<&PhotonMapParameters::nearest>(
 
 }  // namespace records
 
+/// The pieces into which a search is divided among threads.
+enum class Division {
+  none,   ///< one thread searches
+  rays,   ///< chunks of rays_in_chunk rays
+  discs,  ///< chunks of discs_in_chunk discs
+  axes,   ///< the rays by the dominant axis of their directions: three pieces
+  nodes   ///< subtrees (tests_in_task)
+};
+
+struct WorkDivision {
+  Division plain = Division::none;  ///< of the search by the plain engine
+  Division simd = Division::none;   ///< of the search by the simd engine
+  bool preparing = false;           ///< sorting and building are divided, too
+};
+
 /// Properties of a technique that do not depend on a run.
 struct TechniqueRecord {
   Technique technique;
@@ -105,22 +120,65 @@ struct TechniqueRecord {
   bool exact = true;        ///< finds every hit
   bool ray_by_ray = false;  ///< tests one ray and one disc at a time, not lists of rays
   bool simd = false;        ///< has a simd engine
+  WorkDivision division = {};
 };
 
 inline constexpr std::array technique_records{
-    TechniqueRecord{Technique::brute_force, "brute-force", {}, BruteForceParameters{}, true, false, true},
-    TechniqueRecord{Technique::sphere_cache, "sphere-cache", records::sphere_cache, SphereCacheParameters{}, true,
-                    false, true},
+    TechniqueRecord{Technique::brute_force,
+                    "brute-force",
+                    {},
+                    BruteForceParameters{},
+                    true,
+                    false,
+                    true,
+                    {Division::rays, Division::discs}},
+    TechniqueRecord{Technique::sphere_cache,
+                    "sphere-cache",
+                    records::sphere_cache,
+                    SphereCacheParameters{},
+                    true,
+                    false,
+                    true,
+                    {.simd = Division::axes}},
     TechniqueRecord{Technique::sphere_cache_published, "sphere-cache-published", records::sphere_cache,
                     SphereCacheParameters{}, false},
-    TechniqueRecord{Technique::cell_spheres, "cell-spheres", records::cell_spheres, CellSpheresParameters{}, true,
-                    false, true},
+    TechniqueRecord{Technique::cell_spheres,
+                    "cell-spheres",
+                    records::cell_spheres,
+                    CellSpheresParameters{},
+                    true,
+                    false,
+                    true,
+                    {.simd = Division::axes}},
     TechniqueRecord{Technique::sphere_tree, "sphere-tree", records::sphere_tree, SphereTreeParameters{}},
-    TechniqueRecord{Technique::box_tree, "box-tree", records::box_tree, BoxTreeParameters{}, true, false, true},
-    TechniqueRecord{Technique::octree, "octree", records::octree, OctreeParameters{}, true, true},
-    TechniqueRecord{Technique::grid, "grid", records::grid, GridParameters{}, true, true},
-    TechniqueRecord{Technique::bsp, "bsp", records::bsp, BspParameters{}, true, true},
-    TechniqueRecord{Technique::bvh, "bvh", records::bvh, BvhParameters{}, true, true},
+    TechniqueRecord{Technique::box_tree,
+                    "box-tree",
+                    records::box_tree,
+                    BoxTreeParameters{},
+                    true,
+                    false,
+                    true,
+                    {.simd = Division::nodes, .preparing = true}},
+    TechniqueRecord{Technique::octree,
+                    "octree",
+                    records::octree,
+                    OctreeParameters{},
+                    true,
+                    true,
+                    false,
+                    {Division::rays, Division::rays}},
+    TechniqueRecord{
+        Technique::grid, "grid", records::grid, GridParameters{}, true, true, false, {Division::rays, Division::rays}},
+    TechniqueRecord{
+        Technique::bsp, "bsp", records::bsp, BspParameters{}, true, true, false, {Division::rays, Division::rays}},
+    TechniqueRecord{Technique::bvh,
+                    "bvh",
+                    records::bvh,
+                    BvhParameters{},
+                    true,
+                    true,
+                    false,
+                    {Division::rays, Division::rays, true}},
     TechniqueRecord{Technique::ray_map, "ray-map", records::ray_map, RayMapParameters{}, true, true},
     TechniqueRecord{Technique::photon_map, "photon-map", records::photon_map, PhotonMapParameters{}, false, true}};
 

@@ -8,6 +8,7 @@
 #include "form.hpp"
 #include "saturated.hpp"
 #include "technique.hpp"
+#include "thread_costs.hpp"
 #include "unit_costs.hpp"
 #include "units.hpp"
 #include "valid.hpp"

@@ -46,6 +46,8 @@ int startable_threads(int threads) {
 
 int thread_count(int requested) { return requested > 0 ? requested : oneapi::tbb::info::default_concurrency(); }
 
+int useful_threads(int requested) { return std::min(thread_count(requested), thread_count(0)); }
+
 void on_threads(int threads, FunctionRef<void()> work) {
   using oneapi::tbb::global_control;
   const int started = startable_threads(threads);

@@ -9,6 +9,9 @@ inline constexpr int most_threads = 4096;
 /// The number of threads that an option means: 0 means all cores that this process may use.
 [[nodiscard]] int thread_count(int requested);
 
+/// The same, but at most as many as there are cores: more threads are no faster.
+[[nodiscard]] int useful_threads(int requested);
+
 /// The number of threads, this one included, that can run in this process: at least 1, at most `threads`. Call it
 /// before oneTBB starts threads: oneTBB ends the process if a limit on processes or memory prevents a start. A call
 /// whose `threads` is larger than in all earlier calls finds the number by starting threads; other calls start none.

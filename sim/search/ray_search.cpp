@@ -13,7 +13,6 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::size_t chunk_rays = 64;
 constexpr std::size_t chunks_a_thread = 4;
 
 struct Chunk {
@@ -32,9 +31,9 @@ class Chunks {
   bool next(Chunk& chunk) {
     if (begun_ >= rays_ || stop_.stop_requested()) return false;
     if (progress_) progress_(static_cast<double>(begun_) / static_cast<double>(rays_));
-    const std::size_t end = std::min(begun_ + chunk_rays, rays_);
+    const std::size_t end = std::min(begun_ + rays_in_chunk, rays_);
     chunk = {static_cast<std::uint32_t>(begun_), static_cast<std::uint32_t>(end),
-             &buffers_[begun_ / chunk_rays % buffers_.size()]};
+             &buffers_[begun_ / rays_in_chunk % buffers_.size()]};
     chunk.hits->clear();
     begun_ = end;
     return true;

@@ -8,6 +8,7 @@
 #include "built_in_costs.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -91,21 +92,21 @@ std::vector<Candidate> candidates(const Setting& setting, std::size_t place) {
 
 class Calibrator {
  public:
-  explicit Calibrator(const CalibrationOptions& options) : options_(options) { result_.costs = built_in_unit_costs(); }
+  explicit Calibrator(const CalibrationOptions& options)
+      : options_(options), numbers_(thread_numbers(sim::thread_count(options.threads))) {
+    for (const Engine engine : {Engine::plain, Engine::simd}) result_.of(engine).costs = built_in_unit_costs(engine);
+  }
 
   Calibration run() && {
-    const sim::Stopwatch watch;
     const std::vector<Setting> all = settings();
-    for (std::size_t i = 0; i < all.size(); ++i) {
-      if (i >= least_workloads && watch.seconds() >= options_.seconds) break;
-      if (options_.stop.stop_requested()) break;
-      report(watch.seconds());
+    for (std::size_t i = 0; i < all.size() && !is_over(i); ++i) {
+      report(watch_.seconds());
       measure(all[i], i);
       ++result_.workloads;
     }
     result_.stopped = options_.stop.stop_requested();
     fit_all();
-    result_.seconds = watch.seconds();
+    result_.seconds = watch_.seconds();
     return std::move(result_);
   }
 
@@ -114,6 +115,36 @@ class Calibrator {
     TimedRun timed;  ///< in wall time
     double processor_seconds;
   };
+
+  /// The runs of one technique by one engine.
+  struct Runs {
+    std::vector<Run> on_one_thread;
+    std::vector<ThreadedRun> on_more;
+  };
+
+  /// The shortest of the runs of a candidate on one number of threads.
+  struct Shortest {
+    double seconds = 0;
+    double preparing = 0;
+    double processor_seconds = 0;
+
+    void add(const sim::Outcome& outcome, double processor) {
+      const double total = outcome.seconds.total();
+      const bool first = seconds == 0;
+      if (first || processor < processor_seconds) processor_seconds = processor;
+      if (!first && total >= seconds) return;
+      seconds = total;
+      preparing = outcome.seconds.order + outcome.seconds.build;
+    }
+  };
+
+  [[nodiscard]] bool is_over(std::size_t place) const {
+    return options_.stop.stop_requested() || (place >= least_workloads && watch_.seconds() >= options_.seconds);
+  }
+
+  [[nodiscard]] Runs& runs_of(Engine engine, Technique technique) {
+    return runs_[static_cast<std::size_t>(engine)][static_cast<std::size_t>(technique)];
+  }
 
   void report(double seconds) const {
     if (!options_.progress) return;
@@ -126,69 +157,121 @@ class Calibrator {
     const auto lines = sim::LineField(sim::enclosing_sphere(discs), place + 1).lines(0, setting.rays);
     const sim::Problem problem = sim::make_problem(lines, discs);
     for (const Candidate& candidate : candidates(setting, place))
-      if (!options_.stop.stop_requested() && !is_hopeless(setting, candidate.technique))
-        time(problem, setting, candidate, place);
+      for (const Engine engine : {Engine::simd, Engine::plain})
+        if ((engine == Engine::simd || record_of(candidate.technique).simd) && !is_over(place) &&
+            !is_hopeless(setting, candidate.technique, engine))
+          time(problem, setting, candidate, engine, place);
+  }
+
+  /// Whether two threads would be busy.
+  [[nodiscard]] static bool is_divided(const Counts<double>& counts, Technique technique, Engine engine) {
+    const Pieces pieces = pieces_of(counts, technique, engine);
+    return busy_threads(pieces.preparing, 2) > 1 || busy_threads(pieces.search, 2) > 1;
   }
 
   /// Whether the technique took too long with fewer rays and discs.
-  [[nodiscard]] bool is_hopeless(const Setting& setting, Technique technique) const {
-    return std::any_of(too_long_.begin(), too_long_.end(), [&](const auto& one) {
-      return one.first == technique && one.second.samples <= setting.samples && one.second.rays <= setting.rays;
+  [[nodiscard]] bool is_hopeless(const Setting& setting, Technique technique, Engine engine) const {
+    return std::any_of(too_long_.begin(), too_long_.end(), [&](const TooLong& one) {
+      return one.technique == technique && one.engine == engine && one.setting.samples <= setting.samples &&
+             one.setting.rays <= setting.rays;
     });
   }
 
-  void time(const sim::Problem& problem, const Setting& setting, const Candidate& candidate, std::size_t place) {
+  void time(const sim::Problem& problem, const Setting& setting, const Candidate& candidate, Engine engine,
+            std::size_t place) {
     const StopAfter limit(options_.stop, longest_run);
-    const sim::Outcome counted = sim::run(problem, candidate, {.stop = limit.token()});
-    if (counted.stopped) too_long_.emplace_back(candidate.technique, setting);
+    const sim::Outcome counted = sim::run(problem, candidate, {.engine = engine, .stop = limit.token()});
+    if (counted.stopped) too_long_.push_back({candidate.technique, engine, setting});
     if (counted.stopped || counted.seconds.total() > longest_run) return;
-    Run best{{.workload = place, .counts = as_expected(counted.counts)}, 0};
+    const Counts<double> counts = as_expected(counted.counts);
+    const bool divided = place % 2 == 0 && is_divided(counts, candidate.technique, engine);
+    const std::vector<int> numbers = divided ? numbers_ : std::vector<int>{1};
+    std::vector<Shortest> shortest(numbers.size());
     double timed = 0;
-    for (int repeat = 0; repeat < most_repeats && timed < enough_timed; ++repeat) {
-      const sim::ProcessorStopwatch processor;
-      const sim::Outcome outcome = sim::run(problem, candidate, {.count = false, .stop = options_.stop});
-      if (outcome.stopped) return;
-      const double used = processor.seconds();
-      const double seconds = outcome.seconds.total();
-      timed += seconds;
-      wall_seconds_ += seconds;
-      processor_seconds_ += std::min(used, seconds);
-      if (repeat == 0 || seconds < best.timed.seconds) {
-        best.timed.seconds = seconds;
-        best.timed.build_seconds = outcome.seconds.order + outcome.seconds.build;
+    for (int repeat = 0; repeat < most_repeats && timed < enough_timed; ++repeat)
+      for (std::size_t i = 0; i < numbers.size(); ++i) {
+        const sim::ProcessorStopwatch processor;
+        const sim::Outcome outcome = sim::run(
+            problem, candidate, {.count = false, .engine = engine, .stop = options_.stop, .threads = numbers[i]});
+        if (outcome.stopped) return;
+        const double used = processor.seconds();
+        shortest[i].add(outcome, used);
+        if (i > 0) continue;
+        const double seconds = outcome.seconds.total();
+        timed += seconds;
+        wall_seconds_ += seconds;
+        processor_seconds_ += std::min(used, seconds);
       }
-      if (repeat == 0 || used < best.processor_seconds) best.processor_seconds = used;
-    }
-    if (best.timed.seconds > 0 && best.processor_seconds > 0)
-      runs_[static_cast<std::size_t>(candidate.technique)].push_back(best);
+    const Shortest& one = shortest.front();
+    if (!(one.seconds > 0 && one.processor_seconds > 0)) return;
+    Runs& runs = runs_of(engine, candidate.technique);
+    runs.on_one_thread.push_back({{place, counts, one.seconds, one.preparing}, one.processor_seconds});
+    for (std::size_t i = 1; i < numbers.size(); ++i)
+      if (shortest[i].seconds > 0)
+        runs.on_more.push_back(
+            {place, counts, numbers[i], one.seconds, one.preparing, shortest[i].seconds, shortest[i].preparing});
   }
 
   void fit_all() {
     if (wall_seconds_ > 0) result_.processor_share = processor_seconds_ / wall_seconds_;
     std::vector<double> errors;
-    for (const Technique technique : all_techniques) {
-      std::vector<TimedRun> runs;
-      for (const Run& run : runs_[static_cast<std::size_t>(technique)]) {
-        runs.push_back(run.timed);
-        if (result_.processor_share >= busy_share) continue;
-        runs.back().build_seconds *= run.processor_seconds / run.timed.seconds;
-        runs.back().seconds = run.processor_seconds;
+    std::vector<double> thread_errors;
+    for (const Engine engine : {Engine::plain, Engine::simd})
+      for (const Technique technique : all_techniques) {
+        fit_costs_of(technique, engine, errors);
+        fit_threads_of(technique, engine, thread_errors);
       }
-      if (runs.size() < 10) continue;
-      const CostFit& fit = result_.fits[static_cast<std::size_t>(technique)].emplace(fit_costs(runs, technique));
-      result_.costs[technique] = fit.costs;
-      errors.insert(errors.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
-    }
+    for (const Technique technique : all_techniques)
+      if (!record_of(technique).simd) {  // both engines are the same
+        result_.plain.costs[technique] = result_.simd.costs[technique];
+        result_.plain.costs.threads_of(technique) = result_.simd.costs.threads_of(technique);
+      }
+    for (const Engine engine : {Engine::plain, Engine::simd})  // always plain
+      result_.of(engine).costs[Technique::sphere_cache_published] = result_.plain.costs[Technique::sphere_cache];
     if (!errors.empty()) result_.left_out_median_error = median(std::move(errors));
-    result_.costs[Technique::sphere_cache_published] = result_.costs[Technique::sphere_cache];
+    if (!thread_errors.empty()) result_.threads_left_out_median_error = median(std::move(thread_errors));
   }
 
+  void fit_costs_of(Technique technique, Engine engine, std::vector<double>& errors) {
+    std::vector<TimedRun> runs;
+    for (const Run& run : runs_of(engine, technique).on_one_thread) {
+      runs.push_back(run.timed);
+      if (result_.processor_share >= busy_share) continue;
+      runs.back().build_seconds *= run.processor_seconds / run.timed.seconds;
+      runs.back().seconds = run.processor_seconds;
+    }
+    if (runs.size() < 10) return;
+    EngineCalibration& result = result_.of(engine);
+    const CostFit& fit = result.fits[static_cast<std::size_t>(technique)].emplace(fit_costs(runs, technique));
+    result.costs[technique] = fit.costs;
+    errors.insert(errors.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
+  }
+
+  void fit_threads_of(Technique technique, Engine engine, std::vector<double>& errors) {
+    const std::vector<ThreadedRun>& runs = runs_of(engine, technique).on_more;
+    if (runs.size() < 5) return;
+    const ThreadFit fit = fit_threads(runs, technique, engine);
+    if (fit.left_out_errors.empty()) return;  // too few workloads
+    EngineCalibration& result = result_.of(engine);
+    result.thread_fits[static_cast<std::size_t>(technique)] = fit;
+    result.costs.threads_of(technique) = fit.costs;
+    errors.insert(errors.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
+  }
+
+  struct TooLong {
+    Technique technique;
+    Engine engine;
+    Setting setting;
+  };
+
   const CalibrationOptions& options_;
+  std::vector<int> numbers_;  ///< of threads
+  sim::Stopwatch watch_;
   Calibration result_;
-  std::array<std::vector<Run>, all_techniques.size()> runs_;
-  double wall_seconds_ = 0;
-  double processor_seconds_ = 0;
-  std::vector<std::pair<Technique, Setting>> too_long_;
+  std::array<std::array<Runs, all_techniques.size()>, 2> runs_;  ///< by engine
+  double wall_seconds_ = 0;                                      ///< of runs on one thread
+  double processor_seconds_ = 0;                                 ///< of these
+  std::vector<TooLong> too_long_;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -24,7 +25,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "detp.calibrate";
-constexpr int cost_model = 2;  // change it whenever the meaning of a unit cost or of a count changes
+constexpr int cost_model = 3;  // change it whenever the meaning of a unit cost or of a count changes
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
 
 std::string cpu_name() {
@@ -55,14 +56,27 @@ CalibrationKey key_of(const Json& json) {
           .cost_model = json.at("cost_model")};
 }
 
-/// Costs that the file does not name are 0; techniques that it does not name have the built-in costs.
-CostTable costs_of(const Json& json) {
-  CostTable costs = built_in_unit_costs();
+struct ThreadTerm {
+  const char* name;
+  double ThreadCosts::*cost;
+};
+constexpr std::array thread_terms{ThreadTerm{"serial_preparing", &ThreadCosts::serial_preparing},
+                                  ThreadTerm{"serial_search", &ThreadCosts::serial_search},
+                                  ThreadTerm{"start", &ThreadCosts::start}};
+
+/// The costs of one engine. Unit costs that the file does not name are 0; techniques that it does not name have the
+/// built-in costs.
+CostTable costs_of(const Json& json, Engine engine) {
+  CostTable costs = built_in_unit_costs(engine);
+  const Json& units = json.at("costs").at(std::string(name(engine)));
+  const Json& threads = json.at("threads").at(std::string(name(engine)));
   for (const Technique technique : all_techniques) {
-    const auto found = json.find(std::string(name(technique)));
-    if (found == json.end()) continue;
-    for (const UnitCostTerm& term : unit_cost_terms)
-      costs[technique].*term.cost = found->value(std::string(term.symbol), 0.0);
+    const std::string key(name(technique));
+    if (const auto found = units.find(key); found != units.end())
+      for (const UnitCostTerm& term : unit_cost_terms)
+        costs[technique].*term.cost = found->value(std::string(term.symbol), 0.0);
+    if (const auto found = threads.find(key); found != threads.end())
+      for (const ThreadTerm& term : thread_terms) costs.threads_of(technique).*term.cost = found->at(term.name);
   }
   check(costs);
   return costs;
@@ -76,6 +90,24 @@ Json to_json(const CostTable& costs) {
         if (const double cost = costs[technique].*term.cost; cost > 0)
           json[std::string(name(technique))][std::string(term.symbol)] = cost;
   return json;
+}
+
+/// Of the techniques that threads can make faster.
+Json threads_json(const CostTable& costs) {
+  Json json = Json::object();
+  for (const Technique technique : all_techniques)
+    if (const ThreadCosts& one = costs.threads_of(technique); one != ThreadCosts{})
+      for (const ThreadTerm& term : thread_terms) json[std::string(name(technique))][term.name] = one.*term.cost;
+  return json;
+}
+
+void check_version(const Json& json, const std::string& path) {
+  if (json.at("schema").at("name") != schema || json.at("schema").at("version") != 1)
+    throw sim::FileError(path, "is not a calibration of this version of detp; make one with detp calibrate");
+  if (const int found = json.at("key").at("cost_model"); found != cost_model)
+    throw sim::FileError(path, fmt::format("is of version {} of the cost model, here it is {}, with costs of both "
+                                           "engines and of threads; make a new one with detp calibrate",
+                                           found, cost_model));
 }
 
 }  // namespace
@@ -114,11 +146,13 @@ std::string default_calibration_path() {
 }
 
 std::string calibration_text(const Calibration& calibration) {
-  const Json json{{"schema", {{"name", schema}, {"version", 1}}},
-                  {"key", to_json(this_machine())},
-                  {"date", today()},
-                  {"left_out_median_error", calibration.left_out_median_error},
-                  {"costs", to_json(calibration.costs)}};
+  const Json json{
+      {"schema", {{"name", schema}, {"version", 1}}},
+      {"key", to_json(this_machine())},
+      {"date", today()},
+      {"left_out_median_error", calibration.left_out_median_error},
+      {"costs", {{"simd", to_json(calibration.simd.costs)}, {"plain", to_json(calibration.plain.costs)}}},
+      {"threads", {{"simd", threads_json(calibration.simd.costs)}, {"plain", threads_json(calibration.plain.costs)}}}};
   return json.dump(2) + "\n";
 }
 
@@ -135,11 +169,11 @@ void write_calibration(const std::string& path, const Calibration& calibration) 
 StoredCalibration parse_calibration(const std::string& text, const std::string& path) {
   try {
     const Json json = Json::parse(text);
-    if (json.at("schema").at("name") != schema || json.at("schema").at("version") != 1)
-      throw sim::FileError(path, "is not a calibration of this version of detp; make one with detp calibrate");
+    check_version(json, path);
     StoredCalibration stored{.key = key_of(json.at("key")),
                              .date = json.at("date"),
-                             .costs = costs_of(json.at("costs")),
+                             .plain = costs_of(json, Engine::plain),
+                             .simd = costs_of(json, Engine::simd),
                              .left_out_median_error = json.at("left_out_median_error")};
     require_non_negative("left_out_median_error", stored.left_out_median_error);
     return stored;

@@ -28,7 +28,8 @@ struct CalibrationKey {
 struct StoredCalibration {
   CalibrationKey key;
   std::string date;  ///< "2026-11-20"
-  CostTable costs;
+  CostTable plain;
+  CostTable simd;
   double left_out_median_error = 0;
 };
 
@@ -42,7 +43,7 @@ struct StoredCalibration {
 /// Writes the file, and its folder if necessary. Throws sim::FileError.
 void write_calibration(const std::string& path, const Calibration& calibration);
 
-/// Throws sim::FileError if the file cannot be read, or if it is not a calibration.
+/// Throws sim::FileError if the file cannot be read, if it is not a calibration, or if an older or newer program wrote it.
 [[nodiscard]] StoredCalibration read_calibration(const std::string& path);
 
 /// The text as read_calibration reads it; `path` is for messages.

@@ -144,7 +144,8 @@ class Analyser {
     sim::Outcome stopped;
     stopped.stopped = true;
     try {
-      return sim::run(problem_, one.candidate, {.count = counting, .stop = stop});
+      return sim::run(problem_, one.candidate,
+                      {.count = counting, .engine = options_.engine, .stop = stop, .threads = one.threads});
     } catch (const sim::Stopped&) {
     } catch (const std::length_error& error) {
       one.refused = error.what();
@@ -189,14 +190,17 @@ Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& 
                  const AnalysisOptions& options) {
   const auto predicted = [&](const std::vector<Candidate>& candidates) {
     std::vector<Analysed> all;
-    for (const Candidate& candidate : candidates)
-      all.push_back({.candidate = candidate,
-                     .predicted = options.predict ? options.predict(candidate) : std::optional<model::Ranked>{}});
+    for (const Candidate& candidate : candidates) {
+      auto prediction = options.predict ? options.predict(candidate) : std::optional<model::Ranked>{};
+      const int threads = prediction ? prediction->threads : options.threads;
+      all.push_back({.candidate = candidate, .threads = threads, .predicted = std::move(prediction)});
+    }
     return all;
   };
   Analyser analyser(problem, options);
   std::vector<Analysed> ranked;
-  for (const model::Ranked& one : ranking) ranked.push_back({.candidate = one.candidate, .predicted = one});
+  for (const model::Ranked& one : ranking)
+    ranked.push_back({.candidate = one.candidate, .threads = one.threads, .predicted = one});
   analyser.count(ranked);
   std::vector<Candidate> left_out = techniques_left_out(analyser.candidates());
   std::erase_if(left_out, [&](const Candidate& one) {

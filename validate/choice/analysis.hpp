@@ -16,6 +16,7 @@ namespace detp::validate {
 /// A candidate: predicted if it has a closed form; counted and measured if it was run to its end.
 struct Analysed {
   Candidate candidate;
+  int threads = 1;  ///< of its runs: those of the prediction, or else the most
   std::optional<model::Ranked> predicted = {};
   std::optional<Counts<std::uint64_t>> counted = {};
   std::optional<double> seconds = {};         ///< median of the timed runs
@@ -40,6 +41,8 @@ struct AnalysisOptions {
   double far_behind = 2;    ///< a candidate that takes more than this many times the shortest time is timed only once
   std::size_t leaders = 2;  ///< number of fastest candidates whose neighbours are tried
   std::vector<Technique> disabled = {};  ///< techniques that are not added to the ranked ones
+  Engine engine = Engine::simd;          ///< of all runs
+  int threads = 1;                       ///< of the runs of candidates without a prediction
   std::stop_token stop = {};
   /// Returns the models' prediction for a candidate that was not ranked, or nothing if the candidate has no closed
   /// form.

@@ -10,6 +10,7 @@
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
@@ -18,10 +19,19 @@
 namespace detp::validate {
 namespace {
 
-Piloted priced(const Candidate& candidate, const Counts<double>& counts, const CostTable& costs,
-               double relative_error) {
-  const CostBreakdown time = price(counts, costs, candidate.technique);
-  return {candidate, counts, time, relative_error * (time.rebuild + time.copy + time.intersect)};
+/// The costs, and the most threads for which a choice is made.
+struct Prices {
+  const Valid<CostTable>& costs;
+  int most_threads;
+
+  [[nodiscard]] TimeOnThreads operator()(const Counts<double>& counts, Technique technique) const {
+    return fastest_price(counts, costs, technique, most_threads);
+  }
+};
+
+Piloted priced(const Candidate& candidate, const Counts<double>& counts, const Prices& prices, double relative_error) {
+  const auto [threads, time] = prices(counts, candidate.technique);
+  return {candidate, counts, time, threads, relative_error * (time.rebuild + time.copy + time.intersect)};
 }
 
 double seconds(const Piloted& one) { return one.time.total(); }
@@ -29,7 +39,7 @@ double seconds(const Piloted& one) { return one.time.total(); }
 /// Looks for the fastest box tree: halves and doubles leaf and fan-out in turn, as long as that is faster.
 class ShapeSearch {
  public:
-  ShapeSearch(const sim::PilotedDiscs& discs, const CostTable& costs) : discs_(discs), costs_(costs) {}
+  ShapeSearch(const sim::PilotedDiscs& discs, const Prices& prices) : discs_(discs), prices_(prices) {}
 
   std::vector<Piloted> run() {
     consider({8, 32});
@@ -50,7 +60,7 @@ class ShapeSearch {
     for (const Piloted& one : tried_)
       if (one.candidate == candidate) return false;
     const auto predicted = discs_.counts(shape);
-    tried_.push_back(priced(candidate, predicted.counts, costs_, predicted.relative_error));
+    tried_.push_back(priced(candidate, predicted.counts, prices_, predicted.relative_error));
     return best() == shape;
   }
 
@@ -73,14 +83,14 @@ class ShapeSearch {
   }
 
   const sim::PilotedDiscs& discs_;
-  const CostTable& costs_;
+  const Prices& prices_;
   std::vector<Piloted> tried_;
 };
 
-Piloted brute_force(double rays, double discs, double hits, const CostTable& costs) {
+Piloted brute_force(double rays, double discs, double hits, const Prices& prices) {
   const double blocks = ray_blocks(rays, discs, Engine::simd).count();
   const Counts<double> counts{.loaded = rays, .visits = blocks * discs, .disc_tests = rays * discs, .hits = hits};
-  return priced({Technique::brute_force, BruteForceParameters{}}, counts, costs, 0);
+  return priced({Technique::brute_force, BruteForceParameters{}}, counts, prices, 0);
 }
 
 /// The least counts with which any technique can find the hits, other than brute force.
@@ -116,9 +126,9 @@ bool is_allowed(Technique technique, const PilotOptions& options) {
 /// Compares the other techniques with the best so far.
 class Others {
  public:
-  Others(const sim::Problem& problem, double rays, const Valid<CostTable>& costs, PilotChoice& found,
+  Others(const sim::Problem& problem, double rays, const Prices& prices, PilotChoice& found,
          const PilotOptions& options)
-      : problem_(problem), rays_(rays), costs_(costs), found_(found), options_(options) {
+      : problem_(problem), rays_(rays), prices_(prices), found_(found), options_(options) {
     least_ = least_counts(rays, static_cast<double>(problem.discs().size()), found.choice().counts.hits);
   }
 
@@ -137,7 +147,7 @@ class Others {
   [[nodiscard]] bool can_measure() const { return options_.workload || !problem_.rays().empty(); }
 
   void compare(Technique technique) {
-    const double at_least = price(least_, costs_, technique).total();
+    const double at_least = prices_(least_, technique).time.total();
     if (at_least >= best()) return found_.ruled_out.push_back({technique, at_least, true});
     if (!model::has_closed_form(technique) || best() < worth_finding || !can_measure())
       return found_.unexamined.push_back(technique);
@@ -147,18 +157,20 @@ class Others {
     }
     const std::optional<Candidate> plain = plain_candidate(technique, *workload_);
     if (!plain) return found_.unexamined.push_back(technique);
-    const double with_plain = model::assess(*workload_, *plain, costs_).time.total();
+    const double with_plain = model::assess(*workload_, *plain, prices_.costs, prices_.most_threads).time.total();
     if (with_plain >= doubt * best()) return found_.ruled_out.push_back({technique, with_plain, false});
-    const auto tuned = model::best_of(technique, *workload_, costs_, {.stop = options_.stop});
+    const auto tuned =
+        model::best_of(technique, *workload_, prices_.costs, {.threads = prices_.most_threads, .stop = options_.stop});
     if (!tuned) return found_.unexamined.push_back(technique);
     const double fastest = tuned->time.total();
     if (fastest >= doubt * best()) return found_.ruled_out.push_back({technique, fastest, false});
-    found_.candidates.push_back({tuned->candidate, tuned->counts, tuned->time, fastest * (1 - 1 / doubt)});
+    found_.candidates.push_back(
+        {tuned->candidate, tuned->counts, tuned->time, tuned->threads, fastest * (1 - 1 / doubt)});
   }
 
   const sim::Problem& problem_;
   double rays_;
-  const Valid<CostTable>& costs_;
+  const Prices& prices_;
   PilotChoice& found_;
   const PilotOptions& options_;
   Counts<double> least_;
@@ -194,7 +206,9 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
     throw std::invalid_argument("a pilot needs box-tree, which is disabled");
   if (!sim::PilotedDiscs::can_pilot(problem))
     throw std::invalid_argument("rays start too far from the discs for float kernels; a pilot needs them");
+  if (costs.engine != Engine::simd) throw std::invalid_argument("a pilot counts for the simd engine, not for plain");
   const sim::Stopwatch watch;
+  const Prices prices{costs, sim::useful_threads(options.threads)};
   const auto discs = static_cast<double>(problem.discs().size());
   PilotChoice found;
   found.sampled_rays = sample.size();
@@ -202,15 +216,15 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
       problem, sim::stream::PilotRays{sample, rays, options.independent_sample, options.expected_hits},
       subtrees_of(rays, discs), sim::RunOptions{.stop = options.stop, .threads = options.threads});
   found.sort_seconds = found.discs->sort_seconds();
-  found.candidates = ShapeSearch(*found.discs, costs).run();
+  found.candidates = ShapeSearch(*found.discs, prices).run();
   const auto add = [&](auto&& more) {
     more();
     std::stable_sort(found.candidates.begin(), found.candidates.end(),
                      [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
   };
   if (is_allowed(Technique::brute_force, options))
-    add([&] { found.candidates.push_back(brute_force(rays, discs, found.choice().counts.hits, costs)); });
-  add([&] { Others(problem, rays, costs, found, options).compare(); });
+    add([&] { found.candidates.push_back(brute_force(rays, discs, found.choice().counts.hits, prices)); });
+  add([&] { Others(problem, rays, prices, found, options).compare(); });
   found.pilot_seconds = watch.seconds() - found.sort_seconds;
   return found;
 }

@@ -24,6 +24,7 @@ struct Piloted {
   Candidate candidate = {};
   Counts<double> counts = {};  ///< expected
   CostBreakdown time = {};     ///< expected, seconds
+  int threads = 1;             ///< for which the time is expected
   double error = 0;            ///< standard error of the time because of sampling, seconds; 0 for brute force
 };
 
@@ -47,7 +48,7 @@ struct PilotChoice {
 };
 
 struct PilotOptions {
-  int threads = 1;
+  int threads = 1;                           ///< most threads, for the pilot and for the choice; 0: all cores
   bool independent_sample = false;           ///< as sim::PilotRays::independent
   std::optional<double> expected_hits = {};  ///< as sim::PilotRays::hits
   /// for the closed forms of other techniques; default: measured, if the problem has rays and the closed forms are needed
@@ -62,7 +63,8 @@ struct PilotOptions {
 /// A stratified sample of the rays, of pilot_size.
 [[nodiscard]] std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t discs);
 
-/// The candidate that finds the hits of `rays` rays fastest by the simd engine, and how long it will take. `sample` are
+/// The candidate that finds the hits of `rays` rays fastest by the simd engine, on how many threads, and how long it will
+/// take. `sample` are
 /// some of these rays, drawn at random or in strata, as by pilot_sample.
 ///
 /// The shapes of box trees are compared by sim::PilotedDiscs; brute force by its exact counts. Every other exact
@@ -73,7 +75,7 @@ struct PilotOptions {
 /// takes twice as long as the best.
 ///
 /// Throws std::invalid_argument if the problem cannot be piloted (PilotedDiscs::can_pilot), for an empty sample, for a
-/// number of rays out of 1 … 1e18 and if box-tree is disabled; sim::Stopped on a stop request.
+/// number of rays out of 1 … 1e18, for costs of the plain engine and if box-tree is disabled; sim::Stopped on a stop request.
 [[nodiscard]] PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays,
                                           const Valid<CostTable>& costs, const PilotOptions& options = {});
 

@@ -5,6 +5,7 @@
 
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
 #include "measure.hpp"
@@ -15,17 +16,20 @@ namespace detp::validate {
 Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays, const PlanOptions& options) {
   if (rays.empty()) throw std::invalid_argument("a plan needs at least one ray, to see where the rays are");
   sim::Problem problem = sim::searched_problem(discs, options.farthest, options.front_facing, options.stop);
-  const sim::RunOptions building{.stop = options.stop, .threads = options.threads};
+  const sim::RunOptions building{.engine = options.costs.engine, .stop = options.stop, .threads = options.threads};
   const double count = options.rays.value_or(static_cast<double>(rays.size()));
   const sim::Stopwatch watch;
-  if (!sim::PilotedDiscs::can_pilot(problem)) {
+  if (!sim::PilotedDiscs::can_pilot(problem) || options.costs.engine == Engine::plain) {
     Workload workload =
         measure(sim::make_problem(rays, discs, options.front_facing, options.threads, options.stop), {}, options.stop);
     workload.rays = count;
-    const model::Ranked first = model::rank(workload, options.costs, {.stop = options.stop}).front();
+    const model::Ranked first =
+        model::rank(workload, options.costs, {.threads = sim::useful_threads(options.threads), .stop = options.stop})
+            .front();
     const double planning = watch.seconds();
     auto index = sim::prepare(problem, first.candidate, building);
     Plan made(first.candidate, sim::Searcher(std::move(problem), std::move(index)));
+    made.threads_ = first.threads;
     made.predicted_seconds_ = first.time.total();
     made.planning_seconds_ = planning;
     return made;
@@ -41,6 +45,7 @@ Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays, cons
   const double planning = watch.seconds() - choice.sort_seconds;
   auto index = build_choice(choice, problem, building);
   Plan made(choice.choice().candidate, sim::Searcher(std::move(problem), std::move(index)));
+  made.threads_ = choice.choice().threads;
   made.predicted_seconds_ = choice.choice().time.total();
   made.predicted_error_ = choice.choice().error;
   made.planning_seconds_ = planning;

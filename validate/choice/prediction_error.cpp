@@ -10,7 +10,7 @@ PredictionError prediction_error(const model::Ranked& predicted, const Counts<st
                                  const CostTable& costs) {
   const Counts<double> found = as_expected(counted);
   const Technique technique = predicted.candidate.technique;
-  const double counted_seconds = price(found, costs, technique).total();
+  const double counted_seconds = price(found, costs, technique, predicted.threads).total();
   PredictionError error{.seconds = predicted.time.total() / seconds,
                         .counts = predicted.time.total() / counted_seconds,
                         .unit_costs = counted_seconds / seconds,

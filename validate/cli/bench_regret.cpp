@@ -84,7 +84,7 @@ Result run_bench_regret(const RegretCommand& command, const std::string& effort,
   if (!fields.empty()) keep_fields(set.workloads, fields);
   const CostsInUse costs = command.costs(common);
   const ProgressLine progress(common);
-  validate::RegretOptions options{.costs = costs.costs,
+  validate::RegretOptions options{.costs = costs.simd,
                                   .threads = std::max(1, common.threads),
                                   .seed = common.seed,
                                   .stop = stop,
@@ -93,9 +93,9 @@ Result run_bench_regret(const RegretCommand& command, const std::string& effort,
   std::vector<int> threads{options.threads};
   if (options.more_threads > 0) threads.push_back(options.more_threads);
   const validate::RegretResult regret =
-      validate::run_regret(set.workloads, validate::all_choosers(costs.costs), options);
+      validate::run_regret(set.workloads, validate::all_choosers(costs.simd), options);
   Result result = report_regret(regret, threads, set.missing, common.screen());
-  result.inputs = inputs_json(set.workloads, effort, costs.costs, threads);
+  result.inputs = inputs_json(set.workloads, effort, costs.simd, threads);
   result.json["unit_costs"] = costs.origin;
   result.text += wrapped("costs     " + costs.origin, common.screen().text_width(), 10);
   return result;

@@ -10,6 +10,7 @@
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/validate/choice/structural_choice.hpp"
@@ -29,6 +30,7 @@ struct ChooseOptions {
   WorkloadOptions workload;
   CostOptions costs;
   std::optional<std::string> rigor;
+  std::string engine = "simd";
   std::vector<std::string> disable;
   bool analyze = false;
 };
@@ -49,7 +51,7 @@ std::vector<Technique> disabled_techniques(const ChooseOptions& options) {
 }
 
 /// Throws std::invalid_argument if the predicted times cannot be compared. Adds the candidate of the paper's rule.
-void check_ranking(ChooseAnswer& answer, const CostTable& costs) {
+void check_ranking(ChooseAnswer& answer, const CostTable& costs, int threads) {
   const double fastest = answer.ranking.front().time.total();
   if (!(fastest > 0))
     throw std::invalid_argument(fmt::format(
@@ -61,18 +63,18 @@ void check_ranking(ChooseAnswer& answer, const CostTable& costs) {
     throw std::invalid_argument(
         fmt::format("with these unit costs the time of {} exceeds 1.8e308 s and cannot be compared; give smaller costs",
                     name(answer.ranking.back().candidate.technique)));
-  answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs);
+  answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs, threads);
 }
 
 /// Returns the progress if a stop request ended the ranking, else nothing.
 std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs,
-                                    const std::vector<Technique>& disabled, const std::stop_token& stop) {
+                                    const std::vector<Technique>& disabled, int threads, const std::stop_token& stop) {
   const sim::Stopwatch watch;
-  answer.ranking = model::rank(answer.workload, costs, {.stop = stop});
+  answer.ranking = model::rank(answer.workload, costs, {.threads = threads, .stop = stop});
   std::erase_if(answer.ranking, [&](const model::Ranked& one) { return is_in(disabled, one.candidate.technique); });
   if (answer.ranking.empty()) throw sim::Stopped("stopped before a technique that is not disabled was ranked");
   answer.choosing_seconds = answer.evidence_seconds + watch.seconds();
-  check_ranking(answer, costs);
+  check_ranking(answer, costs, threads);
   const auto all = std::count_if(all_techniques.begin(), all_techniques.end(), [&](Technique one) {
     return record_of(one).exact && model::has_closed_form(one) && !is_in(disabled, one);
   });
@@ -92,26 +94,31 @@ void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostT
                  : validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()),
                                              job.workload.rays, costs, options);
   for (const validate::Piloted& one : answer.pilot->candidates)
-    answer.ranking.push_back({one.candidate, one.counts, one.time, {}});
+    answer.ranking.push_back({one.candidate, one.counts, one.time, {}, one.threads});
   if (structural) answer.evidence_seconds = job.measure_seconds;
   answer.choosing_seconds = answer.evidence_seconds + answer.pilot->pilot_seconds;
-  check_ranking(answer, costs);
+  check_ranking(answer, costs, threads);
+}
+
+model::Ranked priced(const Candidate& candidate, const Counts<double>& counts, const CostTable& costs, int threads) {
+  const TimeOnThreads fastest = fastest_price(counts, costs, candidate.technique, threads);
+  return {candidate, counts, fastest.time, {}, fastest.threads};
 }
 
 model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const CostTable& costs,
-                                  const std::stop_token& stop) {
+                                  int threads, const std::stop_token& stop) {
   const Counts<double> counts =
-      validate::structural_counts(job.discs, job.workload.rays, candidate, stop, job.front_facing);
-  return {candidate, counts, price(counts, costs, candidate.technique), {}};
+      validate::structural_counts(job.discs, job.workload.rays, candidate, stop, job.front_facing, costs.engine);
+  return priced(candidate, counts, costs, threads);
 }
 
 /// The prediction from structural counts (of isotropic lines) if `structural`, otherwise from the closed form. Returns
 /// nothing if the candidate has no such prediction, if its index does not fit in memory, or if a stop was requested.
 std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
-                                       const CostTable& costs, const std::stop_token& stop) {
+                                       const CostTable& costs, int threads, const std::stop_token& stop) {
   try {
-    return structural ? assess_structurally(job, candidate, costs, stop)
-                      : model::assess(job.workload, candidate, costs);
+    return structural ? assess_structurally(job, candidate, costs, threads, stop)
+                      : model::assess(job.workload, candidate, costs, threads);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   } catch (const std::length_error&) {
@@ -124,11 +131,11 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
 /// The pilot's prediction of a box tree; of any other candidate that of its closed form.
 std::optional<model::Ranked> predicted_by_pilot(const Candidate& candidate, const validate::PilotChoice& pilot,
                                                 const validate::Job& job, bool structural, const CostTable& costs,
-                                                const std::stop_token& stop) {
+                                                int threads, const std::stop_token& stop) {
   if (candidate.technique != Technique::box_tree || !pilot.discs)
-    return predicted(candidate, job, structural && job.field == sim::Field::isotropic, costs, stop);
+    return predicted(candidate, job, structural && job.field == sim::Field::isotropic, costs, threads, stop);
   const auto counts = pilot.discs->counts(std::get<BoxTreeParameters>(candidate.parameters)).counts;
-  return model::Ranked{candidate, counts, price(counts, costs, candidate.technique), {}};
+  return priced(candidate, counts, costs, threads);
 }
 
 sim::Progress measured(const validate::Analysis& analysis) {
@@ -157,8 +164,13 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   const bool structural = rigor == Rigor::structural;
   const bool analyze = options.analyze || rigor == Rigor::measure;
   const std::vector<Technique> disabled = disabled_techniques(options);
+  const Engine engine = parse_engine(options.engine);
+  if (engine == Engine::plain && (rigor == Rigor::pilot || structural))
+    throw std::invalid_argument(fmt::format(
+        "--rigor {} counts for the simd engine; with --engine plain give --rigor estimate", *options.rigor));
+  const int threads = sim::useful_threads(common.threads);
   const CostsInUse costs_in_use = options.costs.costs(common);
-  const CostTable& costs = costs_in_use.costs;
+  const CostTable& costs = costs_in_use.of(engine);
   validate::JobRequest request = options.workload.request(common);
   request.workload_only = !analyze;
   Result result;
@@ -168,7 +180,7 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   answer.rigor = structural || rigor == Rigor::pilot ? *rigor : Rigor::estimate;
   if (request.numbers_alone() && !analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
-    result.stopped = decide(answer, costs, disabled, stop);
+    result.stopped = decide(answer, costs, disabled, threads, stop);
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
   } else {
@@ -177,23 +189,26 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
     const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);
     answer.workload = job.workload;
-    if (!structural && rigor != Rigor::estimate && (!request.numbers_alone() || rigor == Rigor::measure) &&
-        !is_in(disabled, Technique::box_tree) && sim::PilotedDiscs::can_pilot(job.problem()))
+    if (!structural && rigor != Rigor::estimate && engine == Engine::simd &&
+        (!request.numbers_alone() || rigor == Rigor::measure) && !is_in(disabled, Technique::box_tree) &&
+        sim::PilotedDiscs::can_pilot(job.problem()))
       answer.rigor = Rigor::pilot;
     if (answer.rigor != Rigor::estimate) {
-      decide_by_pilot(answer, job, costs, disabled, common.threads, stop);
+      decide_by_pilot(answer, job, costs, disabled, threads, stop);
     } else {
       answer.evidence_seconds = job.measure_seconds;
-      result.stopped = decide(answer, costs, disabled, stop);
+      result.stopped = decide(answer, costs, disabled, threads, stop);
     }
     if (analyze && !result.stopped) {
       const auto predict = [&](const Candidate& candidate) {
-        return answer.pilot ? predicted_by_pilot(candidate, *answer.pilot, job, structural, costs, stop)
-                            : predicted(candidate, job, false, costs, stop);
+        return answer.pilot ? predicted_by_pilot(candidate, *answer.pilot, job, structural, costs, threads, stop)
+                            : predicted(candidate, job, false, costs, threads, stop);
       };
       const sim::Stopwatch analysing;
       answer.analysis = validate::analyse(job.problem(), answer.ranking,
                                           {.disabled = disabled,
+                                           .engine = engine,
+                                           .threads = threads,
                                            .stop = stop,
                                            .predict = predict,
                                            .progress = sim::part_of(progress.report(), share_of_job, 1)});
@@ -211,6 +226,8 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   result.inputs["unit_costs"] = to_json(costs);
   result.inputs["rigor"] = name(answer.rigor);
   result.inputs["analyze"] = analyze;
+  result.inputs["engine"] = name(engine);
+  result.inputs["threads"] = threads;
   answer.costs = costs;
   answer.costs_origin = costs_in_use.origin;
   result.json = to_json(answer);
@@ -230,9 +247,10 @@ Command choose_command(CLI::App& program) {
   app->add_option("--rigor", options->rigor,
                   "estimate: closed forms only; structural: rays of the same kind through parts of the index; pilot: "
                   "some of the rays themselves; measure: runs of the candidates, until --time-limit; default: pilot, "
-                  "where there are rays");
+                  "where there are rays and the engine is simd");
   app->add_option("--disable", options->disable, "a list of techniques that may not be chosen; default: none")
       ->delimiter(',');
+  app->add_option("--engine", options->engine, engine_help);
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);

@@ -20,6 +20,9 @@ struct Row {
   bool chosen = false;
 };
 
+/// The number of threads of the row's prediction and runs.
+int threads_of(const Row& row) { return row.run != nullptr ? row.run->threads : row.predicted->threads; }
+
 /// Rows in the order of the ranking. After an analysis, the other candidates that were tried follow.
 std::vector<Row> rows_of(const ChooseAnswer& answer) {
   std::vector<Row> rows;
@@ -73,7 +76,9 @@ bool could_win(const ChooseAnswer& answer, const Row& row) {
 }
 
 Json candidate_json(const ChooseAnswer& answer, const Row& row) {
-  Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate)}};
+  Json json{{"technique", name(row.candidate.technique)},
+            {"parameters", to_json(row.candidate)},
+            {"threads", threads_of(row)}};
   if (row.predicted != nullptr) {
     json["predicted"] = to_json(row.predicted->counts);
     json["predicted_seconds"] = row.predicted->time.total();
@@ -89,7 +94,9 @@ Json candidate_json(const ChooseAnswer& answer, const Row& row) {
 }
 
 Json choice_json(const ChooseAnswer& answer, const Row& row) {
-  Json json{{"technique", name(row.candidate.technique)}, {"parameters", to_json(row.candidate)}};
+  Json json{{"technique", name(row.candidate.technique)},
+            {"parameters", to_json(row.candidate)},
+            {"threads", threads_of(row)}};
   if (row.predicted != nullptr) {
     json["predicted_seconds"] = row.predicted->time.total();
     if (const auto error = error_of(answer, row)) json["predicted_seconds_error"] = *error;
@@ -122,9 +129,11 @@ Json to_json(const ChooseAnswer& answer) {
             {"paper_rule",
              {{"technique", name(answer.paper.candidate.technique)},
               {"parameters", to_json(answer.paper.candidate)},
+              {"threads", answer.paper.threads},
               {"predicted_seconds", answer.paper.time.total()}}},
             {"effects", effects_json(answer.workload)},
             {"rigor", name(answer.rigor)},
+            {"engine", name(answer.costs.engine)},
             {"unit_costs", answer.costs_origin},
             {"choosing_seconds",
              {{"total", answer.choosing_seconds},
@@ -167,6 +176,7 @@ std::string verdict(const ChooseAnswer& answer, const Row& row) {
 std::string table(const ChooseAnswer& answer, const Screen& screen) {
   std::vector<TextColumn> columns{{.head = "technique", .align = Align::left},
                                   {.head = "parameters", .align = Align::left},
+                                  {.head = "threads", .spare = 2},
                                   {.head = "tests", .spare = 1, .group = "predicted"},
                                   {.head = "seconds", .align = Align::left, .group = "predicted"}};
   if (answer.analysis)
@@ -180,7 +190,9 @@ std::string table(const ChooseAnswer& answer, const Screen& screen) {
   TextTable table(std::move(columns));
   for (const Row& row : rows_of(answer)) {
     const Style style = row.chosen ? Style::good : Style::plain;
-    std::vector<TextCell> cells{{std::string(name(row.candidate.technique)), style}, {describe(row.candidate), style}};
+    std::vector<TextCell> cells{{std::string(name(row.candidate.technique)), style},
+                                {describe(row.candidate), style},
+                                {fmt::format("{}", threads_of(row))}};
     if (row.predicted != nullptr) {
       const char* const mark = row.predicted->extrapolated.empty() ? "" : "~";
       cells.push_back({fmt::format("{:.3g}", tests(row.predicted->counts))});
@@ -188,7 +200,7 @@ std::string table(const ChooseAnswer& answer, const Screen& screen) {
       cells.push_back({fmt::format("{:.3g}{}{}", row.predicted->time.total(), mark,
                                    error > 0 ? fmt::format(" ± {:.1g}", error) : "")});
     }
-    cells.resize(4);
+    cells.resize(5);
     for (const TextCell& cell : answer.analysis ? measured_cells(*row.run)
                                 : answer.pilot  ? pilot_cells(answer, row)
                                                 : comparison_cells(answer, row))
@@ -290,7 +302,9 @@ std::string to_text(const ChooseAnswer& answer, const Screen& screen) {
   text += table(answer, screen) + notes(answer, screen) + "\n";
   const double fastest = answer.ranking.front().time.total();
   if (!answer.analysis || !answer.analysis->best)
-    text += choice_text(fmt::format("{}: {}", title(answer.ranking.front().candidate), margin(answer)), screen);
+    text += choice_text(fmt::format("{}, {}: {}", title(answer.ranking.front().candidate),
+                                    threads_text(answer.ranking.front().threads), margin(answer)),
+                        screen);
   if (answer.analysis) text += measured_lines(answer, screen);
   if (answer.pilot) add(ruled_out_line(*answer.pilot));
   if (answer.pilot && !answer.pilot->unexamined.empty()) add(not_examined_line(*answer.pilot));
@@ -300,7 +314,7 @@ std::string to_text(const ChooseAnswer& answer, const Screen& screen) {
   add(fmt::format("planning  {:.2g} ms ({} the predicted run), rigor {}: {}", 1e3 * answer.choosing_seconds,
                   share < 1 ? fmt::format("{:.2g} % of", 100 * share) : fmt::format("{:.3g} times", share),
                   name(answer.rigor), how_chosen(answer)));
-  add(fmt::format("costs     {}", answer.costs_origin));
+  add(fmt::format("costs     {}; engine {}", answer.costs_origin, name(answer.costs.engine)));
   return text;
 }
 
@@ -308,6 +322,7 @@ namespace {
 
 Json cells_of(const model::Ranked& ranked) {
   Json cells = candidate_cells(ranked.candidate);
+  cells["threads"] = ranked.threads;
   cells.update(count_cells(ranked.counts, "predicted_"));
   cells["predicted_seconds"] = ranked.time.total();
   cells["extrapolated"] = !ranked.extrapolated.empty();
@@ -318,8 +333,8 @@ Json cells_of(const model::Ranked& ranked) {
 Json cells_of(const ChooseAnswer& answer, const Row& row) {
   Json cells = row.predicted != nullptr ? cells_of(*row.predicted) : candidate_cells(row.candidate);
   const Json json = candidate_json(answer, row);
-  for (const char* name : {"predicted_seconds_error", "could_still_win", "measured_seconds", "measured_spread",
-                           "given_up_after_seconds", "not_run", "why_not"})
+  for (const char* name : {"threads", "predicted_seconds_error", "could_still_win", "measured_seconds",
+                           "measured_spread", "given_up_after_seconds", "not_run", "why_not"})
     if (json.contains(name)) cells[name] = json[name];
   if (row.run == nullptr) return cells;
   if (row.run->counted) cells.update(count_cells(*row.run->counted, "counted_"));
@@ -337,7 +352,7 @@ const char* role_of(const ChooseAnswer& answer, const Row& row, bool first) {
 std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
   const Columns of_all{"tried", "regret", "rigor", "unit_costs", "choosing_seconds"};
   Table table(workload_columns() + effect_columns() + Columns{"warnings", "role"} + candidate_columns() +
-              count_columns("predicted_") +
+              Columns{"engine", "threads"} + count_columns("predicted_") +
               Columns{"predicted_seconds", "predicted_seconds_error", "could_still_win", "extrapolated",
                       "extrapolated_because"} +
               count_columns("counted_") +
@@ -348,6 +363,7 @@ std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
   const Json json = to_json(answer);
   shared.update(effect_cells(json["effects"]));
   shared["warnings"] = joined(answer.warnings);
+  shared["engine"] = name(answer.costs.engine);
   for (const std::string& name : of_all)
     if (json.contains(name)) shared[name] = json[name];
   shared["choosing_seconds"] = answer.choosing_seconds;

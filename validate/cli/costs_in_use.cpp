@@ -16,13 +16,15 @@ namespace {
 
 CostsInUse built_in() {
   return {
-      .costs = validate::built_in_unit_costs(),
+      .simd = validate::built_in_unit_costs(Engine::simd),
+      .plain = validate::built_in_unit_costs(Engine::plain),
       .origin = "of each operation: built in, measured on another machine; detp calibrate measures those of this one",
       .built_in = true};
 }
 
 CostsInUse calibrated(const validate::StoredCalibration& stored) {
-  return {.costs = stored.costs,
+  return {.simd = stored.simd,
+          .plain = stored.plain,
           .origin = fmt::format("of each operation: of this machine, calibrated {} (median error {:.2g} %)",
                                 stored.date, 100 * stored.left_out_median_error)};
 }
@@ -57,7 +59,11 @@ void CostOptions::add_calibration_to(CLI::App& command) {
 }
 
 CostsInUse CostOptions::costs(const CommonOptions& common) const {
-  if (const auto given = parse_unit_costs(costs_)) return {.costs = *given, .origin = "of each operation, as given"};
+  if (const auto given = parse_unit_costs(costs_)) {
+    CostsInUse as_given{.simd = *given, .plain = *given, .origin = "of each operation, as given, on one thread"};
+    as_given.plain.engine = Engine::plain;
+    return as_given;
+  }
   if (calibration_ == "none") return built_in();
   if (calibration_ == "auto") return stored_or_built_in(common);
   const validate::StoredCalibration stored = validate::read_calibration(calibration_);

@@ -10,9 +10,12 @@
 namespace detp::cli {
 
 struct CostsInUse {
-  CostTable costs;
+  CostTable simd;
+  CostTable plain;
   std::string origin;  ///< "of each operation: built in, ..."
   bool built_in = false;
+
+  [[nodiscard]] const CostTable& of(Engine engine) const { return engine == Engine::plain ? plain : simd; }
 };
 
 class CostOptions {
@@ -21,7 +24,7 @@ class CostOptions {
   void add_to(CLI::App& command);
   void add_calibration_to(CLI::App& command);
 
-  /// --costs; else the calibration that --calibration names; with auto the stored one, if there is one for this machine
+  /// --costs, which are of one thread; else the calibration that --calibration names; with auto the stored one, if there is one for this machine
   /// and program; else the built-in costs. Notes on standard error why a stored calibration is not used. Throws
   /// std::invalid_argument for wrong options and for a named calibration of another machine; sim::FileError for a named
   /// file that is no calibration.

@@ -43,6 +43,8 @@ Json missed_json(const validate::Analysed& run, const CostTable& costs) {
 
 }  // namespace
 
+std::string threads_text(int threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }
+
 Json missed_ratios(const validate::Analysed& run, const CostTable& costs) {
   if (!run.predicted || !run.counted || !run.seconds) return Json::object();
   const auto error = validate::prediction_error(*run.predicted, *run.counted, *run.seconds, costs);
@@ -93,8 +95,8 @@ std::string measured_lines(const ChooseAnswer& answer, const Screen& screen) {
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   if (analysis.best) {
     const validate::Analysed& best = analysis.candidates[*analysis.best];
-    text += choice_text(fmt::format("{}: measured {:.3g} s, the fastest of {} tried", title(best.candidate),
-                                    *best.seconds, analysis.tried),
+    text += choice_text(fmt::format("{}, {}: measured {:.3g} s, the fastest of {} tried", title(best.candidate),
+                                    threads_text(best.threads), *best.seconds, analysis.tried),
                         screen);
     const validate::Analysed& predicted = analysis.candidates.front();
     if (&predicted == &best)
@@ -122,11 +124,13 @@ void add_analysis(Json& json, const ChooseAnswer& answer) {
   const model::Ranked& predicted = answer.ranking.front();
   json["predicted_choice"] = {{"technique", name(predicted.candidate.technique)},
                               {"parameters", to_json(predicted.candidate)},
+                              {"threads", predicted.threads},
                               {"predicted_seconds", predicted.time.total()}};
   if (analysis.best) {
     const validate::Analysed& best = analysis.candidates[*analysis.best];
     json["best_measured"] = {{"technique", name(best.candidate.technique)},
                              {"parameters", to_json(best.candidate)},
+                             {"threads", best.threads},
                              {"measured_seconds", *best.seconds},
                              {"measured_spread", best.spread}};
     json["missed"] = Json::array();

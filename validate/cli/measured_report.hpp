@@ -5,6 +5,9 @@
 
 namespace detp::cli {
 
+/// "1 thread", "2 threads".
+[[nodiscard]] std::string threads_text(int threads);
+
 /// The columns that follow the predictions in the table of candidates: counted, measured, predicted / measured.
 [[nodiscard]] std::vector<TextColumn> measured_table_columns();
 [[nodiscard]] std::vector<TextCell> measured_cells(const validate::Analysed& run);

@@ -34,18 +34,36 @@ struct RunOptions {
   std::optional<std::string> pairs;
 };
 
-/// Returns the requested technique, or the one that the closed forms predict to be fastest. The closed forms also
-/// choose the parameters that the options leave open.
-Candidate complete(const CandidateOptions& options, const Workload& workload, const CostTable& costs) {
-  const Technique technique = options.technique ? options.technique_or(Technique::brute_force)
-                                                : model::rank(workload, costs).front().candidate.technique;
+/// A candidate, and the number of threads of its run.
+struct Choice {
+  Candidate candidate = {};
+  int threads = 1;
+};
+
+/// The number of threads, at most `most_threads`, on which the closed form predicts the candidate to be fastest.
+int chosen_threads(const Candidate& candidate, const Workload& workload, const CostTable& costs, int most_threads) {
+  try {
+    return model::assess(workload, candidate, costs, most_threads).threads;
+  } catch (const std::invalid_argument&) {  // no closed form for these parameters
+    return most_threads;
+  }
+}
+
+/// Returns the requested technique on `threads` threads, or the technique that the closed forms predict to be fastest, on
+/// at most so many. The closed forms also choose the parameters that the options leave open.
+Choice complete(const CandidateOptions& options, const Workload& workload, const CostTable& costs, int threads) {
+  const int most = sim::useful_threads(threads);
+  const Technique technique = options.technique
+                                  ? options.technique_or(Technique::brute_force)
+                                  : model::rank(workload, costs, {.threads = most}).front().candidate.technique;
   const model::FixedParameters fixed = options.fixed_parameters(technique);
   auto candidate = model::complete(technique, fixed, workload, costs);
   if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
   if (auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
       cache != nullptr && options.stop == SphereStop::max)
     cache->spheres = sphere_stops(workload, costs[technique], Form::corrected, {cache->ratio}).max;
-  return *candidate;
+  return {*candidate,
+          options.technique ? sim::thread_count(threads) : chosen_threads(*candidate, workload, costs, most)};
 }
 
 void write_pairs(const std::string& path, const std::vector<sim::Pair>& pairs, const std::stop_token& stop) {
@@ -117,7 +135,7 @@ bool is_chosen_by_pilot(const RunOptions& options, const validate::Job& job) {
 }
 
 /// Chooses by a pilot, and runs the choice with what the pilot has sorted.
-void choose_and_run(RunAnswer& answer, const validate::Job& job, const sim::RunOptions& options,
+void choose_and_run(RunAnswer& answer, const validate::Job& job, sim::RunOptions options,
                     const sim::ReportPhase& progress) {
   const sim::Stopwatch watch;
   const sim::Problem problem = job.problem(options.threads, options.stop);
@@ -125,6 +143,7 @@ void choose_and_run(RunAnswer& answer, const validate::Job& job, const sim::RunO
   answer.run.rays_in_memory = job.rays.size();
   answer.pilot = validate::choose_by_pilot(problem, answer.costs, {.threads = options.threads, .stop = options.stop});
   answer.candidate = answer.pilot->choice().candidate;
+  answer.threads = options.threads = answer.pilot->choice().threads;
   if (progress)
     progress({std::string(name(answer.candidate.technique)), 0, 1,
               validate::search_work(answer.pilot->choice().counts, options.engine)});
@@ -138,19 +157,25 @@ void choose_and_run(RunAnswer& answer, const validate::Job& job, const sim::RunO
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
                   const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
   const bool by_pilot = is_chosen_by_pilot(options, job);
-  RunAnswer answer{.candidate = by_pilot ? Candidate{} : complete(options.candidate, job.workload, costs),
+  const Choice choice = by_pilot ? Choice{} : complete(options.candidate, job.workload, costs, common.threads);
+  RunAnswer answer{.candidate = choice.candidate,
+                   .threads = choice.threads,
                    .costs = costs,
                    .engine = options.candidate.engine,
                    .repeat = options.repeat,
                    .random_rays = !options.workload.request(common).ray_file};
   const Engine engine = options.candidate.engine;
-  sim::RunOptions run{.pairs = options.pairs.has_value(), .engine = engine, .stop = stop, .threads = common.threads};
+  sim::RunOptions run{.pairs = options.pairs.has_value(),
+                      .engine = engine,
+                      .stop = stop,
+                      .threads = by_pilot ? common.threads : choice.threads};
   run.standard_error = options.standard_error;
   const double share_of_first = 1.0 / (1 + options.repeat);
   if (by_pilot)
     choose_and_run(answer, job, run, sim::part_of(progress, 0, share_of_first));
   else
     answer.run = run_job(job, answer.candidate, run, sim::part_of(progress, 0, share_of_first));
+  run.threads = answer.threads;
   run.count = run.pairs = run.standard_error = false;
   answer.timing = time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run,
                             sim::part_of(progress, share_of_first, 1));
@@ -198,7 +223,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   const std::size_t expected = rows_in(problems, candidates);
   check_files(options, common, expected);
   const bool stream = can_stream(options.candidate, candidates.rows());
-  const CostTable costs = options.costs.costs(common).costs;
+  const CostsInUse costs = options.costs.costs(common);
   const ProgressLine progress(common);
   RowProgress rows(options, common);
   Json inputs;
@@ -213,10 +238,11 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     return job;
   };
   const auto answer = [&](const validate::Job& job) {
-    const RunAnswer found = run_one(options, job, costs, common, stop, rows.next(progress.report()));
+    const RunAnswer found =
+        run_one(options, job, costs.of(options.candidate.engine), common, stop, rows.next(progress.report()));
     stopped = write_hits(options, found, common, stop);
     inputs["engine"] = name(options.candidate.engine);
-    inputs["threads"] = sim::thread_count(common.threads);
+    inputs["threads"] = sim::thread_count(common.threads);  // a cap if the command chooses
     inputs["repeat"] = options.repeat;
     if (expected == 1) text = to_text(job, found, common.screen());
     return run_row(inputs, job, found);

@@ -7,6 +7,8 @@
 #include <stdexcept>
 
 #include "detp/model/rank/predict.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "measured_report.hpp"
 #include "sphere_stops.hpp"
 #include "text_table.hpp"
 #include "workload_options.hpp"
@@ -91,7 +93,10 @@ std::string hits_text(const RunAnswer& answer) {
 
 Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
-  Json json{{"technique", name(answer.candidate.technique)}, {"parameters", to_json(answer.candidate)}};
+  Json json{{"technique", name(answer.candidate.technique)},
+            {"parameters", to_json(answer.candidate)},
+            {"engine", name(answer.engine)},
+            {"threads", answer.threads}};
   add_stops(job.workload, answer.candidate, answer.costs, json);
   json.update(outcome.stopped ? hits_so_far(answer)
                               : Json{{"hits", outcome.total_hits},
@@ -101,7 +106,8 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   if (answer.pilot) json["choosing_seconds"] = answer.pilot->pilot_seconds;
   if (const auto predicted = prediction(job.workload, answer)) {
     json["predicted"] = to_json(*predicted);
-    json["predicted_seconds"] = price(*predicted, answer.costs, answer.candidate.technique).total();
+    json["predicted_seconds"] =
+        price(*predicted, answer.costs, answer.candidate.technique, sim::useful_threads(answer.threads)).total();
   }
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
                {"read_seconds", job.read_seconds + answer.run.read_seconds},
@@ -113,8 +119,6 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
 
 Json cells_of(const Json& inputs, const Candidate& candidate, const Json& json) {
   Json cells = workload_cells(inputs);
-  cells["engine"] = inputs["engine"];
-  cells["threads"] = inputs["threads"];
   cells.update(candidate_cells(candidate));
   for (const auto& [name, value] : json.items())
     if (!value.is_structured()) cells[name] = value;
@@ -214,7 +218,8 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   const Timing& timing = answer.timing;
   std::string text = wrapped(describe(job), screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
-  add("technique " + title(answer.candidate) +
+  add(fmt::format("technique {}, {} engine, {}", title(answer.candidate), name(answer.engine),
+                  threads_text(answer.threads)) +
       (answer.pilot ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays", 1e3 * answer.pilot->pilot_seconds,
                                   answer.pilot->sampled_rays)
                     : ""));

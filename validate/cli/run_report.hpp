@@ -10,6 +10,7 @@ namespace detp::cli {
 
 struct RunAnswer {
   Candidate candidate = {};
+  int threads = 1;                                  ///< on which the candidate ran
   CostTable costs = {};                             ///< with which the candidate was chosen and its time predicted
   std::optional<validate::PilotChoice> pilot = {};  ///< by which the candidate was chosen
   Engine engine = Engine::simd;

@@ -62,7 +62,8 @@ nlohmann::ordered_json to_json(const UnitCosts& costs) {
 }
 
 nlohmann::ordered_json to_json(const CostTable& costs) {
-  if (costs == CostTable(costs.of_technique.front())) return to_json(costs.of_technique.front());
+  if (costs.of_technique == CostTable(costs.of_technique.front()).of_technique)
+    return to_json(costs.of_technique.front());
   nlohmann::ordered_json json;
   for (const Technique technique : all_techniques) {
     if (!record_of(technique).exact) continue;

@@ -130,12 +130,12 @@ void CandidateOptions::add_to(CLI::App& command, Values values, SphereStop defau
         [this, one = parameter](const std::string& text) { set(*one, text); }, help);
   }
   lists.add(
-      command, "--engine", values, words,
-      [this](const std::string& text) {
-        engine = *choice_named<Engine>(one_of("--engine", text, {"plain", "simd"}));
-      },
-      "simd: vectors of floats, with exact decisions; plain: in double, one ray and one disc at a time; the hits are "
-      "the same; default: simd");
+      command, "--engine", values, words, [this](const std::string& text) { engine = parse_engine(text); },
+      engine_help);
+}
+
+Engine parse_engine(const std::string& text) {
+  return *choice_named<Engine>(one_of("--engine", text, {"plain", "simd"}));
 }
 
 void CandidateOptions::set(const Parameter& parameter, const std::string& text) {

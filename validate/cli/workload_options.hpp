@@ -36,6 +36,14 @@ enum class SphereStop {
   best  ///< SphereStops::best
 };
 
+/// The help of --engine.
+inline constexpr const char* engine_help =
+    "simd: vectors of floats, with exact decisions; plain: in double, one ray and one disc at a time; the hits are the "
+    "same; default: simd";
+
+/// Throws std::invalid_argument for an unknown name.
+[[nodiscard]] Engine parse_engine(const std::string& text);
+
 /// The options for a technique and its parameters. Commands choose what is not set. The parser keeps pointers to this
 /// object.
 class CandidateOptions {

@@ -20,7 +20,7 @@ Choice pilot(const sim::Problem& problem, const CostTable& costs) {
 }
 
 Choice structural(const sim::Problem& problem, const Job& job, const CostTable& costs) {
-  const sim::Problem for_lines = sim::searched_problem(problem.discs(), {}, problem.front_facing());
+  const sim::Problem for_lines = sim::searched_problem(problem.discs(), {}, problem.front_facing(), {});
   const PilotChoice found = choose_by_structure(for_lines, job.workload, costs);
   return {found.choice().candidate, found.choice().time.total(), job.measure_seconds + found.pilot_seconds};
 }

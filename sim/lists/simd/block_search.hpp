@@ -12,10 +12,6 @@ namespace detp::sim::stream {
 /// Hits of one disc by rays of each class.
 using ClassCounts = std::array<std::uint32_t, classes>;
 
-/// A node's children are searched as separate tasks if testing the node's rays against them takes at least this many
-/// tests.
-inline constexpr std::size_t least_work = std::size_t{1} << 16;
-
 /// Data that all threads read during the search of a block of rays.
 struct BlockSearch {
   const Problem& problem;

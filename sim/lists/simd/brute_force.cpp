@@ -15,8 +15,7 @@
 namespace detp::sim::stream {
 namespace {
 
-/// Number of discs that stay in the first-level cache while all vectors of rays are tested against them.
-constexpr std::size_t chunk = 512;
+constexpr std::size_t chunk = discs_in_chunk;
 
 /// Number of rays tested against a chunk between two checks for a stop request.
 constexpr std::size_t rays_at_once = StopCheck::most_work * tests_a_unit / chunk;

@@ -18,7 +18,7 @@ using Workers = tbb::enumerable_thread_specific<Worker>;
 
 /// Searches everything below a node. Processes the children as tasks if there is enough work.
 void divide(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Workers& workers) {
-  if (node.leaf || size(lists) * node.count < least_work) {
+  if (node.leaf || size(lists) * node.count < tests_in_task) {
     search_below(block, node, lists, workers.local());
     return;
   }

@@ -64,7 +64,7 @@ double walk_bytes(const SearchSize& size, const ListCapacity& lists) {
 }
 
 double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree) {
-  const bool alone = rays_together(size) * fan_out < static_cast<double>(least_work);
+  const bool alone = rays_together(size) * fan_out < static_cast<double>(tests_in_task);
   const double lists = (alone ? 1 : thread_count(size.threads)) * list_bytes(size, tree.lists);
   return std::max(building_bytes(size.discs, tree.binary_nodes, tree.nodes),
                   searching_bytes(size, sizeof(TreeNode) * tree.nodes, lists));

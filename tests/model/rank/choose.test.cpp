@@ -222,7 +222,37 @@ TEST_SUITE("known answer") {
   }
 }
 
+TEST_SUITE("known answer") {
+  TEST_CASE("costs of the plain engine rank the counts of the plain engine") {
+    CostTable plain(costs);
+    plain.engine = Engine::plain;
+    Workload many = typical;
+    many.rays = 1e7;  // many blocks of the simd engine
+    for (const Ranked& ranked : rank(many, plain))
+      CHECK(ranked.counts == predict(many, ranked.candidate, Engine::plain));
+    const Candidate tree{Technique::box_tree, BoxTreeParameters{8, 32}};
+    CHECK(assess(many, tree, plain).counts.culls < assess(many, tree, costs).counts.culls);
+  }
+
+  TEST_CASE("the number of threads is ranked, too: the times are those of the fastest number up to the most") {
+    CostTable divided(costs);
+    divided.threads.fill({.serial_preparing = 1, .serial_search = 0, .start = 10});
+    for (const Ranked& ranked : rank(typical, divided, {.threads = 4})) {
+      CAPTURE(name(ranked.candidate.technique));
+      const Ranked one = assess(typical, ranked.candidate, divided);
+      CHECK(one.threads == 1);
+      CHECK(ranked.threads == (ranked.candidate.technique == Technique::sphere_tree ? 1 : 4));
+      CHECK((ranked.time.total() < one.time.total()) == (ranked.threads == 4));
+      CHECK(ranked.counts == one.counts);
+    }
+  }
+}
+
 TEST_SUITE("bad input") {
+  TEST_CASE("no threads are refused") {
+    CHECK_THROWS_AS(static_cast<void>(rank(typical, costs, {.threads = 0})), std::invalid_argument);
+  }
+
   TEST_CASE("a workload out of range is refused by name") {
     for (const double bad : support::not_a_count) {
       Workload w = typical;

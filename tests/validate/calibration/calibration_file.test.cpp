@@ -16,8 +16,11 @@ namespace {
 
 validate::Calibration some_calibration() {
   validate::Calibration calibration;
-  calibration.costs = validate::built_in_unit_costs();
-  calibration.costs[Technique::grid].step = 1.25e-8;
+  calibration.plain.costs = validate::built_in_unit_costs(Engine::plain);
+  calibration.simd.costs = validate::built_in_unit_costs();
+  calibration.simd.costs[Technique::grid].step = 1.25e-8;
+  calibration.plain.costs[Technique::box_tree].cull_test = 1.5e-8;
+  calibration.simd.costs.threads_of(Technique::bsp) = {.serial_preparing = 1, .serial_search = 0.0625, .start = 1.5e-5};
   calibration.left_out_median_error = 0.0625;
   return calibration;
 }
@@ -39,8 +42,15 @@ TEST_SUITE("identity") {
     CHECK(stored.key == validate::this_machine());
     CHECK(stored.left_out_median_error == 0.0625);
     CHECK(stored.date.size() == 10);
+    const validate::Calibration written = some_calibration();
+    CHECK(stored.plain.engine == Engine::plain);
+    CHECK(stored.simd.engine == Engine::simd);
     for (const Technique technique : all_techniques)
-      if (record_of(technique).exact) CHECK(stored.costs[technique] == some_calibration().costs[technique]);
+      if (record_of(technique).exact) {
+        CHECK(stored.plain[technique] == written.plain.costs[technique]);
+        CHECK(stored.simd[technique] == written.simd.costs[technique]);
+        CHECK(stored.simd.threads_of(technique) == written.simd.costs.threads_of(technique));
+      }
   }
 
   TEST_CASE("equal keys do not differ; each difference is named") {
@@ -67,11 +77,27 @@ TEST_SUITE("bad input") {
           good.substr(0, good.size() / 2), replaced(good, "detp.calibrate", "detp.run"),
           replaced(good, "\"version\": 1", "\"version\": 2"),
           replaced(good, "\"left_out_median_error\": 0.0625", "\"left_out_median_error\": -1"),
+          replaced(good, "\"serial_search\": 0.0625", "\"serial_search\": 1.5"),
+          replaced(good, "\"serial_search\": 0.0625", "\"serial\": 0.5"),
           replaced(good, "\"v\": 1.25e-08", "\"v\": -1"), replaced(good, "\"v\": 1.25e-08", "\"v\": \"x\"")}) {
       CAPTURE(bad);
       CHECK_THROWS_WITH_AS(static_cast<void>(validate::parse_calibration(bad, "c.json")), doctest::Contains("c.json: "),
                            sim::FileError);
     }
+  }
+
+  TEST_CASE("a calibration with another version of the cost model is refused, and the message says why") {
+    const std::string good = validate::calibration_text(some_calibration());
+    const std::string here = std::to_string(validate::this_machine().cost_model);
+    const std::string older = replaced(good, "\"cost_model\": " + here, "\"cost_model\": 2");
+    CHECK_THROWS_WITH_AS(static_cast<void>(validate::parse_calibration(older, "c.json")),
+                         doctest::Contains("version 2 of the cost model"), sim::FileError);
+    // as it was before the file had the costs of both engines and of threads
+    const std::string flat =
+        "{\"schema\": {\"name\": \"detp.calibrate\", \"version\": 1}, \"key\": {\"cost_model\": 2}, "
+        "\"costs\": {\"grid\": {\"w\": 1e-9}}}";
+    CHECK_THROWS_WITH_AS(static_cast<void>(validate::parse_calibration(flat, "c.json")),
+                         doctest::Contains("threads; make a new one with detp calibrate"), sim::FileError);
   }
 
   TEST_CASE("a missing file is refused") {

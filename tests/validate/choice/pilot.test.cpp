@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -106,6 +107,21 @@ TEST_SUITE("known answer") {
     CHECK(found.choice().counts.disc_tests == 1000);
   }
 
+  TEST_CASE("few rays take one thread, many take all: with given costs, and never more than the cap") {
+    CostTable costs = validate::built_in_unit_costs();
+    costs.threads.fill({.serial_preparing = 0.5, .serial_search = 0.1, .start = 5e-5});
+    const Example example(5000, 0.02, 1000);
+    const int cores = sim::useful_threads(0);
+    const auto chosen = [&](double rays, int cap) {
+      return validate::choose_by_pilot(example.problem, example.rays, rays, costs, {.threads = cap}).choice();
+    };
+    CHECK(chosen(2, cores).threads == 1);
+    CHECK(chosen(1e8, cores).threads == cores);
+    CHECK(chosen(1e8, 1).threads == 1);
+    const double one = chosen(1e8, 1).time.total();
+    CHECK(chosen(1e8, cores).time.total() == Approx(one * (0.1 + 0.9 / cores)).epsilon(0.02));
+  }
+
   TEST_CASE("a sample stands for the number of rays that is given") {
     const Example example(5000, 0.02, 1000);
     const auto few = validate::choose_by_pilot(example.problem, example.rays, 1e3, validate::built_in_unit_costs());
@@ -153,5 +169,7 @@ TEST_SUITE("bad input") {
     const std::vector<sim::Ray> far{{.origin = {1e13, 0, 0}, .direction = {-1, 0, 0}}};
     const sim::Problem problem = sim::make_problem(far, example.discs);
     CHECK_THROWS_AS(static_cast<void>(validate::choose_by_pilot(problem, costs)), std::invalid_argument);
+    const CostTable plain = validate::built_in_unit_costs(Engine::plain);
+    CHECK_THROWS_AS(static_cast<void>(validate::choose_by_pilot(example.problem, plain)), std::invalid_argument);
   }
 }

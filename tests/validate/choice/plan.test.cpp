@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -39,6 +40,27 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("known answer") {
+  TEST_CASE("with costs of the plain engine, that engine is planned and finds the same hits") {
+    const auto discs = some_discs();
+    const auto rays = some_rays(discs, 1, 2000);
+    const auto made = validate::plan(discs, rays, {.costs = validate::built_in_unit_costs(Engine::plain)});
+    sim::SearchScratch scratch;
+    const sim::Outcome found = validate::execute(made, rays, scratch);
+    CHECK(found.hits == validate::execute(validate::plan(discs, rays), rays, scratch).hits);
+    CHECK(found.vectors.cull + found.vectors.test == 0);
+  }
+
+  TEST_CASE("the number of threads is planned, up to the cap") {
+    const auto discs = some_discs();
+    const auto rays = some_rays(discs, 1, 300);
+    CostTable costs = validate::built_in_unit_costs();
+    costs.threads.fill({.serial_preparing = 0.5, .serial_search = 0.1, .start = 5e-5});
+    const int cores = sim::useful_threads(0);
+    CHECK(validate::plan(discs, rays, {.costs = costs, .rays = 10, .threads = 0}).threads() == 1);
+    CHECK(validate::plan(discs, rays, {.costs = costs, .rays = 1e8, .threads = 0}).threads() == cores);
+    CHECK(validate::plan(discs, rays, {.costs = costs, .rays = 1e8}).threads() == 1);
+  }
+
   TEST_CASE("the plan depends on the number of rays that is announced") {
     const auto discs = some_discs();
     const auto rays = some_rays(discs, 1, 300);

@@ -38,11 +38,21 @@ TEST_SUITE("end to end") {
     CHECK(calibrated.at("schema").at("name") == "detp.calibrate");
     CHECK(calibrated.at("left_out_median_error").get<double>() > 0);
     CHECK(calibrated.at("key").at("threads").get<int>() > 0);
-    CHECK(calibrated.at("costs").at("box-tree").size() > 3);
+    CHECK(calibrated.at("costs").at("simd").at("box-tree").size() > 3);
+    const Json& plain = calibrated.at("costs").at("plain");
+    CHECK(plain.at("box-tree") != calibrated.at("costs").at("simd").at("box-tree"));
+    CHECK(plain.at("grid") == calibrated.at("costs").at("simd").at("grid"));
+    if (calibrated.at("key").at("threads") > 1) {
+      CHECK(calibrated.at("threads").at("simd").contains("box-tree"));
+      CHECK_FALSE(calibrated.at("threads").at("simd").contains("sphere-tree"));  // one thread searches it
+      CHECK_FALSE(calibrated.at("thread_fits").empty());
+    }
     CHECK(calibrated.at("saved") == folder.path("cache/detp/calibration.json"));
     const Json after = detp(question).json();
     CHECK(after.at("unit_costs").get<std::string>().find("of this machine, calibrated") != std::string::npos);
-    CHECK(after.at("inputs").at("unit_costs").at("box-tree") == calibrated.at("costs").at("box-tree"));
+    CHECK(after.at("inputs").at("unit_costs").at("box-tree") == calibrated.at("costs").at("simd").at("box-tree"));
+    CHECK(detp(question + " --engine plain").json().at("inputs").at("unit_costs").at("box-tree") ==
+          plain.at("box-tree"));
     CHECK(detp(question + " --calibration none").json().at("unit_costs") == before.at("unit_costs"));
   }
 
@@ -67,12 +77,15 @@ TEST_SUITE("bad input") {
     const ScratchFolder folder;
     const std::string path = folder.path("cache/detp/calibration.json");
     validate::Calibration calibration;
-    calibration.costs = validate::built_in_unit_costs();
+    calibration.plain.costs = validate::built_in_unit_costs(Engine::plain);
+    calibration.simd.costs = validate::built_in_unit_costs();
     validate::write_calibration(path, calibration);
     Json foreign = Json::parse(content_of(path));
     foreign["key"]["cpu"] = "another";
+    Json older = Json::parse(content_of(path));
+    older["key"]["cost_model"] = 2;
     const CacheFolder cache(folder.path("cache"));
-    for (const std::string& content : {foreign.dump(), std::string("{")}) {
+    for (const std::string& content : {foreign.dump(), older.dump(), std::string("{")}) {
       CAPTURE(content);
       folder.file("cache/detp/calibration.json", content);
       const Finished automatic = detp(question);
@@ -81,7 +94,10 @@ TEST_SUITE("bad input") {
       CHECK(automatic.json().at("unit_costs").get<std::string>().find("built in") != std::string::npos);
       const Finished named = detp(question + " --calibration " + path);
       CHECK(named.code == 2);
-      CHECK(named.err.find(content == "{" ? "is not a calibration" : "its cpu is another") != std::string::npos);
+      const char* const why = content == "{"            ? "is not a calibration"
+                              : content == older.dump() ? "version 2 of the cost model"
+                                                        : "its cpu is another";
+      CHECK(named.err.find(why) != std::string::npos);
     }
     CHECK(detp(question + " --calibration " + folder.path("missing.json")).code == 2);
     CHECK(detp("calibrate --seconds 0").code == 2);

@@ -93,6 +93,48 @@ TEST_SUITE("end to end") {
     CHECK(result_of("choose --rays 10 --samples 10 --disc-radius 0.1 --scene-side 1").at("rigor") == "estimate");
   }
 
+  TEST_CASE(
+      "--threads is a cap: choose names the number of threads of each candidate, and run uses that of the choice") {
+    const std::string scene = " @uniform --samples 2000 --rays 2000 --disc-radius 2% --calibration none";
+    const Json alone = result_of("choose" + scene + " --threads 1");
+    CHECK(alone.at("choice").at("threads") == 1);
+    for (const Json& candidate : alone.at("candidates")) CHECK(candidate.at("threads") == 1);
+    const Json more =
+        result_of("choose --rays 1e7 --samples 2000 --disc-radius 2% --scene-side 1 --calibration none --threads 2");
+    for (const Json& candidate : more.at("candidates"))
+      CHECK(candidate.at("threads").get<int>() <= (candidate.at("technique") == "sphere-tree" ? 1 : 2));
+    CHECK(detp("choose" + scene).out.find("threads") != std::string::npos);
+    CHECK(detp("choose" + scene + " --format csv").out.find(",engine,threads,") != std::string::npos);
+    CHECK(result_of("run" + scene + " --threads 1").at("threads") == 1);
+    const Json chosen = result_of("choose" + scene + " --threads 2");
+    CHECK(result_of("run" + scene + " --threads 2").at("threads") == chosen.at("choice").at("threads"));
+    CHECK(result_of("run" + scene + " --threads 2 --technique grid").at("threads") == 2);
+  }
+
+  TEST_CASE("--engine plain chooses among plain searches, by closed forms and costs of its own, and runs them") {
+    const std::string scene = " @uniform --samples 2000 --rays 20000 --disc-radius 2% --calibration none";
+    const Json simd = result_of("choose" + scene);
+    const Json plain = result_of("choose" + scene + " --engine plain --analyze --threads 1");
+    CHECK(simd.at("engine") == "simd");
+    CHECK(plain.at("engine") == "plain");
+    CHECK(plain.at("rigor") == "estimate");
+    CHECK(plain.at("inputs").at("unit_costs").at("box-tree") != simd.at("inputs").at("unit_costs").at("box-tree"));
+    for (const Json& candidate : plain.at("candidates")) {
+      if (candidate.at("technique") != "box-tree" || !candidate.contains("counted")) continue;
+      const Json& parameters = candidate.at("parameters");
+      const Json run = result_of(fmt::format("run{} --engine plain --technique box-tree --fan-out {} --leaf {}", scene,
+                                             parameters.at("fan_out").get<int>(), parameters.at("leaf").get<int>()));
+      CHECK(candidate.at("counted") == run.at("counts"));
+      break;
+    }
+    const Json run = result_of("run" + scene + " --engine plain --threads 1");
+    CHECK(run.at("engine") == "plain");
+    CHECK(run.at("technique") == plain.at("predicted_choice").at("technique"));
+    CHECK(run.at("predicted_seconds") == plain.at("predicted_choice").at("predicted_seconds"));
+    check_refused({{"choose" + scene + " --engine plain --rigor pilot", "--rigor estimate"},
+                   {"choose" + scene + " --engine fast", "--engine"}});
+  }
+
   TEST_CASE("a workload without a scene is ranked by predicted time") {
     for (const std::string workload :
          {"--rays 1e5 --samples 1e5 --disc-radius 0.01 --scene-side 2", "--rays 1 --samples 1 --disc-radius 1e-3",
