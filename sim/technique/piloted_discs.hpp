@@ -6,6 +6,7 @@
 #include "detp/sim/lists/simd/box_tree_pilot.hpp"
 #include "detp/sim/lists/simd/search.hpp"
 #include "detp/sim/search/index.hpp"
+#include "disc_order.hpp"
 
 namespace detp::sim {
 
@@ -32,6 +33,9 @@ class PilotedDiscs {
   /// constructor. Call it once. Throws as `prepare`.
   [[nodiscard]] std::unique_ptr<Index> build(const Problem& problem, const BoxTreeParameters& parameters,
                                              const RunOptions& options) &&;
+
+  /// The discs' order, for trees with other radii. Not after `build`.
+  [[nodiscard]] DiscOrder order() const { return DiscOrder(discs_.places); }
 
   [[nodiscard]] double sort_seconds() const { return discs_.seconds; }
 

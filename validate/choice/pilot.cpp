@@ -51,6 +51,9 @@ class ShapeSearch {
       if (one.candidate == candidate) return false;
     const auto predicted = discs_.counts(shape);
     tried_.push_back(priced(candidate, predicted.counts, costs_, predicted.relative_error));
+    tried_.back().counts_at = [predicted](double radius_ratio, double rays) {
+      return predicted.at(radius_ratio, rays);
+    };
     return best() == shape;
   }
 
@@ -78,9 +81,16 @@ class ShapeSearch {
 };
 
 Piloted brute_force(double rays, double discs, double hits, const CostTable& costs) {
-  const double blocks = ray_blocks(rays, discs, Engine::simd).count();
-  const Counts<double> counts{.loaded = rays, .visits = blocks * discs, .disc_tests = rays * discs, .hits = hits};
-  return priced({Technique::brute_force, BruteForceParameters{}}, counts, costs, 0);
+  const auto counts_at = [=](double radius_ratio, double number) {
+    const double blocks = ray_blocks(number, discs, Engine::simd).count();
+    return Counts<double>{.loaded = number,
+                          .visits = blocks * discs,
+                          .disc_tests = number * discs,
+                          .hits = hits * number / rays * radius_ratio * radius_ratio};
+  };
+  Piloted found = priced({Technique::brute_force, BruteForceParameters{}}, counts_at(1, rays), costs, 0);
+  found.counts_at = counts_at;
+  return found;
 }
 
 /// The least counts with which any technique can find the hits, other than brute force.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <span>
 #include <stop_token>
@@ -24,6 +25,9 @@ struct Piloted {
   Counts<double> counts = {};  ///< expected
   CostBreakdown time = {};     ///< expected, seconds
   double error = 0;            ///< standard error of the time because of sampling, seconds; 0 for brute force
+  /// The counts with the radius of the discs multiplied by `radius_ratio`, and with another number of rays. Empty for
+  /// candidates that the pilot did not count.
+  std::function<Counts<double>(double radius_ratio, double rays)> counts_at = {};
 };
 
 /// A technique that was not tried, because the unit costs say that it is slower than the choice.

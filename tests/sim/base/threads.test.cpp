@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <atomic>
 
@@ -17,6 +18,28 @@ TEST_SUITE("known answer") {
     std::atomic<int> sum = 0;
     on_threads(4, [&] { oneapi::tbb::parallel_for(0, 1000, [&](int i) { sum += i; }); });
     CHECK(sum == 499'500);
+  }
+
+  TEST_CASE("work on all threads, or on as many as the caller's arena has, runs in that arena") {
+    namespace here = oneapi::tbb::this_task_arena;
+    oneapi::tbb::task_arena arena(3);
+    arena.execute([&] {
+      CHECK(thread_count(0) == 3);
+      for (const int threads : {thread_count(0), 3, 1, 2}) {
+        int concurrency = 0;
+        std::atomic<int> highest = 0;
+        on_threads(threads, [&] {
+          concurrency = here::max_concurrency();
+          oneapi::tbb::parallel_for(0, 1000, [&](int) {
+            int before = highest;
+            const int mine = here::current_thread_index();
+            while (before < mine && !highest.compare_exchange_weak(before, mine)) continue;
+          });
+        });
+        CHECK(concurrency == threads);
+        CHECK(highest < threads);
+      }
+    });
   }
 
   TEST_CASE("if the system does not start all threads, fewer do the work") {
