@@ -24,7 +24,8 @@ double count_with(const ListsWithRays& lists, double rays, const RayBlocks& bloc
   const double share = lists.rays_in / (rays * lists.of);
   double low = std::log(1e-5);  // hardly any spread
   double high = std::log(1e5);  // nearly all rays in a few lists
-  constexpr int halvings = 16;
+  const bool all_have_some = lists.count > (1 - 1e-6) * blocks.count() * lists.of;
+  const int halvings = all_have_some ? 0 : 12;
   for (int i = 0; i < halvings; ++i) {
     const double middle = 0.5 * (low + high);
     (blocks.with_any(share, std::exp(middle)) * lists.of > lists.count ? low : high) = middle;

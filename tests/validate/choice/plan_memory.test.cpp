@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <thread>
+#include <vector>
 
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
@@ -59,6 +61,21 @@ TEST_SUITE("identity") {
       memory.remember(some_class, next);
       CHECK(memory.find(some_class, Rigor::estimate) == kept);
     }
+  }
+
+  TEST_CASE("many threads may use one memory") {
+    PlanMemory memory;
+    std::vector<std::thread> threads;
+    for (int i = 0; i < 4; ++i)
+      threads.emplace_back([&memory, i] {
+        for (int rays = 0; rays < 100; ++rays) {
+          memory.remember({.rays = rays, .discs = i % 2}, choice_by(Rigor::pilot));
+          static_cast<void>(memory.find({.rays = rays}, Rigor::estimate));
+          static_cast<void>(memory.entries());
+        }
+      });
+    for (std::thread& thread : threads) thread.join();
+    CHECK(memory.size() == 200);
   }
 
   TEST_CASE("a plan is remembered, and used for the next plan of the same class with the same hits") {

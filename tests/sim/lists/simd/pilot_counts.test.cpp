@@ -58,8 +58,9 @@ TEST_SUITE("known answer") {
   TEST_CASE("counts at another radius are near those of a pilot with that radius") {
     constexpr double radius = 0.05;
     constexpr std::size_t rays = 3000;
-    constexpr auto terms = {&Counts<double>::cull_tests, &Counts<double>::culls, &Counts<double>::listed,
-                            &Counts<double>::visits, &Counts<double>::disc_tests};
+    using Term = double Counts<double>::*;
+    constexpr Term terms[] = {&Counts<double>::cull_tests, &Counts<double>::culls, &Counts<double>::listed,
+                              &Counts<double>::visits, &Counts<double>::disc_tests};
     for (const sim::Body body : {sim::Body::cube_faces, sim::Body::cube})
       for (const BoxTreeParameters shape : {BoxTreeParameters{8, 8}, BoxTreeParameters{8, 64}}) {
         const auto planned = predicted_at(body, radius, rays, shape);
@@ -71,7 +72,7 @@ TEST_SUITE("known answer") {
             const double error = ratio < 0.5 || ratio > 2 ? 0.35 : 0.15;
             const Counts<double> extrapolated = planned.at(ratio, static_cast<double>(others));
             const Counts<double> there = predicted_at(body, ratio * radius, others, shape).counts;
-            for (const auto term : terms) CHECK(extrapolated.*term == Approx(there.*term).epsilon(error));
+            for (const Term term : terms) CHECK(extrapolated.*term == Approx(there.*term).epsilon(error));
           }
       }
   }
