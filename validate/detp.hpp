@@ -5,3 +5,4 @@
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/choice/plan.hpp"
+#include "detp/validate/choice/plan_memory_file.hpp"

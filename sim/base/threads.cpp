@@ -1,7 +1,6 @@
 #include "threads.hpp"
 
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/info.h>
 #include <oneapi/tbb/task_arena.h>
 
 #include <algorithm>
@@ -44,7 +43,7 @@ int startable_threads(int threads) {
   return std::min(threads, started);
 }
 
-int thread_count(int requested) { return requested > 0 ? requested : oneapi::tbb::info::default_concurrency(); }
+int thread_count(int requested) { return requested > 0 ? requested : oneapi::tbb::this_task_arena::max_concurrency(); }
 
 int useful_threads(int requested) { return std::min(thread_count(requested), thread_count(0)); }
 
@@ -55,7 +54,10 @@ void on_threads(int threads, FunctionRef<void()> work) {
   std::optional<global_control> more_than_cores;
   if (parallelism > global_control::active_value(global_control::max_allowed_parallelism))
     more_than_cores.emplace(global_control::max_allowed_parallelism, parallelism);
-  oneapi::tbb::task_arena(started).execute(work);
+  if (oneapi::tbb::this_task_arena::max_concurrency() == started)
+    oneapi::tbb::this_task_arena::isolate([&] { work(); });
+  else
+    oneapi::tbb::task_arena(started).execute(work);
 }
 
 }  // namespace detp::sim

@@ -6,7 +6,8 @@ namespace detp::sim {
 
 inline constexpr int most_threads = 4096;
 
-/// The number of threads that an option means: 0 means all cores that this process may use.
+/// The number of threads that an option means: 0 means all threads of the oneTBB arena in which the caller runs; outside
+/// of an arena, all cores that this process may use.
 [[nodiscard]] int thread_count(int requested);
 
 /// The same, but at most as many as there are cores: more threads are no faster.
@@ -18,7 +19,8 @@ inline constexpr int most_threads = 4096;
 [[nodiscard]] int startable_threads(int threads);
 
 /// Calls `work`. Its oneTBB algorithms run on `threads` threads, including this one, or on fewer if the program has
-/// limited oneTBB to fewer or if no more can be started.
+/// limited oneTBB to fewer or if no more can be started. If the caller runs in an arena of as many threads, they run in
+/// that arena, isolated from its other tasks; otherwise in an arena of their own.
 void on_threads(int threads, FunctionRef<void()> work);
 
 }  // namespace detp::sim

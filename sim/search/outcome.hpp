@@ -39,8 +39,9 @@ struct RunOptions {
   bool standard_error = false;  ///< fill in Outcome::standard_error
   Engine engine = Engine::simd;
   std::stop_token stop = {};  ///< checked in every phase, after fewer than 2 StopCheck::most_work units of work
-  /// 0: all cores; at most 4096. Results and counts do not depend on the number. Techniques that trace rays one by one
-  /// use all threads, plain techniques that cull lists of rays use one.
+  /// 0: all threads of the caller's oneTBB arena, outside of one all cores; at most 4096. Results and counts do not
+  /// depend on the number. Techniques that trace rays one by one use all threads, plain techniques that cull lists of
+  /// rays use one.
   int threads = 1;
   /// Unless null: sums over earlier rays (empty: none), to which the run adds. The caller gets hits and irradiance by
   /// `finish`. Runs over successive blocks of rays give the same bits as one run over all rays.
@@ -48,8 +49,8 @@ struct RunOptions {
   /// Memory for a search's arrays, except those that it returns. A Scratch keeps the memory for the next search.
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   /// Unless empty: called now and then during the search, with the share of the rays that are searched (ray-map and
-  /// photon-map: of the discs). Techniques with lists of rays do not call it. Calls do not overlap, but may come from
-  /// different threads.
+  /// photon-map: of the discs). The simd engine calls it before each block of rays; plain techniques with lists of rays
+  /// do not call it. Calls do not overlap, but may come from different threads. It may request a stop.
   std::function<void(double share)> progress = {};
 };
 

@@ -118,13 +118,15 @@ class BoxTreeIndex final : public Index {
     checked_bytes(what, stream::boxes_bytes(stream::size_of(problem, options), parameters.fan_out, expected), problem);
     const double sort_seconds = sorted ? sorted->seconds : 0;  // before this constructor
     if (!sorted) sorted = stream::sort_discs(problem, frame_, options);
+    const std::size_t newly_sorted = sorted->sorted;
     tree_ = stream::make_disc_tree(std::move(*sorted), problem, frame_, parameters, options);
     const double built = stream::building_bytes(problem.discs().size(), static_cast<double>(tree_.binary_nodes),
                                                 static_cast<double>(tree_.nodes.size()));
     built_.bytes = checked_bytes(what, built, problem);
     built_.seconds.build = sort_seconds + watch.lap();
     built_.counts.made = tree_.binary_nodes;
-    built_.counts.sorted = built_.counts.placements = built_.counts.references = problem.discs().size();
+    built_.counts.sorted = newly_sorted;
+    built_.counts.placements = built_.counts.references = problem.discs().size();
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {

@@ -6,6 +6,7 @@
 #include "detp/sim/lists/simd/box_tree_pilot.hpp"
 #include "detp/sim/lists/simd/search.hpp"
 #include "detp/sim/search/index.hpp"
+#include "disc_order.hpp"
 
 namespace detp::sim {
 
@@ -22,15 +23,18 @@ class PilotedDiscs {
   PilotedDiscs(const PilotedDiscs&) = delete;
   PilotedDiscs& operator=(const PilotedDiscs&) = delete;
 
-  /// The predicted counts of a search of all rays, building included.
-  [[nodiscard]] stream::PilotCounts counts(const BoxTreeParameters& parameters) const {
-    return pilot_->counts(parameters);
+  /// The predicted counts of a search of all rays, building included. As stream::BoxTreePilot::counts.
+  [[nodiscard]] stream::PilotCounts counts(const BoxTreeParameters& parameters, bool growth = false) const {
+    return pilot_->counts(parameters, growth);
   }
 
   /// Builds the box tree. Sorting is not repeated; its time is part of the index's. The problem must be that of the
   /// constructor. Call it once. Throws as `prepare`.
   [[nodiscard]] std::unique_ptr<Index> build(const Problem& problem, const BoxTreeParameters& parameters,
                                              const RunOptions& options) &&;
+
+  /// The discs' order, for trees with other radii. Not after `build`.
+  [[nodiscard]] DiscOrder order() const { return DiscOrder(discs_.places); }
 
   [[nodiscard]] double sort_seconds() const { return discs_.seconds; }
 

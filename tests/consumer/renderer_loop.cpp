@@ -27,15 +27,20 @@ int main() {
   };
 
   trace_photons();
-  // Technique and parameters, chosen by a pilot; the index over the samples, built once.
-  const detp::validate::Plan plan = detp::validate::plan(discs, rays);
-  std::printf("planned in %.2g ms, predicted %.2g ms\n", 1e3 * plan.planning_seconds(), 1e3 * plan.predicted_seconds());
+  // Technique and parameters, chosen by a pilot; the samples, sorted once.
+  const auto show = [](const detp::sim::Phase& phase) {
+    std::printf("%3.0f %% %s\n", 100 * phase.from, phase.what.c_str());
+  };
+  detp::validate::Plan plan = detp::validate::plan(discs, rays, {.progress = show});
   detp::sim::SearchScratch scratch;
-  for (int frame = 0; frame < 3; ++frame) {
+  double radius = 0.02;
+  for (int pass = 0; pass < 4; ++pass, radius *= 0.8) {  // new photons and a smaller radius in each pass
+    if (pass > 0) plan = detp::validate::replan(plan, radius);
     trace_photons();
     const detp::sim::Outcome& found =
         detp::validate::execute(plan, rays, scratch, {.count = false, .standard_error = true});
-    std::printf("%s: %llu hits; irradiance of sample 0: %.3f +- %.3f\n", detp::title(plan.candidate()).c_str(),
+    std::printf("radius %.3f, %s, predicted %.2g ms: %llu hits; irradiance of sample 0: %.3f +- %.3f\n", radius,
+                detp::title(plan.candidate()).c_str(), 1e3 * plan.predicted_seconds(),
                 static_cast<unsigned long long>(found.total_hits), found.irradiance[0], found.standard_error[0]);
     if (found.total_hits == 0) return 1;
   }

@@ -1,6 +1,6 @@
 # ThreadSanitizer cannot see into uninstrumented libraries: oneTBB is replaced by std::thread, and Embree's callbacks are
 # ignored.
-foreach(header blocked_range enumerable_thread_specific global_control info parallel_for parallel_invoke
+foreach(header blocked_range enumerable_thread_specific global_control parallel_for parallel_invoke
                parallel_pipeline parallel_reduce task_arena)
   foreach(folder tbb oneapi/tbb)
     file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/thread_sanitizer/${folder}/${header}.h

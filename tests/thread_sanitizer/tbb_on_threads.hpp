@@ -190,10 +190,6 @@ void isolate(const Work& work) {
 }
 }  // namespace this_task_arena
 
-namespace info {
-inline int default_concurrency() { return detail::limit; }
-}  // namespace info
-
 class flow_control {
  public:
   void stop() { stopped = true; }

@@ -1,23 +1,16 @@
 #include "calibration_file.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <array>
 #include <chrono>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
-#include <system_error>
-#include <thread>
 
 #include "built_in_costs.hpp"
+#include "cache_file.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
-#include "detp/sim/files/output_file.hpp"
-#include "detp/sim/lists/simd/tree_search.hpp"
 
 namespace detp::validate {
 namespace {
@@ -25,35 +18,12 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "detp.calibrate";
-constexpr int cost_model = 3;  // change it whenever the meaning of a unit cost or of a count changes
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
-
-std::string cpu_name() {
-  std::ifstream cpus("/proc/cpuinfo");
-  for (std::string line; std::getline(cpus, line);)
-    if (line.starts_with("model name") && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
-  return "unknown";
-}
 
 std::string today() {
   const std::chrono::year_month_day day(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
   return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(day.year()), static_cast<unsigned>(day.month()),
                      static_cast<unsigned>(day.day()));
-}
-
-Json to_json(const CalibrationKey& key) {
-  return {{"cpu", key.cpu},           {"instruction_set", key.instruction_set},
-          {"caches", key.caches},     {"threads", key.threads},
-          {"compiler", key.compiler}, {"cost_model", key.cost_model}};
-}
-
-CalibrationKey key_of(const Json& json) {
-  return {.cpu = json.at("cpu"),
-          .instruction_set = json.at("instruction_set"),
-          .caches = json.at("caches"),
-          .threads = json.at("threads"),
-          .compiler = json.at("compiler"),
-          .cost_model = json.at("cost_model")};
 }
 
 struct ThreadTerm {
@@ -104,6 +74,7 @@ Json threads_json(const CostTable& costs) {
 void check_version(const Json& json, const std::string& path) {
   if (json.at("schema").at("name") != schema || json.at("schema").at("version") != 1)
     throw sim::FileError(path, "is not a calibration of this version of detp; make one with detp calibrate");
+  const int cost_model = this_machine().cost_model;
   if (const int found = json.at("key").at("cost_model"); found != cost_model)
     throw sim::FileError(path, fmt::format("is of version {} of the cost model, here it is {}, with costs of both "
                                            "engines and of threads; make a new one with detp calibrate",
@@ -111,39 +82,6 @@ void check_version(const Json& json, const std::string& path) {
 }
 
 }  // namespace
-
-CalibrationKey this_machine() {
-  return {.cpu = cpu_name(),
-          .instruction_set = sim::stream::instruction_set(),
-          .caches = fmt::format("{} {} {}", sysconf(_SC_LEVEL1_DCACHE_SIZE), sysconf(_SC_LEVEL2_CACHE_SIZE),
-                                sysconf(_SC_LEVEL3_CACHE_SIZE)),
-          .threads = static_cast<int>(std::thread::hardware_concurrency()),
-          .compiler = __VERSION__,
-          .cost_model = cost_model};
-}
-
-std::string difference(const CalibrationKey& stored, const CalibrationKey& here) {
-  const auto differ = [](std::string_view what, const auto& there, const auto& at_hand) {
-    return there == at_hand ? "" : fmt::format("its {} is {}, here it is {}", what, there, at_hand);
-  };
-  for (const std::string& text :
-       {differ("cpu", stored.cpu, here.cpu), differ("instruction set", stored.instruction_set, here.instruction_set),
-        differ("cache sizes", stored.caches, here.caches), differ("number of threads", stored.threads, here.threads),
-        differ("compiler", stored.compiler, here.compiler),
-        differ("version of the cost model", stored.cost_model, here.cost_model)})
-    if (!text.empty()) return shortened(text, 300);
-  return "";
-}
-
-std::string default_calibration_path() {
-  const auto folder = [](const char* variable) {
-    const char* value = std::getenv(variable);
-    return value != nullptr && value[0] == '/' ? std::filesystem::path(value) : std::filesystem::path();
-  };
-  std::filesystem::path cache = folder("XDG_CACHE_HOME");
-  if (cache.empty() && !folder("HOME").empty()) cache = folder("HOME") / ".cache";
-  return cache.empty() ? "" : (cache / "detp" / "calibration.json").string();
-}
 
 std::string calibration_text(const Calibration& calibration) {
   const Json json{
@@ -156,14 +94,10 @@ std::string calibration_text(const Calibration& calibration) {
   return json.dump(2) + "\n";
 }
 
+std::string default_calibration_path() { return cache_path("calibration.json"); }
+
 void write_calibration(const std::string& path, const Calibration& calibration) {
-  const std::filesystem::path folder = std::filesystem::path(path).parent_path();
-  std::error_code failed;
-  if (!folder.empty()) std::filesystem::create_directories(folder, failed);
-  if (failed) throw sim::FileError(folder.string(), fmt::format("cannot be made: {}", failed.message()));
-  sim::OutputFile file(path);
-  file.write(calibration_text(calibration));
-  file.commit();
+  write_cache_file(path, calibration_text(calibration));
 }
 
 StoredCalibration parse_calibration(const std::string& text, const std::string& path) {

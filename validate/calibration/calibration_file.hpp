@@ -3,27 +3,10 @@
 #include <string>
 
 #include "calibrate.hpp"
+#include "calibration_key.hpp"
 
 /// Calibrations on disc.
 namespace detp::validate {
-
-/// What a calibration depends on. It is only used where all of this is the same.
-struct CalibrationKey {
-  std::string cpu;              ///< model name
-  std::string instruction_set;  ///< of the float kernels
-  std::string caches;           ///< bytes of the levels 1 to 3
-  int threads = 0;              ///< that the machine runs at once
-  std::string compiler;
-  int cost_model = 0;  ///< version of the terms that are fitted
-
-  bool operator==(const CalibrationKey&) const = default;
-};
-
-/// The key of this program on this machine.
-[[nodiscard]] CalibrationKey this_machine();
-
-/// The first difference in words, as "its cpu is A, here it is B"; empty if the keys are equal.
-[[nodiscard]] std::string difference(const CalibrationKey& stored, const CalibrationKey& here);
 
 struct StoredCalibration {
   CalibrationKey key;

@@ -39,7 +39,8 @@ double seconds(const Piloted& one) { return one.time.total(); }
 /// Looks for the fastest box tree: halves and doubles leaf and fan-out in turn, as long as that is faster.
 class ShapeSearch {
  public:
-  ShapeSearch(const sim::PilotedDiscs& discs, const Prices& prices) : discs_(discs), prices_(prices) {}
+  ShapeSearch(const sim::PilotedDiscs& discs, const Prices& prices, bool for_replans)
+      : discs_(discs), prices_(prices), for_replans_(for_replans) {}
 
   std::vector<Piloted> run() {
     consider({8, 32});
@@ -59,8 +60,12 @@ class ShapeSearch {
     const Candidate candidate{Technique::box_tree, shape};
     for (const Piloted& one : tried_)
       if (one.candidate == candidate) return false;
-    const auto predicted = discs_.counts(shape);
+    const auto predicted = discs_.counts(shape, for_replans_);
     tried_.push_back(priced(candidate, predicted.counts, prices_, predicted.relative_error));
+    if (for_replans_)
+      tried_.back().counts_at = [predicted](double radius_ratio, double rays) {
+        return predicted.at(radius_ratio, rays);
+      };
     return best() == shape;
   }
 
@@ -84,13 +89,21 @@ class ShapeSearch {
 
   const sim::PilotedDiscs& discs_;
   const Prices& prices_;
+  bool for_replans_;
   std::vector<Piloted> tried_;
 };
 
 Piloted brute_force(double rays, double discs, double hits, const Prices& prices) {
-  const double blocks = ray_blocks(rays, discs, Engine::simd).count();
-  const Counts<double> counts{.loaded = rays, .visits = blocks * discs, .disc_tests = rays * discs, .hits = hits};
-  return priced({Technique::brute_force, BruteForceParameters{}}, counts, prices, 0);
+  const auto counts_at = [=](double radius_ratio, double number) {
+    const double blocks = ray_blocks(number, discs, Engine::simd).count();
+    return Counts<double>{.loaded = number,
+                          .visits = blocks * discs,
+                          .disc_tests = number * discs,
+                          .hits = hits * number / rays * radius_ratio * radius_ratio};
+  };
+  Piloted found = priced({Technique::brute_force, BruteForceParameters{}}, counts_at(1, rays), prices, 0);
+  found.counts_at = counts_at;
+  return found;
 }
 
 /// The least counts with which any technique can find the hits, other than brute force.
@@ -216,7 +229,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
       problem, sim::stream::PilotRays{sample, rays, options.independent_sample, options.expected_hits},
       subtrees_of(rays, discs), sim::RunOptions{.stop = options.stop, .threads = options.threads});
   found.sort_seconds = found.discs->sort_seconds();
-  found.candidates = ShapeSearch(*found.discs, prices).run();
+  found.candidates = ShapeSearch(*found.discs, prices, options.for_replans).run();
   const auto add = [&](auto&& more) {
     more();
     std::stable_sort(found.candidates.begin(), found.candidates.end(),

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -26,6 +27,9 @@ struct Piloted {
   CostBreakdown time = {};     ///< expected, seconds
   int threads = 1;             ///< for which the time is expected
   double error = 0;            ///< standard error of the time because of sampling, seconds; 0 for brute force
+  /// The counts with the radius of the discs multiplied by `radius_ratio`, and with another number of rays. Empty without
+  /// PilotOptions::for_replans, and for candidates that the pilot did not count.
+  std::function<Counts<double>(double radius_ratio, double rays)> counts_at = {};
 };
 
 /// A technique that was not tried, because the unit costs say that it is slower than the choice.
@@ -53,6 +57,7 @@ struct PilotOptions {
   std::optional<double> expected_hits = {};  ///< as sim::PilotRays::hits
   /// for the closed forms of other techniques; default: measured, if the problem has rays and the closed forms are needed
   std::optional<Workload> workload = {};
+  bool for_replans = false;              ///< set Piloted::counts_at
   std::vector<Technique> disabled = {};  ///< techniques that may not be chosen; box-tree must be allowed
   std::stop_token stop = {};
 };

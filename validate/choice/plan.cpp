@@ -1,64 +1,202 @@
 #include "plan.hpp"
 
+#include <cmath>
+#include <memory>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "detp/model/rank/choose.hpp"
+#include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
+#include "late_searcher.hpp"
 #include "measure.hpp"
 #include "pilot.hpp"
+#include "plan_basis.hpp"
+#include "plan_memory.hpp"
 
 namespace detp::validate {
+namespace {
 
-Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays, const PlanOptions& options) {
-  if (rays.empty()) throw std::invalid_argument("a plan needs at least one ray, to see where the rays are");
-  sim::Problem problem = sim::searched_problem(discs, options.farthest, options.front_facing, options.stop);
-  const sim::RunOptions building{.engine = options.costs.engine, .stop = options.stop, .threads = options.threads};
-  const double count = options.rays.value_or(static_cast<double>(rays.size()));
-  const sim::Stopwatch watch;
-  if (!sim::PilotedDiscs::can_pilot(problem) || options.costs.engine == Engine::plain) {
-    Workload workload =
-        measure(sim::make_problem(rays, discs, options.front_facing, options.threads, options.stop), {}, options.stop);
-    workload.rays = count;
-    const model::Ranked first =
-        model::rank(workload, options.costs, {.threads = sim::useful_threads(options.threads), .stop = options.stop})
-            .front();
-    const double planning = watch.seconds();
-    auto index = sim::prepare(problem, first.candidate, building);
-    Plan made(first.candidate, sim::Searcher(std::move(problem), std::move(index)));
-    made.threads_ = first.threads;
-    made.predicted_seconds_ = first.time.total();
-    made.planning_seconds_ = planning;
+/// Root mean square of the radii of some discs; exactly their radius if it is the same for these.
+double typical_radius(std::span<const sim::Disc> discs) {
+  constexpr std::size_t most = 256;
+  const std::size_t step = (discs.size() - 1) / most + 1;
+  double squares = 0;
+  double count = 0;
+  bool same = true;
+  for (std::size_t i = 0; i < discs.size(); i += step, ++count) {
+    squares += discs[i].radius * discs[i].radius;
+    same = same && discs[i].radius == discs.front().radius;
+  }
+  return same ? discs.front().radius : std::sqrt(squares / count);
+}
+
+}  // namespace
+
+bool Plan::is_built() const { return searcher_->is_built(); }
+void Plan::build(const std::stop_token& stop) const { static_cast<void>(searcher_->get(stop)); }
+const sim::Searcher& Plan::searcher() const { return searcher_->get(); }
+
+std::unique_ptr<sim::Index> build_index(const sim::Problem& problem, const Candidate& candidate,
+                                        const std::optional<sim::DiscOrder>& order, const sim::RunOptions& options) {
+  if (order && candidate.technique == Technique::box_tree)
+    return order->prepare(problem, std::get<BoxTreeParameters>(candidate.parameters), options);
+  return sim::prepare(problem, candidate, options);
+}
+
+/// Makes the plan of some discs and rays.
+class Plan::Planner {
+ public:
+  Planner(std::span<const sim::Disc> discs, std::shared_ptr<const std::vector<sim::Disc>> own_discs,
+          std::span<const sim::Ray> rays, const PlanOptions& options)
+      : options_(options),
+        rays_(rays),
+        building_{.engine = options.costs.engine, .stop = options.stop, .threads = options.threads} {
+    if (rays.empty()) throw std::invalid_argument("a plan needs at least one ray, to see where the rays are");
+    if (options.remembered_only && options.memory == nullptr)
+      throw std::invalid_argument("a plan by remembered choices only needs a memory");
+    const double count = options.rays.value_or(static_cast<double>(rays.size()));
+    require_count("number of rays", count, 1, 1e18);
+    report("checking the discs", 0, 0.1);
+    sim::Problem problem = sim::searched_problem(discs, options.farthest, options.front_facing, options.stop);
+    const double radius = typical_radius(problem.discs());
+    basis_ = std::make_shared<Basis>(Basis{.options = options,
+                                           .problem = std::move(problem),
+                                           .radius = radius,
+                                           .rays = count,
+                                           .own_discs = std::move(own_discs)});
+    basis_->options.stop = {};
+    basis_->options.progress = {};
+    basis_->options.memory = nullptr;
+  }
+
+  Plan run() {
+    const bool can_pilot = sim::PilotedDiscs::can_pilot(basis_->problem) && options_.costs.engine == Engine::simd;
+    const Rigor rigor = can_pilot ? Rigor::pilot : Rigor::estimate;
+    if (options_.memory != nullptr) {
+      const sim::Stopwatch watch;
+      basis_->workload =
+          with_all_rays_checked([&] { return sampled_workload(basis_->problem, rays_, basis_->rays, options_.stop); });
+      class_ = class_of(*basis_->workload);
+      const auto found = options_.remembered_only ? std::optional(options_.memory->require(*class_, rigor))
+                                                  : options_.memory->find(*class_, rigor);
+      seconds_ = watch.seconds();
+      if (found) return from_memory(*found);
+    }
+    return can_pilot ? by_pilot() : by_closed_forms();
+  }
+
+ private:
+  /// The shares are guesses; they depend on machine and scene.
+  void report(const char* what, double from, double to) const {
+    if (options_.progress) options_.progress({what, from, to});
+    sim::StopCheck(options_.stop, "planning").now();
+  }
+
+  /// Returns look(), which sees some of the rays. If one of these is malformed, throws with its number among all rays.
+  template <class Look>
+  std::invoke_result_t<Look> with_all_rays_checked(const Look& look) const {
+    try {
+      return look();
+    } catch (const std::invalid_argument&) {
+      static_cast<void>(problem_with_rays());
+      throw;
+    }
+  }
+
+  [[nodiscard]] sim::Problem problem_with_rays() const {
+    return sim::make_problem(rays_, basis_->problem.discs(), options_.front_facing, options_.threads, options_.stop);
+  }
+
+  Plan from_memory(const RememberedChoice& choice) {
+    basis_->candidates = {{choice.candidate, choice.predicted_seconds, choice.predicted_error, choice.threads}};
+    return built(choice.rigor, true);
+  }
+
+  Plan by_closed_forms() {
+    report("measuring discs and rays", 0.1, 0.4);
+    const sim::Stopwatch watch;
+    basis_->workload = measure(problem_with_rays(), {}, options_.stop);
+    basis_->workload->rays = basis_->rays;
+    const int threads = sim::useful_threads(options_.threads);
+    for (const model::Ranked& one :
+         model::rank(*basis_->workload, options_.costs, {.threads = threads, .stop = options_.stop}))
+      basis_->candidates.push_back({one.candidate, one.time.total(), 0, one.threads});
+    seconds_ += watch.seconds();
+    remember(Rigor::estimate, true);  // techniques without a closed form were not examined
+    return built(Rigor::estimate, false);
+  }
+
+  Plan by_pilot() {
+    report("sorting the discs, and a pilot", 0.1, 0.6);
+    const sim::Stopwatch watch;
+    PilotChoice choice = with_all_rays_checked([&] {
+      return choose_by_pilot(basis_->problem, pilot_sample(rays_, basis_->problem.discs().size()), basis_->rays,
+                             options_.costs, {.threads = options_.threads, .for_replans = true, .stop = options_.stop});
+    });
+    for (const Piloted& one : choice.candidates)
+      basis_->candidates.push_back({one.candidate, one.time.total(), one.error, one.threads, one.counts_at});
+    basis_->order = choice.discs->order();
+    seconds_ += watch.seconds() - choice.sort_seconds;
+    remember(Rigor::pilot, !choice.unexamined.empty());
+    report("building the index", 0.6, 1);
+    return planned(Rigor::pilot, false, build_choice(choice, basis_->problem, building_));
+  }
+
+  void remember(Rigor rigor, bool cut_off) const {
+    if (options_.memory == nullptr) return;
+    const PlanCandidate& best = basis_->candidates.front();
+    options_.memory->remember(*class_, {.candidate = best.candidate,
+                                        .threads = best.threads,
+                                        .predicted_seconds = best.seconds,
+                                        .predicted_error = best.error,
+                                        .rigor = rigor,
+                                        .cut_off = cut_off});
+  }
+
+  /// The first candidate's plan. Sorts the discs here for a box tree, so that their order is known to replans.
+  Plan built(Rigor rigor, bool remembered) {
+    report("building the index", 0.4, 1);
+    const Candidate& candidate = basis_->candidates.front().candidate;
+    if (candidate.technique == Technique::box_tree) basis_->order.emplace(basis_->problem, building_);
+    return planned(rigor, remembered, build_index(basis_->problem, candidate, basis_->order, building_));
+  }
+
+  Plan planned(Rigor rigor, bool remembered, std::unique_ptr<sim::Index> index) {
+    const PlanCandidate& best = basis_->candidates.front();
+    Plan made(basis_, best.candidate);
+    made.searcher_ = std::make_shared<LateSearcher>(sim::Searcher(basis_->problem, std::move(index)));
+    made.threads_ = best.threads;
+    made.predicted_seconds_ = best.seconds;
+    made.predicted_error_ = best.error;
+    made.planning_seconds_ = seconds_;
+    made.rays_ = basis_->rays;
+    made.rigor_ = rigor;
+    made.remembered_ = remembered;
     return made;
   }
-  PilotChoice choice;
-  try {
-    choice = choose_by_pilot(problem, pilot_sample(rays, discs.size()), count, options.costs,
-                             {.threads = options.threads, .stop = options.stop});
-  } catch (const std::invalid_argument&) {  // names a malformed ray by its number in the sample
-    static_cast<void>(sim::make_problem(rays, discs, options.front_facing, options.threads, options.stop));
-    throw;
-  }
-  const double planning = watch.seconds() - choice.sort_seconds;
-  auto index = build_choice(choice, problem, building);
-  Plan made(choice.choice().candidate, sim::Searcher(std::move(problem), std::move(index)));
-  made.threads_ = choice.choice().threads;
-  made.predicted_seconds_ = choice.choice().time.total();
-  made.predicted_error_ = choice.choice().error;
-  made.planning_seconds_ = planning;
-  return made;
+
+  const PlanOptions& options_;
+  std::span<const sim::Ray> rays_;
+  sim::RunOptions building_;
+  std::shared_ptr<Basis> basis_;
+  std::optional<WorkloadClass> class_;  ///< set if there is a memory
+  double seconds_ = 0;                  ///< for choosing
+};
+
+Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays, const PlanOptions& options) {
+  return Plan::Planner(discs, nullptr, rays, options).run();
 }
 
 Plan plan(const sim::DiscsView& discs, const sim::RaysView& rays, const PlanOptions& options) {
   const auto own_discs = std::make_shared<const std::vector<sim::Disc>>(sim::read_discs(discs));
   std::vector<sim::Ray> copied;
   sim::read_rays(rays, copied);
-  Plan made = plan(*own_discs, copied, options);
-  made.own_discs_ = own_discs;
-  return made;
+  return Plan::Planner(*own_discs, own_discs, copied, options).run();
 }
 
 }  // namespace detp::validate

@@ -7,67 +7,114 @@
 #include <utility>
 #include <vector>
 
+#include "detp/sim/base/phase.hpp"
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 
 /// Plans a search once, and executes it again and again.
 namespace detp::validate {
 
+class LateSearcher;
+class PlanMemory;
+
 struct PlanOptions {
   CostTable costs = built_in_unit_costs();  ///< seconds; measure those of this machine with validate::calibrate
   std::optional<double> rays = {};          ///< number of rays in each search; default: as many as are shown to `plan`
   std::optional<double> farthest = {};      ///< as for sim::Searcher
   bool front_facing = false;
-  int threads = 1;  ///< most threads, for building and for each search; 0: all cores
+  /// most threads, for building and for each search; 0: all threads of the caller's oneTBB arena, outside of one all
+  /// cores. With as many threads as the caller's arena has, the work runs in that arena.
+  int threads = 1;
   std::stop_token stop = {};
+  /// Called at the beginning of each phase. It cancels the plan if it requests a stop of the source of `stop`.
+  sim::ReportPhase progress = {};
+  /// Unless null: a choice that it remembers for the class of the workload, with at least the rigor that this plan would
+  /// reach, is used without a pilot; else it remembers the choice of this plan. Must outlive the call only.
+  PlanMemory* memory = nullptr;
+  bool remembered_only = false;  ///< throw NotRemembered if the memory has no such choice
 };
 
 /// The choice for some discs, and its index. Const: many threads may execute a plan at once, each with its own scratch.
+/// Copies share the index.
 class Plan {
  public:
   [[nodiscard]] const Candidate& candidate() const { return candidate_; }
   /// Number of threads of a search, at most PlanOptions::threads.
   [[nodiscard]] int threads() const { return threads_; }
-  /// Predicted time of one search on threads(), sorting and building included.
+  /// Predicted time of one search on threads(). Includes building, and also sorting, unless the discs' order is known.
   [[nodiscard]] double predicted_seconds() const { return predicted_seconds_; }
   /// Standard error of the predicted time, because the pilot has only a sample of rays and subtrees. The error of the
-  /// unit costs comes in addition.
+  /// unit costs comes in addition, and after `replan` that of the extrapolation.
   [[nodiscard]] double predicted_error() const { return predicted_error_; }
   [[nodiscard]] double planning_seconds() const { return planning_seconds_; }  ///< without sorting and building
-  /// Searches the index; see execute.
-  [[nodiscard]] const sim::Searcher& searcher() const { return searcher_; }
+  [[nodiscard]] Rigor rigor() const { return rigor_; }                         ///< reached
+  [[nodiscard]] bool remembered() const { return remembered_; }                ///< the choice comes from a PlanMemory
+
+  [[nodiscard]] bool is_built() const;
+  /// Builds the index, unless it is built. `execute` calls it. Throws as sim::prepare, sim::Stopped on a stop request.
+  void build(const std::stop_token& stop = {}) const;
+  /// Searches the index; see execute. Builds it first, if necessary.
+  [[nodiscard]] const sim::Searcher& searcher() const;
 
  private:
   friend Plan plan(std::span<const sim::Disc>, std::span<const sim::Ray>, const PlanOptions&);
   friend Plan plan(const sim::DiscsView&, const sim::RaysView&, const PlanOptions&);
-  Plan(Candidate candidate, sim::Searcher searcher) : candidate_(candidate), searcher_(std::move(searcher)) {}
+  friend Plan replan(const Plan&, double, std::optional<double>);
+  struct Basis;
+  class Planner;
+  Plan(std::shared_ptr<const Basis> basis, const Candidate& candidate)
+      : candidate_(candidate), basis_(std::move(basis)) {}
 
   Candidate candidate_;
-  std::shared_ptr<const std::vector<sim::Disc>> own_discs_;  ///< null if the discs are borrowed
-  sim::Searcher searcher_;
+  std::shared_ptr<const Basis> basis_;
+  std::shared_ptr<LateSearcher> searcher_;
   int threads_ = 1;
+  double rays_ = 0;  ///< number of rays in each search
   double predicted_seconds_ = 0;
   double predicted_error_ = 0;
   double planning_seconds_ = 0;
+  Rigor rigor_ = Rigor::estimate;
+  bool remembered_ = false;
 };
 
 /// Chooses technique, parameters and number of threads by a pilot (choose_by_pilot), and builds the index. If the rays
 /// may start too far away for float kernels, or if the costs are those of the plain engine, chooses by closed forms; then
-/// the costs' engine searches. `rays` are some or all of the rays that will be
-/// searched. Borrows the discs, which must outlive the plan.
+/// the costs' engine searches. `rays` are some or all of the rays that will be searched. Borrows the discs, which must
+/// outlive the plan and its replans.
 ///
-/// Throws as make_problem and run do, and std::invalid_argument if there are no rays; sim::Stopped on a stop request.
+/// Throws as make_problem and run do, and std::invalid_argument if there are no rays; sim::Stopped on a stop request;
+/// NotRemembered as PlanOptions::remembered_only says.
 [[nodiscard]] Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays,
                         const PlanOptions& options = {});
 
 /// The same for views. Copies the discs.
 [[nodiscard]] Plan plan(const sim::DiscsView& discs, const sim::RaysView& rays, const PlanOptions& options = {});
 
-/// Finds the hits of the rays: a span or a view. Returns scratch.outcome, as sim::Searcher::search does, and throws as it
-/// does. Without options, runs on plan.threads() threads.
+/// A plan for the same samples with discs of another radius, and with `rays` rays in each search (default: as before), for
+/// progressive estimation. Finds the same hits as a new plan with this radius would.
+///
+/// Takes microseconds, however many discs there are: nothing is measured, culled or sorted. The counts of the candidates
+/// that the pilot had tried are extrapolated from the first plan's radius and rays (sim::stream::PilotCounts::at), priced,
+/// and compared again; replans of replans do not add errors. Techniques that the pilot ruled out stay ruled out. A
+/// candidate that no pilot counted is compared by its closed form; a remembered choice is kept. Plan again if the radius
+/// differs by more than a factor of four, or if rays come from elsewhere.
+///
+/// The index is not built here, but by the first `execute` (or by Plan::build): the discs are copied and given their
+/// radius, 56 bytes each; a box tree gets new boxes and a new shape along the curve on which the first plan had sorted the
+/// discs. predicted_seconds includes this, without sorting. Every disc gets the same radius, even if the first plan had
+/// discs of different radii.
+///
+/// Throws std::invalid_argument for a radius out of 1e-100 … 1e100 and for a number of rays out of 1 … 1e18.
+[[nodiscard]] Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays = {});
+
+/// Finds the hits of the rays: a span or a view. Builds the index first, if necessary. Returns scratch.outcome, as
+/// sim::Searcher::search does, and throws as it does; sim::Stopped if a stop is requested while the index is built.
+/// RunOptions::progress is called during the search; if it requests a stop, the outcome is partial. Without options, runs
+/// on plan.threads() threads.
 template <class Rays>
 const sim::Outcome& execute(const Plan& plan, const Rays& rays, sim::SearchScratch& scratch,
                             const sim::RunOptions& options) {
+  plan.build(options.stop);
   return plan.searcher().search(rays, scratch, options);
 }
 template <class Rays>

@@ -180,16 +180,6 @@ model::FixedParameters CandidateOptions::fixed_parameters(Technique chosen) cons
   return fixed;
 }
 
-Json to_json(const Candidate& candidate) {
-  Json json = Json::object();
-  for (const Parameter& parameter : record_of(candidate.technique).parameters) {
-    std::string key(parameter.name);
-    std::replace(key.begin(), key.end(), '-', '_');
-    std::visit([&](const auto& value) { json[key] = value; }, parameter.get(candidate.parameters));
-  }
-  return json;
-}
-
 Json to_json(const Workload& workload) {
   return {{"rays", whole(workload.rays)},
           {"samples", whole(workload.samples)},

@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "detp/model/rank/choose.hpp"
+#include "detp/validate/choice/candidate_json.hpp"
 #include "detp/validate/choice/job.hpp"
 #include "value_lists.hpp"
 
@@ -83,7 +84,6 @@ class CandidateOptions {
 [[nodiscard]] std::string_view name(sim::Field field);
 
 /// The parameters under their names, with underscores.
-[[nodiscard]] Json to_json(const Candidate& candidate);
 [[nodiscard]] Json to_json(const Workload& workload);
 
 /// Resolved inputs of a workload without a scene.

@@ -51,7 +51,7 @@ std::uint32_t split_run(const SortedDiscs& discs, std::uint32_t leaf, std::uint3
     make_leaf(discs, nodes[number]);
     return number + 1;
   }
-  const std::uint32_t middle = boundary(discs.places, first, count);
+  const std::uint32_t middle = boundary(*discs.places, first, count);
   const std::uint32_t right = split_run(discs, leaf, first, middle - first, nodes, number + 1);
   const std::uint32_t end = split_run(discs, leaf, middle, first + count - middle, nodes, right);
   join(nodes[number], nodes[number + 1], nodes[right], right);

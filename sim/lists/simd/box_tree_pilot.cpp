@@ -109,6 +109,7 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
   hits_ = rays.hits.value_or(hits_ * rays_ / sampled_);
   set_blocks();
   set_relative_error();
+  set_radius();
 }
 
 /// Builds the top of the tree, and the nodes below it down to coarse_leaf discs. Returns the node's number.
@@ -119,7 +120,7 @@ std::uint32_t BoxTreePilot::build_coarse(std::uint32_t first, std::uint32_t coun
     nodes_[number].box = box_around(std::span(discs_.tree.discs).subspan(first, count));
     return number;
   }
-  const std::uint32_t middle = boundary(discs_.places, first, count);
+  const std::uint32_t middle = boundary(*discs_.places, first, count);
   build_coarse(first, middle - first);
   const std::uint32_t right = build_coarse(middle, first + count - middle);
   nodes_[number].right = right;
@@ -390,6 +391,17 @@ void BoxTreePilot::set_relative_error() {
   }
   const double spread = std::max(0.0, sampled_ * work_squares / (work * work) - 1);
   relative_error_ = std::sqrt(of_subtrees / (all * all) + spread / sampled_ * unseen_);
+}
+
+void BoxTreePilot::set_radius() {
+  constexpr std::size_t most = 1024;
+  const std::vector<FloatDisc>& discs = discs_.tree.discs;
+  const std::size_t step = (discs.size() - 1) / most + 1;
+  float squares = 0;
+  float count = 0;
+  for (std::size_t place = 0; place < discs.size(); place += step, ++count)
+    squares += discs[place].radius * discs[place].radius;
+  radius_ = std::sqrt(squares / count);
 }
 
 }  // namespace detp::sim::stream

@@ -9,6 +9,7 @@
 #include "binary_tree.hpp"
 #include "block_search.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
+#include "pilot_counts.hpp"
 
 /// Predicts the counts of any box tree over given discs and rays from a sample of both, without building the tree.
 namespace detp::sim::stream {
@@ -22,12 +23,6 @@ struct PilotRays {
   bool independent = false;
   /// Expected hits of the search, if they are known. Otherwise the sample's hits are counted.
   std::optional<double> hits = {};
-};
-
-/// Counts of a box tree, predicted by a pilot.
-struct PilotCounts {
-  Counts<double> counts;      ///< of the search of all rays, building included
-  double relative_error = 0;  ///< relative standard error of the tests
 };
 
 /// A pilot culls a sample of the rays down a sample of the binary tree.
@@ -56,8 +51,9 @@ class BoxTreePilot {
   BoxTreePilot(const Problem& problem, const Frame& frame, const SortedDiscs& discs, const PilotRays& rays,
                std::size_t subtrees, const std::stop_token& stop = {});
 
-  /// Leaves of fewer than four discs are treated as leaves of four.
-  [[nodiscard]] PilotCounts counts(const BoxTreeParameters& parameters) const;
+  /// Leaves of fewer than four discs are treated as leaves of four. Without `growth`, PilotCounts::at must not be called
+  /// with another radius.
+  [[nodiscard]] PilotCounts counts(const BoxTreeParameters& parameters, bool growth = false) const;
 
  private:
   /// What the pilot knows of a node of the binary tree.
@@ -96,6 +92,7 @@ class BoxTreePilot {
   void set_blocks();
   [[nodiscard]] double blocks_with_a_ray(std::uint32_t node, double shape) const;
   void set_relative_error();
+  void set_radius();
 
   const SortedDiscs& discs_;
   double rays_;     ///< number of all rays
@@ -112,6 +109,7 @@ class BoxTreePilot {
   double hits_ = 0;          ///< expected, of all rays
   double doubtful_ = 0;
   double relative_error_ = 0;
+  float radius_ = 0;  ///< root mean square of a part of the discs
 };
 
 }  // namespace detp::sim::stream

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <optional>
 #include <utility>
@@ -10,8 +11,9 @@ namespace detp::sim::stream {
 /// Follows the builder: decides which nodes are leaves, and joins the others into wide nodes.
 class BoxTreePilot::Evaluation {
  public:
-  Evaluation(const BoxTreePilot& pilot, const BoxTreeParameters& parameters)
+  Evaluation(const BoxTreePilot& pilot, const BoxTreeParameters& parameters, bool growth)
       : pilot_(pilot),
+        growth_(growth),
         fan_out_(static_cast<std::size_t>(parameters.fan_out)),
         leaf_(std::max<std::uint32_t>(finest_leaf, static_cast<std::uint32_t>(parameters.leaf))),
         nodes_(pilot.nodes_),
@@ -26,13 +28,18 @@ class BoxTreePilot::Evaluation {
     const double scale = pilot_.rays_ / pilot_.sampled_;
     for (const auto per_ray : {&Counts<double>::cull_tests, &Counts<double>::listed, &Counts<double>::disc_tests})
       counts_.*per_ray *= scale;
+    for (RadiusGrowth* const growth : {&found_.cull_tests, &found_.listed, &found_.disc_tests}) {
+      growth->first *= scale;
+      growth->second *= scale;
+    }
     counts_.visits = std::min(counts_.visits, discs * pilot_.blocks_.count());
     counts_.loaded = pilot_.rays_;
     counts_.hits = pilot_.hits_;
     counts_.doubtful = scale * pilot_.doubtful_;
     counts_.sorted = counts_.placements = counts_.references = discs;
     counts_.made = made_in_top(0);
-    return {counts_, pilot_.relative_error_};
+    found_.relative_error = pilot_.relative_error_;
+    return found_;
   }
 
  private:
@@ -68,9 +75,33 @@ class BoxTreePilot::Evaluation {
 
   [[nodiscard]] float area(std::uint32_t node) const { return pilot_.area_[node]; }
 
+  /// How the surface of a node's box grows with the radius, relative to the surface (PilotCounts::at). The root's list
+  /// does not grow: it has all rays.
+  [[nodiscard]] RadiusGrowth growth_of(std::uint32_t node) const {
+    const FloatBox& box = nodes_[node].box;
+    const float surface = area(node);
+    if (!growth_ || node == 0 || node == resolved(0) || !(surface > 0)) return {};
+    std::array<float, 3> side{};
+    std::array<float, 3> more{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      side[axis] = box.high[axis] - box.low[axis];
+      more[axis] = std::min(side[axis], 2 * pilot_.radius_);
+    }
+    const float first = more[0] * (side[1] + side[2]) + more[1] * (side[2] + side[0]) + more[2] * (side[0] + side[1]);
+    const float second = more[0] * more[1] + more[1] * more[2] + more[2] * more[0];
+    return {first / surface, second / surface};
+  }
+
+  static void add(const RadiusGrowth& relative, double tests, RadiusGrowth& sum) {
+    sum.first += tests * relative.first;
+    sum.second += tests * relative.second;
+  }
+
   void add_leaf(std::uint32_t node, double weight) {
     const Known& known = pilot_.known_[node];
-    counts_.disc_tests += weight * known.rays * nodes_[node].count;
+    const double tests = weight * known.rays * nodes_[node].count;
+    counts_.disc_tests += tests;
+    add(growth_of(node), tests, found_.disc_tests);
     counts_.visits += weight * known.blocks * nodes_[node].count;
   }
 
@@ -81,13 +112,17 @@ class BoxTreePilot::Evaluation {
         [this](std::uint32_t inner) { return std::pair(child_at(inner + 1), child_at(nodes_[inner].right)); },
         children_[level]);
     const Known& here = pilot_.known_[node];
+    const RadiusGrowth here_grows = growth_of(node);
     for (std::size_t i = 0; i < children_[level].size(); ++i) {
       const std::uint32_t child = children_[level][i].node;
       const Known& known = pilot_.known_[child];
       if (known.weight == 0) continue;  // below a subtree that was not drawn
+      found_.nodes += known.weight;
       counts_.cull_tests += known.weight * here.rays;
+      add(here_grows, known.weight * here.rays, found_.cull_tests);
       counts_.culls += known.weight * here.blocks;
       counts_.listed += known.weight * known.rays;
+      add(growth_of(child), known.weight * known.rays, found_.listed);
       if (!is_inner(child)) {
         if (nodes_[child].count <= leaf_ || child >= pilot_.coarse_) add_leaf(child, known.weight);
       } else if (nodes_[child].count > most_in_a_subtree || child >= pilot_.coarse_) {
@@ -121,6 +156,7 @@ class BoxTreePilot::Evaluation {
   }
 
   const BoxTreePilot& pilot_;
+  bool growth_;
   std::size_t fan_out_;
   std::uint32_t leaf_;
   const std::vector<BinaryNode>& nodes_;
@@ -128,11 +164,12 @@ class BoxTreePilot::Evaluation {
   std::vector<float> costs_;
   std::deque<std::vector<WideChild>> children_;  ///< of the wide nodes on the way down
   std::optional<double> made_for_each_disc_;
-  Counts<double> counts_;
+  PilotCounts found_;
+  Counts<double>& counts_ = found_.counts;
 };
 
-PilotCounts BoxTreePilot::counts(const BoxTreeParameters& parameters) const {
-  return Evaluation(*this, parameters).counts();
+PilotCounts BoxTreePilot::counts(const BoxTreeParameters& parameters, bool growth) const {
+  return Evaluation(*this, parameters, growth).counts();
 }
 
 }  // namespace detp::sim::stream

@@ -60,7 +60,7 @@ class Builder {
                          problem_);
       return;
     }
-    const std::uint32_t middle = boundary(discs_.places, first, count);
+    const std::uint32_t middle = boundary(*discs_.places, first, count);
     const std::uint32_t right = number + 2 * (middle - first);
     tbb::parallel_invoke([&] { split_in_parallel(first, middle - first, number + 1); },
                          [&] { split_in_parallel(middle, first + count - middle, right); });
@@ -144,35 +144,24 @@ DiscRun discs_below(const DiscTree& tree, const TreeNode& node) {
   return {first->first, last->first + last->count - first->first};
 }
 
-namespace {
-
-/// Runs on the threads of the caller's arena.
-DiscTree tree_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
-                       const std::stop_token& stop) {
+DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
+                        const RunOptions& options) {
   constexpr std::size_t grain = 4096;
   constexpr std::size_t prefetch_distance = 32;  // number of discs to prefetch
   DiscTree tree;
   tree.order = std::move(order);
   tree.discs.resize(tree.order.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.order.size(), grain), [&](const auto& range) {
-    StopCheck check(stop, "putting discs in order");
-    for_each_checked(range.begin(), range.end(), check, [&](std::size_t place) {
-      if (place + prefetch_distance < tree.order.size())
-        hwy::Prefetch(&problem.discs()[tree.order[place + prefetch_distance]]);
-      tree.discs[place] = to_float(problem.discs()[tree.order[place]], frame);
+  on_threads(thread_count(options.threads), [&] {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.order.size(), grain), [&](const auto& range) {
+      StopCheck check(options.stop, "putting discs in order");
+      for_each_checked(range.begin(), range.end(), check, [&](std::size_t place) {
+        if (place + prefetch_distance < tree.order.size())
+          hwy::Prefetch(&problem.discs()[tree.order[place + prefetch_distance]]);
+        tree.discs[place] = to_float(problem.discs()[tree.order[place]], frame);
+      });
+      check.now();
     });
-    check.now();
   });
-  return tree;
-}
-
-}  // namespace
-
-DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<std::uint32_t> order,
-                        const RunOptions& options) {
-  DiscTree tree;
-  on_threads(thread_count(options.threads),
-             [&] { tree = tree_in_order(problem, frame, std::move(order), options.stop); });
   return tree;
 }
 
@@ -181,19 +170,35 @@ double building_bytes(std::size_t discs, double binary_nodes, double nodes) {
   return in_order * static_cast<double>(discs) + binary_node_bytes * binary_nodes + sizeof(TreeNode) * nodes;
 }
 
-SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOptions& options) {
+CurveOrder curve_order(const Problem& problem, const RunOptions& options) {
   if (problem.discs().size() >= std::size_t{1} << 31)
     throw std::length_error(
         fmt::format("{} discs are too many for a tree of boxes; the most is 2147483647", problem.discs().size()));
-  SortedDiscs sorted;
-  const Stopwatch watch;
+  CurveOrder places;
   on_threads(thread_count(options.threads), [&] {
-    sorted.places = sort_along_curve(problem.discs(), options.stop);
-    std::vector<std::uint32_t> order;
-    order.reserve(sorted.places.size());
-    for (const CurvePlace place : sorted.places) order.push_back(place_index(place));
-    sorted.tree = tree_in_order(problem, frame, std::move(order), options.stop);
+    places = std::make_shared<const std::vector<CurvePlace>>(sort_along_curve(problem.discs(), options.stop));
   });
+  return places;
+}
+
+SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOptions& options) {
+  const Stopwatch watch;
+  SortedDiscs sorted = discs_in_known_order(problem, frame, curve_order(problem, options), options);
+  sorted.sorted = problem.discs().size();
+  sorted.seconds = watch.seconds();
+  return sorted;
+}
+
+SortedDiscs discs_in_known_order(const Problem& problem, const Frame& frame, CurveOrder places,
+                                 const RunOptions& options) {
+  if (places->size() != problem.discs().size())
+    throw std::invalid_argument(
+        fmt::format("the order of {} discs is not one of {} discs", places->size(), problem.discs().size()));
+  const Stopwatch watch;
+  std::vector<std::uint32_t> order;
+  order.reserve(places->size());
+  for (const CurvePlace place : *places) order.push_back(place_index(place));
+  SortedDiscs sorted{.places = std::move(places), .tree = discs_in_order(problem, frame, std::move(order), options)};
   sorted.seconds = watch.seconds();
   return sorted;
 }

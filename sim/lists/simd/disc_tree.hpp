@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <stop_token>
 #include <vector>
 
@@ -40,15 +41,29 @@ struct DiscTree {
 
 inline constexpr double binary_node_bytes = 40;
 
+/// The places of some discs on the Morton curve, in its order. They depend on the discs' centres alone, so they hold for
+/// the same discs with other radii.
+using CurveOrder = std::shared_ptr<const std::vector<CurvePlace>>;
+
 /// Discs in the order of the Morton curve.
 struct SortedDiscs {
-  std::vector<CurvePlace> places;
-  DiscTree tree;       ///< discs and order; no nodes
-  double seconds = 0;  ///< for sorting
+  CurveOrder places;
+  DiscTree tree;           ///< discs and order; no nodes
+  double seconds = 0;      ///< for sorting
+  std::size_t sorted = 0;  ///< number of discs that were sorted; 0 if their order was known
 };
 
-/// Throws Stopped if a stop was requested, and std::length_error for 2³¹ or more discs.
+/// Sorts the problem's discs along the curve. Throws Stopped if a stop was requested, and std::length_error for 2³¹ or
+/// more discs.
+[[nodiscard]] CurveOrder curve_order(const Problem& problem, const RunOptions& options = {});
+
+/// The discs in the order of the curve. Throws as curve_order.
 [[nodiscard]] SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOptions& options = {});
+
+/// The same without sorting: `places` are those of the same discs, perhaps with other radii. Throws Stopped if a stop was requested,
+/// and std::invalid_argument if the numbers of places and discs differ.
+[[nodiscard]] SortedDiscs discs_in_known_order(const Problem& problem, const Frame& frame, CurveOrder places,
+                                               const RunOptions& options = {});
 
 /// Predicted peak bytes while the tree is built: sorted discs, nodes of the binary tree and of the final tree.
 [[nodiscard]] double building_bytes(std::size_t discs, double binary_nodes, double nodes);

@@ -33,14 +33,17 @@ class Block {
 };
 
 /// Calls search(block) for one block after another, until all are searched or a stop is requested. While a block is
-/// searched, another thread, if there is one, loads the next block.
+/// searched, another thread, if there is one, loads the next block. Reports the share of the rays before each block.
 template <class Search>
 void for_each_block(const Problem& problem, const Frame& frame, const RunOptions& options, const Search& search) {
   const std::size_t size = rays_in_block(problem.discs().size());
   Block now(options.memory);
   Block next(options.memory);
   now.load(problem, frame, 0, size);
-  while (now.first() < problem.rays().size() && !options.stop.stop_requested()) {
+  while (now.first() < problem.rays().size()) {
+    if (options.progress)
+      options.progress(static_cast<double>(now.first()) / static_cast<double>(problem.rays().size()));
+    if (options.stop.stop_requested()) break;
     tbb::parallel_invoke([&] { next.load(problem, frame, now.first() + size, size); }, [&] { search(now); });
     std::swap(now, next);
   }

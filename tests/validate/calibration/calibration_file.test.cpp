@@ -52,20 +52,6 @@ TEST_SUITE("identity") {
         CHECK(stored.simd.threads_of(technique) == written.simd.costs.threads_of(technique));
       }
   }
-
-  TEST_CASE("equal keys do not differ; each difference is named") {
-    const validate::CalibrationKey here = validate::this_machine();
-    CHECK(validate::difference(here, here).empty());
-    validate::CalibrationKey other = here;
-    other.threads += 1;
-    CHECK(validate::difference(other, here).find("number of threads") != std::string::npos);
-    other = here;
-    other.instruction_set = "SSE2";
-    CHECK(validate::difference(other, here).find("instruction set is SSE2, here it is") != std::string::npos);
-    other = here;
-    other.cost_model += 1;
-    CHECK(validate::difference(other, here).find("cost model") != std::string::npos);
-  }
 }
 
 TEST_SUITE("bad input") {

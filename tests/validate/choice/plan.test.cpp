@@ -84,6 +84,52 @@ TEST_SUITE("known answer") {
   }
 }
 
+TEST_SUITE("progress") {
+  TEST_CASE("a plan reports its phases in order, and a callback can cancel it in each") {
+    const auto discs = some_discs();
+    const auto rays = some_rays(discs, 1, 300);
+    for (const double farthest : {10.0, 2e12}) {  // by a pilot and by closed forms
+      std::vector<sim::Phase> phases;
+      static_cast<void>(validate::plan(
+          discs, rays, {.farthest = farthest, .progress = [&](const sim::Phase& one) { phases.push_back(one); }}));
+      REQUIRE(phases.size() == 3);
+      CHECK(phases.front().from == 0);
+      CHECK(phases.back().to == 1);
+      for (std::size_t i = 1; i < phases.size(); ++i) CHECK(phases[i].from == phases[i - 1].to);
+      for (const sim::Phase& last : phases) {
+        CAPTURE(last.what);
+        std::stop_source source;
+        const auto cancel = [&](const sim::Phase& one) {
+          CHECK(one.from <= last.from);
+          if (one.what == last.what) source.request_stop();
+        };
+        CHECK_THROWS_AS(static_cast<void>(validate::plan(
+                            discs, rays, {.farthest = farthest, .stop = source.get_token(), .progress = cancel})),
+                        sim::Stopped);
+      }
+    }
+  }
+
+  TEST_CASE("an execution reports its share, and a callback can stop it after a block of rays") {
+    const auto discs = some_discs();
+    const auto rays = some_rays(discs, 1, 300'000);  // more than a block
+    const auto made = validate::plan(discs, rays);
+    REQUIRE(made.candidate().technique == Technique::box_tree);
+    sim::SearchScratch scratch;
+    std::vector<double> shares;
+    std::stop_source source;
+    const sim::Outcome& found =
+        validate::execute(made, rays, scratch, {.stop = source.get_token(), .progress = [&](double share) {
+                                                  shares.push_back(share);
+                                                  if (share > 0) source.request_stop();
+                                                }});
+    REQUIRE(shares.size() == 2);
+    CHECK(shares[0] == 0);
+    CHECK(found.stopped);
+    CHECK(static_cast<double>(found.progress.done) == Approx(300'000 * shares[1]));
+  }
+}
+
 TEST_SUITE("bad input") {
   TEST_CASE("no rays, no discs, a ray too far away, a stop request") {
     const auto discs = some_discs();

@@ -1,0 +1,66 @@
+#include "calibration_key.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string_view>
+#include <thread>
+
+#include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/lists/simd/tree_search.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr int cost_model = 3;  // change it whenever the meaning of a unit cost or of a count changes
+
+std::string cpu_name() {
+  std::ifstream cpus("/proc/cpuinfo");
+  for (std::string line; std::getline(cpus, line);)
+    if (line.starts_with("model name") && line.find(": ") != std::string::npos) return line.substr(line.find(": ") + 2);
+  return "unknown";
+}
+
+}  // namespace
+
+CalibrationKey this_machine() {
+  return {.cpu = cpu_name(),
+          .instruction_set = sim::stream::instruction_set(),
+          .caches = fmt::format("{} {} {}", sysconf(_SC_LEVEL1_DCACHE_SIZE), sysconf(_SC_LEVEL2_CACHE_SIZE),
+                                sysconf(_SC_LEVEL3_CACHE_SIZE)),
+          .threads = static_cast<int>(std::thread::hardware_concurrency()),
+          .compiler = __VERSION__,
+          .cost_model = cost_model};
+}
+
+std::string difference(const CalibrationKey& stored, const CalibrationKey& here) {
+  const auto differ = [](std::string_view what, const auto& there, const auto& at_hand) {
+    return there == at_hand ? "" : fmt::format("its {} is {}, here it is {}", what, there, at_hand);
+  };
+  for (const std::string& text :
+       {differ("cpu", stored.cpu, here.cpu), differ("instruction set", stored.instruction_set, here.instruction_set),
+        differ("cache sizes", stored.caches, here.caches), differ("number of threads", stored.threads, here.threads),
+        differ("compiler", stored.compiler, here.compiler),
+        differ("version of the cost model", stored.cost_model, here.cost_model)})
+    if (!text.empty()) return shortened(text, 300);
+  return "";
+}
+
+nlohmann::ordered_json to_json(const CalibrationKey& key) {
+  return {{"cpu", key.cpu},           {"instruction_set", key.instruction_set},
+          {"caches", key.caches},     {"threads", key.threads},
+          {"compiler", key.compiler}, {"cost_model", key.cost_model}};
+}
+
+CalibrationKey key_of(const nlohmann::ordered_json& json) {
+  return {.cpu = json.at("cpu"),
+          .instruction_set = json.at("instruction_set"),
+          .caches = json.at("caches"),
+          .threads = json.at("threads"),
+          .compiler = json.at("compiler"),
+          .cost_model = json.at("cost_model")};
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,100 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "detp/model/rank/choose.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/search/soundness.hpp"
+#include "late_searcher.hpp"
+#include "plan_basis.hpp"
+
+namespace detp::validate {
+namespace {
+
+struct Replanned {
+  const PlanCandidate* candidate = nullptr;
+  double seconds = std::numeric_limits<double>::infinity();
+  int threads = 1;
+};
+
+/// The ratio by which the closed form changes the time of a candidate, or that of the numbers of rays where there is none.
+double time_ratio(const Candidate& candidate, const Workload& before, const Workload& now, const CostTable& costs,
+                  int most_threads) {
+  try {
+    if (model::has_closed_form(candidate.technique))
+      return model::assess(now, candidate, costs, most_threads).time.total() /
+             model::assess(before, candidate, costs, most_threads).time.total();
+  } catch (const std::invalid_argument&) {  // no closed form for these parameters
+  }
+  return now.rays / before.rays;
+}
+
+/// The discs with another radius.
+std::vector<sim::Disc> resized(std::span<const sim::Disc> discs, double radius, const std::stop_token& stop) {
+  sim::StopCheck check(stop, "changing the radius of the discs");
+  std::vector<sim::Disc> changed;
+  changed.reserve(discs.size());
+  sim::for_each_checked(discs, check, [&](sim::Disc disc) {
+    disc.radius = radius;
+    changed.push_back(disc);
+  });
+  return changed;
+}
+
+}  // namespace
+
+Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
+  const sim::Stopwatch watch;
+  const Plan::Basis& basis = *plan.basis_;
+  require_positive("disc radius", disc_radius);
+  if (disc_radius < sim::least_radius || disc_radius > sim::largest_coordinate)
+    throw std::invalid_argument(
+        fmt::format("disc radius must be from 1e-100 to 1e100, or its square overflows (got {})", disc_radius));
+  const double count = rays.value_or(plan.rays_);
+  require_count("number of rays", count, 1, 1e18);
+  const int most_threads = sim::useful_threads(basis.options.threads);
+  const auto replanned = [&](const PlanCandidate& one) -> Replanned {
+    if (one.counts_at) {
+      Counts<double> counts = one.counts_at(disc_radius / basis.radius, count);
+      if (basis.order) counts.sorted = 0;
+      const auto fastest = fastest_price(counts, basis.options.costs, one.candidate.technique, most_threads);
+      return {&one, fastest.time.total(), fastest.threads};
+    }
+    Workload now = *basis.workload;
+    now.rays = count;
+    now.disc_radius = disc_radius;
+    now.sphere_radius += disc_radius - basis.radius;
+    const double ratio = time_ratio(one.candidate, *basis.workload, now, basis.options.costs, most_threads);
+    return {&one, one.seconds * ratio, one.threads};
+  };
+  Replanned best;
+  for (const PlanCandidate& one : basis.candidates)
+    if (const Replanned now = replanned(one); now.seconds < best.seconds || best.candidate == nullptr) best = now;
+  Plan made(plan.basis_, best.candidate->candidate);
+  made.searcher_ =
+      std::make_shared<LateSearcher>([shared = plan.basis_, candidate = made.candidate_, disc_radius,
+                                      discs = std::vector<sim::Disc>()](const std::stop_token& stop) mutable {
+        discs = resized(shared->problem.discs(), disc_radius, stop);
+        const PlanOptions& options = shared->options;
+        sim::Problem problem = sim::searched_problem(discs, options.farthest, options.front_facing, stop);
+        const sim::RunOptions building{.engine = options.costs.engine, .stop = stop, .threads = options.threads};
+        auto index = build_index(problem, candidate, shared->order, building);
+        return sim::Searcher(std::move(problem), std::move(index));
+      });
+  made.threads_ = best.threads;
+  made.predicted_seconds_ = best.seconds;
+  made.predicted_error_ =
+      best.candidate->seconds > 0 ? best.candidate->error * best.seconds / best.candidate->seconds : 0;
+  made.rays_ = count;
+  made.rigor_ = plan.rigor_;
+  made.remembered_ = plan.remembered_;
+  made.planning_seconds_ = watch.seconds();
+  return made;
+}
+
+}  // namespace detp::validate
