@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "choose_map.hpp"
 #include "choose_report.hpp"
 #include "costs_in_use.hpp"
 #include "detp/model/rank/paper_rule.hpp"
@@ -28,6 +29,7 @@ struct ChooseOptions {
   std::optional<std::string> rigor;
   std::vector<std::string> disable;
   bool analyze = false;
+  bool map = false;
 };
 
 /// The techniques that the option names. Throws std::invalid_argument for an unknown name, and if none is left.
@@ -169,10 +171,15 @@ std::optional<Rigor> requested_rigor(const ChooseOptions& options) {
   return rigor;
 }
 
-Result run_choose(const ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+Result run_choose(ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const auto rigor = requested_rigor(options);
   const bool structural = rigor == Rigor::structural;
   const std::vector<Technique> disabled = disabled_techniques(options);
+  if (options.map)
+    return run_choose_map({options.workload, options.costs, rigor, disabled, options.analyze}, common, stop);
+  if (options.workload.lists.rows() > 1)
+    throw std::invalid_argument("only with --map may --rays and --disc-radius have several values");
+  options.workload.lists.choose_row(0);
   const CostsInUse costs_in_use = options.costs.costs(common);
   const CostTable& costs = costs_in_use.costs;
   validate::JobRequest request = options.workload.request(common);
@@ -237,9 +244,11 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
 
 Command choose_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("choose", "The fastest technique and its parameters, and why");
-  app->footer("Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze");
+  app->footer(
+      "Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze\n"
+      "Example: detp choose @tree --map --rays 1e3,1e4,1e5 --disc-radius 1%,4% -o map.svg");
   const auto options = std::make_shared<ChooseOptions>();
-  options->workload.add_to(*app);
+  options->workload.add_to(*app, Values::one, Values::many);
   options->costs.add_to(*app);
   app->add_option("--rigor", options->rigor,
                   "estimate: closed forms only; structural: the built structures, no rays; pilot: some of the rays, "
@@ -247,6 +256,9 @@ Command choose_command(CLI::App& program) {
   app->add_option("--disable", options->disable, "a list of techniques that may not be chosen; default: none")
       ->delimiter(',');
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
+  app->add_flag("--map", options->map,
+                "the fastest technique for each of several --rays and --disc-radius (lists or ranges; default: 1e2 … "
+                "3e5 and 0.25% … 16%); with --analyze also measured; -o FILE.svg draws it");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);
           }};
