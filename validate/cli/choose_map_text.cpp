@@ -7,6 +7,7 @@
 #include "detp/validate/map/agreement.hpp"
 #include "detp/validate/map/map_labels.hpp"
 #include "detp/validate/map/technique_sign.hpp"
+#include "text_blocks.hpp"
 
 namespace detp::cli {
 namespace {
@@ -14,69 +15,46 @@ namespace {
 using validate::MapCell;
 using validate::MapRow;
 
-/// Lines of the same width.
-struct Block {
-  std::size_t width = 0;
-  std::vector<std::string> lines;  ///< a title, a head, and a line for each disc radius, the largest first
-};
-
 std::string aligned_right(const std::string& text, std::size_t width) {
   return std::string(width - std::min(width, columns_of(text)), ' ') + text;
 }
 
 using CodeOf = std::function<std::string(const MapCell&)>;
 
-Block panel(const validate::TechniqueMap& map, const std::string& title, const CodeOf& code_of) {
-  std::vector<std::vector<std::string>> lines(1);
-  for (const double rays : map.rays) lines[0].push_back(validate::rays_label(rays));
+/// A title, numbers of rays, and a line of codes for each disc radius, the largest first. Shows one of `every` numbers
+/// of rays.
+TextBlock panel(const validate::TechniqueMap& map, const std::string& title, const CodeOf& code_of, std::size_t every) {
+  std::vector<std::vector<std::string>> table(1);
+  for (std::size_t i = 0; i < map.rays.size(); i += every) table[0].push_back(validate::rays_label(map.rays[i]) + " ");
   for (auto row = map.rows.rbegin(); row != map.rows.rend(); ++row) {
-    auto& line = lines.emplace_back();
-    for (const MapCell& cell : row->cells) line.push_back(code_of(cell));
+    auto& line = table.emplace_back();
+    for (std::size_t i = 0; i < row->cells.size(); i += every) line.push_back(code_of(row->cells[i]));
   }
-  std::size_t widest = 3;
-  for (const auto& line : lines)
+  std::size_t widest = 0;
+  for (const auto& line : table)
     for (const std::string& text : line) widest = std::max(widest, columns_of(text));
-  Block block{std::max(columns_of(title), map.rays.size() * (widest + 1)), {title}};
-  for (const auto& line : lines) {
+  TextBlock block{{title}};
+  for (const auto& line : table) {
     std::string& text = block.lines.emplace_back();
-    for (const std::string& one : line) text += aligned_right(one, widest + 1);
+    for (const std::string& one : line) text += aligned_right(one, widest);
   }
   return block;
 }
 
 /// The disc radii and X.
-Block radii(const validate::TechniqueMap& map) {
-  constexpr std::size_t width = 7;
-  Block block{2 * width, {"", aligned_right("d", width) + aligned_right("X", width)}};
+TextBlock radii(const validate::TechniqueMap& map) {
+  std::vector<std::pair<std::string, std::string>> table{{"d", "X"}};
   for (auto row = map.rows.rbegin(); row != map.rows.rend(); ++row)
-    block.lines.push_back(aligned_right(validate::radius_label(row->given), width) +
-                          aligned_right(fmt::format("{:.2g}", row->x), width));
-  return block;
-}
-
-/// The blocks side by side, the first one again wherever a new line of blocks begins.
-std::string side_by_side(const std::vector<Block>& blocks, const Screen& screen) {
-  constexpr std::size_t gap = 2;
-  std::string text;
-  for (std::size_t next = 1; next < blocks.size();) {
-    std::vector<const Block*> shown{&blocks.front(), &blocks[next++]};
-    std::size_t width = shown[0]->width + gap + shown[1]->width;
-    while (next < blocks.size() && (screen.width == 0 || width + gap + blocks[next].width <= screen.width)) {
-      width += gap + blocks[next].width;
-      shown.push_back(&blocks[next++]);
-    }
-    for (std::size_t i = 0; i < blocks.front().lines.size(); ++i) {
-      std::string line;
-      for (const Block* block : shown) {
-        line += (line.empty() ? "" : std::string(gap, ' ')) + block->lines[i];
-        line.resize(line.size() + block->width - std::min(block->width, columns_of(block->lines[i])), ' ');
-      }
-      line.erase(line.find_last_not_of(' ') + 1);
-      text += line + "\n";
-    }
-    text += "\n";
+    table.emplace_back(validate::radius_label(row->given), fmt::format("{:.2g}", row->x));
+  std::size_t first = 0;
+  std::size_t second = 0;
+  for (const auto& [d, x] : table) {
+    first = std::max(first, columns_of(d));
+    second = std::max(second, columns_of(x));
   }
-  return text;
+  TextBlock block{{""}};
+  for (const auto& [d, x] : table) block.lines.push_back(aligned_right(d, first) + aligned_right(x, second + 1));
+  return block;
 }
 
 std::string predicted_code(const MapCell& cell) {
@@ -94,6 +72,13 @@ std::string measured_code(const MapCell& cell) {
 }
 
 std::string paper_code(const MapCell& cell) { return validate::code_of(cell.paper.technique) + " "; }
+
+std::vector<TextBlock> panels(const validate::TechniqueMap& map, bool measured, std::size_t every) {
+  std::vector<TextBlock> blocks{radii(map), panel(map, "predicted", predicted_code, every)};
+  if (measured) blocks.push_back(panel(map, "measured", measured_code, every));
+  blocks.push_back(panel(map, "paper's rule", paper_code, every));
+  return blocks;
+}
 
 /// "bt box-tree, oc octree": the techniques that the map shows.
 std::string codes(const validate::TechniqueMap& map) {
@@ -164,11 +149,16 @@ std::string to_text(const validate::TechniqueMap& map, const Screen& screen) {
   const validate::Agreement agreement = validate::agreement_of(map);
   const bool measured = agreement.cells > 0;
   std::string text = wrapped("map       " + validate::describe(map), screen.text_width(), 10) + "\n";
-  std::vector<Block> blocks{radii(map), panel(map, " predicted fastest, by rays", predicted_code)};
-  if (measured) blocks.push_back(panel(map, " measured fastest", measured_code));
-  blocks.push_back(panel(map, " paper's rule", paper_code));
+  std::size_t every = 1;
+  std::vector<TextBlock> blocks = panels(map, measured, every);
+  while (is_too_wide(blocks, screen) && every < map.rays.size()) blocks = panels(map, measured, ++every);
   text += side_by_side(blocks, screen);
-  text += legend(screen, codes(map) + ". d: disc radius. X: distance between neighbouring samples over d." +
+  if (every > 1)
+    text += wrapped(fmt::format("(one of {} numbers of rays; --format csv or a wider terminal shows all)", every),
+                    screen.text_width(), 1);
+  text += legend(screen, codes(map) +
+                             ": the fastest technique for each number of rays. d: disc radius. X: distance between "
+                             "neighbouring samples over d." +
                              (measured ? " !: another technique than the predicted one. ~: the same, within the noise "
                                          "of the measurement. -: not measured."
                                        : "")) +

@@ -19,13 +19,14 @@ constexpr double panel_width = 340;
 constexpr double panel_height = 280;
 constexpr double left = 78;  // room for the labels of radii
 constexpr double right = 70;
-constexpr double top = 82;
+constexpr double top = 98;
 constexpr double between = 26;  // panels
 constexpr double below = 60;    // the panels: labels of rays, then the legend
 constexpr double legend_column = 150;
 constexpr double legend_line = 18;
 constexpr double small = 9;
 constexpr double normal = 11;
+constexpr double letter = 0.6;  // width of a character over its size, about; the font is the viewer's
 
 /// What a panel shows in a cell.
 struct Sign {
@@ -93,7 +94,7 @@ class MapDrawing {
         std::ceil(static_cast<double>(present_.size()) / static_cast<double>(columns)) + (agreement_.cells > 0 ? 1 : 0);
     const double bottom = top + panel_height + below;
     Svg svg(width, bottom + legend_line * legend_lines, "Fastest technique: " + describe(map_));
-    draw_caption(svg);
+    draw_caption(svg, width - left - 10);
     for (std::size_t i = 0; i < panels_.size(); ++i)
       draw_panel(svg, panels_[i], left + static_cast<double>(i) * (panel_width + between));
     draw_radii(svg, width);
@@ -115,16 +116,22 @@ class MapDrawing {
     return false;
   }
 
-  void draw_caption(Svg& svg) const {
-    svg.text(left, 22, "Fastest technique: " + describe(map_), {.size = 15, .bold = true});
+  /// Lines at most `width` wide: long ones have a smaller font.
+  void draw_caption(Svg& svg, double width) const {
+    const auto add = [&](double y, const std::string& text, double size, bool bold = false) {
+      svg.text(left, y, text,
+               {.size = std::min(size, width / (letter * static_cast<double>(text.size()))), .bold = bold});
+    };
+    add(22, "Fastest technique by number of rays and disc radius", 15, true);
+    add(39, describe(map_), normal);
     std::string line = fmt::format("{}, {}, one thread", caption_.machine, caption_.program);
     if (agreement_.cells > 0)
       line += fmt::format("; measured technique as predicted in {} of {} cells ({:.0f} %)", agreement_.agree,
                           agreement_.cells, 100 * agreement_.share());
     if (map_.stopped)
       line += fmt::format("; stopped after {} of {} {}", map_.stopped->done, map_.stopped->of, map_.stopped->unit);
-    svg.text(left, 39, line, {.size = normal});
-    svg.text(left, 54, "unit costs " + caption_.costs, {.size = small});
+    add(54, line, normal);
+    add(69, "unit costs " + caption_.costs, small);
   }
 
   void draw_panel(Svg& svg, const Panel& panel, double x) const {
@@ -162,7 +169,9 @@ class MapDrawing {
     const std::string where =
         fmt::format("{} rays, d = {}, X = {:.3g}: ", rays_label(map_.rays[i]), radius_label(row.given), row.x);
     if (!sign) return svg.rectangle(place, "#ffffff", "#bbbbbb", where + "unknown");
-    svg.rectangle(place, colour_of(sign->technique), "#ffffff", where + sign->tip);
+    const bool room_for_edges = std::min(place.width, place.height) > 8;
+    svg.rectangle(place, colour_of(sign->technique), room_for_edges ? "#ffffff" : colour_of(sign->technique),
+                  where + sign->tip);
     const double middle = place.x + place.width / 2;
     const double centre = place.y + place.height / 2;
     const std::string_view ink = text_colour_on(sign->technique);
@@ -180,15 +189,16 @@ class MapDrawing {
   }
 
   void draw_rays(Svg& svg, double x) const {
-    constexpr double room = 30;  // of a label
     const double axis = top + panel_height;
-    double last = -room;
+    double end = -left;  // of the last label
     for (std::size_t i = 0; i < map_.rays.size(); ++i) {
       const double middle = (xs_[i] + xs_[i + 1]) / 2;
       svg.line(x + middle, axis, x + middle, axis + 4);
-      if (middle - last < room) continue;
-      last = middle;
-      svg.text(x + middle, axis + 16, rays_label(map_.rays[i]), {.size = normal, .anchor = Anchor::middle});
+      const std::string label = rays_label(map_.rays[i]);
+      const double half = letter * normal * static_cast<double>(label.size()) / 2;
+      if (middle - half < end + 4) continue;
+      end = middle + half;
+      svg.text(x + middle, axis + 16, label, {.size = normal, .anchor = Anchor::middle});
     }
     svg.text(x + panel_width / 2, axis + 34, "number of rays", {.size = normal, .anchor = Anchor::middle});
   }

@@ -65,7 +65,7 @@ TEST_SUITE("end to end") {
     const Finished two = detp(words(tiny + " --threads 2 -o") + Arguments{folder.path("two.svg")});
     CHECK(one.code == 0);
     CHECK(one.err.empty());
-    CHECK(one.out.find("predicted fastest") != std::string::npos);
+    CHECK(one.out.find("the fastest technique") != std::string::npos);
     CHECK(one.out.find("picture   " + folder.path("one.svg")) != std::string::npos);
     const std::string svg = support::content_of(folder.path("one.svg"));
     CHECK(svg.find("</svg>\n") != std::string::npos);
@@ -73,7 +73,7 @@ TEST_SUITE("end to end") {
     CHECK(folder.entries() == 2);
     const Finished text = detp(words(tiny + " -o") + Arguments{folder.path("map.txt")});
     CHECK(text.out.empty());
-    CHECK(support::content_of(folder.path("map.txt")).find("predicted fastest") != std::string::npos);
+    CHECK(support::content_of(folder.path("map.txt")).find("the fastest technique") != std::string::npos);
   }
 
   TEST_CASE("CSV has a row for each cell; text and CSV have neither nan nor inf") {
@@ -86,6 +86,19 @@ TEST_SUITE("end to end") {
     CHECK(rows[1].starts_with("@uniform,isotropic,100,300,"));
     CHECK_FALSE(has_no_number(csv.out));
     CHECK_FALSE(has_no_number(detp(tiny).out));
+  }
+
+  TEST_CASE("a wide map leaves out numbers of rays to fit the screen, and says so") {
+    const std::string wide =
+        "choose --map --samples 1e4 --scene-side 2 --rays 100:3000:100 --disc-radius 1% --disable "
+        "sphere-cache,sphere-tree,cell-spheres";
+    CHECK(detp(wide).out.find("numbers of rays;") == std::string::npos);
+    REQUIRE(::setenv("COLUMNS", "60", 1) == 0);
+    const Finished narrow = detp(wide);
+    REQUIRE(::unsetenv("COLUMNS") == 0);
+    CHECK(narrow.out.find("numbers of rays;") != std::string::npos);
+    std::istringstream lines(narrow.out);
+    for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 60);
   }
 
   TEST_CASE("numbers alone have a map, for any number of rays, over the default axes") {
