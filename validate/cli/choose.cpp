@@ -246,7 +246,7 @@ Command choose_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("choose", "The fastest technique and its parameters, and why");
   app->footer(
       "Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze\n"
-      "Example: detp choose @tree --map --rays 1e3,1e4,1e5 --disc-radius 1%,4% -o map.svg");
+      "Example: detp choose @tree --map --disc-radius 1%,4%,16% -o map.svg");
   const auto options = std::make_shared<ChooseOptions>();
   options->workload.add_to(*app, Values::one, Values::many);
   options->costs.add_to(*app);
