@@ -21,6 +21,7 @@ namespace detp::validate {
 struct Length {
   double value = 0;
   bool relative = false;  ///< value is a share of the scene's longest side: "4%" is 0.04
+  bool operator==(const Length&) const = default;
 };
 
 /// Reads "0.02" or "4%". Throws std::invalid_argument for anything else, and unless the length is > 0 and finite.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "choose_map.hpp"
 #include "choose_report.hpp"
 #include "costs_in_use.hpp"
 #include "detp/model/rank/paper_rule.hpp"
@@ -33,6 +34,7 @@ struct ChooseOptions {
   std::string engine = "simd";
   std::vector<std::string> disable;
   bool analyze = false;
+  bool map = false;
 };
 
 /// The techniques that the option names. Throws std::invalid_argument for an unknown name, and if none is left.
@@ -159,7 +161,7 @@ std::optional<Rigor> requested_rigor(const ChooseOptions& options) {
   return rigor;
 }
 
-Result run_choose(const ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+Result run_choose(ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const auto rigor = requested_rigor(options);
   const bool structural = rigor == Rigor::structural;
   const bool analyze = options.analyze || rigor == Rigor::measure;
@@ -168,6 +170,13 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
   if (engine == Engine::plain && (rigor == Rigor::pilot || structural))
     throw std::invalid_argument(fmt::format(
         "--rigor {} counts for the simd engine; with --engine plain give --rigor estimate", *options.rigor));
+  if (options.map && rigor == Rigor::measure)
+    throw std::invalid_argument("--rigor measure chooses for one workload; with --map give --analyze");
+  if (options.map)
+    return run_choose_map({options.workload, options.costs, rigor, disabled, engine, options.analyze}, common, stop);
+  if (options.workload.lists.rows() > 1)
+    throw std::invalid_argument("only with --map may --rays and --disc-radius have several values");
+  options.workload.lists.choose_row(0);
   const int threads = sim::useful_threads(common.threads);
   const CostsInUse costs_in_use = options.costs.costs(common);
   const CostTable& costs = costs_in_use.of(engine);
@@ -240,9 +249,11 @@ Result run_choose(const ChooseOptions& options, const CommonOptions& common, con
 
 Command choose_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("choose", "The fastest technique and its parameters, and why");
-  app->footer("Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze");
+  app->footer(
+      "Example: detp choose @tree --rays 100000 --disc-radius 1% --analyze\n"
+      "Example: detp choose @tree --map --disc-radius 1%,4%,16% -o map.svg");
   const auto options = std::make_shared<ChooseOptions>();
-  options->workload.add_to(*app);
+  options->workload.add_to(*app, Values::one, Values::many);
   options->costs.add_to(*app);
   app->add_option("--rigor", options->rigor,
                   "estimate: closed forms only; structural: rays of the same kind through parts of the index; pilot: "
@@ -252,6 +263,9 @@ Command choose_command(CLI::App& program) {
       ->delimiter(',');
   app->add_option("--engine", options->engine, engine_help);
   app->add_flag("--analyze", options->analyze, "run the candidates: predicted, counted and measured, and the regret");
+  app->add_flag("--map", options->map,
+                "the fastest technique for each of several --rays and --disc-radius (lists or ranges; default: 1e2 … "
+                "3e5 and 0.25% … 16%); with --analyze also measured; -o FILE.svg draws it");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);
           }};

@@ -23,7 +23,8 @@ namespace detp::cli {
 namespace {
 
 Json envelope(const std::string& command, const CommonOptions& common, int threads, Result& result) {
-  Json json{{"schema", {{"name", "detp." + command}, {"version", 1}}}, {"inputs", std::move(result.inputs)}};
+  const std::string& schema = result.schema.empty() ? command : result.schema;
+  Json json{{"schema", {{"name", "detp." + schema}, {"version", 1}}}, {"inputs", std::move(result.inputs)}};
   json.update(result.json);
   json["provenance"] = {{"program", "detp"},
                         {"version", DETP_VERSION},

@@ -53,9 +53,6 @@ std::string spaced(double count) {
 
 }  // namespace
 
-namespace {
-
-/// Names the missing option, which the library's messages do not.
 void require_numbers(const validate::JobRequest& request) {
   const auto need = [](bool given, std::string_view what, std::string_view option) {
     if (!given) throw std::invalid_argument(fmt::format("without a scene, {} is needed: {}", what, option));
@@ -65,22 +62,20 @@ void require_numbers(const validate::JobRequest& request) {
   need(request.sphere_radius || request.scene_side, "its size", "--sphere-radius r0 or --scene-side s");
 }
 
-}  // namespace
-
 std::string_view name(sim::Field field) { return field == sim::Field::isotropic ? "isotropic" : "photons"; }
 
-void WorkloadOptions::add_to(CLI::App& command, Values values) {
+void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Values> axes) {
   using enum ValueLists::Kind;
   command.add_option("SCENE", request_.scene,
                      "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell");
   command.add_option("--discs", request_.disc_file,
                      "discs from a CSV or PLY file; default: one at each of the scene's samples");
   command.add_option("--ray-file", request_.ray_file, "rays from a CSV or PLY file; default: made, as --field says");
-  lists.add(command, "--rays", values, request_.rays, "how many rays; default: 100000");
+  lists.add(command, "--rays", axes.value_or(values), request_.rays, "how many rays; default: 100000");
   lists.add(command, "--samples", values, request_.samples,
             "how many samples; default: the scene's vertices, with numbers alone none");
   lists.add(
-      command, "--disc-radius", values, numbers,
+      command, "--disc-radius", axes.value_or(values), numbers,
       [this](const std::string& text) { request_.disc_radius = validate::parse_length(text); },
       "d: a length, or a percentage of the scene's longest side; default: half the distance between samples");
   lists.add(command, "--sphere-radius", values, request_.sphere_radius,

@@ -19,7 +19,8 @@ class WorkloadOptions {
   WorkloadOptions(const WorkloadOptions&) = delete;
   WorkloadOptions& operator=(const WorkloadOptions&) = delete;
 
-  void add_to(CLI::App& command, Values values = Values::one);
+  /// `axes`: of --rays and --disc-radius, if other than that of the rest.
+  void add_to(CLI::App& command, Values values = Values::one, std::optional<Values> axes = {});
 
   ValueLists lists;  ///< of the options that may have many values
 
@@ -30,6 +31,9 @@ class WorkloadOptions {
  private:
   validate::JobRequest request_;
 };
+
+/// Throws std::invalid_argument, naming the option, if a number of a workload without a scene is missing.
+void require_numbers(const validate::JobRequest& request);
 
 /// The number of spheres k of a sphere cache if --spheres is not a number.
 enum class SphereStop {

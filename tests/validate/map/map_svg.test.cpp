@@ -1,0 +1,101 @@
+#include "detp/validate/map/map_svg.hpp"
+
+#include <doctest/doctest.h>
+
+#include <regex>
+#include <stdexcept>
+
+#include "detp/validate/map/svg.hpp"
+#include "map_support.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+
+namespace {
+
+const MapCaption test_caption{"a <CPU> & \"cache\"", "detp 0.0.0", "as given"};
+
+/// Whether every element is closed, in the right order, and no text has a bare < or &.
+bool is_well_formed(const std::string& xml) {
+  static const std::regex token("<[^<>]*>|[^<>]+|.");
+  static const std::regex reference("&(amp|lt|gt|quot);");
+  std::vector<std::string> open;
+  for (std::sregex_iterator one(xml.begin(), xml.end(), token); one != std::sregex_iterator(); ++one) {
+    const std::string text = one->str();
+    if (std::regex_replace(text, reference, "").find('&') != std::string::npos) return false;
+    if (text[0] != '<') {
+      if (text[0] == '>') return false;
+    } else if (text.starts_with("</")) {
+      if (open.empty() || "</" + open.back() + ">" != text) return false;
+      open.pop_back();
+    } else if (!text.starts_with("<?") && !text.ends_with("/>")) {
+      open.push_back(text.substr(1, text.find_first_of(" >") - 1));
+    }
+  }
+  return open.empty();
+}
+
+std::size_t count_of(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("the picture has three panels, the agreement, both kinds of marks and unknown cells") {
+    const std::string svg = map_svg(support::small_map(), test_caption);
+    CHECK(is_well_formed(svg));
+    for (const char* part : {">predicted</text>", ">measured</text>", "paper's rule", "in 1 of 3 cells (33 %)",
+                             "@small", "detp 0.0.0", "a &lt;CPU&gt; &amp; &quot;cache&quot;", ">1e2</text>",
+                             ">1e3</text>", ">1 %</text>", ">4 %</text>", ": unknown</title>"})
+      CHECK_MESSAGE(svg.find(part) != std::string::npos, part);
+    CHECK(count_of(svg, "fill=\"#000000\" stroke=\"#000000\"/>") == 2);  // a mark, and its sample in the legend
+    CHECK(count_of(svg, "fill=\"#ffffff\" stroke=\"#000000\"/>") == 2);
+    CHECK(count_of(svg, ": unknown</title>") == 1);
+  }
+
+  TEST_CASE("without measured cells, there is no panel and no mark for them") {
+    TechniqueMap map = support::small_map();
+    for (MapRow& row : map.rows)
+      for (MapCell& cell : row.cells) cell.analysis.reset();
+    const std::string svg = map_svg(map, test_caption);
+    CHECK(is_well_formed(svg));
+    CHECK(svg.find(">measured</text>") == std::string::npos);
+    CHECK(count_of(svg, "<path") == 0);
+  }
+
+  TEST_CASE("a stopped map says so, and a map with a single cell can be drawn") {
+    TechniqueMap map = support::small_map();
+    map.stopped = {3, 4, "cells measured"};
+    CHECK(map_svg(map, test_caption).find("stopped after 3 of 4 cells measured") != std::string::npos);
+    map.rays.resize(1);
+    map.rows.resize(1);
+    map.rows[0].cells.resize(1);
+    const std::string svg = map_svg(map, test_caption);
+    CHECK(is_well_formed(svg));
+    CHECK(svg.find("nan") == std::string::npos);
+    CHECK(svg.find("inf") == std::string::npos);
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("the same map gives the same bytes, which refer to nothing outside") {
+    const std::string svg = map_svg(support::small_map(), test_caption);
+    CHECK(svg == map_svg(support::small_map(), test_caption));
+    CHECK(count_of(svg, "http") == 1);  // the name of SVG
+    for (const char* part : {"href", "url(", "@import", "<script", "<image"})
+      CHECK(svg.find(part) == std::string::npos);
+  }
+
+  TEST_CASE("text for XML has no markup and no control characters") {
+    CHECK(xml_text("a<b>&\"c\x01\x1b\x7f") == "a&lt;b&gt;&amp;&quot;c\x7f");
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a map without rows is refused") {
+    CHECK_THROWS_AS(static_cast<void>(map_svg(TechniqueMap{}, test_caption)), std::invalid_argument);
+  }
+}

@@ -1,0 +1,146 @@
+#include "detp/validate/map/technique_map.hpp"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+
+#include "detp/model/rank/paper_rule.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+
+namespace {
+
+JobRequest scene_request(double samples = 500) {
+  JobRequest request;
+  request.scene = "@uniform";
+  request.samples = samples;
+  return request;
+}
+
+JobRequest number_request() {
+  JobRequest request;
+  request.samples = 1e4;
+  request.disc_radius = Length{0.01};
+  request.scene_side = 2;
+  return request;
+}
+
+constexpr UnitCosts free_of_cost{.cull_test = 0, .disc_test = 0, .index_test = 0, .step = 0, .node = 0};
+
+MapOptions map_options() { return {.costs = built_in_unit_costs()}; }
+
+}  // namespace
+
+TEST_SUITE("identity") {
+  TEST_CASE("each cell has the candidate that a pilot of the cell's own job chooses") {
+    const MapAxes axes{{300, 3000}, {{0.02, true}, {0.08, true}}};
+    const TechniqueMap map = make_map(scene_request(), axes, map_options());
+    CHECK_FALSE(map.stopped);
+    CHECK(map.rays == axes.rays);
+    REQUIRE(map.rows.size() == 2);
+    for (std::size_t j = 0; j < 2; ++j) {
+      REQUIRE(map.rows[j].cells.size() == 2);
+      for (const MapCell& cell : map.rows[j].cells) {
+        JobRequest own = scene_request();
+        own.rays = cell.rays;
+        own.disc_radius = axes.radii[j];
+        const Job job = make_job(own);
+        CHECK(job.workload.disc_radius == map.rows[j].workload.disc_radius);
+        const PilotChoice pilot = choose_by_pilot(job.problem(), built_in_unit_costs());
+        REQUIRE(cell.prediction);
+        CHECK(cell.prediction->rigor == Rigor::pilot);
+        CHECK(cell.prediction->choice().candidate == pilot.choice().candidate);
+        CHECK(cell.prediction->choice().time.total() == pilot.choice().time.total());
+        CHECK(cell.prediction->error == pilot.choice().error);
+        CHECK(cell.paper == model::paper_rule(job.workload));
+        CHECK_FALSE(cell.analysis);
+      }
+    }
+  }
+
+  TEST_CASE("a map of numbers has the first of each ranking, without rays") {
+    const TechniqueMap map = make_map(number_request(), {{1e4, 1e12}, {{0.01}}}, map_options());
+    CHECK(map.name == "uniform samples in a cube");
+    for (const MapCell& cell : map.rows.at(0).cells) {
+      const Workload workload = cube_workload(cell.rays, 1e4, 0.01, 2);
+      REQUIRE(cell.prediction);
+      CHECK(cell.prediction->rigor == Rigor::estimate);
+      CHECK(cell.prediction->choice().candidate == model::rank(workload, built_in_unit_costs()).front().candidate);
+    }
+  }
+
+  TEST_CASE("rows ascend by radius, and equal radii are one row") {
+    const TechniqueMap map =
+        make_map(number_request(), {{10}, {{0.08, true}, {0.1}, {0.05, true}, {0.02}}}, map_options());
+    REQUIRE(map.rows.size() == 3);
+    CHECK(map.rows[0].workload.disc_radius == 0.02);
+    CHECK(map.rows[1].workload.disc_radius == doctest::Approx(0.1));
+    CHECK(map.rows[2].workload.disc_radius == doctest::Approx(0.16));
+    CHECK(map.rows[0].x > map.rows[1].x);
+  }
+
+  TEST_CASE("a measured map has the analysis of each cell, without disabled techniques") {
+    MapOptions options = map_options();
+    options.measure = true;
+    options.repeats = 1;
+    options.disabled = {Technique::bvh};
+    const TechniqueMap map = make_map(scene_request(100), {{20, 40}, {{0.05, true}}}, options);
+    CHECK_FALSE(map.stopped);
+    for (const MapCell& cell : map.rows.at(0).cells) {
+      REQUIRE(cell.analysis);
+      CHECK(cell.analysis->candidates.front().candidate == cell.prediction->choice().candidate);
+      CHECK(cell.analysis->regret);
+      for (const Analysed& one : cell.analysis->candidates) CHECK(one.candidate.technique != Technique::bvh);
+    }
+  }
+
+  TEST_CASE("a stop request ends a map: rows so far, no half cells") {
+    std::stop_source stop;
+    MapOptions options = map_options();
+    options.stop = stop.get_token();
+    options.measure = true;
+    bool measuring = false;
+    options.progress = [&](const sim::Phase& phase) {
+      if (phase.from >= 0.1) {
+        measuring = true;
+        stop.request_stop();
+      }
+    };
+    const TechniqueMap map = make_map(scene_request(), {{20, 40}, {{0.05, true}}}, options);
+    CHECK(measuring);
+    REQUIRE(map.stopped);
+    CHECK(map.stopped->done == 0);
+    CHECK(map.stopped->of == 2);
+    REQUIRE(map.rows.size() == 1);
+    for (const MapCell& cell : map.rows[0].cells) {
+      CHECK(cell.prediction);
+      CHECK_FALSE(cell.analysis);
+    }
+    const TechniqueMap none = make_map(scene_request(), {{20, 40}, {{0.05, true}}}, options);
+    CHECK(none.rows.empty());
+    REQUIRE(none.stopped);
+    CHECK(none.stopped->of == 2);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("a rigor that a map cannot have, costs of 0 and rays that do not fit in memory are refused") {
+    const auto make = [](const JobRequest& request, const MapAxes& axes, const MapOptions& options) {
+      static_cast<void>(make_map(request, axes, options));
+    };
+    MapOptions options = map_options();
+    options.rigor = Rigor::structural;
+    CHECK_THROWS_WITH_AS(make(scene_request(), {{10}, {}}, options), doctest::Contains("structures"),
+                         std::invalid_argument);
+    options.rigor = Rigor::pilot;
+    CHECK_THROWS_WITH_AS(make(number_request(), {{10}, {}}, options), doctest::Contains("needs rays"),
+                         std::invalid_argument);
+    CHECK_THROWS_AS(make(number_request(), {{10}, {}}, {.costs = free_of_cost}), std::invalid_argument);
+    options = map_options();
+    options.measure = true;
+    CHECK_THROWS_WITH_AS(make(scene_request(), {{1e15}, {{0.01, true}}}, options), doctest::Contains("1 disc radii"),
+                         std::length_error);
+  }
+}

@@ -1,0 +1,50 @@
+#include "cell_prediction.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/threads.hpp"
+
+namespace detp::validate {
+namespace {
+
+CellPrediction comparable(CellPrediction prediction) {
+  if (prediction.ranking.empty()) throw std::invalid_argument("no technique is left that can be predicted");
+  for (const model::Ranked& one : prediction.ranking)
+    if (const double seconds = one.time.total(); !(seconds > 0 && std::isfinite(seconds)))
+      throw std::invalid_argument(
+          fmt::format("with these unit costs {} takes {} s, so that nothing can be compared; give every operation its "
+                      "cost in seconds",
+                      name(one.candidate.technique), seconds));
+  return prediction;
+}
+
+}  // namespace
+
+CellPrediction predict_by_estimate(const Workload& workload, const CostTable& costs, const PilotOptions& options) {
+  std::vector<model::Ranked> ranking =
+      model::rank(workload, costs, {.threads = sim::useful_threads(options.threads), .stop = options.stop});
+  if (options.stop.stop_requested()) throw sim::Stopped("stopped while techniques were ranked");
+  std::erase_if(ranking, [&](const model::Ranked& one) {
+    const auto& disabled = options.disabled;
+    return std::find(disabled.begin(), disabled.end(), one.candidate.technique) != disabled.end();
+  });
+  return comparable({.rigor = Rigor::estimate, .ranking = std::move(ranking)});
+}
+
+CellPrediction predict_by_pilot(const sim::Problem& problem, double rays, const CostTable& costs,
+                                const PilotOptions& options) {
+  const PilotChoice pilot =
+      choose_by_pilot(problem, pilot_sample(problem.rays(), problem.discs().size()), rays, costs, options);
+  CellPrediction prediction{
+      .rigor = Rigor::pilot, .ranking = {}, .ruled_out = pilot.ruled_out, .error = pilot.choice().error};
+  for (const Piloted& one : pilot.candidates)
+    prediction.ranking.push_back({one.candidate, one.counts, one.time, {}, one.threads});
+  return comparable(std::move(prediction));
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,199 @@
+#include "technique_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "detp/model/rank/paper_rule.hpp"
+#include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/technique/piloted_discs.hpp"
+
+namespace detp::validate {
+namespace {
+
+class MapMaker {
+ public:
+  MapMaker(JobRequest request, const MapAxes& axes, const MapOptions& options)
+      : request_(std::move(request)), axes_(checked(axes)), options_(options) {
+    if (options.rigor == Rigor::structural)
+      throw std::invalid_argument("a map is predicted by a pilot or by closed forms, not by structures");
+    if (request_.numbers_alone() && options.rigor == Rigor::pilot)
+      throw std::invalid_argument("a pilot needs rays: name a scene or files, or estimate by closed forms");
+    request_.workload_only = !options.measure;
+    if (!axes_.rays.empty()) request_.rays = axes_.rays.back();
+  }
+
+  TechniqueMap make() {
+    predict_all();
+    if (options_.measure && !map_.stopped) measure_all();
+    for (Made& one : made_) map_.rows.push_back(std::move(one.row));
+    return std::move(map_);
+  }
+
+ private:
+  struct Made {
+    MapRow row;
+    Job job;  ///< empty unless cells will be measured
+  };
+
+  static constexpr double share_of_predicting = 0.1;  // of a map that is measured; a guess
+
+  void predict_all() {
+    const sim::Stopwatch watch;
+    const std::size_t rows = std::max<std::size_t>(1, axes_.radii.size());
+    if (options_.measure && !request_.ray_file && !axes_.rays.empty())
+      sim::require_memory(fmt::format("a map of {} disc radii with up to {:g} rays", rows, axes_.rays.back()),
+                          static_cast<double>(rows) * axes_.rays.back() * sizeof(sim::Ray));
+    try {
+      for (std::size_t i = 0; i < rows; ++i) predict_row(i, rows);
+    } catch (const sim::Stopped&) {
+      const std::size_t done = predicted();
+      const std::size_t columns = std::max<std::size_t>(1, axes_.rays.size());
+      if (made_.back().row.cells.empty()) made_.pop_back();
+      map_.stopped = {done, rows * columns, "cells predicted"};
+    }
+    map_.predicting_seconds = watch.seconds();
+    const auto radius = [](const Made& one) { return one.row.workload.disc_radius; };
+    std::stable_sort(made_.begin(), made_.end(), [&](const Made& a, const Made& b) { return radius(a) < radius(b); });
+    const auto last =
+        std::unique(made_.begin(), made_.end(), [&](const Made& a, const Made& b) { return radius(a) == radius(b); });
+    made_.erase(last, made_.end());
+  }
+
+  void predict_row(std::size_t number, std::size_t rows) {
+    if (!axes_.radii.empty()) request_.disc_radius = axes_.radii[number];
+    const double end = options_.measure ? share_of_predicting : 1;
+    const auto share = [&](std::size_t i) { return end * static_cast<double>(i) / static_cast<double>(rows); };
+    Made& made = made_.emplace_back();
+    const bool only_numbers = request_.numbers_alone() && !options_.measure;
+    if (only_numbers) {
+      made.row.workload = workload_of_numbers(request_);
+      map_.name = name_of_numbers(made.row.workload);
+    } else {
+      made.job = make_job(request_, options_.stop, sim::part_of(options_.progress, share(number), share(number + 1)));
+      made.row.workload = made.job.workload;
+      map_.name = made.job.name;
+      map_.field = made.job.field;
+      for (const std::string& notice : made.job.notices) add_new(map_.notices, notice);
+      for (const std::string& warning : made.job.warnings) add_new(map_.warnings, warning);
+    }
+    MapRow& row = made.row;
+    row.given = axes_.radii.empty() ? Length{row.workload.disc_radius} : axes_.radii[number];
+    row.x = sample_distance(row.workload) / row.workload.disc_radius;
+    if (map_.rays.empty()) map_.rays = axes_.rays.empty() ? std::vector{row.workload.rays} : axes_.rays;
+    for (const double rays : map_.rays)
+      row.cells.push_back({.rays = rays, .paper = model::paper_rule(with(row, rays))});
+    for (MapCell& cell : row.cells)
+      cell.prediction = only_numbers ? predict_by_estimate(with(row, cell.rays), options_.costs, pilot_options())
+                                     : predict(made.job, cell.rays);
+    if (!options_.measure) made.job = {};
+  }
+
+  static void add_new(std::vector<std::string>& list, const std::string& text) {
+    if (std::find(list.begin(), list.end(), text) == list.end()) list.push_back(text);
+  }
+
+  [[nodiscard]] static Workload with(const MapRow& row, double rays) {
+    Workload workload = row.workload;
+    workload.rays = rays;
+    return workload;
+  }
+
+  [[nodiscard]] PilotOptions pilot_options() const {
+    return {.threads = options_.threads, .disabled = options_.disabled, .stop = options_.stop};
+  }
+
+  /// The cell's problem: the job's first rays.
+  [[nodiscard]] sim::Problem problem_of(const Job& job, double rays) const {
+    const auto first = static_cast<std::size_t>(std::min(rays, static_cast<double>(job.rays.size())));
+    return sim::make_problem(std::span(job.rays).first(first), job.discs, job.front_facing, options_.threads,
+                             options_.stop);
+  }
+
+  [[nodiscard]] CellPrediction predict(const Job& job, double rays) const {
+    const auto& disabled = options_.disabled;
+    const sim::Problem problem = problem_of(job, rays);
+    const bool pilot = options_.rigor
+                           ? *options_.rigor == Rigor::pilot
+                           : options_.costs.engine == Engine::simd && !request_.numbers_alone() &&
+                                 sim::PilotedDiscs::can_pilot(problem) &&
+                                 std::find(disabled.begin(), disabled.end(), Technique::box_tree) == disabled.end();
+    if (pilot) return predict_by_pilot(problem, rays, options_.costs, pilot_options());
+    Workload workload = job.workload;
+    workload.rays = rays;
+    return predict_by_estimate(workload, options_.costs, pilot_options());
+  }
+
+  [[nodiscard]] std::size_t predicted() const {
+    std::size_t cells = 0;
+    for (const Made& one : made_)
+      cells += static_cast<std::size_t>(std::count_if(one.row.cells.begin(), one.row.cells.end(),
+                                                      [](const MapCell& cell) { return cell.prediction.has_value(); }));
+    return cells;
+  }
+
+  void measure_all() {
+    struct Place {
+      MapCell* cell;
+      const Job* job;
+      double seconds;  // predicted
+    };
+    const sim::Stopwatch watch;
+    std::vector<Place> places;
+    double all = 0;
+    for (Made& one : made_)
+      for (MapCell& cell : one.row.cells) {
+        constexpr double least = 1e-3;  // a guess; for progress only
+        places.push_back({&cell, &one.job, std::max(least, cell.prediction->choice().time.total())});
+        all += places.back().seconds;
+      }
+    std::stable_sort(places.begin(), places.end(),
+                     [](const Place& a, const Place& b) { return a.seconds < b.seconds; });
+    double before = 0;
+    std::size_t done = 0;
+    const auto share = [&](double seconds) { return share_of_predicting + (1 - share_of_predicting) * seconds / all; };
+    for (const Place& place : places) {
+      measure(place.job, *place.cell, sim::part_of(options_.progress, share(before), share(before + place.seconds)));
+      if (options_.stop.stop_requested()) break;
+      before += place.seconds;
+      ++done;
+    }
+    if (done < places.size()) map_.stopped = {done, places.size(), "cells measured"};
+    map_.measuring_seconds = watch.seconds();
+  }
+
+  void measure(const Job* job, MapCell& cell, const sim::ReportPhase& progress) const {
+    try {
+      Analysis analysis = analyse(problem_of(*job, cell.rays), cell.prediction->ranking,
+                                  {.repeats = options_.repeats,
+                                   .disabled = options_.disabled,
+                                   .engine = options_.costs.engine,
+                                   .threads = sim::useful_threads(options_.threads),
+                                   .stop = options_.stop,
+                                   .progress = progress});
+      if (!analysis.stopped && analysis.regret) cell.analysis = std::move(analysis);
+    } catch (const sim::Stopped&) {
+      // The cell stays unmeasured.
+    }
+  }
+
+  JobRequest request_;
+  MapAxes axes_;
+  const MapOptions& options_;
+  std::vector<Made> made_;
+  TechniqueMap map_;
+};
+
+}  // namespace
+
+TechniqueMap make_map(const JobRequest& request, const MapAxes& axes, const MapOptions& options) {
+  return MapMaker(request, axes, options).make();
+}
+
+}  // namespace detp::validate
