@@ -28,7 +28,7 @@ struct ThreadCosts {
   bool operator==(const ThreadCosts&) const = default;
 };
 
-/// Throws std::invalid_argument if a share is not from 0 to 1, or if the time for a start is not from 0 to 1e200.
+/// Throws std::invalid_argument if a share is not from 0 to 1, or if the time for a start is negative or not finite.
 void check(const ThreadCosts& costs);
 
 /// Numbers of equal pieces of work; 1: one thread does all.
@@ -43,7 +43,7 @@ struct Pieces {
 /// Number of threads that equal pieces keep busy on average, if there are `threads`: at most `threads`.
 [[nodiscard]] double busy_threads(double pieces, int threads);
 
-/// The time of a search on `threads` >= 1 threads, from its time on one.
+/// The time on `threads` >= 1 threads, from that on one. The same if no phase is divided.
 [[nodiscard]] CostBreakdown on_threads(const CostBreakdown& one, const Pieces& pieces, const ThreadCosts& costs,
                                        int threads);
 

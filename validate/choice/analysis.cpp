@@ -192,7 +192,10 @@ Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& 
     std::vector<Analysed> all;
     for (const Candidate& candidate : candidates) {
       auto prediction = options.predict ? options.predict(candidate) : std::optional<model::Ranked>{};
-      const int threads = prediction ? prediction->threads : options.threads;
+      const WorkDivision& division = record_of(candidate.technique).division;
+      const bool divided =
+          division.preparing || (options.engine == Engine::plain ? division.plain : division.simd) != Division::none;
+      const int threads = prediction ? prediction->threads : divided ? options.threads : 1;
       all.push_back({.candidate = candidate, .threads = threads, .predicted = std::move(prediction)});
     }
     return all;
