@@ -29,11 +29,11 @@ RememberedChoice choice_by(Rigor rigor, bool cut_off = false) {
           .cut_off = cut_off};
 }
 
-std::vector<sim::Disc> some_discs(double radius = 0.03) {
+std::vector<sim::Disc> remembered_discs(double radius = 0.03) {
   return sim::uniform_discs(sim::Body::cube_faces, 2, 3000, radius, 3);
 }
 
-std::vector<sim::Ray> some_rays(std::size_t count) { return sim::LineField({{0, 0, 0}, 2}, 1).lines(0, count); }
+std::vector<sim::Ray> remembered_rays(std::size_t count) { return sim::LineField({{0, 0, 0}, 2}, 1).lines(0, count); }
 
 }  // namespace
 
@@ -79,8 +79,8 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("a plan is remembered, and used for the next plan of the same class with the same hits") {
-    const auto discs = some_discs();
-    const auto rays = some_rays(2000);
+    const auto discs = remembered_discs();
+    const auto rays = remembered_rays(2000);
     PlanMemory memory;
     const auto first = validate::plan(discs, rays, {.memory = &memory});
     CHECK_FALSE(first.remembered());
@@ -96,8 +96,8 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("a remembered choice of less rigor is not used, and is replaced") {
-    const auto discs = some_discs();
-    const auto rays = some_rays(2000);
+    const auto discs = remembered_discs();
+    const auto rays = remembered_rays(2000);
     PlanMemory memory;
     static_cast<void>(validate::plan(discs, rays, {.memory = &memory}));
     const WorkloadClass found = memory.entries().front().workload;
@@ -116,8 +116,8 @@ TEST_SUITE("identity") {
 
 TEST_SUITE("bad input") {
   TEST_CASE("if only remembered choices may be used, a miss says what was wanted and what there is") {
-    const auto discs = some_discs();
-    const auto rays = some_rays(2000);
+    const auto discs = remembered_discs();
+    const auto rays = remembered_rays(2000);
     PlanMemory memory;
     const auto planned = [&](const std::vector<sim::Disc>& these) {
       return validate::plan(these, rays, {.memory = &memory, .remembered_only = true});
@@ -125,8 +125,8 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_WITH_AS(static_cast<void>(planned(discs)), doctest::Contains("nothing is remembered"),
                          validate::NotRemembered);
     static_cast<void>(validate::plan(discs, rays, {.memory = &memory}));
-    CHECK_THROWS_WITH_AS(static_cast<void>(planned(some_discs(0.3))), doctest::Contains("the nearest is for about"),
-                         validate::NotRemembered);
+    CHECK_THROWS_WITH_AS(static_cast<void>(planned(remembered_discs(0.3))),
+                         doctest::Contains("the nearest is for about"), validate::NotRemembered);
     const PlanMemory::Entry made = memory.entries().front();
     PlanMemory weaker;
     weaker.remember(made.workload, choice_by(Rigor::estimate));
@@ -139,8 +139,8 @@ TEST_SUITE("bad input") {
   }
 
   TEST_CASE("a malformed ray is named by its number, with a memory too") {
-    const auto discs = some_discs();
-    std::vector<sim::Ray> rays = some_rays(5000);
+    const auto discs = remembered_discs();
+    std::vector<sim::Ray> rays = remembered_rays(5000);
     for (std::size_t i = 3000; i < rays.size(); ++i) rays[i].direction = {0, 0, 0};
     PlanMemory memory;
     CHECK_THROWS_WITH_AS(static_cast<void>(validate::plan(discs, rays, {.memory = &memory})),

@@ -12,7 +12,7 @@ using validate::PlanMemory;
 
 namespace {
 
-void fill(PlanMemory& memory) {
+void fill_with_three(PlanMemory& memory) {
   memory.remember({.rays = 10, .discs = 12, .spacing = -3, .dimension = 9, .path_length = -2, .front_facing = true},
                   {.candidate = {Technique::box_tree, BoxTreeParameters{8, 32}},
                    .threads = 2,
@@ -27,7 +27,7 @@ void fill(PlanMemory& memory) {
   memory.remember({}, {.candidate = default_candidate(Technique::brute_force)});
 }
 
-std::string with(std::string text, const std::string& what, const std::string& by) {
+std::string replaced_in(std::string text, const std::string& what, const std::string& by) {
   const std::size_t place = text.find(what);
   REQUIRE(place != std::string::npos);
   return text.replace(place, what.size(), by);
@@ -38,7 +38,7 @@ std::string with(std::string text, const std::string& what, const std::string& b
 TEST_SUITE("identity") {
   TEST_CASE("a memory is read back as it was written, and added to what is there") {
     PlanMemory memory;
-    fill(memory);
+    fill_with_three(memory);
     const support::ScratchFolder folder;
     const std::string path = folder.path("made/for/it/plans.json");
     validate::write_plan_memory(path, memory);
@@ -63,11 +63,11 @@ TEST_SUITE("identity") {
 TEST_SUITE("bad input") {
   TEST_CASE("a file of another machine is not used, with a word of why") {
     PlanMemory memory;
-    fill(memory);
+    fill_with_three(memory);
     const std::string good = validate::plan_memory_text(memory);
     PlanMemory read;
-    const std::string stale =
-        validate::parse_plan_memory(with(good, "\"instruction_set\": \"", "\"instruction_set\": \"un"), "p.json", read);
+    const std::string stale = validate::parse_plan_memory(
+        replaced_in(good, "\"instruction_set\": \"", "\"instruction_set\": \"un"), "p.json", read);
     CHECK(stale.find("p.json: not used: its instruction set is un") == 0);
     CHECK(stale.find(", here it is ") != std::string::npos);
     CHECK(read.size() == 0);
@@ -75,7 +75,7 @@ TEST_SUITE("bad input") {
 
   TEST_CASE("nothing of a broken file is used, and the warning names the file") {
     PlanMemory memory;
-    fill(memory);
+    fill_with_three(memory);
     const std::string good = validate::plan_memory_text(memory);
     for (const std::string& bad : {std::string(),
                                    std::string("{"),
@@ -84,23 +84,23 @@ TEST_SUITE("bad input") {
                                    std::string("{\"schema\": 1}"),
                                    std::string(100'000, '['),
                                    good.substr(0, good.size() / 2),
-                                   with(good, "detp.plans", "detp.run"),
-                                   with(good, "\"version\": 1", "\"version\": 2"),
-                                   with(good, "\"log2_rays\": 10", "\"log2_rays\": 1e300"),
-                                   with(good, "\"log2_rays\": 10", "\"log2_rays\": 0.5"),
-                                   with(good, "\"log2_rays\": 10", "\"log2_rays\": \"x\""),
-                                   with(good, "\"pilot\"", "\"guess\""),
-                                   with(good, "\"box-tree\"", "\"tree\""),
-                                   with(good, "\"box-tree\"", "\"photon-map\""),
-                                   with(good, "\"fan_out\": 8", "\"fan_out\": 1"),
-                                   with(good, "\"fan_out\": 8", "\"fan_out\": 1e30"),
-                                   with(good, "\"fan_out\": 8", "\"fan_in\": 8"),
-                                   with(good, "\"fan_out\": 8", "\"fan_out\": 18446744073709551615"),
-                                   with(good, "\"hilbert\"", "\"\\ud800\""),
-                                   with(good, "\"hilbert\"", "\"x\\u001b\""),
-                                   with(good, "\"predicted_seconds\": 0.1", "\"predicted_seconds\": -1"),
-                                   with(good, "\"threads\": 2", "\"threads\": 1e9"),
-                                   with(good, "\"cut_off\": true", "\"cut_off\": 1")}) {
+                                   replaced_in(good, "detp.plans", "detp.run"),
+                                   replaced_in(good, "\"version\": 1", "\"version\": 2"),
+                                   replaced_in(good, "\"log2_rays\": 10", "\"log2_rays\": 1e300"),
+                                   replaced_in(good, "\"log2_rays\": 10", "\"log2_rays\": 0.5"),
+                                   replaced_in(good, "\"log2_rays\": 10", "\"log2_rays\": \"x\""),
+                                   replaced_in(good, "\"pilot\"", "\"guess\""),
+                                   replaced_in(good, "\"box-tree\"", "\"tree\""),
+                                   replaced_in(good, "\"box-tree\"", "\"photon-map\""),
+                                   replaced_in(good, "\"fan_out\": 8", "\"fan_out\": 1"),
+                                   replaced_in(good, "\"fan_out\": 8", "\"fan_out\": 1e30"),
+                                   replaced_in(good, "\"fan_out\": 8", "\"fan_in\": 8"),
+                                   replaced_in(good, "\"fan_out\": 8", "\"fan_out\": 18446744073709551615"),
+                                   replaced_in(good, "\"hilbert\"", "\"\\ud800\""),
+                                   replaced_in(good, "\"hilbert\"", "\"x\\u001b\""),
+                                   replaced_in(good, "\"predicted_seconds\": 0.1", "\"predicted_seconds\": -1"),
+                                   replaced_in(good, "\"threads\": 2", "\"threads\": 1e9"),
+                                   replaced_in(good, "\"cut_off\": true", "\"cut_off\": 1")}) {
       CAPTURE(bad.substr(0, 2000));
       PlanMemory read;
       const std::string warning = validate::parse_plan_memory(bad, "p.json", read);
