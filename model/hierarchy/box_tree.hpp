@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "detp/model/vocabulary/vocabulary.hpp"
 
 /// The box tree: lists of rays culled down a tree of boxes.
@@ -68,5 +70,26 @@ inline constexpr int box_tree_largest_leaf = 256;
 /// Throws     std::invalid_argument for a workload or parameters out of range.
 [[nodiscard]] Counts<double> box_tree_counts(const Valid<Workload>& workload,
                                              const Valid<BoxTreeParameters>& parameters, Engine engine);
+
+/// The same counts for several fan-outs over one binary tree, which is evaluated once. The workload must outlive it.
+class BoxTreeShapes {
+ public:
+  /// leaf >= 1.
+  BoxTreeShapes(const Valid<Workload>& workload, int leaf, Engine engine);
+  ~BoxTreeShapes();
+
+  /// fan_out >= 2.
+  [[nodiscard]] Counts<double> counts(int fan_out);
+
+ private:
+  class Tree;
+
+  const Valid<Workload>& workload_;
+  Engine engine_;
+  int leaf_;
+  double in_one_ = 1;              ///< samples for each sample of the trees
+  std::unique_ptr<Tree> surface_;  ///< samples on the faces of a cube; null for D >= 3
+  std::unique_ptr<Tree> volume_;   ///< samples in a cube; null for D <= 2
+};
 
 }  // namespace detp::model

@@ -246,6 +246,11 @@ BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitC
 }
 
 BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) {
+  return good_ratio_below(workload, costs, HUGE_VAL);
+}
+
+BestRatio good_ratio_below(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, double time) {
+  constexpr double most_excess = 3;  // of T at any of these ratios
   const CacheTimes times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   BestRatio best;
@@ -254,7 +259,31 @@ BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitC
   for (const double ratio : {0.575, 0.47, 0.765, 0.425, 0.49, 0.6, 0.455, 0.635}) {
     const BestRatio stop = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), HUGE_VAL);
     if (best.spheres == 0 || stop.time < best.time) best = stop;
+    if (best.time > most_excess * time) break;
   }
+  return best;
+}
+
+BestRatio better_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const BestRatio& good) {
+  constexpr int parts = 64;
+  if (good.spheres == 0) return good;
+  const CacheTimes times(workload, costs);
+  const double from = search_coordinate(0.9);
+  const double step = (search_coordinate(0.12) - from) / parts;
+  BestRatio best = good;
+  for (int i = 0; i < parts; ++i) {
+    const double ratio = std::exp(-std::exp(from + (i + 0.5) * step));
+    const BestRatio stop =
+        times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), 1.2 * best.time);
+    if (stop.time < best.time) best = stop;
+  }
+  const double middle = search_coordinate(best.ratio);
+  const auto ratio_at = [&](double place) { return std::exp(-std::exp(middle + place * step)); };
+  std::uintmax_t evaluations = 10;
+  const auto [place, time] = boost::math::tools::brent_find_minima(
+      [&](double y) { return times.at(ratio_at(y), best.spheres); }, -1.0, 1.0, 12, evaluations);
+  if (time < best.time) best = {ratio_at(place), best.spheres, time};
+  best.evaluated_spheres = times.evaluated_spheres();
   return best;
 }
 

@@ -37,6 +37,14 @@ inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 /// Throws     as best_ratio_and_stop.
 [[nodiscard]] BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs);
 
+/// The same, but stops at the first of the eight ratios at which T shows that the best T exceeds `time`.
+[[nodiscard]] BestRatio good_ratio_below(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, double time);
+
+/// A better ratio than a good one: the best of `good` and 64 ratios from 0.12 to 0.9, then Brent's method with its number
+/// of spheres. Throws as best_ratio_and_stop.
+[[nodiscard]] BestRatio better_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                              const BestRatio& good);
+
 /// Minimises T jointly over 0.02 <= Q <= 0.98 and k = 1 … most_spheres with r_k >= d.
 ///
 /// Accuracy   T is within 6e-11 (relative) of the smallest T on at least 20 000 ratios, at the steps of k, and on ever

@@ -25,43 +25,74 @@ bool are_all_numbers_fixed(const FixedParameters& fixed, Technique technique) {
   });
 }
 
+/// The technique with the parameters in `fixed` and the best other ones.
+struct Completed {
+  Candidate candidate;
+  std::optional<Counts<double>> counts = {};  ///< as in FoundParameters, if no parameter is fixed
+  bool tuned = true;
+};
+
+std::optional<Completed> completed(Technique technique, const FixedParameters& fixed, const Valid<Workload>& workload,
+                                   const Valid<CostTable>& costs, const SearchLimits& limits) {
+  Candidate candidate = candidate_with(technique, fixed);
+  if (model_of(technique).best == nullptr || are_all_numbers_fixed(fixed, technique)) return Completed{candidate};
+  const auto best = model_of(technique).best(workload, costs_of(costs, technique), fixed, limits);
+  if (!best) return std::nullopt;
+  candidate.parameters = best->parameters;
+  for (const auto& [name, value] : fixed.values) set_parameter(candidate, name, value);
+  return Completed{candidate, fixed.values.empty() ? best->counts : std::nullopt, best->tuned};
+}
+
+Ranked ranked(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Counts<double>& counts,
+              const Valid<CostTable>& costs) {
+  return {candidate, counts, price(counts, costs, candidate.technique), extrapolations(workload, candidate)};
+}
+
+bool is_faster(const Ranked& a, const Ranked& b) {
+  return a.time.total() != b.time.total() ? a.time.total() < b.time.total()
+                                          : a.candidate.technique < b.candidate.technique;
+}
+
 }  // namespace
 
 Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<CostTable>& costs) {
-  const Counts<double> counts = predict(workload, candidate);
-  return {candidate, counts, price(counts, costs, candidate.technique), extrapolations(workload, candidate)};
+  return ranked(workload, candidate, predict(workload, candidate), costs);
 }
 
 std::optional<Candidate> complete(Technique technique, const FixedParameters& fixed, const Valid<Workload>& workload,
                                   const Valid<CostTable>& costs, const SearchLimits& limits) {
-  Candidate candidate = candidate_with(technique, fixed);
-  if (model_of(technique).best == nullptr || are_all_numbers_fixed(fixed, technique)) return candidate;
-  const auto best = model_of(technique).best(workload, costs_of(costs, technique), fixed, limits);
-  if (!best) return std::nullopt;
-  candidate.parameters = *best;
-  for (const auto& [name, value] : fixed.values) set_parameter(candidate, name, value);
-  return candidate;
+  const auto found = completed(technique, fixed, workload, costs, limits);
+  return found ? std::optional(found->candidate) : std::nullopt;
 }
 
 std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload, const Valid<CostTable>& costs,
                               const SearchLimits& limits) {
   if (!has_closed_form(technique)) return std::nullopt;
-  const auto candidate = complete(technique, {}, workload, costs, limits);
-  if (!candidate) return std::nullopt;
-  const auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
+  const auto found = completed(technique, {}, workload, costs, limits);
+  if (!found) return std::nullopt;
+  const auto* cache = std::get_if<SphereCacheParameters>(&found->candidate.parameters);
   if (cache != nullptr && cache->spheres == 0) return std::nullopt;  // this is brute force
-  return assess(workload, *candidate, costs);
+  const Valid<Candidate> candidate(found->candidate);
+  Ranked best = ranked(workload, candidate, found->counts ? *found->counts : predict(workload, candidate), costs);
+  best.tuned = found->tuned;
+  return best;
 }
 
 std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs, const SearchLimits& limits) {
   std::vector<Ranked> ranking;
+  SearchLimits so_far = limits;
+  const auto add = [&](Technique technique) {
+    auto best = best_of(technique, workload, costs, so_far);
+    if (!best) return;
+    so_far.fastest = std::min(so_far.fastest, best->time.total());
+    ranking.push_back(std::move(*best));
+  };
+  add(Technique::box_tree);  // mostly the fastest, so that the others need little search
   for (const Technique technique : all_techniques) {
     if (!ranking.empty() && limits.stop.stop_requested()) break;
-    if (!record_of(technique).exact) continue;
-    if (auto best = best_of(technique, workload, costs, limits)) ranking.push_back(std::move(*best));
+    if (record_of(technique).exact && technique != Technique::box_tree) add(technique);
   }
-  std::stable_sort(ranking.begin(), ranking.end(),
-                   [](const Ranked& a, const Ranked& b) { return a.time.total() < b.time.total(); });
+  std::sort(ranking.begin(), ranking.end(), is_faster);
   return ranking;
 }
 

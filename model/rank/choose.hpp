@@ -14,6 +14,8 @@ struct Ranked {
   Counts<double> counts;                  ///< expected
   CostBreakdown time;                     ///< expected, in the unit of the costs
   std::vector<std::string> extrapolated;  ///< reasons why the counts are extrapolations; empty if they are not
+  /// false: the parameters are good, but not the best, because with the best ones another technique is still faster
+  bool tuned = true;
 };
 
 /// All exact techniques with a closed form, each with its best parameters, fastest first. After a stop request, the

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <stop_token>
 #include <string_view>
@@ -13,12 +14,15 @@
 /// The model of each technique: its prediction, its best parameters, and the range in which it was checked.
 namespace detp::model {
 
-/// Limits on the parameters searched.
+/// Limits on the parameters searched, and on the search.
 struct SearchLimits {
   int most_depth = 14;           ///< of an octree, and of cells with spheres
   double most_cells = 1 << 26;   ///< total number in a grid: 8 bytes each
   double most_references = 1e9;  ///< references to discs in an index: 4 bytes each
   std::stop_token stop = {};     ///< ends the search, which then returns what it has found so far
+  /// Time of a faster candidate of another technique, in the unit of the costs. The search may end early if the best
+  /// parameters would be slower than this. Infinite: it always finds the best parameters.
+  double fastest = std::numeric_limits<double>::infinity();
 };
 
 /// Parameters that the user sets by name. The others are chosen.
@@ -34,6 +38,14 @@ struct FixedParameters {
   }
 };
 
+/// Parameters found by a search.
+struct FoundParameters {
+  Parameters parameters;
+  std::optional<Counts<double>> counts = {};  ///< what `predict` returns for them, if the search has computed it
+  /// false: good parameters, but not the best, because these would be slower than SearchLimits::fastest or about as fast
+  bool tuned = true;
+};
+
 struct TechniqueModel {
   Technique technique;
 
@@ -42,8 +54,8 @@ struct TechniqueModel {
 
   /// The fastest parameters that have the fixed values; nullopt if no such parameters are within the limits. Not called
   /// if all numbers are fixed.
-  std::optional<Parameters> (*best)(const Valid<Workload>&, const Valid<UnitCosts>&, const FixedParameters&,
-                                    const SearchLimits&) = nullptr;
+  std::optional<FoundParameters> (*best)(const Valid<Workload>&, const Valid<UnitCosts>&, const FixedParameters&,
+                                         const SearchLimits&) = nullptr;
 
   /// Adds reasons why the prediction is outside the range in which it was compared with counts.
   void (*uncounted)(const Valid<Workload>&, const Parameters&, Reasons&) = nullptr;
