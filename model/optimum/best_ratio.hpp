@@ -37,7 +37,8 @@ inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 /// Throws     as best_ratio_and_stop.
 [[nodiscard]] BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs);
 
-/// The same, but stops at the first of the eight ratios at which T shows that the best T exceeds `time`.
+/// The same, but stops after the first ratio at which the best T so far exceeds 3 times `time`. Then the best T exceeds
+/// `time`, too.
 [[nodiscard]] BestRatio good_ratio_below(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, double time);
 
 /// A better ratio than a good one: the best of `good` and 64 ratios from 0.12 to 0.9, then Brent's method with its number

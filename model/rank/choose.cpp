@@ -87,10 +87,13 @@ std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>
     so_far.fastest = std::min(so_far.fastest, best->time.total());
     ranking.push_back(std::move(*best));
   };
-  add(Technique::box_tree);  // mostly the fastest, so that the others need little search
+  // Brute force needs no search. The box tree is mostly the fastest, so that the others need little search.
+  for (const Technique technique : {Technique::brute_force, Technique::box_tree})
+    if (ranking.empty() || !limits.stop.stop_requested()) add(technique);
   for (const Technique technique : all_techniques) {
-    if (!ranking.empty() && limits.stop.stop_requested()) break;
-    if (record_of(technique).exact && technique != Technique::box_tree) add(technique);
+    if (limits.stop.stop_requested()) break;
+    if (record_of(technique).exact && technique != Technique::brute_force && technique != Technique::box_tree)
+      add(technique);
   }
   std::sort(ranking.begin(), ranking.end(), is_faster);
   return ranking;

@@ -8,9 +8,8 @@
 /// before the first size was tried. Throws std::invalid_argument for a workload out of range.
 namespace detp::model {
 
-/// Depth of the fastest octree, searched top-down. Tries
-/// depths from 0 up, until the nodes and the insertions of a deeper octree alone would take longer than the best so far.
-/// Predicts each level once.
+/// Depth of the fastest octree, searched top-down. Tries depths from 0 up, until the nodes, the insertions and one test
+/// for each hit of a deeper octree would take longer than the best so far. Predicts each level once.
 [[nodiscard]] std::optional<int> best_octree_depth(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                                    const SearchLimits& limits = {});
 

@@ -20,8 +20,9 @@ struct SearchLimits {
   double most_cells = 1 << 26;   ///< total number in a grid: 8 bytes each
   double most_references = 1e9;  ///< references to discs in an index: 4 bytes each
   std::stop_token stop = {};     ///< ends the search, which then returns what it has found so far
-  /// Time of a faster candidate of another technique, in the unit of the costs. The search may end early if the best
-  /// parameters would be slower than this. Infinite: it always finds the best parameters.
+  /// Time of the fastest candidate so far of other techniques, in the unit of the costs. If it is finite, a search may
+  /// end early: its parameters make the technique at most 1 % slower than the best ones, or the technique is slower than
+  /// this candidate anyway.
   double fastest = std::numeric_limits<double>::infinity();
 };
 
@@ -42,8 +43,7 @@ struct FixedParameters {
 struct FoundParameters {
   Parameters parameters;
   std::optional<Counts<double>> counts = {};  ///< what `predict` returns for them, if the search has computed it
-  /// false: good parameters, but not the best, because these would be slower than SearchLimits::fastest or about as fast
-  bool tuned = true;
+  bool tuned = true;  ///< false: the search ended early; the best ones would be slower than SearchLimits::fastest
 };
 
 struct TechniqueModel {
