@@ -265,24 +265,35 @@ BestRatio good_ratio_below(const Valid<Workload>& workload, const Valid<UnitCost
 }
 
 BestRatio better_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const BestRatio& good) {
-  constexpr int parts = 64;
+  constexpr std::size_t parts = 144;
+  constexpr std::size_t refined = 6;  // number of minima
   if (good.spheres == 0) return good;
   const CacheTimes times(workload, costs);
-  const double from = search_coordinate(0.9);
-  const double step = (search_coordinate(0.12) - from) / parts;
+  const double from = search_coordinate(0.95);
+  const double step = (search_coordinate(least_ratio) - from) / (parts - 1);
+  const auto ratio_at = [&](double place) { return std::exp(-std::exp(from + place * step)); };
+  std::array<BestRatio, parts> points;
   BestRatio best = good;
-  for (int i = 0; i < parts; ++i) {
-    const double ratio = std::exp(-std::exp(from + (i + 0.5) * step));
-    const BestRatio stop =
-        times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), 1.2 * best.time);
-    if (stop.time < best.time) best = stop;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const double ratio = ratio_at(static_cast<double>(i));
+    points[i] = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), 1.1 * best.time);
+    if (points[i].time < best.time) best = points[i];
   }
-  const double middle = search_coordinate(best.ratio);
-  const auto ratio_at = [&](double place) { return std::exp(-std::exp(middle + place * step)); };
-  std::uintmax_t evaluations = 10;
-  const auto [place, time] = boost::math::tools::brent_find_minima(
-      [&](double y) { return times.at(ratio_at(y), best.spheres); }, -1.0, 1.0, 12, evaluations);
-  if (time < best.time) best = {ratio_at(place), best.spheres, time};
+  std::vector<std::size_t> minima;
+  for (std::size_t i = 0; i < parts; ++i)
+    if (points[i].time <= points[i > 0 ? i - 1 : 0].time && points[i].time <= points[std::min(i + 1, parts - 1)].time)
+      minima.push_back(i);
+  std::stable_sort(minima.begin(), minima.end(),
+                   [&](std::size_t a, std::size_t b) { return points[a].time < points[b].time; });
+  minima.resize(std::min(minima.size(), refined));
+  for (const std::size_t i : minima) {
+    const auto middle = static_cast<double>(i);
+    const std::int64_t k = points[i].spheres;
+    std::uintmax_t evaluations = 10;
+    const auto [place, time] = boost::math::tools::brent_find_minima([&](double y) { return times.at(ratio_at(y), k); },
+                                                                     middle - 1, middle + 1, 12, evaluations);
+    if (time < best.time) best = {ratio_at(place), k, time};
+  }
   best.evaluated_spheres = times.evaluated_spheres();
   return best;
 }

@@ -28,7 +28,7 @@ struct Ranked {
 /// only those are tuned that may still win:
 ///
 ///     sphere cache     1 to 8 ratios with their best k (good_ratio_below); tuned (better_ratio_and_stop) if that takes
-///                      less than 1.25 times as long as the fastest so far
+///                      less than 1.5 times as long as the fastest so far
 ///     cell spheres     all depths, until the spheres alone take longer than the best depth
 ///     octree           all depths, until nodes and insertions alone take longer than the best depth
 ///     sphere tree      one or two shapes; all those of best_of if that takes less than 3 times as long
