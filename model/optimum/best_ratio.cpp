@@ -265,11 +265,11 @@ BestRatio good_ratio_below(const Valid<Workload>& workload, const Valid<UnitCost
 }
 
 BestRatio better_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const BestRatio& good) {
-  constexpr std::size_t parts = 144;
+  constexpr std::size_t parts = 176;
   constexpr std::size_t refined = 6;  // number of minima
   if (good.spheres == 0) return good;
   const CacheTimes times(workload, costs);
-  const double from = search_coordinate(0.95);
+  const double from = search_coordinate(most_ratio);
   const double step = (search_coordinate(least_ratio) - from) / (parts - 1);
   const auto ratio_at = [&](double place) { return std::exp(-std::exp(from + place * step)); };
   std::array<BestRatio, parts> points;
@@ -290,8 +290,9 @@ BestRatio better_ratio_and_stop(const Valid<Workload>& workload, const Valid<Uni
     const auto middle = static_cast<double>(i);
     const std::int64_t k = points[i].spheres;
     std::uintmax_t evaluations = 10;
-    const auto [place, time] = boost::math::tools::brent_find_minima([&](double y) { return times.at(ratio_at(y), k); },
-                                                                     middle - 1, middle + 1, 12, evaluations);
+    const auto [place, time] = boost::math::tools::brent_find_minima(
+        [&](double y) { return times.at(ratio_at(y), k); }, std::max(middle - 1, 0.0),
+        std::min(middle + 1, parts - 1.0), 12, evaluations);
     if (time < best.time) best = {ratio_at(place), k, time};
   }
   best.evaluated_spheres = times.evaluated_spheres();

@@ -41,7 +41,7 @@ inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 /// `time`, too.
 [[nodiscard]] BestRatio good_ratio_below(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, double time);
 
-/// A better ratio than a good one: the best of `good` and of 144 ratios from 0.02 to 0.95, each with its best number of
+/// A better ratio than a good one: the best of `good` and of 176 ratios from 0.02 to 0.98, each with its best number of
 /// spheres, and then Brent's method around the six lowest minima. Throws as best_ratio_and_stop.
 [[nodiscard]] BestRatio better_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                               const BestRatio& good);

@@ -24,8 +24,8 @@ struct Ranked {
 /// but at least one.
 ///
 /// Brute force comes first, then the box tree: leaves from 4 to 256, starting with the usual one for n_P/n_R, as long as
-/// the next power of two is not slower; then fan-outs of 4, 8 and 16 over the binary tree of the best leaf. Of the others
-/// only those are tuned that may still win:
+/// the next power of two is not slower; fan-outs of 4, 8 and 16 over the binary tree of each leaf. Of the others only
+/// those are tuned that may still win:
 ///
 ///     sphere cache     1 to 8 ratios with their best k (good_ratio_below); tuned (better_ratio_and_stop) if that takes
 ///                      less than 1.5 times as long as the fastest so far
@@ -34,8 +34,8 @@ struct Ranked {
 ///     sphere tree      one or two shapes; all those of best_of if that takes less than 3 times as long
 ///     grid             1, 2, 4 … cells; best_grid_cells if that takes less than 1.5 times as long
 ///
-/// Cost       4.1 million instructions for D = 2, 1.6 for D = 3 and 5.6 for D between 2 and 3, of which the box tree takes
-///            3.7, 1.1 and 4.9: 3 to 5 binary trees (means over 40 random workloads at the built-in unit costs, valgrind
+/// Cost       with one fan-out instead of three for all but the best leaf: 4.1 million instructions for D = 2, 1.6 for D = 3
+///            and 5.6 for D between 2 and 3, of which the box tree takes 3.7, 1.1 and 4.9 (means over 40 random workloads at the built-in unit costs, valgrind
 ///            --tool=callgrind). The exhaustive searches took 31, 25 and 47 million. The first call of a program makes a
 ///            table, too.
 /// Throws     std::invalid_argument for a workload out of range.
@@ -43,9 +43,9 @@ struct Ranked {
                                        const SearchLimits& limits = {});
 
 /// One technique with its best parameters: the sphere cache by best_ratio_and_stop; cell spheres and the octree by trying
-/// their depths; the sphere tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by trying leaves
-/// from 4 to 256, and then fan-outs from 4 to 16; the grid by best_grid_cells. nullopt if the technique has no closed form, if no parameters are within the
-/// limits, or if the best sphere cache has no spheres, which is brute force.
+/// their depths; the sphere tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by trying fan-outs
+/// of 4, 8 and 16 with leaves of 4, 8 … 256; the grid by best_grid_cells. nullopt if the technique has no closed form, if
+/// no parameters are within the limits, or if the best sphere cache has no spheres, which is brute force.
 [[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload,
                                             const Valid<CostTable>& costs, const SearchLimits& limits = {});
 

@@ -186,39 +186,33 @@ void search_leaves(const Valid<Workload>& workload, bool exhaustive, const TimeW
   }
 }
 
-/// Searches the leaves with a fan-out of 8, and then other fan-outs with the best leaf. All fan-outs of one leaf share
-/// the binary tree.
+/// Tries fan-outs of 4, 8 and 16 with each leaf of the search. They share the binary tree of the leaf.
 std::optional<FoundParameters> best_box_tree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                              const FixedParameters& fixed, const SearchLimits& limits) {
   SearchLimits any_size = limits;  // a box tree holds each disc once
   any_size.most_references = std::numeric_limits<double>::infinity();
   Fastest<BoxTreeParameters> fastest(costs, Technique::box_tree, any_size);
-  const int fan_out = static_cast<int>(fixed.value<std::int64_t>("fan-out").value_or(8));
-  std::unique_ptr<BoxTreeShapes> best_shapes;
+  std::vector<int> fan_outs{8, 4, 16};
+  if (const auto fan_out = fixed.value<std::int64_t>("fan-out")) fan_outs = {static_cast<int>(*fan_out)};
   Counts<double> best_counts;
+  /// Returns the least time with this leaf.
   const auto consider = [&](int leaf) {
-    if (best_shapes && limits.stop.stop_requested()) return std::numeric_limits<double>::infinity();
-    auto shapes = std::make_unique<BoxTreeShapes>(workload, leaf, Engine::simd);
-    const Counts<double> counts = shapes->counts(fan_out);
-    const double before = fastest.least();
-    const double time = fastest.consider({fan_out, leaf}, counts);
-    if (time < before) {
-      best_shapes = std::move(shapes);
-      best_counts = counts;
+    double least = std::numeric_limits<double>::infinity();
+    if (fastest.best() && limits.stop.stop_requested()) return least;
+    BoxTreeShapes shapes(workload, leaf, Engine::simd);
+    for (const int fan_out : fan_outs) {
+      const Counts<double> counts = shapes.counts(fan_out);
+      const double before = fastest.least();
+      const double time = fastest.consider({fan_out, leaf}, counts);
+      if (time < before) best_counts = counts;
+      least = std::min(least, time);
     }
-    return time;
+    return least;
   };
   if (const auto fixed_leaf = fixed.value<std::int64_t>("leaf"))
     consider(static_cast<int>(*fixed_leaf));
   else
     search_leaves(workload, limits.fastest == HUGE_VAL, consider);
-  if (!fixed.value<std::int64_t>("fan-out"))
-    for (const int other : {4, 16}) {
-      if (limits.stop.stop_requested()) break;
-      const Counts<double> counts = best_shapes->counts(other);
-      const double before = fastest.least();
-      if (fastest.consider({other, fastest.best()->leaf}, counts) < before) best_counts = counts;
-    }
   best_counts.loaded = workload.rays;
   return FoundParameters{*fastest.best(), best_counts};
 }
