@@ -34,10 +34,9 @@ struct Ranked {
 ///     sphere tree      one or two shapes; all those of best_of if that takes less than 3 times as long
 ///     grid             1, 2, 4 … cells; best_grid_cells if that takes less than 1.5 times as long
 ///
-/// Cost       with one fan-out instead of three for all but the best leaf: 4.1 million instructions for D = 2, 1.6 for D = 3
-///            and 5.6 for D between 2 and 3, of which the box tree takes 3.7, 1.1 and 4.9 (means over 40 random workloads at the built-in unit costs, valgrind
-///            --tool=callgrind). The exhaustive searches took 31, 25 and 47 million. The first call of a program makes a
-///            table, too.
+/// Cost       5.4 million instructions for D = 2, 2.6 for D = 3, 7.5 for D between 2 and 3, most of them for the binary
+///            trees of box trees (means over 40 random workloads at the built-in unit costs, valgrind --tool=callgrind).
+///            The first call of a program also makes a table of box_tree_boxes.cpp.
 /// Throws     std::invalid_argument for a workload out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                        const SearchLimits& limits = {});
