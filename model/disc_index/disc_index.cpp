@@ -31,12 +31,11 @@ double steps_of_ray(const Valid<Workload>& workload, const Cells& cells) {
 
 }  // namespace
 
-std::vector<Counts<double>> octree_counts_by_depth(const Valid<Workload>& workload, const OctreeParameters& deepest,
-                                                   const IndexVariant& variant) {
+void for_each_octree_depth(const Valid<Workload>& workload, const OctreeParameters& deepest,
+                           const IndexVariant& variant, const std::function<bool(const Counts<double>&)>& visit) {
   require_count("depth", deepest.depth, 0, 300);
   if (deepest.traversal == Traversal::neighbour_links)
     throw std::invalid_argument("an octree with neighbour links has no closed form; the other traversals have");
-  std::vector<Counts<double>> by_depth;
   double above = 0;       // nodes visited by a ray above this level
   double left_out = 0;    // visits on the way to omitted octants, down to this level
   double placements = 0;  // down to this level
@@ -53,10 +52,19 @@ std::vector<Counts<double>> octree_counts_by_depth(const Valid<Workload>& worklo
     const bool restart = deepest.traversal == Traversal::restart;
     counts.nodes = workload.rays * (restart ? left_out + (level + 1) * leaves : above + leaves);
     counts.placements = placements;
-    by_depth.push_back(counts);
+    if (!visit(counts)) return;
     above += leaves;
     parents = occupied;
   }
+}
+
+std::vector<Counts<double>> octree_counts_by_depth(const Valid<Workload>& workload, const OctreeParameters& deepest,
+                                                   const IndexVariant& variant) {
+  std::vector<Counts<double>> by_depth;
+  for_each_octree_depth(workload, deepest, variant, [&](const Counts<double>& counts) {
+    by_depth.push_back(counts);
+    return true;
+  });
   return by_depth;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "index_cells.hpp"
@@ -42,6 +43,10 @@ namespace detp::model {
 [[nodiscard]] std::vector<Counts<double>> octree_counts_by_depth(const Valid<Workload>& workload,
                                                                  const OctreeParameters& deepest,
                                                                  const IndexVariant& variant = {});
+
+/// Calls visit with these counts for k = 0, 1 … until visit returns false. Throws as octree_counts_by_depth does.
+void for_each_octree_depth(const Valid<Workload>& workload, const OctreeParameters& deepest,
+                           const IndexVariant& variant, const std::function<bool(const Counts<double>&)>& visit);
 
 /// Expected counts of an octree of one depth. Throws as octree_counts_by_depth does.
 [[nodiscard]] Counts<double> octree_counts(const Valid<Workload>& workload, const OctreeParameters& parameters,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -167,79 +168,116 @@ class Widening {
   std::vector<std::pair<std::size_t, double>> next_;
 };
 
-/// The counts for `samples` in a cube of that side, or on its faces.
-TreeCounts tree_counts(int dimension, const Valid<Workload>& workload, double samples, double side, int fan_out,
-                       int leaf, Engine engine) {
-  constexpr double far = 1e60;  // a larger or smaller radius makes no difference
-  const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
-  // The margin is 64 · 2⁻²⁴ in units of the frame (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
-  // of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not
-  // matter.
-  const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
-  const auto nodes = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
-  const CrossingProbability crossing(workload, side);
-  const RayBlocks blocks = ray_blocks(workload.rays, workload.samples, engine);
-  TreeCounts counts;
-  Widening widening(nodes, box_tree::cell_kinds(dimension, samples), fan_out);
-  widening.for_each([&](std::size_t kind, double wide, double children) {
-    const Sums& inner = nodes[kind].inner;
-    const double share = kind == 0 ? 1 : crossing(inner.surface / inner.count, inner.volume / inner.count);
-    counts.tests += wide * children * share;
-    if (kind > 0) counts.listed += wide * share;
-    counts.culls += wide * children * blocks.with_any(share);
-  });
-  for (std::size_t kind = 0; kind < nodes.size(); ++kind) {
-    counts.made += nodes[kind].inner.count;
-    for (const Leaves& leaves : nodes[kind].leaves) {
-      const double share = kind > 0 ? crossing(leaves.surface, leaves.volume) : 1;
-      if (kind > 0) counts.listed += leaves.count * share;
-      counts.discs += leaves.count * leaves.discs * share;
-      counts.visits += leaves.count * leaves.discs * blocks.with_any(share, leaves.spread);
-      counts.made += leaves.count;
-    }
-  }
-  return counts;
-}
-
 }  // namespace
 
-Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxTreeParameters>& parameters,
-                               Engine engine) {
-  const double rays = workload.rays;
+/// The counts of all fan-outs for samples in a cube, or on its faces, that do not depend on the fan-out.
+class BoxTreeShapes::Tree {
+ public:
+  /// `samples` in a cube of that side, or on its faces.
+  Tree(int dimension, const Valid<Workload>& workload, double samples, double side, int leaf, Engine engine)
+      : kinds_(box_tree::cell_kinds(dimension, samples)), blocks_(ray_blocks(workload.rays, workload.samples, engine)) {
+    constexpr double far = 1e60;  // a larger or smaller radius makes no difference
+    const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
+    // The margin is 64 · 2⁻²⁴ in units of the frame (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
+    // of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not
+    // matter.
+    const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
+    nodes_ = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
+    const CrossingProbability crossing(workload, side);
+    for (std::size_t kind = 0; kind < nodes_.size(); ++kind) {
+      const Sums& inner = nodes_[kind].inner;
+      inner_share_.push_back(
+          kind == 0 || !(inner.count > 0) ? 1 : crossing(inner.surface / inner.count, inner.volume / inner.count));
+      inner_culls_.push_back(-1);
+      fixed_.made += inner.count;
+      for (const Leaves& leaves : nodes_[kind].leaves) {
+        const double share = kind > 0 ? crossing(leaves.surface, leaves.volume) : 1;
+        if (kind > 0) leaf_lists_.push_back(leaves.count * share);
+        fixed_.discs += leaves.count * leaves.discs * share;
+        fixed_.visits += leaves.count * leaves.discs * blocks_.with_any(share, leaves.spread);
+        fixed_.made += leaves.count;
+      }
+    }
+  }
+
+  [[nodiscard]] TreeCounts counts(int fan_out) {
+    TreeCounts counts = fixed_;
+    Widening(nodes_, kinds_, fan_out).for_each([&](std::size_t kind, double wide, double children) {
+      const double share = inner_share_[kind];
+      double& culls = inner_culls_[kind];
+      if (culls < 0) culls = blocks_.with_any(share);
+      counts.tests += wide * children * share;
+      if (kind > 0) counts.listed += wide * share;
+      counts.culls += wide * children * culls;
+    });
+    for (const double lists : leaf_lists_) counts.listed += lists;
+    return counts;
+  }
+
+ private:
+  const std::vector<CellKind>& kinds_;
+  RayBlocks blocks_;
+  std::vector<LevelNodes> nodes_;
+  std::vector<double> inner_share_;  ///< by kind of cell: P of its inner nodes
+  std::vector<double> inner_culls_;  ///< blocks of rays with a ray in an inner node; negative: not computed yet
+  std::vector<double> leaf_lists_;   ///< rays listed for leaves, per ray
+  TreeCounts fixed_;                 ///< counts that do not depend on the fan-out
+};
+
+BoxTreeShapes::BoxTreeShapes(const Valid<Workload>& workload, int leaf, Engine engine)
+    : workload_(workload), engine_(engine), leaf_(leaf) {
+  assert(leaf >= 1);
   const double samples = workload.samples;
+  if (samples <= leaf) return;
+  const int tabulated = std::min(leaf, box_tree_largest_leaf);
+  // A tree with larger leaves than box_tree_largest_leaf has the nodes of a tree with leaves of that size and
+  // proportionally fewer samples.
+  in_one_ = static_cast<double>(leaf) / tabulated;
+  const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
+  const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);
+  const auto tree_in = [&](int whole) {
+    return std::make_unique<Tree>(whole, workload, std::round(samples / in_one_), side, tabulated, engine);
+  };
+  if (dimension < 3) surface_ = tree_in(2);
+  if (dimension > 2) volume_ = tree_in(3);
+}
+
+BoxTreeShapes::~BoxTreeShapes() = default;
+
+Counts<double> BoxTreeShapes::counts(int fan_out) {
+  assert(fan_out >= 2);
+  const double rays = workload_.rays;
+  const double samples = workload_.samples;
   Counts<double> counts{
-      .references = samples, .placements = samples, .sorted = samples, .hits = expected_hits(workload)};
-  const double blocks = ray_blocks(rays, samples, engine).count();
-  if (samples <= parameters.leaf) {
+      .references = samples, .placements = samples, .sorted = samples, .hits = expected_hits(workload_)};
+  const double blocks = ray_blocks(rays, samples, engine_).count();
+  if (samples <= leaf_) {
     counts.disc_tests = rays * samples;
     counts.visits = blocks * samples;
     counts.made = 1;
     return counts;
   }
-  const int fan_out = std::min(parameters.fan_out, box_tree_most_children);
-  const int leaf = std::min(parameters.leaf, box_tree_largest_leaf);
-  // A tree with larger leaves than box_tree_largest_leaf has the nodes of a tree with leaves of that size and
-  // proportionally fewer samples.
-  const double in_one = static_cast<double>(parameters.leaf) / leaf;
-  const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
-  const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);
-  const auto counts_in = [&](int whole) {
-    return tree_counts(whole, workload, std::round(samples / in_one), side, fan_out, leaf, engine);
-  };
-  TreeCounts tree = counts_in(dimension < 3 ? 2 : 3);
-  if (dimension > 2 && dimension < 3) {
-    const TreeCounts volume = counts_in(3);
+  fan_out = std::min(fan_out, box_tree_most_children);
+  TreeCounts tree = (surface_ ? surface_ : volume_)->counts(fan_out);
+  if (surface_ && volume_) {
+    const TreeCounts volume = volume_->counts(fan_out);
+    const double weight = workload_.dimension - 2;
     for (const auto term : {&TreeCounts::tests, &TreeCounts::listed, &TreeCounts::discs, &TreeCounts::culls,
                             &TreeCounts::visits, &TreeCounts::made})
-      tree.*term = std::pow(tree.*term, 3 - dimension) * std::pow(volume.*term, dimension - 2);
+      tree.*term = std::pow(tree.*term, 3 - workload_.dimension) * std::pow(volume.*term, weight);
   }
   counts.cull_tests = rays * tree.tests;
   counts.listed = rays * tree.listed;
-  counts.disc_tests = rays * std::min(samples, in_one * tree.discs);
-  counts.visits = std::min(blocks * samples, in_one * tree.visits);
+  counts.disc_tests = rays * std::min(samples, in_one_ * tree.discs);
+  counts.visits = std::min(blocks * samples, in_one_ * tree.visits);
   counts.culls = tree.culls;
   counts.made = tree.made;
   return counts;
+}
+
+Counts<double> box_tree_counts(const Valid<Workload>& workload, const Valid<BoxTreeParameters>& parameters,
+                               Engine engine) {
+  return BoxTreeShapes(workload, parameters.leaf, engine).counts(parameters.fan_out);
 }
 
 }  // namespace detp::model

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <memory>
+
 #include "detp/model/vocabulary/vocabulary.hpp"
 
 /// The box tree: lists of rays culled down a tree of boxes.
@@ -64,9 +66,32 @@ inline constexpr int box_tree_largest_leaf = 256;
 ///            discs 0.7, 3.8, 8.2 %, culls 0.8, 5.9, 13.5 %, visits 0.2, 2.8, 5.3 %. In scenes:
 ///            validate/choice/README.md.
 /// Limits     n_P <= leaf: one leaf, every ray tested with every disc.
-/// Costs      10 … 90 µs for D = 3, 30 … 190 µs for D = 2, longest for small leaves; once 4 ms to make a table.
+/// Costs      with leaves of 4, 16 and 64: 0.53, 0.35, 0.11 million instructions for D = 3, 1.46, 1.11, 0.50 for D = 2,
+///            and the sum of both between (means over 20 random cubes, valgrind --tool=callgrind). Once 4 ms to make a
+///            table.
 /// Throws     std::invalid_argument for a workload or parameters out of range.
 [[nodiscard]] Counts<double> box_tree_counts(const Valid<Workload>& workload,
                                              const Valid<BoxTreeParameters>& parameters, Engine engine);
+
+/// The same counts for several fan-outs over one binary tree, which is evaluated once. The workload must outlive it.
+class BoxTreeShapes {
+ public:
+  /// leaf >= 1.
+  BoxTreeShapes(const Valid<Workload>& workload, int leaf, Engine engine);
+  ~BoxTreeShapes();
+
+  /// fan_out >= 2.
+  [[nodiscard]] Counts<double> counts(int fan_out);
+
+ private:
+  class Tree;
+
+  const Valid<Workload>& workload_;
+  Engine engine_;
+  int leaf_;
+  double in_one_ = 1;              ///< samples for each sample of the trees
+  std::unique_ptr<Tree> surface_;  ///< samples on the faces of a cube; null for D >= 3
+  std::unique_ptr<Tree> volume_;   ///< samples in a cube; null for D <= 2
+};
 
 }  // namespace detp::model

@@ -1,6 +1,7 @@
 #include "box_tree_boxes.hpp"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <memory>
 #include <numbers>
@@ -123,6 +124,27 @@ double CellBoxes::side_of(const Axis& axis, double discs) const {
   const double all_on = std::exp(discs * axis.log_on_faces);
   const double at_end = (1 - all_on) * uniform + all_on * (axis.length + missing(flat_, discs));
   return std::max(0.0, whole - at_face - at_end);
+}
+
+void CellBoxes::products(std::span<double> products) const {
+  assert(products.size() <= MissingTable::exact);
+  std::array<std::array<double, MissingTable::exact>, 3> side;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Axis& axis = axes_[i];
+    assert(axis.touched == 0 || (axis.touched == 1 && axis.uniform_share <= 0));
+    const double whole = axis.touched == 0 ? axis.length + 2 * radius_ : 2 * radius_;
+    const Row row = axis.touched == 0 ? axis.uniform : flat_;
+    const double* low = row.entries;
+    const double* high = low + MissingTable::columns;
+    side[i][0] = whole - 2 * row.single;
+    for (std::size_t m = 1; m < products.size(); ++m)
+      side[i][m] = whole - 2 * (row.scale * (low[m] + row.weight * (high[m] - low[m])));
+  }
+  for (std::size_t m = 0; m < products.size(); ++m) {
+    products[m] = side[0][m] * side[1][m];
+    products[m] += side[1][m] * side[2][m];
+    products[m] += side[2][m] * side[0][m];
+  }
 }
 
 double CellBoxes::variance_of(const Axis& axis, double discs) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "box_tree_cells.hpp"
 #include "detp/model/vocabulary/engine.hpp"
@@ -46,6 +47,10 @@ class CellBoxes {
 
   /// m >= 1, not necessarily a whole number.
   [[nodiscard]] MeanBox operator()(double discs) const;
+
+  /// MeanBox::products for m = 1 … products.size(), at most 64, in a cell that no face of the cube passes through, or
+  /// whose samples all lie on one face.
+  void products(std::span<double> products) const;
 
  private:
   /// E[y] for one L and d: interpolated between two rows of a table.

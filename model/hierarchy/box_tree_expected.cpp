@@ -52,6 +52,7 @@ class ExpectedLevels {
         leaf_(leaf),
         listing_(listing),
         most_(std::max(leaf, largest_sah_leaf)),
+        later_kinds_(dimension == 2 ? 6 : 0),
         sah_leaf_model_(dimension, samples, radius, leaf),
         node_probabilities_(kinds_.size()),
         reached_(kinds_.size(), false),
@@ -69,7 +70,7 @@ class ExpectedLevels {
         for (const Leaves& leaves : nodes_[number].leaves) count += leaves.count;
         largest = std::max(largest, count);
         if (count > 1e-3 * largest) end = number + 1;
-        if (number > end + 5) break;
+        if (number >= end + later_kinds_) break;
       }
     }
     nodes_.resize(end);
@@ -114,6 +115,7 @@ class ExpectedLevels {
   }
 
   void count_nodes(const CellKind& cell, const NodeProbabilities& node_probability, LevelNodes& nodes) {
+    nodes.leaves.reserve(24);
     const double expected = samples_ * cell.share;
     const int last = most_of(expected);
     binomial(samples_, cell.share, last, probability_);
@@ -268,6 +270,9 @@ class ExpectedLevels {
   int leaf_;
   Listing listing_;
   int most_;
+  /// number of kinds after one with few nodes before which there may be one with more: in a cube, the number of nodes
+  /// grows and then falls from level to level
+  std::size_t later_kinds_;
   SahLeafModel sah_leaf_model_;
   std::vector<NodeProbabilities> node_probabilities_;
   std::vector<bool> reached_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace detp::model::box_tree {
 namespace {
@@ -161,10 +162,8 @@ void SahLeafModel::start_from_leaves(const CellKind& cell, Row& area, Row& cost)
   level.share.fill(1);
   level.box.fill(1);
   const CellBoxes boxes(cell, radius_);
-  for (int m = 1; m <= largest_sah_leaf; ++m) {
-    area[m] = boxes(m).products;
-    cost[m] = m * area[m];
-  }
+  boxes.products(std::span(area).subspan(1));
+  for (int m = 1; m <= largest_sah_leaf; ++m) cost[m] = m * area[m];
 }
 
 /// The fitted factor of σ: all of σ except A m^0.7 (A_0/A)^0.35.
@@ -191,10 +190,10 @@ void SahLeafModel::compute_from_halves(const CellKind& cell, int most, Row& area
   for (int m = 1; m <= most; ++m) either[m] = 2 * (list_cost * half_area[m] + half_cost[m]);
   const double deviation = deviation_factor(leaf_ > 1 ? 1 : levels_[cell.halvings + 1].share[2]);
   const CellBoxes boxes(cell, radius_);
+  boxes.products(std::span(area).subspan(1, static_cast<std::size_t>(most)));
   const SmallNodes small(cell, radius_);
   double none = 1;  // probability that one half has all discs
   for (int m = 1; m <= most; ++m, none /= 2) {
-    area[m] = boxes(m).products;
     if (m <= leaf_) {
       cost[m] = m * area[m];
       continue;

@@ -104,19 +104,31 @@ double rays_in_cell_sphere(const Valid<Workload>& workload, int level) {
   return workload.rays * crossing_probability(workload, 4 * pi / 3 * r * r * r, 4 * pi * r * r);
 }
 
-Counts<double> cell_sphere_counts(const Valid<Workload>& workload, const Valid<CellSpheresParameters>& parameters) {
+void for_each_cell_sphere_depth(const Valid<Workload>& workload, const Valid<CellSpheresParameters>& deepest,
+                                const std::function<bool(const Counts<double>&)>& visit) {
   Counts<double> counts{.visits = workload.samples, .sorted = workload.samples, .hits = expected_hits(workload)};
   double around = workload.rays;
-  for (int level = 1; level <= parameters.depth; ++level) {
-    const double spheres = occupied_cell_spheres(workload, level);
-    const double rays = rays_in_cell_sphere(workload, level);
-    counts.culls += spheres;
-    counts.cull_tests += spheres * around;
-    counts.listed += spheres * rays;
-    around = rays;
+  for (int level = 0; level <= deepest.depth; ++level) {
+    if (level > 0) {
+      const double spheres = occupied_cell_spheres(workload, level);
+      const double rays = rays_in_cell_sphere(workload, level);
+      counts.culls += spheres;
+      counts.cull_tests += spheres * around;
+      counts.listed += spheres * rays;
+      around = rays;
+    }
+    counts.disc_tests = workload.samples * around;
+    if (!visit(counts)) return;
   }
-  counts.disc_tests = workload.samples * around;
-  return counts;
+}
+
+Counts<double> cell_sphere_counts(const Valid<Workload>& workload, const Valid<CellSpheresParameters>& parameters) {
+  Counts<double> last;
+  for_each_cell_sphere_depth(workload, parameters, [&](const Counts<double>& counts) {
+    last = counts;
+    return true;
+  });
+  return last;
 }
 
 }  // namespace detp::model

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <functional>
+
 #include "detp/model/vocabulary/vocabulary.hpp"
 
 /// Spheres anchored to the cells of an octree: a cache whose costs are known exactly.
@@ -60,5 +62,9 @@ namespace detp::model {
 /// Valid      exact for samples uniform in the cube or on its faces, S₀ around it, and lines.
 [[nodiscard]] Counts<double> cell_sphere_counts(const Valid<Workload>& workload,
                                                 const Valid<CellSpheresParameters>& parameters);
+
+/// Calls visit with these counts for k = 0, 1 … deepest, until visit returns false. Evaluates each level once.
+void for_each_cell_sphere_depth(const Valid<Workload>& workload, const Valid<CellSpheresParameters>& deepest,
+                                const std::function<bool(const Counts<double>&)>& visit);
 
 }  // namespace detp::model

@@ -90,16 +90,19 @@ double radius(const Valid<Workload>& workload, const SphereTreeParameters& param
   return shape * std::pow(cube / runs, 2 / dimension);
 }
 
+/// <ρ²> of all samples without nesting; only for lines.
+double radius_around_all(const Valid<Workload>& workload) {
+  return workload.path_length > 0 ? 0 : radius(workload, {}, mean_square, workload.samples, 0);
+}
+
 /// P(node) for a sphere of radius r around a run.
-double crossed(const Valid<Workload>& workload, double run, double r) {
+double crossed(const Valid<Workload>& workload, double around_all, double run, double r) {
   using std::numbers::pi;
   if (workload.path_length > 0) {
     const double bounded = std::min(r, 1e99);  // so that the volume does not overflow
     return crossing_probability(workload, 4 * pi / 3 * bounded * bounded * bounded, 4 * pi * bounded * bounded);
   }
-  const SphereTreeParameters alone;
-  const double around_all = radius(workload, alone, mean_square, workload.samples, 0);
-  const double around_run = radius(workload, alone, mean_square, run, 0);
+  const double around_run = radius(workload, {}, mean_square, run, 0);
   const double inside = around_all > 0 ? std::min(1.0, around_run / around_all) : 1;
   const double offset = std::sqrt(mean_square_distance(workload) * (1 - inside));
   if (r >= workload.sphere_radius + offset) return 1;  // it contains S₀
@@ -107,7 +110,8 @@ double crossed(const Valid<Workload>& workload, double run, double r) {
   return std::min(1.0, ratio * ratio * both_hit_share(workload.sphere_radius, r, offset));
 }
 
-TreeLevel level_of(const Valid<Workload>& workload, const SphereTreeParameters& parameters, double run, double level) {
+TreeLevel level_of(const Valid<Workload>& workload, const SphereTreeParameters& parameters, double around_all,
+                   double run, double level) {
   const double d = workload.disc_radius;
   const double square = radius(workload, parameters, mean_square, run, level);
   // Near the root all spheres are about equal. Rounding in the tables must not make their mean larger than the root of
@@ -118,7 +122,7 @@ TreeLevel level_of(const Valid<Workload>& workload, const SphereTreeParameters& 
   return {.nodes = std::ceil(workload.samples / run),
           .samples = run,
           .rms_radius = r,
-          .rays = workload.rays * crossed(workload, run, r)};
+          .rays = workload.rays * crossed(workload, around_all, run, r)};
 }
 
 }  // namespace
@@ -127,11 +131,12 @@ std::vector<TreeLevel> sphere_tree_levels(const Valid<Workload>& workload,
                                           const Valid<SphereTreeParameters>& parameters) {
   std::vector<TreeLevel> levels;
   double run = std::min<double>(parameters.leaf, workload.samples);
+  const double around_all = radius_around_all(workload);
   // A sphere around a single sample has no extent. So if leaves have one sample, they are level -1, and the nesting of
   // spheres starts above them.
   for (double level = parameters.leaf == 1 ? -1 : 0;;
        ++level, run = std::min(run * parameters.fan_out, workload.samples)) {
-    levels.push_back(level_of(workload, parameters, run, level));
+    levels.push_back(level_of(workload, parameters, around_all, run, level));
     if (run >= workload.samples) break;
   }
   std::reverse(levels.begin(), levels.end());

@@ -246,6 +246,11 @@ BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitC
 }
 
 BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) {
+  return good_ratio_below(workload, costs, HUGE_VAL);
+}
+
+BestRatio good_ratio_below(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, double time) {
+  constexpr double most_excess = 3;  // of T at any of these ratios
   const CacheTimes times(workload, costs);
   if (!holds_a_disc(workload, most_ratio)) return times.without_spheres();
   BestRatio best;
@@ -254,7 +259,43 @@ BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitC
   for (const double ratio : {0.575, 0.47, 0.765, 0.425, 0.49, 0.6, 0.455, 0.635}) {
     const BestRatio stop = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), HUGE_VAL);
     if (best.spheres == 0 || stop.time < best.time) best = stop;
+    if (best.time > most_excess * time) break;
   }
+  return best;
+}
+
+BestRatio better_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const BestRatio& good) {
+  constexpr std::size_t parts = 176;
+  constexpr std::size_t refined = 6;  // number of minima
+  if (good.spheres == 0) return good;
+  const CacheTimes times(workload, costs);
+  const double from = search_coordinate(most_ratio);
+  const double step = (search_coordinate(least_ratio) - from) / (parts - 1);
+  const auto ratio_at = [&](double place) { return std::exp(-std::exp(from + place * step)); };
+  std::array<BestRatio, parts> points;
+  BestRatio best = good;
+  for (std::size_t i = 0; i < parts; ++i) {
+    const double ratio = ratio_at(static_cast<double>(i));
+    points[i] = times.best_stop(ratio, std::max<std::int64_t>(1, last_stop(workload, ratio, 40)), 1.1 * best.time);
+    if (points[i].time < best.time) best = points[i];
+  }
+  std::vector<std::size_t> minima;
+  for (std::size_t i = 0; i < parts; ++i)
+    if (points[i].time <= points[i > 0 ? i - 1 : 0].time && points[i].time <= points[std::min(i + 1, parts - 1)].time)
+      minima.push_back(i);
+  std::stable_sort(minima.begin(), minima.end(),
+                   [&](std::size_t a, std::size_t b) { return points[a].time < points[b].time; });
+  minima.resize(std::min(minima.size(), refined));
+  for (const std::size_t i : minima) {
+    const auto middle = static_cast<double>(i);
+    const std::int64_t k = points[i].spheres;
+    std::uintmax_t evaluations = 10;
+    const auto [place, time] = boost::math::tools::brent_find_minima(
+        [&](double y) { return times.at(ratio_at(y), k); }, std::max(middle - 1, 0.0),
+        std::min(middle + 1, parts - 1.0), 12, evaluations);
+    if (time < best.time) best = {ratio_at(place), k, time};
+  }
+  best.evaluated_spheres = times.evaluated_spheres();
   return best;
 }
 

@@ -37,6 +37,15 @@ inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 /// Throws     as best_ratio_and_stop.
 [[nodiscard]] BestRatio good_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs);
 
+/// The same, but stops after the first ratio at which the best T so far exceeds 3 times `time`. Then the best T exceeds
+/// `time`, too.
+[[nodiscard]] BestRatio good_ratio_below(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, double time);
+
+/// A better ratio than a good one: the best of `good` and of 176 ratios from 0.02 to 0.98, each with its best number of
+/// spheres, and then Brent's method around the six lowest minima. Throws as best_ratio_and_stop.
+[[nodiscard]] BestRatio better_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                              const BestRatio& good);
+
 /// Minimises T jointly over 0.02 <= Q <= 0.98 and k = 1 … most_spheres with r_k >= d.
 ///
 /// Accuracy   T is within 6e-11 (relative) of the smallest T on at least 20 000 ratios, at the steps of k, and on ever

@@ -25,48 +25,83 @@ bool are_all_numbers_fixed(const FixedParameters& fixed, Technique technique) {
   });
 }
 
-}  // namespace
+/// The technique with the parameters in `fixed` and the best other ones.
+struct Completed {
+  Candidate candidate;
+  std::optional<Counts<double>> counts = {};  ///< as in FoundParameters, if no parameter is fixed
+  bool tuned = true;
+};
 
-Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<CostTable>& costs,
-              int most_threads) {
-  require_count("number of threads", most_threads, 1, 1e6);
-  const Counts<double> counts = predict(workload, candidate, costs.engine);
-  const auto fastest = fastest_price(counts, costs, candidate.technique, most_threads);
-  return {candidate, counts, fastest.time, extrapolations(workload, candidate), fastest.threads};
-}
-
-std::optional<Candidate> complete(Technique technique, const FixedParameters& fixed, const Valid<Workload>& workload,
-                                  const Valid<CostTable>& costs, const SearchLimits& limits) {
+std::optional<Completed> completed(Technique technique, const FixedParameters& fixed, const Valid<Workload>& workload,
+                                   const Valid<CostTable>& costs, const SearchLimits& limits) {
   Candidate candidate = candidate_with(technique, fixed);
-  if (model_of(technique).best == nullptr || are_all_numbers_fixed(fixed, technique)) return candidate;
+  if (model_of(technique).best == nullptr || are_all_numbers_fixed(fixed, technique)) return Completed{candidate};
   SearchLimits of_engine = limits;
   of_engine.engine = costs.engine;
   const auto best = model_of(technique).best(workload, costs_of(costs, technique), fixed, of_engine);
   if (!best) return std::nullopt;
-  candidate.parameters = *best;
+  candidate.parameters = best->parameters;
   for (const auto& [name, value] : fixed.values) set_parameter(candidate, name, value);
-  return candidate;
+  return Completed{candidate, fixed.values.empty() ? best->counts : std::nullopt, best->tuned};
+}
+
+Ranked ranked(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Counts<double>& counts,
+              const Valid<CostTable>& costs, int most_threads) {
+  require_count("number of threads", most_threads, 1, 1e6);
+  const auto fastest = fastest_price(counts, costs, candidate.technique, most_threads);
+  return {candidate, counts, fastest.time, extrapolations(workload, candidate), fastest.threads};
+}
+
+bool is_faster(const Ranked& a, const Ranked& b) {
+  return a.time.total() != b.time.total() ? a.time.total() < b.time.total()
+                                          : a.candidate.technique < b.candidate.technique;
+}
+
+}  // namespace
+
+Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<CostTable>& costs,
+              int most_threads) {
+  return ranked(workload, candidate, predict(workload, candidate, costs.engine), costs, most_threads);
+}
+
+std::optional<Candidate> complete(Technique technique, const FixedParameters& fixed, const Valid<Workload>& workload,
+                                  const Valid<CostTable>& costs, const SearchLimits& limits) {
+  const auto found = completed(technique, fixed, workload, costs, limits);
+  return found ? std::optional(found->candidate) : std::nullopt;
 }
 
 std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload, const Valid<CostTable>& costs,
                               const SearchLimits& limits) {
   if (!has_closed_form(technique)) return std::nullopt;
-  const auto candidate = complete(technique, {}, workload, costs, limits);
-  if (!candidate) return std::nullopt;
-  const auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
+  const auto found = completed(technique, {}, workload, costs, limits);
+  if (!found) return std::nullopt;
+  const auto* cache = std::get_if<SphereCacheParameters>(&found->candidate.parameters);
   if (cache != nullptr && cache->spheres == 0) return std::nullopt;  // this is brute force
-  return assess(workload, *candidate, costs, limits.threads);
+  const Valid<Candidate> candidate(found->candidate);
+  Ranked best = ranked(workload, candidate, found->counts ? *found->counts : predict(workload, candidate, costs.engine),
+                       costs, limits.threads);
+  best.tuned = found->tuned;
+  return best;
 }
 
 std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs, const SearchLimits& limits) {
   std::vector<Ranked> ranking;
+  SearchLimits so_far = limits;
+  const auto add = [&](Technique technique) {
+    auto best = best_of(technique, workload, costs, so_far);
+    if (!best) return;
+    so_far.fastest = std::min(so_far.fastest, price(best->counts, costs, technique).total());  // on one thread
+    ranking.push_back(std::move(*best));
+  };
+  // Brute force needs no search. The box tree is mostly the fastest, so that the others need little search.
+  for (const Technique technique : {Technique::brute_force, Technique::box_tree})
+    if (ranking.empty() || !limits.stop.stop_requested()) add(technique);
   for (const Technique technique : all_techniques) {
-    if (!ranking.empty() && limits.stop.stop_requested()) break;
-    if (!record_of(technique).exact) continue;
-    if (auto best = best_of(technique, workload, costs, limits)) ranking.push_back(std::move(*best));
+    if (limits.stop.stop_requested()) break;
+    if (record_of(technique).exact && technique != Technique::brute_force && technique != Technique::box_tree)
+      add(technique);
   }
-  std::stable_sort(ranking.begin(), ranking.end(),
-                   [](const Ranked& a, const Ranked& b) { return a.time.total() < b.time.total(); });
+  std::sort(ranking.begin(), ranking.end(), is_faster);
   return ranking;
 }
 

@@ -15,21 +15,40 @@ struct Ranked {
   CostBreakdown time;                     ///< expected, in the unit of the costs
   std::vector<std::string> extrapolated;  ///< reasons why the counts are extrapolations; empty if they are not
   int threads = 1;                        ///< for which the time is expected
+  /// false: the parameters are good, but not the best; with these, another technique is still faster
+  bool tuned = true;
 };
 
-/// All exact techniques with a closed form, each with its best parameters, fastest first. After a stop request, the
-/// ranking has only the techniques tried before the request, but at least one.
+/// All exact techniques with a closed form, each with good parameters, fastest first. The time of the first is at most
+/// 1 % longer than the shortest that an exhaustive search finds (400 random workloads and unit costs,
+/// tests/model/rank/choose.test.cpp). After a stop request, the ranking has only the techniques tried before the request,
+/// but at least one.
 ///
-/// Parameters: the sphere cache by best_ratio_and_stop; cell spheres and the octree by trying their depths; the sphere
-/// tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by trying leaves from 4 to 256, and then
-/// fan-outs from 4 to 16; the grid by best_grid_cells. They are those for one thread; then the number of threads is
-/// chosen, at most limits.threads (fastest_price). The counts are those of the costs' engine. Throws
-/// std::invalid_argument for a workload or a number of threads out of range.
+/// Brute force comes first, then the box tree: leaves from 4 to 256, starting with the usual one for n_P/n_R, as long as
+/// the next power of two is not slower; fan-outs of 4, 8 and 16 over the binary tree of each leaf. Of the others only
+/// those are tuned that may still win:
+///
+///     sphere cache     1 to 8 ratios with their best k (good_ratio_below); tuned (better_ratio_and_stop) if that takes
+///                      less than 1.5 times as long as the fastest so far
+///     cell spheres     all depths, until the spheres alone take longer than the best depth
+///     octree           all depths, until nodes and insertions alone take longer than the best depth
+///     sphere tree      one or two shapes; all those of best_of if that takes less than 3 times as long
+///     grid             1, 2, 4 … cells; best_grid_cells if that takes less than 1.5 times as long
+///
+/// Parameters are those for one thread; then the number of threads is chosen, at most limits.threads (fastest_price). The
+/// counts are those of the costs' engine.
+///
+/// Cost       5.4 million instructions for D = 2, 2.6 for D = 3, 7.5 for D between 2 and 3, most of them for the binary
+///            trees of box trees (means over 40 random workloads at the built-in unit costs, valgrind --tool=callgrind).
+///            The first call of a program also makes a table of box_tree_boxes.cpp.
+/// Throws     std::invalid_argument for a workload or a number of threads out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                        const SearchLimits& limits = {});
 
-/// One technique with its best parameters. nullopt if the technique has no closed form, if no parameters are within the
-/// limits, or if the best sphere cache has no spheres, which is brute force.
+/// One technique with its best parameters: the sphere cache by best_ratio_and_stop; cell spheres and the octree by trying
+/// their depths; the sphere tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by trying fan-outs
+/// of 4, 8 and 16 with leaves of 4, 8 … 256; the grid by best_grid_cells. nullopt if the technique has no closed form, if
+/// no parameters are within the limits, or if the best sphere cache has no spheres, which is brute force.
 [[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload,
                                             const Valid<CostTable>& costs, const SearchLimits& limits = {});
 

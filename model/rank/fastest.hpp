@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -24,6 +25,14 @@ class Fastest {
       found_ = true;
     }
     return time;
+  }
+
+  /// Whether counts at least as large as these, except that disc_tests may fall to the number of hits, take longer than
+  /// the fastest.
+  [[nodiscard]] bool excludes(Counts<double> counts) const {
+    if (counts.references > limits_.most_references) return true;
+    counts.disc_tests = std::min(counts.disc_tests, counts.hits);
+    return price(counts, costs_, technique_).total() > least_;
   }
 
   [[nodiscard]] std::optional<P> best() const { return found_ ? std::optional<P>(best_) : std::nullopt; }

@@ -12,24 +12,36 @@ constexpr double slow_factor = 3;  // stop when a time is this many times the sm
 constexpr double ripple = 1.4;     // the minimum is within this factor of the best step
 constexpr int most_tried = 64;     // largest number of cell counts tried in that range
 
+bool fits_limits(const Valid<Workload>& workload, int cells, const SearchLimits& limits) {
+  return cells <= 1 << 16 && index_cells(workload, cells).count() <= limits.most_cells && !limits.stop.stop_requested();
+}
+
 }  // namespace
 
 std::optional<int> best_octree_depth(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                      const SearchLimits& limits) {
   Fastest<int> fastest(costs, Technique::octree, limits);
   int depth = 0;
-  for (const Counts<double>& counts : octree_counts_by_depth(workload, {limits.most_depth}))
+  for_each_octree_depth(workload, {limits.most_depth}, {}, [&](const Counts<double>& counts) {
     fastest.consider(depth++, counts);
+    return !fastest.excludes(counts);
+  });
   return fastest.best();
+}
+
+std::optional<GoodGrid> good_grid_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                        const SearchLimits& limits) {
+  Fastest<int> fastest(costs, Technique::grid, limits);
+  for (int cells = 1; fits_limits(workload, cells, limits); cells *= 2)
+    if (fastest.consider(cells, grid_counts(workload, {cells})) > slow_factor * fastest.least()) break;
+  const auto best = fastest.best();
+  return best ? std::optional(GoodGrid{*best, fastest.least()}) : std::nullopt;
 }
 
 std::optional<int> best_grid_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                    const SearchLimits& limits) {
   Fastest<int> fastest(costs, Technique::grid, limits);
-  const auto fits = [&](int cells) {
-    return cells <= 1 << 16 && index_cells(workload, cells).count() <= limits.most_cells &&
-           !limits.stop.stop_requested();
-  };
+  const auto fits = [&](int cells) { return fits_limits(workload, cells, limits); };
   const auto consider = [&](int cells) { return fastest.consider(cells, grid_counts(workload, {cells})); };
   const auto consider_all = [&](int from, int to, int step) {
     for (int cells = std::max(1, from); cells <= to && fits(cells); cells += step) consider(cells);

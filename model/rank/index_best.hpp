@@ -8,7 +8,8 @@
 /// before the first size was tried. Throws std::invalid_argument for a workload out of range.
 namespace detp::model {
 
-/// Depth of the fastest octree, searched top-down. Tries all depths; predicts each level once.
+/// Depth of the fastest octree, searched top-down. Tries depths from 0 up, until the nodes, the insertions and one test
+/// for each hit of a deeper octree would take longer than the best so far. Predicts each level once.
 [[nodiscard]] std::optional<int> best_octree_depth(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                                    const SearchLimits& limits = {});
 
@@ -25,5 +26,16 @@ namespace detp::model {
 ///            that any of seven searches found; at worst it is 7.7 % longer.
 [[nodiscard]] std::optional<int> best_grid_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                                  const SearchLimits& limits = {});
+
+/// A good grid, and its time.
+struct GoodGrid {
+  int cells = 0;  ///< along the longest side
+  double time = 0;
+};
+
+/// A good grid in little time: the best of 1, 2, 4 … cells a side, until the time is three times the smallest. nullopt
+/// as best_grid_cells.
+[[nodiscard]] std::optional<GoodGrid> good_grid_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                                      const SearchLimits& limits = {});
 
 }  // namespace detp::model

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <stop_token>
 #include <string_view>
@@ -13,7 +14,7 @@
 /// The model of each technique: its prediction, its best parameters, and the range in which it was checked.
 namespace detp::model {
 
-/// Limits on the parameters searched.
+/// Limits on the parameters searched, and on the search.
 struct SearchLimits {
   int most_depth = 14;           ///< of an octree, and of cells with spheres
   double most_cells = 1 << 26;   ///< total number in a grid: 8 bytes each
@@ -21,6 +22,10 @@ struct SearchLimits {
   int threads = 1;               ///< most threads of a search, at least 1
   Engine engine = Engine::simd;  ///< whose counts `best` compares; complete and best_of set that of the costs
   std::stop_token stop = {};     ///< ends the search, which then returns what it has found so far
+  /// Time of the fastest candidate so far of other techniques, in the unit of the costs. If it is finite, a search may
+  /// end early: its parameters make the technique at most 1 % slower than the best ones, or the technique is slower than
+  /// this candidate anyway.
+  double fastest = std::numeric_limits<double>::infinity();
 };
 
 /// Parameters that the user sets by name. The others are chosen.
@@ -36,6 +41,13 @@ struct FixedParameters {
   }
 };
 
+/// Parameters found by a search.
+struct FoundParameters {
+  Parameters parameters;
+  std::optional<Counts<double>> counts = {};  ///< what `predict` returns for them, if the search has computed it
+  bool tuned = true;  ///< false: the search ended early; the best ones would be slower than SearchLimits::fastest
+};
+
 struct TechniqueModel {
   Technique technique;
 
@@ -44,8 +56,8 @@ struct TechniqueModel {
 
   /// The fastest parameters that have the fixed values; nullopt if no such parameters are within the limits. Not called
   /// if all numbers are fixed.
-  std::optional<Parameters> (*best)(const Valid<Workload>&, const Valid<UnitCosts>&, const FixedParameters&,
-                                    const SearchLimits&) = nullptr;
+  std::optional<FoundParameters> (*best)(const Valid<Workload>&, const Valid<UnitCosts>&, const FixedParameters&,
+                                         const SearchLimits&) = nullptr;
 
   /// Adds reasons why the prediction is outside the range in which it was compared with counts.
   void (*uncounted)(const Valid<Workload>&, const Parameters&, Reasons&) = nullptr;

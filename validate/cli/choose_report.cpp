@@ -82,6 +82,7 @@ Json candidate_json(const ChooseAnswer& answer, const Row& row) {
   if (row.predicted != nullptr) {
     json["predicted"] = to_json(row.predicted->counts);
     json["predicted_seconds"] = row.predicted->time.total();
+    json["tuned"] = row.predicted->tuned;
     json.update(extrapolated_json(row.predicted->extrapolated));
     if (const auto error = error_of(answer, row)) {
       json["predicted_seconds_error"] = *error;

@@ -133,6 +133,15 @@ TEST_SUITE("identity") {
     for (int depth = 0; depth <= 7; ++depth) CHECK(depths[depth] == octree_counts(few_rays, {depth}));
   }
 
+  TEST_CASE("octrees are counted one depth after the other until the visit returns false") {
+    int depth = 0;
+    for_each_octree_depth(few_rays, {7}, {}, [&](const Counts<double>& counts) {
+      CHECK(counts == octree_counts(few_rays, {depth}));
+      return ++depth < 4;
+    });
+    CHECK(depth == 4);
+  }
+
   TEST_CASE("placements of an octree are its references at all levels below the root") {
     double references = 0;
     for (int depth = 1; depth <= 8; ++depth) {

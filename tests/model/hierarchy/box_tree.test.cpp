@@ -36,6 +36,18 @@ TEST_SUITE("identity") {
     CHECK(best_of(Technique::box_tree, w, {})->candidate.technique == Technique::box_tree);
   }
 
+  TEST_CASE("all fan-outs over one binary tree, in any order, have the counts of trees of their own") {
+    for (const double dimension : {1.5, 2.0, 2.4, 3.0})
+      for (const int leaf : {1, 16, 300, 5000}) {
+        Workload w = cube_workload(3e4, 4e3, 0.02, 2, dimension);
+        w.path_length = leaf == 16 ? 0.7 : 0;
+        const Valid<Workload> workload(w);
+        BoxTreeShapes shapes(workload, leaf, Engine::simd);
+        for (const int fan_out : {8, 2, 64, 8})
+          CHECK(shapes.counts(fan_out) == box_tree_counts(workload, {fan_out, leaf}, Engine::simd));
+      }
+  }
+
   TEST_CASE("the simd engine lists rays that miss the box: some percent more, at most 2 ln(4/3)/π = 18 %") {
     for (const double dimension : {2.0, 3.0}) {
       const Workload w = cube_workload(1e4, 1e5, 0.001, 2, dimension);

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -31,6 +32,16 @@ TEST_SUITE("identity") {
       CHECK(flat(m).volume < 1e-9);
     }
     CHECK(boxes(1).products < 1e-20);
+  }
+
+  TEST_CASE("the products of all numbers of discs up to 64 are those of each number") {
+    for (const CellKind& cell : {cube, face, CellKind{.side = {0.25, 0.5, 0.5}}})
+      for (const double radius : {1e-5, 0.03, 0.4, 7.0}) {
+        const CellBoxes boxes(cell, radius);
+        std::array<double, 64> all;
+        boxes.products(all);
+        for (int m = 1; m <= 64; ++m) CHECK(all[m - 1] == boxes(m).products);
+      }
   }
 
   TEST_CASE("the box around one disc has sides of π d/2 on average") {

@@ -50,6 +50,15 @@ TEST_SUITE("identity") {
     const double share = model::cell_sphere_radius(workload, 1) / workload.sphere_radius;
     CHECK(one.disc_tests == doctest::Approx(workload.samples * workload.rays * share * share).epsilon(1e-12));
   }
+
+  TEST_CASE("depths are counted one after the other until the visit returns false") {
+    int depth = 0;
+    model::for_each_cell_sphere_depth(workload, {9}, [&](const Counts<double>& counts) {
+      CHECK(counts == model::cell_sphere_counts(workload, {depth}));
+      return ++depth < 5;
+    });
+    CHECK(depth == 5);
+  }
 }
 
 TEST_SUITE("identity") {

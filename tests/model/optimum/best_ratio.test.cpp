@@ -128,6 +128,16 @@ TEST_SUITE("reference value") {
     CHECK(above[above.size() / 2] < 0.03);
   }
 
+  TEST_CASE("a better ratio is within 1 % of the best; a search below a time ends early where no ratio is below it") {
+    for (const Question& question : questions(41, 36)) {
+      const BestRatio best = best_ratio_and_stop(question.workload, question.costs);
+      const BestRatio good = good_ratio_and_stop(question.workload, question.costs);
+      CHECK(better_ratio_and_stop(question.workload, question.costs, good).time <= 1.01 * best.time);
+      CHECK(good_ratio_below(question.workload, question.costs, 0).ratio == 0.575);
+      CHECK(good_ratio_below(question.workload, question.costs, best.time).time <= 3 * good.time);
+    }
+  }
+
   TEST_CASE("control: a ratio 2 % off, with its own best number of spheres, is slower") {
     const Question question{typical, {.cull_test = 1, .disc_test = 1, .listed = 1}};
     const BestRatio best = best_ratio_and_stop(typical, question.costs);
