@@ -13,12 +13,27 @@
 #include "detp/model/vocabulary/ray_blocks.hpp"
 
 namespace detp::model {
+namespace box_tree {
+
+/// Expected counts in the wide tree: per ray, except that `culls` and `visits` are for all rays.
+struct TreeCounts {
+  double tests = 0;
+  double listed = 0;
+  double discs = 0;
+  double culls = 0;
+  double visits = 0;
+  double made = 0;
+};
+
+}  // namespace box_tree
+
 namespace {
 
 using box_tree::CellKind;
 using box_tree::Leaves;
 using box_tree::LevelNodes;
 using box_tree::Sums;
+using box_tree::TreeCounts;
 
 /// P(node) from the mean surface and volume of nodes' boxes.
 class CrossingProbability {
@@ -37,16 +52,6 @@ class CrossingProbability {
 
   double of_surface_;
   double of_volume_;
-};
-
-/// Expected counts in the wide tree: per ray, except that `culls` and `visits` are for all rays.
-struct TreeCounts {
-  double tests = 0;
-  double listed = 0;
-  double discs = 0;
-  double culls = 0;
-  double visits = 0;
-  double made = 0;
 };
 
 /// Joins the inner nodes of the binary tree to wide nodes.

@@ -25,7 +25,7 @@ constexpr double below = 60;    // the panels: labels of rays, then the legend
 constexpr double legend_column = 150;
 constexpr double legend_line = 18;
 constexpr double small = 9;
-constexpr double normal = 11;
+constexpr double text_size = 11;
 constexpr double letter = 0.6;  // width of a character over its size, about; the font is the viewer's
 
 /// What a panel shows in a cell.
@@ -123,19 +123,19 @@ class MapDrawing {
                {.size = std::min(size, width / (letter * static_cast<double>(text.size()))), .bold = bold});
     };
     add(22, "Fastest technique by number of rays and disc radius", 15, true);
-    add(39, describe(map_), normal);
+    add(39, describe(map_), text_size);
     std::string line = fmt::format("{}, {}, one thread", caption_.machine, caption_.program);
     if (agreement_.cells > 0)
       line += fmt::format("; measured technique as predicted in {} of {} cells ({:.0f} %)", agreement_.agree,
                           agreement_.cells, 100 * agreement_.share());
     if (map_.stopped)
       line += fmt::format("; stopped after {} of {} {}", map_.stopped->done, map_.stopped->of, map_.stopped->unit);
-    add(54, line, normal);
+    add(54, line, text_size);
     add(69, "unit costs " + caption_.costs, small);
   }
 
   void draw_panel(Svg& svg, const Panel& panel, double x) const {
-    svg.text(x, top - 8, panel.title, {.size = normal, .bold = true});
+    svg.text(x, top - 8, panel.title, {.size = text_size, .bold = true});
     std::vector<std::vector<std::optional<Sign>>> signs;
     for (const MapRow& row : map_.rows) {
       auto& line = signs.emplace_back();
@@ -179,7 +179,7 @@ class MapDrawing {
     const bool room_for_seconds = sign->seconds && place.width > 36 && place.height > 25;
     if (room_for_code)
       svg.text(middle, centre + (room_for_seconds ? -1 : 4), code_of(sign->technique),
-               {.size = normal, .anchor = Anchor::middle, .fill = ink, .bold = true});
+               {.size = text_size, .anchor = Anchor::middle, .fill = ink, .bold = true});
     if (room_for_seconds)
       svg.text(middle, centre + 10, seconds_label(*sign->seconds),
                {.size = small, .anchor = Anchor::middle, .fill = ink});
@@ -195,12 +195,12 @@ class MapDrawing {
       const double middle = (xs_[i] + xs_[i + 1]) / 2;
       svg.line(x + middle, axis, x + middle, axis + 4);
       const std::string label = rays_label(map_.rays[i]);
-      const double half = letter * normal * static_cast<double>(label.size()) / 2;
+      const double half = letter * text_size * static_cast<double>(label.size()) / 2;
       if (middle - half < end + 4) continue;
       end = middle + half;
-      svg.text(x + middle, axis + 16, label, {.size = normal, .anchor = Anchor::middle});
+      svg.text(x + middle, axis + 16, label, {.size = text_size, .anchor = Anchor::middle});
     }
-    svg.text(x + panel_width / 2, axis + 34, "number of rays", {.size = normal, .anchor = Anchor::middle});
+    svg.text(x + panel_width / 2, axis + 34, "number of rays", {.size = text_size, .anchor = Anchor::middle});
   }
 
   /// Radii left of the panels, X right of them.
@@ -215,13 +215,13 @@ class MapDrawing {
       svg.line(width - right, y, width - right + 4, y);
       if (middle - last < room) continue;
       last = middle;
-      svg.text(left - 7, y + 4, radius_label(row.given), {.size = normal, .anchor = Anchor::end});
-      svg.text(width - right + 7, y + 4, fmt::format("{:.2g}", row.x), {.size = normal});
+      svg.text(left - 7, y + 4, radius_label(row.given), {.size = text_size, .anchor = Anchor::end});
+      svg.text(width - right + 7, y + 4, fmt::format("{:.2g}", row.x), {.size = text_size});
     }
     const double middle = top + panel_height / 2;
-    svg.text(18, middle, "disc radius d", {.size = normal, .anchor = Anchor::middle, .upwards = true});
+    svg.text(18, middle, "disc radius d", {.size = text_size, .anchor = Anchor::middle, .upwards = true});
     svg.text(width - 12, middle, "X = distance between samples / d",
-             {.size = normal, .anchor = Anchor::middle, .upwards = true});
+             {.size = text_size, .anchor = Anchor::middle, .upwards = true});
   }
 
   void draw_legend(Svg& svg, double y, std::size_t columns) const {
@@ -231,14 +231,14 @@ class MapDrawing {
       svg.rectangle({x, y - 10, 24, 13}, colour_of(present_[i]), "#000000");
       svg.text(x + 12, y, code_of(present_[i]),
                {.size = small, .anchor = Anchor::middle, .fill = text_colour_on(present_[i])});
-      svg.text(x + 30, y, name(present_[i]), {.size = normal});
+      svg.text(x + 30, y, name(present_[i]), {.size = text_size});
     }
     y += legend_line;
     if (agreement_.cells == 0) return;
     svg.corner(left + 20, y - 9, 8, true);
-    svg.text(left + 30, y, "another technique than the predicted one is faster", {.size = normal});
+    svg.text(left + 30, y, "another technique than the predicted one is faster", {.size = text_size});
     svg.corner(left + 340, y - 9, 8, false);
-    svg.text(left + 350, y, "the same, but within the noise of the measurement", {.size = normal});
+    svg.text(left + 350, y, "the same, but within the noise of the measurement", {.size = text_size});
   }
 
   const TechniqueMap& map_;

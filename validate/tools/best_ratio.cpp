@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -73,8 +74,9 @@ void time_all(const sim::Problem& problem, Engine engine, std::vector<Timed>& al
   for (std::size_t i = 0; i < all.size(); ++i) all[i].*half = shortest(times[i]);
 }
 
-void compare(const Setting& setting, const validate::Job& job, const sim::Problem& problem, Engine engine,
-             const UnitCosts& costs) {
+void compare(const Setting& setting, const validate::Job& job, const sim::Problem& problem, const CostTable& table) {
+  const UnitCosts& costs = table[Technique::sphere_cache];
+  const Engine engine = table.engine;
   const model::BestRatio chosen = model::best_ratio_and_stop(job.workload, costs);
   if (chosen.spheres == 0) return;
   std::vector<Timed> all{{cache(chosen.ratio, chosen.spheres)}};
@@ -109,9 +111,11 @@ void compare(const Setting& setting, const validate::Job& job, const sim::Proble
 }  // namespace
 
 int main(int argc, char** argv) {
-  CostTable costs = validate::built_in_unit_costs();
-  if (const std::string path = validate::default_calibration_path(); std::filesystem::exists(path))
-    costs = validate::read_calibration(path).costs;
+  std::array costs{validate::built_in_unit_costs(Engine::simd), validate::built_in_unit_costs(Engine::plain)};
+  if (const std::string path = validate::default_calibration_path(); std::filesystem::exists(path)) {
+    const validate::StoredCalibration stored = validate::read_calibration(path);
+    costs = {stored.simd, stored.plain};
+  }
   fmt::print(
       "scene,field,engine,rays,samples,disc_radius,chosen_ratio,chosen_spheres,best_ratio,best_spheres,"
       "best_seconds,chosen_over_best,noise,plateau_low,plateau_high\n");
@@ -122,7 +126,6 @@ int main(int argc, char** argv) {
                                                   .disc_radius = validate::Length{setting.radius, true},
                                                   .field = setting.field});
     const sim::Problem problem = job.problem();
-    for (const Engine engine : {Engine::simd, Engine::plain})
-      compare(setting, job, problem, engine, costs[Technique::sphere_cache]);
+    for (const CostTable& table : costs) compare(setting, job, problem, table);
   }
 }

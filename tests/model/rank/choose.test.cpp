@@ -87,7 +87,7 @@ Workload random_scene(support::RandomNumbers& random) {
 }
 
 /// Costs in nanoseconds, about as `detp calibrate` finds them, each changed by a factor of up to 3.
-CostTable random_costs(support::RandomNumbers& random) {
+CostTable random_cost_table(support::RandomNumbers& random) {
   CostTable table(UnitCosts{.cull_test = 0.6,
                             .disc_test = 0.45,
                             .listed = 1.3,
@@ -125,7 +125,7 @@ void check_against_exhaustive(int runs, std::uint64_t seed) {
   support::RandomNumbers random(seed);
   for (int run = 0; run < runs; ++run) {
     const Workload w = random_scene(random);
-    const CostTable table = random_costs(random);
+    const CostTable table = random_cost_table(random);
     const auto ranking = rank(w, table);
     const double fastest = ranking.front().time.total();
     CAPTURE(seed);

@@ -40,7 +40,7 @@ TEST_SUITE("bad input") {
          {model_numbers + "--technique bsp", "no closed form of bsp"},
          {uniform + "--technique octree --traversal sideways", "top-down,front-to-back,restart,neighbour-links"},
          {uniform + "--field sound", "isotropic,photons"},
-         {"choose @uniform --rigor guess", "'estimate'"},
+         {"choose @uniform --rigor guess", "estimate, structural, pilot or measure"},
          {"choose --rigor pilot --rays 10 --samples 10 --disc-radius 0.1 --scene-side 1", "needs rays"},
          {uniform + "--technique", "--technique"}});
   }
