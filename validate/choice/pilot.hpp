@@ -26,7 +26,9 @@ struct Piloted {
   Counts<double> counts = {};  ///< expected
   CostBreakdown time = {};     ///< expected, seconds
   int threads = 1;             ///< for which the time is expected
-  double error = 0;            ///< standard error of the time because of sampling, seconds; 0 for brute force
+  /// Seconds. Standard error of the time because of sampling; 0 for brute force. Of a closed form, the time itself.
+  double error = 0;
+  bool closed_form = false;  ///< its counts are those of the closed form, which may be off by a factor of two
   /// The counts with the radius of the discs multiplied by `radius_ratio`, and with another number of rays. Empty without
   /// PilotOptions::for_replans, and for candidates that the pilot did not count.
   std::function<Counts<double>(double radius_ratio, double rays)> counts_at = {};
@@ -77,7 +79,8 @@ struct PilotOptions {
 /// each disc sorted, placed and visited once, each ray loaded, each hit tested. (If rays reach few of the discs, a search
 /// may visit fewer.) A technique that this does not rule out
 /// is compared by its closed form, if the best takes more than 0.1 s, so that 2 ms do not matter; it is ruled out if it
-/// takes twice as long as the best.
+/// takes twice as long as the best, and chosen if it takes less than half as long: in real scenes, closed forms may be off
+/// by a factor of two.
 ///
 /// Throws std::invalid_argument if the problem cannot be piloted (PilotedDiscs::can_pilot), for an empty sample, for a
 /// number of rays out of 1 … 1e18, for costs of the plain engine and if box-tree is disabled; sim::Stopped on a stop request.

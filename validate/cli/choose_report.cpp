@@ -56,6 +56,8 @@ std::string why_not(const ChooseAnswer& answer, const Row& row) {
   }
   if (row.predicted == nullptr) return "not measured, and it has no closed form";
   const CostBreakdown& time = row.predicted->time;
+  if (time.total() < answer.ranking.front().time.total())
+    return "predicted faster, but by a closed form, which may be off by a factor of two";
   return fmt::format("predicted {:.3g}x slower, mostly {}", time.total() / answer.ranking.front().time.total(),
                      largest_part(time));
 }
@@ -162,7 +164,7 @@ std::vector<TextCell> comparison_cells(const ChooseAnswer& answer, const Row& ro
 std::vector<TextCell> pilot_cells(const ChooseAnswer& answer, const Row& row) {
   if (row.chosen) return {{}};
   const double ratio = row.predicted->time.total() / answer.ranking.front().time.total();
-  const std::string more = ratio < 2 ? fmt::format("+{:.2g} %", 100 * (ratio - 1)) : fmt::format("{:.3g} times", ratio);
+  const std::string more = ratio < 2 ? fmt::format("{:+.2g} %", 100 * (ratio - 1)) : fmt::format("{:.3g} times", ratio);
   return {{fmt::format("{}, {}", could_win(answer, row) ? "yes" : "no", more)}};
 }
 
@@ -254,6 +256,9 @@ std::string margin(const ChooseAnswer& answer) {
   const auto next = next_technique(answer);
   if (!next) return predicted + ", no other technique";
   const double times = next->second / seconds;
+  if (times < 1)
+    return fmt::format("{}; {} may be faster, its closed form predicts {:.3g} s", predicted, name(next->first),
+                       next->second);
   return answer.pilot ? fmt::format("{}, at least {:.2f} times faster than any other technique{}", predicted, times,
                                     answer.pilot->unexamined.empty() ? "" : " that was examined")
                       : fmt::format("{}, {:.2f} times faster than {}", predicted, times, name(next->first));

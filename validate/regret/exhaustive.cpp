@@ -18,12 +18,14 @@ namespace {
 
 constexpr double least_patience = 0.005;  ///< seconds
 constexpr double short_run = 0.02;        ///< seconds; the first time of shorter runs is the shortest of three
-constexpr double enough_timed = 0.01;     ///< seconds of the fastest; more rounds of a half are not needed
+constexpr double enough_timed = 0.04;     ///< seconds of the fastest; more rounds of a half are not needed
 constexpr int most_rounds = 60;           ///< of a half, unless more repeats are asked for
 constexpr int most_rounds_of_neighbours = 6;
 /// A candidate takes part in the selection if its first time is at most this many times the fastest. First runs do not
 /// take turns, so the machine's speed may have changed between two of them.
 constexpr double may_be_fastest = 3;
+/// A judged candidate is timed in every round, unless it takes more than this many times as long as the fastest.
+constexpr double hopelessly_behind = 3;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 // Expected shares of the time, for progress only.
 constexpr double share_of_first_runs = 0.5;
@@ -60,7 +62,7 @@ class Search {
     std::vector<Timed*> entries;
     for (Timed& one : found_.candidates)
       if (!one.abandoned && one.first_seconds <= may_be_fastest * fastest_) entries.push_back(&one);
-    time_in_turns(entries, &Timed::selecting);
+    time_in_turns(entries, options_.behind, &Timed::selecting);
     found_.best = fastest_selected(found_.candidates);
   }
 
@@ -73,7 +75,7 @@ class Search {
     for (std::size_t i = 0; i < found_.candidates.size(); ++i)
       if (Timed& one = found_.candidates[i]; &one == &best || (i < asked_ && !one.abandoned)) entries.push_back(&one);
     entries.push_back(&twin);
-    time_in_turns(entries, &Timed::judging);
+    time_in_turns(entries, hopelessly_behind, &Timed::judging);
     if (!best.judging.empty() && !twin.judging.empty()) found_.noise = twin.judging_seconds() / best.judging_seconds();
   }
 
@@ -132,11 +134,11 @@ class Search {
     return outcome.seconds.total();
   }
 
-  void time_in_turns(const std::vector<Timed*>& entries, std::vector<double> Timed::*half) const {
+  void time_in_turns(const std::vector<Timed*>& entries, double behind, std::vector<double> Timed::*half) const {
     const double enough = std::min<double>(most_rounds, std::ceil(enough_timed / fastest_));
     const auto times = timed_rounds(entries.size(),
                                     {.rounds = std::max(options_.repeats, static_cast<int>(enough)),
-                                     .behind = options_.behind,
+                                     .behind = behind,
                                      .most_seconds = options_.most_seconds},
                                     [&](std::size_t i) { return time(*entries[i]); });
     for (std::size_t i = 0; i < entries.size(); ++i) entries[i]->*half = times[i];

@@ -42,7 +42,7 @@ struct ExhaustiveOptions {
   /// a first run is abandoned after this many times the shortest time so far, but at least 5 ms
   double patience = 4;
   double patience_if_asked = 10;  ///< the same for a candidate that was asked for
-  double behind = 1.5;            ///< as RoundLimits::behind
+  double behind = 1.5;            ///< as RoundLimits::behind, while the best is selected
   int threads = 1;
   std::stop_token stop = {};
   sim::ReportPhase progress = {};

@@ -10,7 +10,7 @@ namespace detp::validate {
 
 std::vector<std::vector<double>> timed_rounds(std::size_t contenders, const RoundLimits& limits,
                                               const std::function<std::optional<double>(std::size_t)>& time) {
-  constexpr int rounds_of_all = 2;
+  constexpr int rounds_of_all = 4;
   const sim::Stopwatch watch;
   std::vector<std::vector<double>> times(contenders);
   std::vector<double> least(contenders, std::numeric_limits<double>::infinity());

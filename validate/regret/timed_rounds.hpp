@@ -9,11 +9,11 @@ namespace detp::validate {
 
 struct RoundLimits {
   int rounds = 5;
-  double behind = 1.5;      ///< a contender that is slower by more than this factor is timed in two rounds only
+  double behind = 1.5;      ///< a contender that is slower by more than this factor is timed in four rounds only
   double most_seconds = 3;  ///< no further round begins after this time
 };
 
-/// The times of each contender, one for each round in which it took part. All contenders take part in the first two
+/// The times of each contender, one for each round in which it took part. All contenders take part in the first four
 /// rounds. Then those whose shortest time exceeds `behind` times the shortest of all, in these rounds, drop out. Times of
 /// other runs decide nothing: the speed of the machine may have changed since.
 ///

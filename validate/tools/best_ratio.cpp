@@ -120,11 +120,13 @@ int main(int argc, char** argv) {
       "scene,field,engine,rays,samples,disc_radius,chosen_ratio,chosen_spheres,best_ratio,best_spheres,"
       "best_seconds,chosen_over_best,noise,plateau_low,plateau_high\n");
   for (const Setting& setting : settings(argc > 1 ? argv[1] : "")) {
-    const validate::Job job = validate::make_job({.scene = setting.scene,
-                                                  .rays = setting.rays,
-                                                  .samples = setting.samples,
-                                                  .disc_radius = validate::Length{setting.radius, true},
-                                                  .field = setting.field});
+    validate::JobRequest request;
+    request.scene = setting.scene;
+    request.rays = setting.rays;
+    request.samples = setting.samples;
+    request.disc_radius = validate::Length{setting.radius, true};
+    request.field = setting.field;
+    const validate::Job job = validate::make_job(request);
     const sim::Problem problem = job.problem();
     for (const CostTable& table : costs) compare(setting, job, problem, table);
   }
