@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "detp/model/lines/line_measure.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
@@ -190,9 +191,13 @@ class Others {
   std::optional<Workload> workload_;
 };
 
-/// Sorts by time, but with the choice first: the candidate that is fastest even if closed forms are off.
-void sort_by_time(std::vector<Piloted>& candidates) {
-  const auto cautious = [](const Piloted& one) { return seconds(one) + (one.closed_form ? one.error : 0); };
+/// Sorts by time, but with the choice first: the candidate that is fastest even if closed forms and unit costs are off.
+/// A box tree needs `preparing` less than its time, because its discs are sorted already.
+void sort_by_time(std::vector<Piloted>& candidates, double preparing) {
+  const auto cautious = [&](const Piloted& one) {
+    const double prepared = one.candidate.technique == Technique::box_tree ? preparing : 0;
+    return seconds(one) - prepared + (one.closed_form ? one.error : 0);
+  };
   std::stable_sort(candidates.begin(), candidates.end(),
                    [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
   const auto choice = std::min_element(candidates.begin(), candidates.end(),
@@ -234,6 +239,22 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   const Prices prices{costs, sim::useful_threads(options.threads)};
   const auto discs = static_cast<double>(problem.discs().size());
   PilotChoice found;
+  const double preparing = prices({.placements = discs, .sorted = discs}, Technique::box_tree).time.total();
+  if (is_allowed(Technique::brute_force, options)) {
+    sim::Problem of_sample = problem;
+    sim::set_rays(of_sample, sample);  // checks them
+    const double hits = options.expected_hits ? *options.expected_hits
+                        : options.workload    ? model::expected_hits(*options.workload)
+                                              : 0;
+    const Piloted brute = brute_force(rays, discs, hits, prices);
+    if (seconds(brute) < preparing) {  // to sort the discs would take longer
+      found.candidates = {brute};
+      found.ruled_out = {{Technique::box_tree, preparing, true}};
+      Others(problem, rays, prices, found, options).compare();
+      found.pilot_seconds = watch.seconds();
+      return found;
+    }
+  }
   found.sampled_rays = sample.size();
   found.discs = std::make_shared<sim::PilotedDiscs>(
       problem, sim::stream::PilotRays{sample, rays, options.independent_sample, options.expected_hits},
@@ -242,7 +263,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   found.candidates = ShapeSearch(*found.discs, prices, options.for_replans).run();
   const auto add = [&](auto&& more) {
     more();
-    sort_by_time(found.candidates);
+    sort_by_time(found.candidates, preparing);
   };
   if (is_allowed(Technique::brute_force, options))
     add([&] { found.candidates.push_back(brute_force(rays, discs, found.choice().counts.hits, prices)); });

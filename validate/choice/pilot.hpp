@@ -48,7 +48,7 @@ struct PilotChoice {
   double sort_seconds = 0;            ///< for sorting the discs, which the run needs anyway
   double pilot_seconds = 0;           ///< for everything else
   std::size_t sampled_rays = 0;
-  std::shared_ptr<sim::PilotedDiscs> discs;  ///< kept for the run
+  std::shared_ptr<sim::PilotedDiscs> discs;  ///< kept for the run; null if there was no pilot
 
   [[nodiscard]] const Piloted& choice() const { return candidates.front(); }
 };
@@ -80,7 +80,8 @@ struct PilotOptions {
 /// may visit fewer.) A technique that this does not rule out
 /// is compared by its closed form, if the best takes more than 0.1 s, so that 2 ms do not matter; it is ruled out if it
 /// takes twice as long as the best, and chosen if it takes less than half as long: in real scenes, closed forms may be off
-/// by a factor of two.
+/// by a factor of two. Brute force is chosen if it takes less time than sorting and placing the discs alone; then there is no
+/// pilot. After the pilot, the discs are sorted, and it is chosen only if it is faster than the rest of the run.
 ///
 /// Throws std::invalid_argument if the problem cannot be piloted (PilotedDiscs::can_pilot), for an empty sample, for a
 /// number of rays out of 1 … 1e18, for costs of the plain engine and if box-tree is disabled; sim::Stopped on a stop request.

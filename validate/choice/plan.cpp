@@ -140,7 +140,7 @@ class Plan::Planner {
     });
     for (const Piloted& one : choice.candidates)
       basis_->candidates.push_back({one.candidate, one.time.total(), one.error, one.threads, one.counts_at});
-    basis_->order = choice.discs->order();
+    if (choice.discs) basis_->order = choice.discs->order();
     seconds_ += watch.seconds() - choice.sort_seconds;
     remember(Rigor::pilot, !choice.unexamined.empty());
     report("building the index", 0.6, 1);

@@ -57,7 +57,7 @@ std::string why_not(const ChooseAnswer& answer, const Row& row) {
   if (row.predicted == nullptr) return "not measured, and it has no closed form";
   const CostBreakdown& time = row.predicted->time;
   if (time.total() < answer.ranking.front().time.total())
-    return "predicted faster, but by a closed form, which may be off by a factor of two";
+    return "predicted faster, but within the error of closed forms or unit costs";
   return fmt::format("predicted {:.3g}x slower, mostly {}", time.total() / answer.ranking.front().time.total(),
                      largest_part(time));
 }
@@ -257,8 +257,7 @@ std::string margin(const ChooseAnswer& answer) {
   if (!next) return predicted + ", no other technique";
   const double times = next->second / seconds;
   if (times < 1)
-    return fmt::format("{}; {} may be faster, its closed form predicts {:.3g} s", predicted, name(next->first),
-                       next->second);
+    return fmt::format("{}; {} may be faster: predicted {:.3g} s", predicted, name(next->first), next->second);
   return answer.pilot ? fmt::format("{}, at least {:.2f} times faster than any other technique{}", predicted, times,
                                     answer.pilot->unexamined.empty() ? "" : " that was examined")
                       : fmt::format("{}, {:.2f} times faster than {}", predicted, times, name(next->first));
@@ -282,6 +281,7 @@ std::string how_chosen(const ChooseAnswer& answer) {
   const std::string run =
       answer.rigor == Rigor::measure ? fmt::format("{} candidates run; before that, ", answer.analysis->tried) : "";
   if (!answer.pilot) return run + "closed forms alone";
+  if (!answer.pilot->discs) return run + "no pilot, because sorting the discs would take longer than brute force";
   const std::string sample = answer.rigor == Rigor::structural
                                  ? fmt::format("{} {} of the field, not those of the run", answer.pilot->sampled_rays,
                                                answer.workload.path_length > 0 ? "segments" : "lines")

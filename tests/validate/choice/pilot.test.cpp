@@ -105,6 +105,8 @@ TEST_SUITE("known answer") {
     const auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
     CHECK(found.choice().candidate.technique == Technique::brute_force);
     CHECK(found.choice().counts.disc_tests == 1000);
+    CHECK(found.sampled_rays == 0);
+    CHECK(found.discs == nullptr);
   }
 
   TEST_CASE("few rays take one thread, many take all: with given costs, and never more than the cap") {
