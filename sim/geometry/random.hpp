@@ -10,7 +10,17 @@
 namespace detp::sim {
 
 /// The purpose of the numbers. Streams never overlap.
-enum class Stream : std::uint64_t { line_field = 1, samples, thinning, photons, scene, tests, pilot, evidence, structure };
+enum class Stream : std::uint64_t {
+  line_field = 1,
+  samples,
+  thinning,
+  photons,
+  scene,
+  tests,
+  pilot,
+  evidence,
+  structure
+};
 
 /// Four independent uniform numbers in [0, 1) with 53 bits.
 [[nodiscard]] std::array<double, 4> uniform4(std::uint64_t seed, Stream stream, std::uint64_t index,

@@ -26,7 +26,7 @@ class CacheFolder {
 
 }  // namespace
 
-TEST_SUITE("end to end") {
+TEST_SUITE("long") {
   TEST_CASE("calibrate saves the costs of this machine, and choose uses them") {
     const ScratchFolder folder;
     const CacheFolder cache(folder.path("cache"));

@@ -5,7 +5,7 @@
 
 namespace detp::support {
 
-TEST_SUITE("end to end") {
+TEST_SUITE("long") {
   TEST_CASE("the number of threads changes only the time") {
     for (const Technique technique : all_techniques) {
       CAPTURE(name(technique));
@@ -31,7 +31,9 @@ TEST_SUITE("end to end") {
       CHECK(without_times(one.json()) == without_times(two.json()));
     }
   }
+}
 
+TEST_SUITE("end to end") {
   TEST_CASE("the same seed gives the same bytes, and another seed gives other hits") {
     for (const std::string problem : {"run @cornell --rays 3000", "run @uniform --samples 2000 --rays 2000",
                                       "run --samples 2000 --rays 2000 --disc-radius 0.1 --scene-side 2"}) {
