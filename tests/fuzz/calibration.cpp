@@ -10,10 +10,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     const StoredCalibration stored =
         parse_calibration(std::string(detp::fuzz::text_of(data, size)), "calibration.json");
-    check(stored.costs);
+    check(stored.simd);
+    check(stored.plain);
     if (difference(stored.key, this_machine()).size() > 400) std::abort();
-    const std::string text =
-        calibration_text({.costs = stored.costs, .left_out_median_error = stored.left_out_median_error});
+    Calibration again{.left_out_median_error = stored.left_out_median_error};
+    again.simd.costs = stored.simd;
+    again.plain.costs = stored.plain;
+    const std::string text = calibration_text(again);
     if (!difference(parse_calibration(text, "calibration.json").key, this_machine()).empty()) std::abort();
   } catch (const detp::sim::FileError&) {
   }
