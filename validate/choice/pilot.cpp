@@ -209,13 +209,13 @@ void sort_by_time(std::vector<Piloted>& candidates, double preparing) {
 double work_of(double rays, double discs) { return discs + 4 * rays; }
 
 std::size_t subtrees_of(double rays, double discs) {
-  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 25'000, 4.0, 32.0));
+  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 50'000, 4.0, 32.0));
 }
 
 }  // namespace
 
 std::size_t pilot_size(double rays, double discs) {
-  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 1000, 64.0, 2048.0));
+  return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 600, 64.0, 2048.0));
 }
 
 std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t discs) {
