@@ -241,13 +241,13 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   PilotChoice found;
   const double preparing = prices({.placements = discs, .sorted = discs}, Technique::box_tree).time.total();
   if (is_allowed(Technique::brute_force, options)) {
-    sim::Problem of_sample = problem;
-    sim::set_rays(of_sample, sample);  // checks them
     const double hits = options.expected_hits ? *options.expected_hits
                         : options.workload    ? model::expected_hits(*options.workload)
                                               : 0;
     const Piloted brute = brute_force(rays, discs, hits, prices);
     if (seconds(brute) < preparing) {  // to sort the discs would take longer
+      sim::Problem of_sample = problem;
+      sim::set_rays(of_sample, sample);  // checks the sample, as a pilot does
       found.candidates = {brute};
       found.ruled_out = {{Technique::box_tree, preparing, true}};
       Others(problem, rays, prices, found, options).compare();

@@ -1,0 +1,140 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "box_tree_pilot.hpp"
+
+/// How many blocks of rays have a ray in each list of a box tree.
+namespace detp::sim::stream {
+
+/// Calls visit(child, parent) for all nodes that were culled, parents before their children.
+template <class Visit>
+void BoxTreePilot::for_each_culled_child(const Visit& visit) const {
+  const auto both = [&](std::uint32_t parent) {
+    visit(parent + 1, parent);
+    visit(nodes_[parent].right, parent);
+  };
+  for (std::uint32_t node = 0; node < coarse_; ++node)
+    if (nodes_[node].count > most_in_a_subtree) both(node);
+  for (const Subtree& subtree : subtrees_)
+    for (std::uint32_t node = subtree.first; node < subtree.last; ++node)
+      if (!nodes_[node].leaf()) both(node);
+}
+
+double BoxTreePilot::surface_share(std::uint32_t child, std::uint32_t parent) const {
+  return std::min(1.0F, area_[child] / area_[parent]);
+}
+
+/// How the rays of lists go on to the children: f and s (see set_blocks), for classes of lists by their number of sampled
+/// rays. A class with too few lists has those of the next class with more rays, or if there is none, with fewer.
+class BoxTreePilot::Spread {
+ public:
+  explicit Spread(const BoxTreePilot& pilot) : pilot_(pilot) {
+    pilot.for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
+      Class& one = class_of(parent);
+      one.children += 1;
+      one.reached += pilot.known_[child].rays;
+      one.by_surface += pilot.known_[parent].rays * pilot.surface_share(child, parent);
+    });
+    for (Class& one : classes_)
+      if (one.by_surface > 0) one.factor = one.reached / one.by_surface;
+    pilot.for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
+      const double rays = pilot.known_[parent].rays;
+      const double share = expected_share(child, parent);
+      const double variance = rays * share * (1 - share);
+      Class& one = class_of(parent);
+      one.squares += std::pow(pilot.known_[child].rays - rays * share, 2);
+      one.independent += variance;
+      one.pairs += (rays - 1) * variance;
+    });
+    const Class* known = nullptr;
+    for (Class& one : classes_)
+      if (one.is_known()) known = &one;
+    for (std::size_t i = classes_.size(); known != nullptr && i-- > 0;) {
+      Class& one = classes_[i];
+      if (!one.is_known()) {
+        one = *known;
+        continue;
+      }
+      known = &one;
+      one.strength = 1 / std::clamp((one.squares - one.independent) / one.pairs, 0.001, 0.8) - 1;
+    }
+  }
+
+  /// f q
+  [[nodiscard]] double expected_share(std::uint32_t child, std::uint32_t parent) const {
+    return std::min(1.0, class_of(parent).factor * pilot_.surface_share(child, parent));
+  }
+  /// s
+  [[nodiscard]] double strength(std::uint32_t parent) const { return class_of(parent).strength; }
+
+ private:
+  struct Class {
+    double factor = 1;
+    double strength = 1;
+    double children = 0;
+    double reached = 0;
+    double by_surface = 0;
+    double squares = 0;      ///< of the deviations from the expected numbers of rays
+    double independent = 0;  ///< their expectation if the rays were independent
+    double pairs = 0;        ///< of rays of a list, times the variance for one ray
+    [[nodiscard]] bool is_known() const { return children >= 40 && pairs > 0; }
+  };
+
+  static std::size_t place_of(float rays) {
+    constexpr std::array<float, 4> bounds{8, 32, 128, 512};
+    return static_cast<std::size_t>(std::upper_bound(bounds.begin(), bounds.end(), rays) - bounds.begin());
+  }
+  [[nodiscard]] const Class& class_of(std::uint32_t parent) const {
+    return classes_[place_of(pilot_.known_[parent].rays)];
+  }
+  [[nodiscard]] Class& class_of(std::uint32_t parent) { return classes_[place_of(pilot_.known_[parent].rays)]; }
+
+  const BoxTreePilot& pilot_;
+  std::array<Class, 5> classes_;
+};
+
+/// Sets the share of all rays in each list, and the expected number of blocks that have a ray there.
+///
+/// Of a parent's n rays, c reach a child: a beta-binomial variable. Its mean is f n q, where q is the child's surface
+/// relative to the parent's and f makes the sums of both sides equal. Its variance exceeds that of independent rays by
+/// 1 + (n - 1)/(s + 1). So s is large if rays are spread evenly, and small if they are bundled. Then the expected share
+/// of the parent's rays, given c, is (c + s f q)/(n + s). Light is more even within a small box than in the whole scene,
+/// so f and s are those of parents with about the same number of rays.
+void BoxTreePilot::set_blocks() {
+  const Spread spread(*this);
+  std::vector<float> shape(nodes_.size());  // of the gamma distribution of a node's share
+  const auto pass_on_to_refined = [&](std::uint32_t node) {
+    const std::uint32_t refined = known_[node].refined;
+    if (refined == 0) return;
+    known_[refined].blocks = known_[node].blocks;
+    share_[refined] = share_[node];
+    shape[refined] = shape[node];
+  };
+  shape[0] = known_[0].rays;
+  pass_on_to_refined(0);
+  for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
+    const double strength = spread.strength(parent);
+    const double prior = strength * spread.expected_share(child, parent);
+    const double rays = known_[child].rays;
+    share_[child] = share_[parent] * (rays + prior) / (known_[parent].rays + strength);
+    shape[child] = static_cast<float>(rays > 0 ? rays + prior : 1 / (1 / prior + 1 / (shape[parent] + 1e-3)));
+    known_[child].blocks = static_cast<float>(blocks_with_a_ray(child, shape[child]));
+    pass_on_to_refined(child);
+  });
+}
+
+double BoxTreePilot::blocks_with_a_ray(std::uint32_t node, double shape) const {
+  constexpr double many = 16;           // sampled rays; then every block has some
+  constexpr double least_shape = 1e-6;  // practically no block has one
+  if (unseen_ == 0 || known_[node].rays > many) return known_[node].rays > 0 ? blocks_.count() : 0;
+  // The rays of a block in the list are a Poisson variable, whose mean is a gamma variable of that shape.
+  const auto any = [&](double rays) {
+    const auto power = static_cast<float>(std::max(shape, least_shape));
+    return 1 - std::exp(-power * std::log(1 + static_cast<float>(rays * share_[node]) / power));
+  };
+  return blocks_.whole * any(blocks_.size) + (blocks_.last > 0 ? any(blocks_.last) : 0);
+}
+
+}  // namespace detp::sim::stream
