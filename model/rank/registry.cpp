@@ -214,6 +214,7 @@ std::optional<FoundParameters> best_box_tree(const Valid<Workload>& workload, co
   else
     search_leaves(workload, limits.fastest == HUGE_VAL, consider);
   best_counts.loaded = workload.rays;
+  if (workload.path_length > 0) best_counts.segments = workload.rays;
   return FoundParameters{*fastest.best(), best_counts};
 }
 

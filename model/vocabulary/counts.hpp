@@ -11,6 +11,7 @@ namespace detp {
 template <class T>
 struct Counts {
   T loaded{};      ///< rays brought into a search
+  T segments{};    ///< the same rays, if some of them end: then each test also compares with the ray's ends
   T cull_tests{};  ///< ray-sphere and ray-box tests of rays in lists
   T culls{};       ///< lists made: for each block of rays, one for each sphere or box
   T listed{};      ///< rays added to these lists
@@ -38,7 +39,8 @@ struct CountTerm {
 
 /// All terms, in the order in which results list them.
 template <class T>
-inline constexpr std::array<CountTerm<T>, 14> count_terms{{{"loaded", &Counts<T>::loaded},
+inline constexpr std::array<CountTerm<T>, 15> count_terms{{{"loaded", &Counts<T>::loaded},
+                                                           {"segments", &Counts<T>::segments},
                                                            {"cull_tests", &Counts<T>::cull_tests},
                                                            {"culls", &Counts<T>::culls},
                                                            {"listed", &Counts<T>::listed},

@@ -29,6 +29,7 @@ struct UnitCosts {
   double visit = 0;       ///< l: fixed cost of one disc's visit to a list, not including its tests
   double hit = 0;         ///< h: recording one hit
   double ray = 0;         ///< i: bringing one ray into a search
+  double ends = 0;        ///< e: what the ends of rays add to a test against a sphere, a box or a disc
   double far = 0;         ///< m: handling one disc, for each doubling of their number above near_discs
   double start = 0;       ///< a: fixed cost of a run
 
@@ -71,6 +72,12 @@ inline constexpr double near_discs = 1e4;
   return discs > near_discs ? discs * std::log2(discs / near_discs) : 0;
 }
 
+/// Tests of rays that are searched as segments. Measured on box trees and sphere caches, the ends add about the same to a
+/// test against a sphere, a box and a disc.
+[[nodiscard]] inline double tests_of_ends(const Counts<double>& counts) {
+  return counts.loaded > 0 ? counts.segments / counts.loaded * tests(counts) : 0;
+}
+
 /// One count, for UnitCostTerm::quantity.
 template <auto count>
 [[nodiscard]] constexpr double quantity_of(const Counts<double>& counts) {
@@ -106,6 +113,8 @@ inline constexpr std::array unit_cost_terms{
                  "recording a hit"},
     UnitCostTerm{"i", &UnitCosts::ray, quantity_of<&Counts<double>::loaded>, CostEngine::both, &CostBreakdown::start,
                  "bringing a ray into a search"},
+    UnitCostTerm{"e", &UnitCosts::ends, tests_of_ends, CostEngine::both, &CostBreakdown::intersect,
+                 "the ends of a ray in a test, if some rays end"},
     UnitCostTerm{"m", &UnitCosts::far, far_discs, CostEngine::both, &CostBreakdown::build,
                  "handling a disc, for each doubling of the number of discs above 10 000"},
     UnitCostTerm{"a", &UnitCosts::start, [](const Counts<double>&) { return 1.0; }, CostEngine::both,

@@ -62,7 +62,10 @@ void search(const Index& index, const Problem& problem, const RunOptions& option
     StopCheck(options.stop, "beginning").now();
     options.standard_error ? search_with_error(index, problem, options, outcome)
                            : index.search(problem, options, outcome);
-    if (options.count) outcome.counts.loaded = problem.rays().size();
+    if (options.count) {
+      outcome.counts.loaded = problem.rays().size();
+      if (problem.segments()) outcome.counts.segments = outcome.counts.loaded;
+    }
   } catch (const Stopped&) {  // stopped before the search
     const double bytes = outcome.bytes;
     outcome = unsearched_outcome(problem, options);

@@ -9,6 +9,8 @@
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/geometry/lebesgue.hpp"
+#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -19,8 +21,9 @@ namespace detp::validate {
 namespace {
 
 constexpr double side = 1;
-constexpr double longest_run = 0.06;   ///< seconds; a longer run is stopped and left out
-constexpr double enough_timed = 0.01;  ///< seconds after which a run is not repeated again
+constexpr double longest_run = 0.06;    ///< seconds; a longer run is stopped and left out
+constexpr double enough_timed = 0.015;  ///< seconds after which a run is not repeated again
+constexpr int least_repeats = 2;
 constexpr int most_repeats = 7;
 constexpr double busy_share = 0.9;  ///< below this processor share, processor time counts
 
@@ -57,6 +60,32 @@ std::vector<Setting> settings() {
   }
   first.insert(first.end(), mixed.begin(), mixed.end());
   return first;
+}
+
+/// On every second pair of workloads, the discs follow each other along a curve, as the vertices of many meshes nearly do;
+/// on the others, in random order.
+std::vector<sim::Disc> discs_of(const Setting& setting, std::size_t place) {
+  std::vector<sim::Disc> discs = sim::uniform_discs(setting.body, side, setting.samples, setting.radius, place + 1);
+  if (place / 2 % 2 == 0) return discs;
+  sim::Box box;
+  for (const sim::Disc& disc : discs) box.include(disc.centre);
+  std::sort(discs.begin(), discs.end(), [&](const sim::Disc& a, const sim::Disc& b) {
+    return sim::lebesgue_code(a.centre, box) < sim::lebesgue_code(b.centre, box);
+  });
+  return discs;
+}
+
+/// Isotropic lines; on every second four workloads pieces of them, from 0.1 to 0.5 of the side long.
+std::vector<sim::Ray> rays_of(const Setting& setting, const std::vector<sim::Disc>& discs, std::size_t place) {
+  const sim::Sphere enclosing = sim::enclosing_sphere(discs);
+  std::vector<sim::Ray> rays = sim::LineField(enclosing, place + 1).lines(0, setting.rays);
+  if (place / 4 % 2 == 0) return rays;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const auto random = sim::uniform4(place + 1, sim::Stream::structure, i);
+    rays[i].origin += (2 * random[0] - 1) * enclosing.radius * rays[i].direction;
+    rays[i].length = (0.1 + 0.4 * random[1]) * side;
+  }
+  return rays;
 }
 
 /// Parameters from too coarse to too fine; `place` varies them from setting to setting.
@@ -138,6 +167,16 @@ class Calibrator {
     }
   };
 
+  /// A candidate that is timed, in turn with the others of its workload.
+  struct Timed {
+    Candidate candidate;
+    Engine engine;
+    Counts<double> counts;
+    std::vector<int> numbers = {1};  ///< of threads
+    std::vector<Shortest> shortest = {};
+    double timed = 0;  ///< seconds, on one thread
+  };
+
   [[nodiscard]] bool is_over(std::size_t place) const {
     return options_.stop.stop_requested() || (place >= least_workloads && watch_.seconds() >= options_.seconds);
   }
@@ -153,14 +192,19 @@ class Calibrator {
   }
 
   void measure(const Setting& setting, std::size_t place) {
-    const auto discs = sim::uniform_discs(setting.body, side, setting.samples, setting.radius, place + 1);
-    const auto lines = sim::LineField(sim::enclosing_sphere(discs), place + 1).lines(0, setting.rays);
-    const sim::Problem problem = sim::make_problem(lines, discs);
+    const auto discs = discs_of(setting, place);
+    const auto rays = rays_of(setting, discs, place);
+    const sim::Problem problem = sim::make_problem(rays, discs);
+    std::vector<Timed> all;
     for (const Candidate& candidate : candidates(setting, place))
       for (const Engine engine : {Engine::simd, Engine::plain})
         if ((engine == Engine::simd || record_of(candidate.technique).simd) && !is_over(place) &&
             !is_hopeless(setting, candidate.technique, engine))
-          time(problem, setting, candidate, engine, place);
+          count(problem, setting, candidate, engine, place, all);
+    for (int repeat = 0; repeat < most_repeats && !is_over(place); ++repeat)
+      for (Timed& one : all)
+        if (repeat < least_repeats || one.timed < enough_timed) time(problem, one);
+    for (const Timed& one : all) store(one, place);
   }
 
   /// Whether two threads would be busy.
@@ -177,39 +221,46 @@ class Calibrator {
     });
   }
 
-  void time(const sim::Problem& problem, const Setting& setting, const Candidate& candidate, Engine engine,
-            std::size_t place) {
+  /// Counts the candidate's operations. Adds it to those that will be timed, unless it takes too long.
+  void count(const sim::Problem& problem, const Setting& setting, const Candidate& candidate, Engine engine,
+             std::size_t place, std::vector<Timed>& all) {
     const StopAfter limit(options_.stop, longest_run);
     const sim::Outcome counted = sim::run(problem, candidate, {.engine = engine, .stop = limit.token()});
     if (counted.stopped) too_long_.push_back({candidate.technique, engine, setting});
     if (counted.stopped || counted.seconds.total() > longest_run) return;
-    const Counts<double> counts = as_expected(counted.counts);
-    const bool divided = place % 2 == 0 && is_divided(counts, candidate.technique, engine);
-    const std::vector<int> numbers = divided ? numbers_ : std::vector<int>{1};
-    std::vector<Shortest> shortest(numbers.size());
-    double timed = 0;
-    for (int repeat = 0; repeat < most_repeats && timed < enough_timed; ++repeat)
-      for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const sim::ProcessorStopwatch processor;
-        const sim::Outcome outcome = sim::run(
-            problem, candidate, {.count = false, .engine = engine, .stop = options_.stop, .threads = numbers[i]});
-        if (outcome.stopped) return;
-        const double used = processor.seconds();
-        shortest[i].add(outcome, used);
-        if (i > 0) continue;
-        const double seconds = outcome.seconds.total();
-        timed += seconds;
-        wall_seconds_ += seconds;
-        processor_seconds_ += std::min(used, seconds);
-      }
-    const Shortest& one = shortest.front();
+    Timed one{candidate, engine, as_expected(counted.counts)};
+    if (place % 2 == 0 && is_divided(one.counts, candidate.technique, engine)) one.numbers = numbers_;
+    one.shortest.resize(one.numbers.size());
+    all.push_back(std::move(one));
+  }
+
+  /// Times the candidate once on each number of threads.
+  void time(const sim::Problem& problem, Timed& one) {
+    for (std::size_t i = 0; i < one.numbers.size(); ++i) {
+      const sim::ProcessorStopwatch processor;
+      const sim::Outcome outcome =
+          sim::run(problem, one.candidate,
+                   {.count = false, .engine = one.engine, .stop = options_.stop, .threads = one.numbers[i]});
+      if (outcome.stopped) return;
+      const double used = processor.seconds();
+      one.shortest[i].add(outcome, used);
+      if (i > 0) continue;
+      const double seconds = outcome.seconds.total();
+      one.timed += seconds;
+      wall_seconds_ += seconds;
+      processor_seconds_ += std::min(used, seconds);
+    }
+  }
+
+  void store(const Timed& timed, std::size_t place) {
+    const Shortest& one = timed.shortest.front();
     if (!(one.seconds > 0 && one.processor_seconds > 0)) return;
-    Runs& runs = runs_of(engine, candidate.technique);
-    runs.on_one_thread.push_back({{place, counts, one.seconds, one.preparing}, one.processor_seconds});
-    for (std::size_t i = 1; i < numbers.size(); ++i)
-      if (shortest[i].seconds > 0)
-        runs.on_more.push_back(
-            {place, counts, numbers[i], one.seconds, one.preparing, shortest[i].seconds, shortest[i].preparing});
+    Runs& runs = runs_of(timed.engine, timed.candidate.technique);
+    runs.on_one_thread.push_back({{place, timed.counts, one.seconds, one.preparing}, one.processor_seconds});
+    for (std::size_t i = 1; i < timed.numbers.size(); ++i)
+      if (timed.shortest[i].seconds > 0)
+        runs.on_more.push_back({place, timed.counts, timed.numbers[i], one.seconds, one.preparing,
+                                timed.shortest[i].seconds, timed.shortest[i].preparing});
   }
 
   void fit_all() {

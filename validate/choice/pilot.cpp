@@ -94,22 +94,36 @@ class ShapeSearch {
   std::vector<Piloted> tried_;
 };
 
-Piloted brute_force(double rays, double discs, double hits, const Prices& prices) {
-  const auto counts_at = [=](double radius_ratio, double number) {
-    const double blocks = ray_blocks(number, discs, Engine::simd).count();
-    return Counts<double>{.loaded = number,
-                          .visits = blocks * discs,
-                          .disc_tests = number * discs,
-                          .hits = hits * number / rays * radius_ratio * radius_ratio};
+/// Of a search: how many rays, whether some of them end, how many discs.
+struct Size {
+  double rays;
+  bool segments;
+  double discs;
+};
+
+Piloted brute_force(const Size& size, double hits, const Prices& prices) {
+  const auto counts_at = [=](double radius_ratio, double rays) {
+    const double blocks = ray_blocks(rays, size.discs, Engine::simd).count();
+    return Counts<double>{.loaded = rays,
+                          .segments = size.segments ? rays : 0,
+                          .visits = blocks * size.discs,
+                          .disc_tests = rays * size.discs,
+                          .hits = hits * rays / size.rays * radius_ratio * radius_ratio};
   };
-  Piloted found = priced({Technique::brute_force, BruteForceParameters{}}, counts_at(1, rays), prices, 0);
+  Piloted found = priced({Technique::brute_force, BruteForceParameters{}}, counts_at(1, size.rays), prices, 0);
   found.counts_at = counts_at;
   return found;
 }
 
 /// The least counts with which any technique can find the hits, other than brute force.
-Counts<double> least_counts(double rays, double discs, double hits) {
-  return {.loaded = rays, .visits = discs, .disc_tests = hits, .placements = discs, .sorted = discs, .hits = hits};
+Counts<double> least_counts(const Size& size, double hits) {
+  return {.loaded = size.rays,
+          .segments = size.segments ? size.rays : 0,
+          .visits = size.discs,
+          .disc_tests = hits,
+          .placements = size.discs,
+          .sorted = size.discs,
+          .hits = hits};
 }
 
 /// Parameters near the best ones, without a search for them.
@@ -140,10 +154,10 @@ bool is_allowed(Technique technique, const PilotOptions& options) {
 /// Compares the other techniques with the best so far.
 class Others {
  public:
-  Others(const sim::Problem& problem, double rays, const Prices& prices, PilotChoice& found,
+  Others(const sim::Problem& problem, const Size& size, const Prices& prices, PilotChoice& found,
          const PilotOptions& options)
-      : problem_(problem), rays_(rays), prices_(prices), found_(found), options_(options) {
-    least_ = least_counts(rays, static_cast<double>(problem.discs().size()), found.choice().counts.hits);
+      : problem_(problem), size_(size), prices_(prices), found_(found), options_(options) {
+    least_ = least_counts(size, found.choice().counts.hits);
   }
 
   void compare() {
@@ -154,20 +168,25 @@ class Others {
   }
 
  private:
-  static constexpr double doubt = 2;            ///< by which a closed form may be off
-  static constexpr double worth_finding = 0.1;  ///< seconds; closed forms take some 2 ms
+  static constexpr double doubt = 2;  ///< by which a closed form may be off
 
   [[nodiscard]] double best() const { return seconds(found_.choice()); }
   [[nodiscard]] bool can_measure() const { return options_.workload || !problem_.rays().empty(); }
 
+  /// Whether closed forms, and the measurements that they need, take less than some 2 % of the best.
+  [[nodiscard]] bool worth_finding() const {
+    const double measuring = options_.workload ? 0 : 1.4e-7 * std::min(size_.discs, 131'072.0);  // seconds
+    return best() > 50 * (0.002 + measuring);
+  }
+
   void compare(Technique technique) {
     const double at_least = prices_(least_, technique).time.total();
     if (at_least >= best()) return found_.ruled_out.push_back({technique, at_least, true});
-    if (!model::has_closed_form(technique) || best() < worth_finding || !can_measure())
+    if (!model::has_closed_form(technique) || !can_measure() || !worth_finding())
       return found_.unexamined.push_back(technique);
     if (!workload_) {
       workload_ = options_.workload ? *options_.workload : measure(problem_, {}, options_.stop);
-      workload_->rays = rays_;
+      workload_->rays = size_.rays;
     }
     const std::optional<Candidate> plain = plain_candidate(technique, *workload_);
     if (!plain) return found_.unexamined.push_back(technique);
@@ -183,7 +202,7 @@ class Others {
   }
 
   const sim::Problem& problem_;
-  double rays_;
+  Size size_;
   const Prices& prices_;
   PilotChoice& found_;
   const PilotOptions& options_;
@@ -237,20 +256,21 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   if (costs.engine != Engine::simd) throw std::invalid_argument("a pilot counts for the simd engine, not for plain");
   const sim::Stopwatch watch;
   const Prices prices{costs, sim::useful_threads(options.threads)};
-  const auto discs = static_cast<double>(problem.discs().size());
+  const Size size{rays, std::any_of(sample.begin(), sample.end(), [](const sim::Ray& ray) { return !ray.is_line(); }),
+                  static_cast<double>(problem.discs().size())};
   PilotChoice found;
-  const double preparing = prices({.placements = discs, .sorted = discs}, Technique::box_tree).time.total();
+  const double preparing = prices({.placements = size.discs, .sorted = size.discs}, Technique::box_tree).time.total();
   if (is_allowed(Technique::brute_force, options)) {
     const double hits = options.expected_hits ? *options.expected_hits
                         : options.workload    ? model::expected_hits(*options.workload)
                                               : 0;
-    const Piloted brute = brute_force(rays, discs, hits, prices);
+    const Piloted brute = brute_force(size, hits, prices);
     if (seconds(brute) < preparing) {  // to sort the discs would take longer
       sim::Problem of_sample = problem;
       sim::set_rays(of_sample, sample);  // checks the sample, as a pilot does
       found.candidates = {brute};
       found.ruled_out = {{Technique::box_tree, preparing, true}};
-      Others(problem, rays, prices, found, options).compare();
+      Others(problem, size, prices, found, options).compare();
       found.pilot_seconds = watch.seconds();
       return found;
     }
@@ -258,7 +278,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   found.sampled_rays = sample.size();
   found.discs = std::make_shared<sim::PilotedDiscs>(
       problem, sim::stream::PilotRays{sample, rays, options.independent_sample, options.expected_hits},
-      subtrees_of(rays, discs), sim::RunOptions{.stop = options.stop, .threads = options.threads});
+      subtrees_of(rays, size.discs), sim::RunOptions{.stop = options.stop, .threads = options.threads});
   found.sort_seconds = found.discs->sort_seconds();
   found.candidates = ShapeSearch(*found.discs, prices, options.for_replans).run();
   const auto add = [&](auto&& more) {
@@ -266,8 +286,8 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
     sort_by_time(found.candidates, preparing);
   };
   if (is_allowed(Technique::brute_force, options))
-    add([&] { found.candidates.push_back(brute_force(rays, discs, found.choice().counts.hits, prices)); });
-  add([&] { Others(problem, rays, prices, found, options).compare(); });
+    add([&] { found.candidates.push_back(brute_force(size, found.choice().counts.hits, prices)); });
+  add([&] { Others(problem, size, prices, found, options).compare(); });
   found.pilot_seconds = watch.seconds() - found.sort_seconds;
   return found;
 }

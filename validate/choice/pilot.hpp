@@ -78,7 +78,7 @@ struct PilotOptions {
 /// technique is ruled out if a search with the least counts that are possible takes longer than the best box tree:
 /// each disc sorted, placed and visited once, each ray loaded, each hit tested. (If rays reach few of the discs, a search
 /// may visit fewer.) A technique that this does not rule out
-/// is compared by its closed form, if the best takes more than 0.1 s, so that 2 ms do not matter; it is ruled out if it
+/// is compared by its closed form, if the closed forms and the evidence that they need take less than 2 % of the best; it is ruled out if it
 /// takes twice as long as the best, and chosen if it takes less than half as long: in real scenes, closed forms may be off
 /// by a factor of two. Brute force is chosen if it takes less time than sorting and placing the discs alone; then there is no
 /// pilot. After the pilot, the discs are sorted, and it is chosen only if it is faster than the rest of the run.

@@ -96,7 +96,8 @@ Estimate observed(const Counted& counted, const CountTerm<double>& term, double 
 
 /// True if the count is a claim: it is `hits`, or has a unit cost > 0 for this technique.
 bool is_claimed(const CountTerm<double>& term, Technique technique) {
-  if (term.name == "loaded" || term.name == "sorted") return false;  // the numbers of rays and discs, which are inputs
+  if (term.name == "loaded" || term.name == "segments" || term.name == "sorted")
+    return false;  // the numbers of rays and discs, which are inputs
   Counts<double> one;
   one.*term.term = 1;
   return term.name == "hits" ||

@@ -150,6 +150,7 @@ std::string repeats_text(const Timing& timing) {
 std::string_view meaning(std::string_view term) {
   static const std::map<std::string_view, std::string_view> meanings{
       {"loaded", "rays brought into the search"},
+      {"segments", "of these, rays in a search in which some rays end"},
       {"cull_tests", "tests of a ray in a list against a sphere or box"},
       {"culls", "lists made, one for each sphere or box"},
       {"listed", "rays put into these lists"},

@@ -98,6 +98,7 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
   for (const BinaryNode& node : nodes_) area_.push_back(node.box.area());
   known_.resize(nodes_.size());
   share_.resize(nodes_.size());
+  segments_ = traits.segments;
   cull_top(block, lists, worker);
   StopCheck(stop, "culling the pilot's rays").now();
   draw_subtrees(subtrees);

@@ -95,9 +95,10 @@ class BoxTreePilot {
   void set_radius();
 
   const SortedDiscs& discs_;
-  double rays_;     ///< number of all rays
-  double sampled_;  ///< number of rays in the sample
-  double unseen_;   ///< share of the rays that the sample does not show
+  double rays_;            ///< number of all rays
+  double sampled_;         ///< number of rays in the sample
+  bool segments_ = false;  ///< some sampled rays end
+  double unseen_;          ///< share of the rays that the sample does not show
   RayBlocks blocks_;
   std::vector<BinaryNode> nodes_;  ///< the coarse tree, then the refined subtrees
   std::uint32_t coarse_ = 0;       ///< number of nodes of the coarse tree

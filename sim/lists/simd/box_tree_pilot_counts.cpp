@@ -34,6 +34,7 @@ class BoxTreePilot::Evaluation {
     }
     counts_.visits = std::min(counts_.visits, discs * pilot_.blocks_.count());
     counts_.loaded = pilot_.rays_;
+    if (pilot_.segments_) counts_.segments = pilot_.rays_;
     counts_.hits = pilot_.hits_;
     counts_.doubtful = scale * pilot_.doubtful_;
     counts_.sorted = counts_.placements = counts_.references = discs;

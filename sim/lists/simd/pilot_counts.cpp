@@ -46,6 +46,7 @@ Counts<double> PilotCounts::at(double radius_ratio, double rays) const {
   const double discs = counts.placements;
   Counts<double> changed = counts;
   changed.loaded = rays;
+  changed.segments = more * counts.segments;
   changed.cull_tests = more * (counts.cull_tests + cull_tests.at(radius_ratio));
   changed.listed = more * (counts.listed + listed.at(radius_ratio));
   changed.disc_tests = more * (counts.disc_tests + disc_tests.at(radius_ratio));

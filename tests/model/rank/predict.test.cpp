@@ -11,6 +11,7 @@
 #include "detp/model/hierarchy/cell_spheres.hpp"
 #include "detp/model/hierarchy/sphere_tree.hpp"
 #include "detp/model/lines/line_measure.hpp"
+#include "detp/model/rank/choose.hpp"
 #include "detp/model/sphere_cache/sphere_cache.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "support/not_a_length.hpp"
@@ -66,6 +67,15 @@ TEST_SUITE("known answer") {
     CHECK(counts.disc_tests == 1e11);
     CHECK(counts.hits == expected_hits(typical));
     CHECK(counts == Counts<double>{.loaded = typical.rays, .visits = 1e5, .disc_tests = 1e11, .hits = counts.hits});
+  }
+
+  TEST_CASE("rays with a mean path length are segments, others are not; so are those of the best candidate") {
+    Workload w = typical;
+    w.path_length = 0.1;
+    CHECK(predict(w, candidates[0], Engine::plain).segments == typical.rays);
+    CHECK(predict(typical, candidates[0], Engine::plain).segments == 0);
+    for (const Ranked& one : rank(w, CostTable(UnitCosts{}))) CHECK(one.counts.segments == typical.rays);
+    for (const Ranked& one : rank(typical, CostTable(UnitCosts{}))) CHECK(one.counts.segments == 0);
   }
 
   TEST_CASE("each technique is predicted by its own formulas, plus the rays") {

@@ -33,10 +33,10 @@ TEST_SUITE("identity") {
       names.insert(name);
       values.push_back(term);
     });
-    CHECK(names.size() == 14);
-    CHECK(values.size() == 14);
-    CHECK(sizeof(Counts<double>) == 14 * sizeof(double));
-    CHECK(values.back() == 8192);
+    CHECK(names.size() == 15);
+    CHECK(values.size() == 15);
+    CHECK(sizeof(Counts<double>) == 15 * sizeof(double));
+    CHECK(values.back() == 16384);
   }
 
   TEST_CASE("an observation converts to the same numbers") {

@@ -80,6 +80,19 @@ TEST_SUITE("known answer") {
       CHECK_FALSE(record_of(lists).ray_by_ray);
   }
 
+  TEST_CASE(
+      "the ends of rays are priced in each test against a sphere, a box or a disc, for the share of rays that end") {
+    constexpr UnitCosts of_ends{.cull_test = 0, .disc_test = 0, .step = 0, .node = 0, .ends = 3};
+    constexpr Counts<double> lines{.loaded = 8, .cull_tests = 10, .disc_tests = 20};
+    Counts<double> segments = lines;
+    segments.segments = 8;
+    CHECK(price(lines, of_ends).total() == 0);
+    CHECK(price(segments, of_ends).total() == 90);
+    segments.segments = 2;
+    CHECK(price(segments, of_ends).total() == 22.5);
+    CHECK(price({.segments = 0, .cull_tests = 10}, of_ends).total() == 0);
+  }
+
   TEST_CASE("without measured costs, tests, steps and visits cost one and everything else costs nothing") {
     CHECK(
         price({.cull_tests = 1, .culls = 5, .listed = 5, .disc_tests = 10, .steps = 100, .nodes = 1000}, {}).total() ==

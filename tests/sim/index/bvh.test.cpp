@@ -73,7 +73,8 @@ TEST_SUITE("known answer") {
                                 {.origin = {0, 0, 5}, .length = 4.99}};
     const Outcome outcome = run(make_problem(rays, discs), {Technique::bvh, BvhParameters{BuildQuality::medium}});
     CHECK(outcome.counts ==
-          Counts<std::uint64_t>{.loaded = 4, .disc_tests = 2, .references = 2, .placements = 2, .hits = 1});
+          Counts<std::uint64_t>{
+              .loaded = 4, .segments = 4, .disc_tests = 2, .references = 2, .placements = 2, .hits = 1});
   }
 
   TEST_CASE("isotropic lines: the number of tests follows from the areas of the boxes") {

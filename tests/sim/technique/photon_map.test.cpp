@@ -54,7 +54,7 @@ TEST_SUITE("known answer") {
     CHECK(outcome.hits[0] == 2);
     CHECK(outcome.total_hits == 2);
     CHECK(outcome.pairs == std::vector<Pair>{{3, 0}, {4, 0}});
-    CHECK(outcome.counts == Counts<std::uint64_t>{.loaded = 5, .references = 4, .hits = 2});
+    CHECK(outcome.counts == Counts<std::uint64_t>{.loaded = 5, .segments = 5, .references = 4, .hits = 2});
     CHECK(nearest(make_problem(rays, one_disc), 3, {.count = false}).counts == Counts<std::uint64_t>{.hits = 2});
   }
 

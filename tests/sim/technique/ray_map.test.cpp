@@ -26,7 +26,7 @@ Outcome search(std::size_t rays, int leaf) {
 TEST_SUITE("identity") {
   TEST_CASE("leaves of any size find the hits of brute force, each once") {
     const auto lines = LineField(enclosing_sphere(surface_discs()), 7).lines(0, 3000);
-    const Outcome expected = run(make_problem(lines, surface_discs()), {}, {.pairs = true});
+    const Outcome expected = run(make_problem(lines, surface_discs()), Candidate{}, {.pairs = true});
     REQUIRE(expected.total_hits > 100);
     for (const int leaf : {1, 16, 1000, 1 << 20}) {
       const Outcome found = search(3000, leaf);

@@ -212,6 +212,10 @@ TEST_SUITE("known answer") {
     const auto rays = LineField(enclosing_sphere(discs), 2).lines(0, 900);
     const Problem problem = make_problem(rays, discs);
     CHECK(run(problem, brute).counts.disc_tests == 700 * 900);
+    CHECK(run(problem, brute).counts.segments == 0);
+    auto one_ends = rays;
+    one_ends.back().length = 1;
+    CHECK(run(make_problem(one_ends, discs), brute).counts.segments == 900);
     const Outcome cache = run(problem, {Technique::sphere_cache, SphereCacheParameters{0.5, 4}});
     CHECK(cache.spheres.size() == 4);
     CHECK(cache.spheres[0].tests == 900 * cache.spheres[0].rebuilds);

@@ -111,7 +111,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("few rays take one thread, many take all: with given costs, and never more than the cap") {
     CostTable costs = validate::built_in_unit_costs();
-    costs.threads.fill({.serial_preparing = 0.5, .serial_search = 0.1, .start = 5e-5});
+    costs.threads.fill({.serial_preparing = 0.5, .serial_search = 0.1, .start = 1e-3});
     const Example example(5000, 0.02, 1000);
     const int cores = sim::useful_threads(0);
     const auto chosen = [&](double rays, int cap) {

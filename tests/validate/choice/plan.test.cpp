@@ -54,7 +54,7 @@ TEST_SUITE("known answer") {
     const auto discs = some_discs();
     const auto rays = some_rays(discs, 1, 300);
     CostTable costs = validate::built_in_unit_costs();
-    costs.threads.fill({.serial_preparing = 0.5, .serial_search = 0.1, .start = 5e-5});
+    costs.threads.fill({.serial_preparing = 0.5, .serial_search = 0.1, .start = 1e-3});
     const int cores = sim::useful_threads(0);
     CHECK(validate::plan(discs, rays, {.costs = costs, .rays = 10, .threads = 0}).threads() == 1);
     CHECK(validate::plan(discs, rays, {.costs = costs, .rays = 1e8, .threads = 0}).threads() == cores);

@@ -32,9 +32,10 @@ TEST_SUITE("end to end") {
     const std::string uniform = "choose @uniform --samples 2000 --rays 20000 --disc-radius 2%";
     const Json structural = result_of(uniform + " --rigor structural --analyze");
     CHECK(structural.at("rigor") == "structural");
-    CHECK(structural.at("choice").at("predicted_seconds_error") > 0);
     int compared = 0;
+    int with_error = 0;
     for (const Json& candidate : structural.at("candidates")) {
+      if (candidate.contains("predicted_seconds_error") && candidate.at("predicted_seconds_error") > 0) ++with_error;
       if (!candidate.contains("counted") || !candidate.contains("predicted")) continue;
       const auto tests = [](const Json& counts) {
         return counts.at("cull_tests").get<double>() + counts.at("disc_tests").get<double>();
@@ -43,6 +44,7 @@ TEST_SUITE("end to end") {
       ++compared;
     }
     CHECK(compared >= 5);
+    CHECK(with_error >= 1);
     const std::string paths = "choose @tree --samples 5000 --rays 1000 --disc-radius 1% --rigor structural";
     CHECK(result_of(paths).at("rigor") == "structural");
     CHECK(detp(paths).out.find("segments of the field, not those of the run") != std::string::npos);
@@ -159,7 +161,8 @@ TEST_SUITE("end to end") {
       last = parameters.at("leaf");
       const std::string tree = " --technique box-tree --fan-out " + parameters.at("fan_out").dump() + " --leaf ";
       const Json model = result_of("model " + workload + tree + parameters.at("leaf").dump());
-      for (const Json& candidate : result_of("choose " + workload + " --rigor estimate").at("candidates")) {
+      const Json chosen = result_of("choose " + workload + " --rigor estimate");
+      for (const Json& candidate : chosen.at("candidates")) {
         if (candidate.at("technique") != "box-tree") continue;
         CHECK(candidate.at("parameters") == parameters);
         CHECK(candidate.at("predicted") == model.at("counts"));
@@ -300,8 +303,8 @@ TEST_SUITE("end to end") {
 TEST_SUITE("bad input") {
   TEST_CASE("unit costs that make all candidates equal are refused by choose") {
     const std::string choose = "choose --samples 10 --disc-radius 0.1 --scene-side 1 --costs ";
-    check_refused({{choose + "u=0", "t, u, w, v, n, c, b, p, g, s, r, l, h, i, m, a cost 0"},
-                   {choose + "t=1e-9,u=1e-9", "w, v, n, c, b, p, g, s, r, l, h, i, m, a cost 0"},
+    check_refused({{choose + "u=0", "t, u, w, v, n, c, b, p, g, s, r, l, h, i, e, m, a cost 0"},
+                   {choose + "t=1e-9,u=1e-9", "w, v, n, c, b, p, g, s, r, l, h, i, e, m, a cost 0"},
                    {choose + "w=1,v=1,n=1", "brute-force takes no time"},
                    {choose + "t=1e308,u=1e308,w=1e308,v=1,n=1", "(t) must be from 0 to 1e+200"}});
   }
