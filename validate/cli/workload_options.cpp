@@ -196,15 +196,20 @@ Json numbers_json(const Workload& workload) {
   return json;
 }
 
-Json to_json(const validate::Job& job, const validate::JobRequest& request) {
-  Json json{{"scene", job.name}};
+Json origin_json(const validate::JobRequest& request, const std::string& scene, sim::Field field) {
+  Json json{{"scene", scene}};
   if (request.disc_file) json["discs"] = *request.disc_file;
   if (request.ray_file)
     json["ray_file"] = *request.ray_file;
   else
-    json["field"] = name(job.field);
-  json["front_facing"] = job.front_facing;
+    json["field"] = name(field);
+  json["front_facing"] = request.front_facing;
   json["seed"] = request.seed;
+  return json;
+}
+
+Json to_json(const validate::Job& job, const validate::JobRequest& request) {
+  Json json = origin_json(request, job.name, job.field);
   json.update(to_json(job.workload));
   return json;
 }

@@ -102,6 +102,9 @@ template <class T>
   return json;
 }
 
+/// The resolved inputs that say where discs and rays come from; file names as the user wrote them.
+[[nodiscard]] Json origin_json(const validate::JobRequest& request, const std::string& scene, sim::Field field);
+
 /// Resolved inputs of a job; file names as the user wrote them.
 [[nodiscard]] Json to_json(const validate::Job& job, const validate::JobRequest& request);
 
