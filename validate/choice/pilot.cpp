@@ -163,7 +163,8 @@ class Others {
   void compare(Technique technique) {
     const double at_least = prices_(least_, technique).time.total();
     if (at_least >= best()) return found_.ruled_out.push_back({technique, at_least, true});
-    if (!model::has_closed_form(technique) || best() < worth_finding || !can_measure())
+    const bool worth_while = options_.all_closed_forms || best() >= worth_finding;
+    if (!model::has_closed_form(technique) || !worth_while || !can_measure())
       return found_.unexamined.push_back(technique);
     if (!workload_) {
       workload_ = options_.workload ? *options_.workload : measure(problem_, {}, options_.stop);
@@ -278,6 +279,36 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>&
   const double sampling = watch.seconds();
   PilotChoice found = choose_by_pilot(problem, sample, static_cast<double>(problem.rays().size()), costs, options);
   found.pilot_seconds += sampling;
+  return found;
+}
+
+PilotChoice choose_again(const PilotChoice& pilot, const sim::Problem& problem, double radius_ratio, double rays,
+                         const Valid<CostTable>& costs, const PilotOptions& options) {
+  require_positive("ratio of the radii", radius_ratio);
+  require_count("number of rays", rays, 1, 1e18);
+  const Prices prices{costs, sim::useful_threads(options.threads)};
+  const auto discs = static_cast<double>(problem.discs().size());
+  const double preparing = prices({.placements = discs, .sorted = discs}, Technique::box_tree).time.total();
+  PilotChoice found;
+  for (const Piloted& one : pilot.candidates)
+    if (one.counts_at) found.candidates.push_back(priced(one.candidate, one.counts_at(radius_ratio, rays), prices, 0));
+  if (found.candidates.empty()) throw std::invalid_argument("a choice without a pilot needs counts of an earlier one");
+  const auto is_brute_force = [](const Piloted& one) { return one.candidate.technique == Technique::brute_force; };
+  const auto brute = std::find_if(found.candidates.begin(), found.candidates.end(), is_brute_force);
+  if (brute != found.candidates.end() && seconds(*brute) < preparing) {
+    found.candidates = {Piloted(*brute)};
+    found.ruled_out = {{Technique::box_tree, preparing, true}};
+  } else if (std::all_of(found.candidates.begin(), found.candidates.end(), is_brute_force)) {
+    found.unexamined = {Technique::box_tree};
+  }
+  sort_by_time(found.candidates, preparing);
+  PilotOptions of_others = options;
+  for (const Technique technique : pilot.unexamined) {
+    of_others.disabled.push_back(technique);
+    found.unexamined.push_back(technique);
+  }
+  Others(problem, rays, prices, found, of_others).compare();
+  sort_by_time(found.candidates, preparing);
   return found;
 }
 

@@ -4,6 +4,7 @@
 
 #include "choose_report.hpp"
 #include "choose_rows.hpp"
+#include "choose_tips.hpp"
 #include "extrapolated.hpp"
 #include "measured_report.hpp"
 #include "workload_options.hpp"
@@ -67,8 +68,7 @@ void add_left_out(Json& json, const validate::PilotChoice& pilot) {
   for (const validate::RuledOut& one : pilot.ruled_out)
     json["ruled_out"].push_back(
         {{"technique", name(one.technique)}, {one.by_bound ? "at_least_seconds" : "predicted_seconds", one.seconds}});
-  json["not_examined"] = Json::array();
-  for (const Technique technique : pilot.unexamined) json["not_examined"].push_back(name(technique));
+  json["not_examined"] = names_json(pilot.unexamined);
 }
 
 }  // namespace
@@ -96,6 +96,7 @@ Json to_json(const ChooseAnswer& answer) {
   if (answer.pilot) add_left_out(json, *answer.pilot);
   json["paper_rule"].update(extrapolated_json(answer.paper.extrapolated));
   for (const ChooseRow& row : rows) json["candidates"].push_back(candidate_json(answer, row));
+  add_tips(json, answer);
   if (answer.analysis) add_analysis(json, answer);
   return json;
 }

@@ -52,8 +52,7 @@ Json map_inputs(const ChooseMap& command, const validate::JobRequest& request, c
   json["engine"] = name(command.engine);
   json["analyze"] = command.analyze;
   json["rigor"] = command.rigor ? Json(name(*command.rigor)) : Json("auto");
-  json["disabled"] = Json::array();
-  for (const Technique technique : command.disabled) json["disabled"].push_back(name(technique));
+  json["disabled"] = names_json(command.disabled);
   json["unit_costs"] = to_json(costs);
   return json;
 }

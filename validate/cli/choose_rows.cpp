@@ -5,12 +5,6 @@
 #include <utility>
 
 namespace detp::cli {
-namespace {
-
-/// Candidates whose times differ by less than this cannot be told apart: the error of unit costs.
-constexpr double distinguishable = 0.15;
-
-}  // namespace
 
 int threads_of(const ChooseRow& row) { return row.run != nullptr ? row.run->threads : row.predicted->threads; }
 
@@ -35,7 +29,7 @@ std::optional<double> error_of(const ChooseAnswer& answer, const ChooseRow& row)
 }
 
 bool could_win(const ChooseAnswer& answer, const ChooseRow& row) {
-  return row.predicted->time.total() < (1 + distinguishable) * answer.ranking.front().time.total();
+  return row.predicted->time.total() < (1 + validate::distinguishable) * answer.ranking.front().time.total();
 }
 
 std::string largest_part(const CostBreakdown& time) {

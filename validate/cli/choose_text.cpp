@@ -5,6 +5,7 @@
 
 #include "choose_report.hpp"
 #include "choose_table.hpp"
+#include "choose_tips.hpp"
 #include "measured_report.hpp"
 #include "workload_options.hpp"
 
@@ -90,6 +91,7 @@ std::string to_text(const ChooseAnswer& answer, const Screen& screen) {
   if (answer.analysis) text += measured_lines(answer, screen);
   if (answer.pilot) add(ruled_out_line(*answer.pilot));
   if (answer.pilot && !answer.pilot->unexamined.empty()) add(not_examined_line(*answer.pilot));
+  add(tips_line(answer));
   add(fmt::format("paper     its rule takes {}: predicted {:.3g} s, {:.3g} times as long as the predicted choice",
                   title(answer.paper.candidate), answer.paper.time.total(), answer.paper.time.total() / fastest));
   const double share = answer.choosing_seconds / fastest;

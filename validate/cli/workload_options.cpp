@@ -152,12 +152,11 @@ void CandidateOptions::set(const Parameter& parameter, const std::string& text) 
   }
 }
 
-Technique CandidateOptions::technique_or(Technique otherwise) const {
-  if (!technique) return otherwise;
-  const auto found = technique_named(*technique);
+Technique parse_technique(const std::string& text) {
+  const auto found = technique_named(text);
   if (!found)
-    throw std::invalid_argument(fmt::format("there is no technique {}; there are {}{}", detp::quoted(*technique),
-                                            known_techniques(), did_you_mean(*technique, technique_names())));
+    throw std::invalid_argument(fmt::format("there is no technique {}; there are {}{}", detp::quoted(text),
+                                            known_techniques(), did_you_mean(text, technique_names())));
   return *found;
 }
 
@@ -173,6 +172,12 @@ model::FixedParameters CandidateOptions::fixed_parameters(Technique chosen) cons
   }
   if (stop) require_known(spheres_option);
   return fixed;
+}
+
+Json names_json(const std::vector<Technique>& techniques) {
+  Json names = Json::array();
+  for (const Technique technique : techniques) names.push_back(name(technique));
+  return names;
 }
 
 Json to_json(const Workload& workload) {
