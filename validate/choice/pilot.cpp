@@ -7,33 +7,15 @@
 #include <utility>
 
 #include "detp/model/lines/line_measure.hpp"
-#include "detp/model/rank/choose.hpp"
-#include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
-#include "detp/sim/technique/registry.hpp"
-#include "measure.hpp"
+#include "other_techniques.hpp"
 
 namespace detp::validate {
 namespace {
-
-/// The costs, and the most threads for which a choice is made.
-struct Prices {
-  const Valid<CostTable>& costs;
-  int most_threads;
-
-  [[nodiscard]] TimeOnThreads operator()(const Counts<double>& counts, Technique technique) const {
-    return fastest_price(counts, costs, technique, most_threads);
-  }
-};
-
-Piloted priced(const Candidate& candidate, const Counts<double>& counts, const Prices& prices, double relative_error) {
-  const auto [threads, time] = prices(counts, candidate.technique);
-  return {candidate, counts, time, threads, relative_error * (time.rebuild + time.copy + time.intersect)};
-}
 
 double seconds(const Piloted& one) { return one.time.total(); }
 
@@ -94,14 +76,7 @@ class ShapeSearch {
   std::vector<Piloted> tried_;
 };
 
-/// Of a search: how many rays, whether some of them end, how many discs.
-struct Size {
-  double rays;
-  bool segments;
-  double discs;
-};
-
-Piloted brute_force(const Size& size, double hits, const Prices& prices) {
+Piloted brute_force(const SearchSize& size, double hits, const Prices& prices) {
   const auto counts_at = [=](double radius_ratio, double rays) {
     const double blocks = ray_blocks(rays, size.discs, Engine::simd).count();
     return Counts<double>{.loaded = rays,
@@ -114,101 +89,6 @@ Piloted brute_force(const Size& size, double hits, const Prices& prices) {
   found.counts_at = counts_at;
   return found;
 }
-
-/// The least counts with which any technique can find the hits, other than brute force.
-Counts<double> least_counts(const Size& size, double hits) {
-  return {.loaded = size.rays,
-          .segments = size.segments ? size.rays : 0,
-          .visits = size.discs,
-          .disc_tests = hits,
-          .placements = size.discs,
-          .sorted = size.discs,
-          .hits = hits};
-}
-
-/// Parameters near the best ones, without a search for them.
-std::optional<Candidate> plain_candidate(Technique technique, const Workload& workload) {
-  const int levels = std::max(1, static_cast<int>(std::lround(std::log2(workload.samples) / 3)));
-  switch (technique) {
-    case Technique::sphere_cache: {
-      constexpr double ratio = 0.5;
-      if (workload.disc_radius >= workload.sphere_radius) return std::nullopt;
-      const auto most = model::sphere_count(Form::corrected, {ratio}, {workload.disc_radius}, {workload.sphere_radius});
-      return Candidate{technique, SphereCacheParameters{ratio, std::max<std::int64_t>(1, most - 1)}};
-    }
-    case Technique::cell_spheres:
-      return Candidate{technique, CellSpheresParameters{std::min(16, levels)}};
-    case Technique::octree:
-      return Candidate{technique, OctreeParameters{std::min(14, levels)}};
-    case Technique::grid:
-      return Candidate{technique, GridParameters{std::max(1, static_cast<int>(std::cbrt(workload.samples)))}};
-    default:
-      return default_candidate(technique);
-  }
-}
-
-bool is_allowed(Technique technique, const PilotOptions& options) {
-  return std::find(options.disabled.begin(), options.disabled.end(), technique) == options.disabled.end();
-}
-
-/// Compares the other techniques with the best so far.
-class Others {
- public:
-  Others(const sim::Problem& problem, const Size& size, const Prices& prices, PilotChoice& found,
-         const PilotOptions& options)
-      : problem_(problem), size_(size), prices_(prices), found_(found), options_(options) {
-    least_ = least_counts(size, found.choice().counts.hits);
-  }
-
-  void compare() {
-    for (const TechniqueRecord& record : technique_records)
-      if (record.exact && record.technique != Technique::box_tree && record.technique != Technique::brute_force &&
-          is_allowed(record.technique, options_))
-        compare(record.technique);
-  }
-
- private:
-  static constexpr double doubt = 2;  ///< by which a closed form may be off
-
-  [[nodiscard]] double best() const { return seconds(found_.choice()); }
-  [[nodiscard]] bool can_measure() const { return options_.workload || !problem_.rays().empty(); }
-
-  /// Whether closed forms, and the measurements that they need, take less than some 2 % of the best.
-  [[nodiscard]] bool worth_finding() const {
-    const double measuring = options_.workload ? 0 : 1.4e-7 * std::min(size_.discs, 131'072.0);  // seconds
-    return best() > 50 * (0.002 + measuring);
-  }
-
-  void compare(Technique technique) {
-    const double at_least = prices_(least_, technique).time.total();
-    if (at_least >= best()) return found_.ruled_out.push_back({technique, at_least, true});
-    if (!model::has_closed_form(technique) || !can_measure() || !worth_finding())
-      return found_.unexamined.push_back(technique);
-    if (!workload_) {
-      workload_ = options_.workload ? *options_.workload : measure(problem_, {}, options_.stop);
-      workload_->rays = size_.rays;
-    }
-    const std::optional<Candidate> plain = plain_candidate(technique, *workload_);
-    if (!plain) return found_.unexamined.push_back(technique);
-    const double with_plain = model::assess(*workload_, *plain, prices_.costs, prices_.most_threads).time.total();
-    if (with_plain >= doubt * best()) return found_.ruled_out.push_back({technique, with_plain, false});
-    const auto tuned =
-        model::best_of(technique, *workload_, prices_.costs, {.threads = prices_.most_threads, .stop = options_.stop});
-    if (!tuned) return found_.unexamined.push_back(technique);
-    const double fastest = tuned->time.total();
-    if (fastest >= doubt * best()) return found_.ruled_out.push_back({technique, fastest, false});
-    found_.candidates.push_back(
-        {tuned->candidate, tuned->counts, tuned->time, tuned->threads, fastest * (doubt - 1), true});
-  }
-
-  const sim::Problem& problem_;
-  Size size_;
-  const Prices& prices_;
-  PilotChoice& found_;
-  const PilotOptions& options_;
-  Counts<double> least_;
-  std::optional<Workload> workload_;
-};
 
 /// Sorts by time, but with the choice first: the candidate that is fastest even if closed forms and unit costs are off.
 /// A box tree needs `preparing` less than its time, because its discs are sorted already.
@@ -256,8 +136,9 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   if (costs.engine != Engine::simd) throw std::invalid_argument("a pilot counts for the simd engine, not for plain");
   const sim::Stopwatch watch;
   const Prices prices{costs, sim::useful_threads(options.threads)};
-  const Size size{rays, std::any_of(sample.begin(), sample.end(), [](const sim::Ray& ray) { return !ray.is_line(); }),
-                  static_cast<double>(problem.discs().size())};
+  const SearchSize size{rays,
+                        std::any_of(sample.begin(), sample.end(), [](const sim::Ray& ray) { return !ray.is_line(); }),
+                        static_cast<double>(problem.discs().size())};
   PilotChoice found;
   const double preparing = prices({.placements = size.discs, .sorted = size.discs}, Technique::box_tree).time.total();
   if (is_allowed(Technique::brute_force, options)) {
@@ -270,7 +151,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
       sim::set_rays(of_sample, sample);  // checks the sample, as a pilot does
       found.candidates = {brute};
       found.ruled_out = {{Technique::box_tree, preparing, true}};
-      Others(problem, size, prices, found, options).compare();
+      compare_others(problem, size, prices, options, found);
       found.pilot_seconds = watch.seconds();
       return found;
     }
@@ -287,7 +168,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   };
   if (is_allowed(Technique::brute_force, options))
     add([&] { found.candidates.push_back(brute_force(size, found.choice().counts.hits, prices)); });
-  add([&] { Others(problem, size, prices, found, options).compare(); });
+  add([&] { compare_others(problem, size, prices, options, found); });
   found.pilot_seconds = watch.seconds() - found.sort_seconds;
   return found;
 }
@@ -298,6 +179,36 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>&
   const double sampling = watch.seconds();
   PilotChoice found = choose_by_pilot(problem, sample, static_cast<double>(problem.rays().size()), costs, options);
   found.pilot_seconds += sampling;
+  return found;
+}
+
+PilotChoice choose_again(const PilotChoice& pilot, const sim::Problem& problem, double radius_ratio, double rays,
+                         const Valid<CostTable>& costs, const PilotOptions& options) {
+  require_positive("ratio of the radii", radius_ratio);
+  require_count("number of rays", rays, 1, 1e18);
+  const Prices prices{costs, sim::useful_threads(options.threads)};
+  const auto discs = static_cast<double>(problem.discs().size());
+  const double preparing = prices({.placements = discs, .sorted = discs}, Technique::box_tree).time.total();
+  PilotChoice found;
+  for (const Piloted& one : pilot.candidates)
+    if (one.counts_at) found.candidates.push_back(priced(one.candidate, one.counts_at(radius_ratio, rays), prices, 0));
+  if (found.candidates.empty()) throw std::invalid_argument("a choice without a pilot needs counts of an earlier one");
+  const auto is_brute_force = [](const Piloted& one) { return one.candidate.technique == Technique::brute_force; };
+  const auto brute = std::find_if(found.candidates.begin(), found.candidates.end(), is_brute_force);
+  if (brute != found.candidates.end() && seconds(*brute) < preparing) {
+    found.candidates = {Piloted(*brute)};
+    found.ruled_out = {{Technique::box_tree, preparing, true}};
+  } else if (std::all_of(found.candidates.begin(), found.candidates.end(), is_brute_force)) {
+    found.unexamined = {Technique::box_tree};
+  }
+  sort_by_time(found.candidates, preparing);
+  PilotOptions of_others = options;
+  for (const Technique technique : pilot.unexamined) {
+    of_others.disabled.push_back(technique);
+    found.unexamined.push_back(technique);
+  }
+  compare_others(problem, {rays, found.choice().counts.segments > 0, discs}, prices, of_others, found);
+  sort_by_time(found.candidates, preparing);
   return found;
 }
 

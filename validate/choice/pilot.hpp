@@ -61,6 +61,7 @@ struct PilotOptions {
   std::optional<Workload> workload = {};
   bool for_replans = false;              ///< set Piloted::counts_at
   std::vector<Technique> disabled = {};  ///< techniques that may not be chosen; box-tree must be allowed
+  bool all_closed_forms = false;         ///< compare closed forms even if that takes longer than it could save
   std::stop_token stop = {};
 };
 
@@ -91,6 +92,16 @@ struct PilotOptions {
 /// The same for the problem's rays, of which it takes a stratified sample.
 [[nodiscard]] PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>& costs,
                                           const PilotOptions& options = {});
+
+/// What choose_by_pilot would choose with discs of another radius and with another number of rays, without another
+/// pilot: the counts of the pilot's candidates are extrapolated (Piloted::counts_at; those without are left out), and
+/// compared with the other techniques, except those that the pilot did not examine. The errors of times are not known,
+/// and are 0. `problem` must be the pilot's; options.workload, if it is set, must have the other radius.
+///
+/// Throws std::invalid_argument if no candidate has counts_at, for a ratio of radii that is not > 0 and finite, and for
+/// a number of rays out of 1 … 1e18.
+[[nodiscard]] PilotChoice choose_again(const PilotChoice& pilot, const sim::Problem& problem, double radius_ratio,
+                                       double rays, const Valid<CostTable>& costs, const PilotOptions& options = {});
 
 /// The choice's index, from what the pilot has sorted. Call it once.
 [[nodiscard]] std::unique_ptr<sim::Index> build_choice(PilotChoice& choice, const sim::Problem& problem,

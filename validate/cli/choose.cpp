@@ -14,6 +14,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/searcher.hpp"
+#include "detp/validate/choice/choice_tips.hpp"
 #include "detp/validate/choice/structural_choice.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "progress_line.hpp"
@@ -32,23 +33,35 @@ struct ChooseOptions {
   CostOptions costs;
   std::optional<std::string> rigor;
   std::string engine = "simd";
+  std::vector<std::string> technique;
   std::vector<std::string> disable;
   bool analyze = false;
   bool map = false;
 };
 
-/// The techniques that the option names. Throws std::invalid_argument for an unknown name, and if none is left.
+/// The exact techniques that may not be chosen: those of --disable, and those that --technique does not name. Throws
+/// std::invalid_argument for an unknown name, for one in --technique that is not exact, and if none is left.
 std::vector<Technique> disabled_techniques(const ChooseOptions& options) {
-  std::vector<Technique> disabled;
-  for (const std::string& text : options.disable) {
-    CandidateOptions named;
-    named.technique = text;
-    disabled.push_back(named.technique_or(Technique::brute_force));
+  std::vector<Technique> only;
+  for (const std::string& text : options.technique) {
+    only.push_back(parse_technique(text));
+    if (!record_of(only.back()).exact)
+      throw std::invalid_argument(
+          fmt::format("--technique: {} is never chosen, because it does not find all hits", text));
   }
+  std::vector<Technique> disabled;
+  for (const std::string& text : options.disable) disabled.push_back(parse_technique(text));
+  for (const TechniqueRecord& record : technique_records)
+    if (!only.empty() && record.exact && !is_in(only, record.technique) && !is_in(disabled, record.technique))
+      disabled.push_back(record.technique);
   const bool all = std::all_of(technique_records.begin(), technique_records.end(), [&](const TechniqueRecord& record) {
     return !record.exact || !model::has_closed_form(record.technique) || is_in(disabled, record.technique);
   });
-  if (all) throw std::invalid_argument("--disable leaves no technique that can be predicted");
+  if (all)
+    throw std::invalid_argument(fmt::format("{} leaves no technique that can be predicted",
+                                            only.empty()              ? "--disable"
+                                            : options.disable.empty() ? "--technique"
+                                                                      : "--technique with --disable"));
   return disabled;
 }
 
@@ -68,24 +81,42 @@ void check_ranking(ChooseAnswer& answer, const CostTable& costs, int threads) {
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs, threads);
 }
 
-/// Returns the progress if a stop request ended the ranking, else nothing.
+template <class Find>
+void find_tips(ChooseAnswer& answer, const Find& find) {
+  const sim::Stopwatch watch;
+  answer.tips = find();
+  answer.tips_seconds = watch.seconds();
+}
+
+/// The progress if a stop request ended the search for tips, else nothing.
+std::optional<sim::Progress> stopped_tips(const ChooseAnswer& answer) {
+  if (!answer.tips.stopped()) return std::nullopt;
+  return sim::Progress{answer.tips.inputs, answer.tips.ranges.size(), "inputs examined for tips"};
+}
+
+/// Returns the progress if a stop request ended the ranking or the search for tips, else nothing.
 std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs,
                                     const std::vector<Technique>& disabled, int threads, const std::stop_token& stop) {
   const sim::Stopwatch watch;
-  answer.ranking = model::rank(answer.workload, costs, {.threads = threads, .stop = stop});
-  std::erase_if(answer.ranking, [&](const model::Ranked& one) { return is_in(disabled, one.candidate.technique); });
+  answer.ranking = validate::allowed_ranking(answer.workload, costs, disabled, {.threads = threads, .stop = stop});
   if (answer.ranking.empty()) throw sim::Stopped("stopped before a technique that is not disabled was ranked");
   answer.choosing_seconds = answer.evidence_seconds + watch.seconds();
   check_ranking(answer, costs, threads);
+  find_tips(answer, [&] {
+    return validate::tips_of(answer.ranking.front().candidate, answer.workload, costs, disabled,
+                             {.threads = threads, .stop = stop});
+  });
   const auto all = std::count_if(all_techniques.begin(), all_techniques.end(), [&](Technique one) {
     return record_of(one).exact && model::has_closed_form(one) && !is_in(disabled, one);
   });
-  if (!stop.stop_requested() || std::ssize(answer.ranking) >= all) return std::nullopt;
+  if (!stop.stop_requested() || std::ssize(answer.ranking) >= all) return stopped_tips(answer);
   return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
 }
 
-void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs,
-                     const std::vector<Technique>& disabled, int threads, const std::stop_token& stop) {
+/// The same for a pilot. Throws sim::Stopped if a stop request ended the pilot.
+std::optional<sim::Progress> decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs,
+                                             const std::vector<Technique>& disabled, int threads,
+                                             const std::stop_token& stop) {
   const bool structural = answer.rigor == Rigor::structural;
   const sim::Problem problem =
       structural ? sim::searched_problem(job.discs, {}, job.front_facing, stop) : job.problem(threads, stop);
@@ -100,6 +131,8 @@ void decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostT
   if (structural) answer.evidence_seconds = job.measure_seconds;
   answer.choosing_seconds = answer.evidence_seconds + answer.pilot->pilot_seconds;
   check_ranking(answer, costs, threads);
+  find_tips(answer, [&] { return validate::tips_of(*answer.pilot, problem, job.workload, costs, options); });
+  return stopped_tips(answer);
 }
 
 model::Ranked priced(const Candidate& candidate, const Counts<double>& counts, const CostTable& costs, int threads) {
@@ -170,6 +203,11 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   if (engine == Engine::plain && (rigor == Rigor::pilot || structural))
     throw std::invalid_argument(fmt::format(
         "--rigor {} counts for the simd engine; with --engine plain give --rigor estimate", *options.rigor));
+  if ((rigor == Rigor::pilot || structural) && is_in(disabled, Technique::box_tree))
+    throw std::invalid_argument(fmt::format(
+        "--rigor {} counts the tests of box trees, but box-tree may not be chosen; give --rigor estimate or "
+        "measure",
+        *options.rigor));
   if (options.map && rigor == Rigor::measure)
     throw std::invalid_argument("--rigor measure chooses for one workload; with --map give --analyze");
   if (options.map)
@@ -203,7 +241,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
         sim::PilotedDiscs::can_pilot(job.problem()))
       answer.rigor = Rigor::pilot;
     if (answer.rigor != Rigor::estimate) {
-      decide_by_pilot(answer, job, costs, disabled, threads, stop);
+      result.stopped = decide_by_pilot(answer, job, costs, disabled, threads, stop);
     } else {
       answer.evidence_seconds = job.measure_seconds;
       result.stopped = decide(answer, costs, disabled, threads, stop);
@@ -236,6 +274,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   result.inputs["rigor"] = name(answer.rigor);
   result.inputs["analyze"] = analyze;
   result.inputs["engine"] = name(engine);
+  result.inputs["disabled"] = names_json(disabled);
   result.inputs["threads"] = threads;
   answer.costs = costs;
   answer.costs_origin = costs_in_use.origin;
@@ -259,6 +298,9 @@ Command choose_command(CLI::App& program) {
                   "estimate: closed forms only; structural: rays of the same kind through parts of the index; pilot: "
                   "some of the rays themselves; measure: runs of the candidates, until --time-limit; default: pilot, "
                   "where there are rays and the engine is simd");
+  app->add_option("--technique", options->technique,
+                  "a list of techniques; others are not chosen; default: all exact ones")
+      ->delimiter(',');
   app->add_option("--disable", options->disable, "a list of techniques that may not be chosen; default: none")
       ->delimiter(',');
   app->add_option("--engine", options->engine, engine_help);

@@ -34,14 +34,8 @@ validate::MapAxes map_axes(WorkloadOptions& workload, const CommonOptions& commo
 
 Json map_inputs(const ChooseMap& command, const validate::JobRequest& request, const validate::TechniqueMap& map,
                 const CostTable& costs) {
-  Json json{{"map", true}, {"scene", map.name}};
-  if (request.disc_file) json["discs"] = *request.disc_file;
-  if (request.ray_file)
-    json["ray_file"] = *request.ray_file;
-  else
-    json["field"] = name(map.field);
-  json["front_facing"] = request.front_facing;
-  json["seed"] = request.seed;
+  Json json{{"map", true}};
+  json.update(origin_json(request, map.name, map.field));
   json["rays"] = Json::array();
   for (const double rays : map.rays) json["rays"].push_back(whole(rays));
   json["disc_radius"] = Json::array();
@@ -58,8 +52,7 @@ Json map_inputs(const ChooseMap& command, const validate::JobRequest& request, c
   json["engine"] = name(command.engine);
   json["analyze"] = command.analyze;
   json["rigor"] = command.rigor ? Json(name(*command.rigor)) : Json("auto");
-  json["disabled"] = Json::array();
-  for (const Technique technique : command.disabled) json["disabled"].push_back(name(technique));
+  json["disabled"] = names_json(command.disabled);
   json["unit_costs"] = to_json(costs);
   return json;
 }

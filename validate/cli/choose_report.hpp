@@ -8,6 +8,7 @@
 #include "detp/model/rank/choose.hpp"
 #include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/choice/tips.hpp"
 
 namespace detp::cli {
 
@@ -17,6 +18,8 @@ struct ChooseAnswer {
   std::vector<model::Ranked> ranking;          ///< fastest first
   std::optional<validate::PilotChoice> pilot;  ///< its candidates are the ranking's, in the same order
   model::Ranked paper;                         ///< the paper's rule of thumb
+  validate::Tips tips;                         ///< of the predicted choice
+  double tips_seconds = 0;                     ///< for finding the tips; not part of choosing
   std::optional<validate::Analysis> analysis;
   Rigor rigor = Rigor::estimate;
   CostTable costs;

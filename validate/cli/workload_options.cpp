@@ -152,12 +152,11 @@ void CandidateOptions::set(const Parameter& parameter, const std::string& text) 
   }
 }
 
-Technique CandidateOptions::technique_or(Technique otherwise) const {
-  if (!technique) return otherwise;
-  const auto found = technique_named(*technique);
+Technique parse_technique(const std::string& text) {
+  const auto found = technique_named(text);
   if (!found)
-    throw std::invalid_argument(fmt::format("there is no technique {}; there are {}{}", detp::quoted(*technique),
-                                            known_techniques(), did_you_mean(*technique, technique_names())));
+    throw std::invalid_argument(fmt::format("there is no technique {}; there are {}{}", detp::quoted(text),
+                                            known_techniques(), did_you_mean(text, technique_names())));
   return *found;
 }
 
@@ -173,6 +172,12 @@ model::FixedParameters CandidateOptions::fixed_parameters(Technique chosen) cons
   }
   if (stop) require_known(spheres_option);
   return fixed;
+}
+
+Json names_json(const std::vector<Technique>& techniques) {
+  Json names = Json::array();
+  for (const Technique technique : techniques) names.push_back(name(technique));
+  return names;
 }
 
 Json to_json(const Workload& workload) {
@@ -196,15 +201,20 @@ Json numbers_json(const Workload& workload) {
   return json;
 }
 
-Json to_json(const validate::Job& job, const validate::JobRequest& request) {
-  Json json{{"scene", job.name}};
+Json origin_json(const validate::JobRequest& request, const std::string& scene, sim::Field field) {
+  Json json{{"scene", scene}};
   if (request.disc_file) json["discs"] = *request.disc_file;
   if (request.ray_file)
     json["ray_file"] = *request.ray_file;
   else
-    json["field"] = name(job.field);
-  json["front_facing"] = job.front_facing;
+    json["field"] = name(field);
+  json["front_facing"] = request.front_facing;
   json["seed"] = request.seed;
+  return json;
+}
+
+Json to_json(const validate::Job& job, const validate::JobRequest& request) {
+  Json json = origin_json(request, job.name, job.field);
   json.update(to_json(job.workload));
   return json;
 }

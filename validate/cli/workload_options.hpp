@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "command.hpp"
 #include "detp/model/rank/choose.hpp"
@@ -49,6 +50,9 @@ inline constexpr const char* engine_help =
 /// Throws std::invalid_argument for an unknown name.
 [[nodiscard]] Engine parse_engine(const std::string& text);
 
+/// Throws std::invalid_argument for an unknown name, listing the known names.
+[[nodiscard]] Technique parse_technique(const std::string& text);
+
 /// The options for a technique and its parameters. Commands choose what is not set. The parser keeps pointers to this
 /// object.
 class CandidateOptions {
@@ -64,9 +68,10 @@ class CandidateOptions {
   std::optional<SphereStop> stop;  ///< used instead of the number of spheres
   Engine engine = Engine::simd;
 
-  /// The technique that the option names, or `otherwise` if it is not set. Throws std::invalid_argument for an unknown
-  /// name, listing the known names.
-  [[nodiscard]] Technique technique_or(Technique otherwise) const;
+  /// The technique that the option names, or `otherwise` if it is not set. Throws as parse_technique.
+  [[nodiscard]] Technique technique_or(Technique otherwise) const {
+    return technique ? parse_technique(*technique) : otherwise;
+  }
 
   /// The parameters that are set. Throws std::invalid_argument for a parameter that the technique does not have.
   [[nodiscard]] model::FixedParameters fixed_parameters(Technique technique) const;
@@ -87,6 +92,9 @@ class CandidateOptions {
 /// "isotropic" or "photons".
 [[nodiscard]] std::string_view name(sim::Field field);
 
+/// An array of their names.
+[[nodiscard]] Json names_json(const std::vector<Technique>& techniques);
+
 /// The parameters under their names, with underscores.
 [[nodiscard]] Json to_json(const Workload& workload);
 
@@ -101,6 +109,9 @@ template <class T>
   for_each_term(counts, [&](std::string_view term, T value) { json[std::string(term)] = value; });
   return json;
 }
+
+/// The resolved inputs that say where discs and rays come from; file names as the user wrote them.
+[[nodiscard]] Json origin_json(const validate::JobRequest& request, const std::string& scene, sim::Field field);
 
 /// Resolved inputs of a job; file names as the user wrote them.
 [[nodiscard]] Json to_json(const validate::Job& job, const validate::JobRequest& request);

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/validate/choice/allowed_ranking.hpp"
 
 namespace detp::validate {
 namespace {
@@ -26,13 +26,9 @@ CellPrediction comparable(CellPrediction prediction) {
 }  // namespace
 
 CellPrediction predict_by_estimate(const Workload& workload, const CostTable& costs, const PilotOptions& options) {
-  std::vector<model::Ranked> ranking =
-      model::rank(workload, costs, {.threads = sim::useful_threads(options.threads), .stop = options.stop});
+  std::vector<model::Ranked> ranking = allowed_ranking(
+      workload, costs, options.disabled, {.threads = sim::useful_threads(options.threads), .stop = options.stop});
   if (options.stop.stop_requested()) throw sim::Stopped("stopped while techniques were ranked");
-  std::erase_if(ranking, [&](const model::Ranked& one) {
-    const auto& disabled = options.disabled;
-    return std::find(disabled.begin(), disabled.end(), one.candidate.technique) != disabled.end();
-  });
   return comparable({.rigor = Rigor::estimate, .ranking = std::move(ranking)});
 }
 

@@ -63,6 +63,25 @@ TEST_SUITE("identity") {
     }
   }
 
+  TEST_CASE("with the same radius and rays, the choice is the same again") {
+    for (const std::size_t rays : {1UL, 30UL, 300UL, 20'000UL}) {
+      CAPTURE(rays);
+      const Example example(5000, 0.02, rays);
+      const auto costs = validate::built_in_unit_costs();
+      const auto first = validate::choose_by_pilot(example.problem, costs, {.threads = 1, .for_replans = true});
+      const auto again = validate::choose_again(first, example.problem, 1, static_cast<double>(rays), costs);
+      REQUIRE(again.candidates.size() == first.candidates.size());
+      for (std::size_t i = 0; i < first.candidates.size(); ++i) {
+        CHECK(again.candidates[i].candidate == first.candidates[i].candidate);
+        CHECK(again.candidates[i].time.total() == Approx(first.candidates[i].time.total()));
+      }
+      REQUIRE(again.ruled_out.size() == first.ruled_out.size());
+      for (std::size_t i = 0; i < first.ruled_out.size(); ++i)
+        CHECK(again.ruled_out[i].seconds == Approx(first.ruled_out[i].seconds));
+      CHECK(again.unexamined == first.unexamined);
+    }
+  }
+
   TEST_CASE("the choice's index finds the hits of brute force, with the counts of a run of its own") {
     const Example example(5000, 0.02, 5000);
     auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
@@ -164,6 +183,14 @@ TEST_SUITE("bad input") {
     const Example example(500, 0.02, 100);
     const CostTable costs = validate::built_in_unit_costs();
     CHECK_THROWS_AS(static_cast<void>(validate::choose_by_pilot(example.problem, {}, 1, costs)), std::invalid_argument);
+    const auto piloted = validate::choose_by_pilot(example.problem, costs, {.for_replans = true});
+    for (const double ratio : {0.0, -1.0, std::nan("")})
+      CHECK_THROWS_AS(static_cast<void>(validate::choose_again(piloted, example.problem, ratio, 10, costs)),
+                      std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(validate::choose_again(piloted, example.problem, 1, 0, costs)),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(validate::choose_again({}, example.problem, 1, 10, costs)),
+                    std::invalid_argument);
     std::stop_source source;
     source.request_stop();
     CHECK_THROWS_AS(static_cast<void>(validate::choose_by_pilot(example.problem, costs, {.stop = source.get_token()})),

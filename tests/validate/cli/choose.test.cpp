@@ -83,12 +83,74 @@ TEST_SUITE("end to end") {
           "leaves no technique"}});
   }
 
+  TEST_CASE("--technique names the only techniques that are considered, with every rigor") {
+    const std::string scene = "@uniform --samples 2000 --rays 2000 --disc-radius 2%";
+    const auto techniques_of = [&](const std::string& arguments) {
+      std::set<std::string> techniques;
+      const Json json = result_of("choose " + scene + arguments);
+      for (const Json& candidate : json.at("candidates")) techniques.insert(candidate.at("technique"));
+      return techniques;
+    };
+    using Names = std::set<std::string>;
+    CHECK(techniques_of(" --technique grid,octree") == Names{"grid", "octree"});
+    CHECK(techniques_of(" --technique box-tree") == Names{"box-tree"});
+    CHECK(techniques_of(" --technique box-tree,brute-force --rigor structural") == Names{"box-tree", "brute-force"});
+    CHECK(techniques_of(" --technique box-tree,grid --rigor pilot --disable grid") == Names{"box-tree"});
+    CHECK(techniques_of(" --technique cell-spheres --rigor measure") == Names{"cell-spheres"});
+    CHECK(techniques_of(" --technique bvh,grid --rigor measure") == Names{"bvh", "grid"});
+    const Json grid = result_of("choose " + scene + " --technique grid");
+    CHECK(grid.at("choice").at("parameters") == result_of("run " + scene + " --technique grid").at("parameters"));
+    CHECK(grid.at("inputs").at("disabled").size() == 9);
+    CHECK(result_of("choose " + scene).at("inputs").at("disabled").empty());
+    const Json map =
+        result_of("choose @uniform --samples 2000 --map --rays 100,1000 --disc-radius 2% --technique octree");
+    for (const Json& cell : map.at("cells")) CHECK(cell.at("predicted").at("technique") == "octree");
+    check_refused({{"choose " + scene + " --technique gird", "did you mean grid?"},
+                   {"choose " + scene + " --technique grid --disable grid", "--technique with --disable leaves no"},
+                   {"choose " + scene + " --technique bvh", "--technique leaves no technique"},
+                   {"choose " + scene + " --technique grid --rigor pilot", "box-tree may not be chosen"},
+                   {"choose " + scene + " --technique photon-map", "photon-map is never chosen"}});
+  }
+
+  TEST_CASE("tips say with which inputs the choice is another one") {
+    const std::string scene = "choose @uniform --samples 2000 --disc-radius 2% --calibration none --threads 1 --rays ";
+    const auto fewer_rays = [](const Json& json) {
+      for (const Json& tip : json.at("tips"))
+        if (tip.at("input") == "rays" && tip.at("change") == "technique" && tip.at("ratio") < 1) return tip;
+      return Json();
+    };
+    for (const char* const rigor : {"", " --rigor structural", " --rigor estimate"}) {
+      CAPTURE(rigor);
+      const Json json = result_of(scene + "150" + rigor);
+      REQUIRE(json.at("choice").at("technique") == "box-tree");
+      const Json tip = fewer_rays(json);
+      REQUIRE(tip.is_object());
+      CHECK(tip.at("technique") == "brute-force");
+      CHECK(tip.at("threads") == 1);
+      CHECK(tip.at("parameters").is_object());
+      CHECK(tip.at("at").get<double>() == doctest::Approx(150 * tip.at("ratio").get<double>()));
+      CHECK(json.at("tips_seconds") > 0);
+      const std::string text = detp(scene + "150" + rigor).out;
+      CHECK(text.find("\ntips      ") != std::string::npos);
+      CHECK(text.find(fmt::format("brute-force overtakes below {:.0f} rays", tip.at("at").get<double>())) !=
+            std::string::npos);
+      const auto rays = static_cast<int>(0.9 * tip.at("at").get<double>());
+      const Json there = result_of(fmt::format("{}{}{}", scene, rays, rigor));
+      CHECK(there.at("choice").at("technique") == "brute-force");
+    }
+    const Json without = result_of(scene + "150 --disable brute-force");
+    CHECK_FALSE(fewer_rays(without).is_object());
+    CHECK(without.at("tips_range").at("rays")[0] == 38);
+    CHECK(detp(scene + "150 --disable brute-force").out.find("wins for d from 0.01 to 0.16, for 38 to 600 rays") !=
+          std::string::npos);
+  }
+
   TEST_CASE("the default is a pilot; each candidate has an error, the others are ruled out or not examined") {
     const Json json = result_of("choose @tree --samples 20000 --rays 20000 --disc-radius 1%");
     CHECK(json.at("rigor") == "pilot");
     CHECK(json.at("choice").at("predicted_seconds_error") > 0);
     CHECK(json.at("candidates")[0].at("could_still_win") == true);
-    CHECK(json.at("choosing_seconds").at("total") == json.at("choosing_seconds").at("pilot"));
+    CHECK(json.at("choosing_seconds").at("total") == json.at("choosing_seconds").at("pilot"));  // without tips
     CHECK(json.at("choosing_share") > 0);
     CHECK(json.at("ruled_out").size() + json.at("not_examined").size() == 8);
     CHECK(result_of("choose --rays 10 --samples 10 --disc-radius 0.1 --scene-side 1").at("rigor") == "estimate");

@@ -144,7 +144,7 @@ TEST_SUITE("bad input") {
                    {"choose @uniform --map --rays 0,100", "number of rays"},
                    {"choose @uniform --map --disc-radius -1,2", "disc radius"},
                    {"choose @uniform --map --disc-radius 1%,", "disc radius"},
-                   {"choose @uniform --map --technique grid", "--technique"},
+                   {"choose @uniform --map --technique photon-map", "photon-map is never chosen"},
                    {"choose @uniform --map --rigor structural", "structures"},
                    {"choose @uniform --map --analyze --rays 1e15", "GB"},
                    {"choose @uniform --map --costs t=0", "0 s"},

@@ -1,0 +1,161 @@
+#include "detp/validate/choice/tips.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stop_token>
+#include <vector>
+
+using namespace detp;
+using namespace detp::validate;
+
+namespace {
+
+constexpr TipInputs present{.disc_radius = 0.5, .rays = 1000, .threads = 4};
+constexpr TipSearch search{.factor = 4, .steps = 4, .most_threads = 8};
+
+TippedChoice grid_on(int threads) { return {default_candidate(Technique::grid), threads, 1, 1}; }
+
+/// The same technique for all inputs, on up to 4 threads.
+TippedChoice grid_for(const TipInputs& inputs) { return grid_on(std::min(4, inputs.threads)); }
+
+/// The only tip.
+Tip only_tip(const ChooseForInputs& choose) {
+  const Tips found = find_tips(present, search, choose);
+  REQUIRE(found.tips.size() == 1);
+  return found.tips.front();
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("where another technique is chosen is found to 5 %, on the side of that technique") {
+    for (const double limit : {0.13, 0.3, 0.49, 0.51, 1.0, 1.9}) {
+      CAPTURE(limit);
+      const auto tip = only_tip([&](const TipInputs& inputs) {
+        TippedChoice choice = grid_for(inputs);
+        const bool beyond = limit > present.disc_radius ? inputs.disc_radius >= limit : inputs.disc_radius <= limit;
+        if (beyond) choice.candidate = default_candidate(Technique::octree);
+        return choice;
+      });
+      CHECK(tip.input == TipInput::disc_radius);
+      CHECK(tip.kind == TipKind::technique);
+      CHECK(tip.candidate.technique == Technique::octree);
+      CHECK(tip.ratio == doctest::Approx(tip.at / 0.5));
+      const double behind = limit > present.disc_radius ? tip.at / limit : limit / tip.at;
+      CHECK(behind >= 1);
+      CHECK(behind <= 1.05);
+    }
+  }
+
+  TEST_CASE("numbers of rays are whole numbers, at least 1") {
+    const TipInputs few{.disc_radius = 0.5, .rays = 3, .threads = 1};
+    const auto choose = [](const TipInputs& inputs) {
+      CHECK(inputs.rays == std::round(inputs.rays));
+      CHECK(inputs.rays >= 1);
+      TippedChoice choice = grid_on(1);
+      if (inputs.rays < 2.5 || inputs.rays > 6.5) choice.candidate = default_candidate(Technique::octree);
+      return choice;
+    };
+    const Tips found = find_tips(few, {}, choose);
+    REQUIRE(found.tips.size() == 2);
+    CHECK(found.tips[0].at == 2);
+    CHECK(found.tips[1].at == 7);
+    CHECK(found.range(TipInput::rays).least == 2);  // nothing is examined behind another technique
+  }
+
+  TEST_CASE("other parameters are a tip if they are 15 % faster") {
+    const double slope = 0.4;
+    const auto tip = only_tip([&](const TipInputs& inputs) {
+      TippedChoice choice = grid_for(inputs);
+      choice.candidate.parameters = GridParameters{inputs.rays > 1000 ? 9 : 8};
+      choice.unchanged_seconds = 1 + slope * std::max(0.0, std::log2(inputs.rays / 1000));
+      return choice;
+    });
+    CHECK(tip.input == TipInput::rays);
+    CHECK(tip.kind == TipKind::parameters);
+    CHECK(std::get<GridParameters>(tip.candidate.parameters).cells == 9);
+    CHECK(tip.ratio == doctest::Approx(std::exp2(0.15 / slope)).epsilon(0.05));
+  }
+
+  TEST_CASE("other numbers of threads are a tip, unless only the cap is lower") {
+    CHECK(find_tips(present, search, [](const TipInputs& inputs) { return grid_for(inputs); }).tips.empty());
+    const auto more = only_tip([](const TipInputs& inputs) { return grid_on(inputs.threads); });
+    CHECK(more.input == TipInput::threads);
+    CHECK(more.kind == TipKind::threads);
+    CHECK(more.at == 8);
+    CHECK(more.threads == 8);
+    const auto fewer =
+        only_tip([](const TipInputs& inputs) { return grid_on(inputs.rays < 300 ? 1 : std::min(4, inputs.threads)); });
+    CHECK(fewer.input == TipInput::rays);
+    CHECK(fewer.threads == 1);
+    CHECK(fewer.at < 300);
+    CHECK(fewer.at > 285);
+  }
+
+  TEST_CASE("a technique that is ruled out now, but not there, is a tip; one that is never ruled out is none") {
+    const auto tip = only_tip([](const TipInputs& inputs) {
+      TippedChoice choice = grid_for(inputs);
+      choice.not_ruled_out = {Technique::bsp};
+      if (inputs.disc_radius > 0.8) choice.not_ruled_out.push_back(Technique::ray_map);
+      return choice;
+    });
+    CHECK(tip.kind == TipKind::not_ruled_out);
+    CHECK(tip.candidate.technique == Technique::ray_map);
+    CHECK(tip.at == doctest::Approx(0.81).epsilon(0.05));
+  }
+
+  TEST_CASE("behind another technique, other changes are no tips") {
+    const Tips found = find_tips(present, search, [](const TipInputs& inputs) {
+      TippedChoice choice = grid_for(inputs);
+      if (inputs.disc_radius > 0.6) choice.candidate = default_candidate(Technique::octree);
+      if (inputs.disc_radius > 0.65) choice.not_ruled_out = {Technique::ray_map};
+      return choice;
+    });
+    REQUIRE(found.tips.size() == 1);
+    CHECK(found.tips.front().kind == TipKind::technique);
+  }
+}
+
+TEST_SUITE("degenerate input") {
+  TEST_CASE("if nothing changes there is no tip, and the whole range was examined with few choices") {
+    const Tips found = find_tips(present, search, [](const TipInputs& inputs) { return grid_for(inputs); });
+    CHECK(found.tips.empty());
+    CHECK_FALSE(found.stopped());
+    CHECK(found.range(TipInput::disc_radius).least == doctest::Approx(0.125));
+    CHECK(found.range(TipInput::disc_radius).most == doctest::Approx(2));
+    CHECK(found.range(TipInput::rays).least == 250);
+    CHECK(found.range(TipInput::rays).most == 4000);
+    CHECK(found.range(TipInput::threads).least == 1);
+    CHECK(found.range(TipInput::threads).most == 8);
+    CHECK(found.choices == 1 + 4 * 4 + 3);
+  }
+
+  TEST_CASE("inputs without a choice end the range") {
+    const Tips found = find_tips(present, search, [](const TipInputs& inputs) -> std::optional<TippedChoice> {
+      if (inputs.disc_radius < 0.3) return std::nullopt;
+      return grid_for(inputs);
+    });
+    CHECK(found.tips.empty());
+    CHECK(found.range(TipInput::disc_radius).least > 0.3);
+    CHECK(found.range(TipInput::disc_radius).most == doctest::Approx(2));
+  }
+
+  TEST_CASE("a stop request ends the search, with the tips so far") {
+    std::stop_source source;
+    const Tips found = find_tips(
+        present, search,
+        [&](const TipInputs& inputs) {
+          if (inputs.rays != 1000) source.request_stop();
+          TippedChoice choice = grid_for(inputs);
+          if (inputs.disc_radius < 0.4) choice.candidate = default_candidate(Technique::octree);
+          return choice;
+        },
+        source.get_token());
+    CHECK(found.stopped());
+    CHECK(found.inputs == 1);
+    CHECK(found.tips.size() == 1);
+    CHECK(found.range(TipInput::rays).least == 1000);
+  }
+}

@@ -1,0 +1,98 @@
+#include "other_techniques.hpp"
+
+#include <algorithm>
+
+#include "detp/model/rank/choose.hpp"
+#include "measure.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double doubt = 2;  ///< by which a closed form may be off
+
+/// The least counts with which any technique can find the hits, other than brute force.
+Counts<double> least_counts(const SearchSize& size, double hits) {
+  return {.loaded = size.rays,
+          .segments = size.segments ? size.rays : 0,
+          .visits = size.discs,
+          .disc_tests = hits,
+          .placements = size.discs,
+          .sorted = size.discs,
+          .hits = hits};
+}
+
+class Comparison {
+ public:
+  Comparison(const sim::Problem& problem, const SearchSize& size, const Prices& prices, const PilotOptions& options,
+             PilotChoice& found)
+      : problem_(problem),
+        size_(size),
+        prices_(prices),
+        options_(options),
+        found_(found),
+        least_(least_counts(size, found.choice().counts.hits)) {}
+
+  void compare(Technique technique) {
+    const double at_least = prices_(least_, technique).time.total();
+    if (at_least >= best()) return found_.ruled_out.push_back({technique, at_least, true});
+    if (!model::has_closed_form(technique) || !can_measure() || !(options_.all_closed_forms || worth_finding()))
+      return found_.unexamined.push_back(technique);
+    const model::SearchLimits limits{.threads = prices_.most_threads,
+                                     .stop = options_.stop,
+                                     .fastest = doubt * best() * prices_.most_threads};  // on one thread
+    const auto tuned = model::best_of(technique, workload(), prices_.costs, limits);
+    if (!tuned) return found_.unexamined.push_back(technique);
+    const double seconds = tuned->time.total();
+    if (seconds >= doubt * best()) return found_.ruled_out.push_back({technique, seconds, false});
+    found_.candidates.push_back(
+        {tuned->candidate, tuned->counts, tuned->time, tuned->threads, seconds * (doubt - 1), true});
+  }
+
+ private:
+  [[nodiscard]] double best() const { return found_.choice().time.total(); }
+  [[nodiscard]] bool can_measure() const { return options_.workload || !problem_.rays().empty(); }
+
+  /// Whether closed forms, and the measurements that they need, take less than some 2 % of the best.
+  [[nodiscard]] bool worth_finding() const {
+    const double measuring = options_.workload ? 0 : 1.4e-7 * std::min(size_.discs, 131'072.0);  // seconds
+    return best() > 50 * (0.002 + measuring);
+  }
+
+  const Workload& workload() {
+    if (!workload_) {
+      workload_ = options_.workload ? *options_.workload : measure(problem_, {}, options_.stop);
+      workload_->rays = size_.rays;
+    }
+    return *workload_;
+  }
+
+  const sim::Problem& problem_;
+  SearchSize size_;
+  const Prices& prices_;
+  const PilotOptions& options_;
+  PilotChoice& found_;
+  Counts<double> least_;
+  std::optional<Workload> workload_;
+};
+
+}  // namespace
+
+Piloted priced(const Candidate& candidate, const Counts<double>& counts, const Prices& prices, double relative_error) {
+  const auto [threads, time] = prices(counts, candidate.technique);
+  return {candidate, counts, time, threads, relative_error * (time.rebuild + time.copy + time.intersect)};
+}
+
+bool is_allowed(Technique technique, const PilotOptions& options) {
+  return std::find(options.disabled.begin(), options.disabled.end(), technique) == options.disabled.end();
+}
+
+void compare_others(const sim::Problem& problem, const SearchSize& size, const Prices& prices,
+                    const PilotOptions& options, PilotChoice& found) {
+  Comparison comparison(problem, size, prices, options, found);
+  for (const TechniqueRecord& record : technique_records)
+    if (record.exact && record.technique != Technique::box_tree && record.technique != Technique::brute_force &&
+        is_allowed(record.technique, options))
+      comparison.compare(record.technique);
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,178 @@
+#include "tips.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace detp::validate {
+namespace {
+
+constexpr double accuracy = 1.05;  // of the value at which a choice changes
+constexpr std::array all_kinds{TipKind::technique, TipKind::not_ruled_out, TipKind::parameters, TipKind::threads};
+
+double value_of(const TipInputs& inputs, TipInput input) {
+  switch (input) {
+    case TipInput::disc_radius:
+      return inputs.disc_radius;
+    case TipInput::rays:
+      return inputs.rays;
+    case TipInput::threads:
+      return inputs.threads;
+  }
+  return 0;
+}
+
+TipInputs with_value(TipInputs inputs, TipInput input, double value) {
+  switch (input) {
+    case TipInput::disc_radius:
+      inputs.disc_radius = value;
+      break;
+    case TipInput::rays:
+      inputs.rays = value;
+      break;
+    case TipInput::threads:
+      inputs.threads = static_cast<int>(value);
+      break;
+  }
+  return inputs;
+}
+
+double factor_between(double a, double b) { return std::max(a, b) / std::min(a, b); }
+
+class TipFinder {
+ public:
+  TipFinder(const TipInputs& present, const TipSearch& search, const ChooseForInputs& choose,
+            const std::stop_token& stop)
+      : present_(present), search_(search), choose_(choose), stop_(stop) {}
+
+  Tips run() {
+    for (const TipInput input : {TipInput::disc_radius, TipInput::rays, TipInput::threads})
+      found_.ranges[static_cast<std::size_t>(input)] = {value_of(present_, input), value_of(present_, input)};
+    const auto now = choice_with(present_);
+    if (!now) return std::move(found_);
+    now_ = *now;
+    for (const TipInput input : {TipInput::disc_radius, TipInput::rays, TipInput::threads}) {
+      for (const bool up : {false, true})
+        walk(input, input == TipInput::threads ? thread_values(up) : values(input, up));
+      if (!stop_.stop_requested()) ++found_.inputs;
+    }
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] std::vector<double> values(TipInput input, bool up) const {
+    std::vector<double> all;
+    double last = value_of(present_, input);
+    for (int i = 1; i <= search_.steps; ++i) {
+      const double power = static_cast<double>(up ? i : -i) / search_.steps;
+      const double value = rounded(input, value_of(present_, input) * std::pow(search_.factor, power));
+      if (value != last) all.push_back(value);
+      last = value;
+    }
+    return all;
+  }
+
+  [[nodiscard]] std::vector<double> thread_values(bool up) const {
+    std::vector<double> all;
+    for (const int threads : thread_numbers(std::max(search_.most_threads, present_.threads)))
+      if (up ? threads > present_.threads : threads < present_.threads) all.push_back(threads);
+    if (!up) std::reverse(all.begin(), all.end());
+    return all;
+  }
+
+  static double rounded(TipInput input, double value) {
+    constexpr double most_rays = 1e18;
+    return input == TipInput::rays ? std::clamp(std::round(value), 1.0, most_rays) : value;
+  }
+
+  std::optional<TippedChoice> choice_with(const TipInputs& inputs) {
+    ++found_.choices;
+    std::optional<TippedChoice> choice;
+    if (!stop_.stop_requested()) choice = choose_(inputs);
+    if (stop_.stop_requested()) return std::nullopt;  // the choice may be that of a search that was ended
+    return choice;
+  }
+
+  /// A technique that is not ruled out there, but is with the present inputs.
+  [[nodiscard]] std::optional<Technique> possible(const TippedChoice& there) const {
+    for (const Technique one : there.not_ruled_out)
+      if (std::find(now_.not_ruled_out.begin(), now_.not_ruled_out.end(), one) == now_.not_ruled_out.end()) return one;
+    return std::nullopt;
+  }
+
+  [[nodiscard]] bool is_changed(TipKind kind, const TippedChoice& there, const TipInputs& inputs) const {
+    const bool same = there.candidate.technique == now_.candidate.technique;
+    switch (kind) {
+      case TipKind::technique:
+        return !same;
+      case TipKind::not_ruled_out:
+        return possible(there).has_value();
+      case TipKind::parameters:
+        return same && there.unchanged_seconds > (1 + distinguishable) * there.seconds;
+      case TipKind::threads:
+        return same && there.threads != std::min(now_.threads, inputs.threads);
+    }
+    return false;
+  }
+
+  /// The nearest value with the change: it is not at `before`, but at `value`.
+  Tip nearest(TipInput input, TipKind kind, double before, double value, TippedChoice there) {
+    while (input != TipInput::threads && factor_between(before, value) > accuracy) {
+      const double middle = rounded(input, std::sqrt(before) * std::sqrt(value));
+      if (middle == before || middle == value) break;
+      const TipInputs inputs = with_value(present_, input, middle);
+      auto choice = choice_with(inputs);
+      if (!choice) break;
+      if (is_changed(kind, *choice, inputs)) {
+        value = middle;
+        there = std::move(*choice);
+      } else {
+        before = middle;
+      }
+    }
+    const Candidate candidate =
+        kind == TipKind::not_ruled_out ? default_candidate(possible(there).value()) : there.candidate;
+    return {input, kind, value, value / value_of(present_, input), candidate, there.threads};
+  }
+
+  /// Examines values that are farther and farther away.
+  void walk(TipInput input, const std::vector<double>& values) {
+    std::vector<Tip> tips;
+    const auto find = [&](TipKind kind) {
+      return std::find_if(tips.begin(), tips.end(), [&](const Tip& tip) { return tip.kind == kind; });
+    };
+    double before = value_of(present_, input);
+    for (const double value : values) {
+      const TipInputs inputs = with_value(present_, input, value);
+      const auto there = choice_with(inputs);
+      if (!there) break;
+      TipRange& range = found_.ranges[static_cast<std::size_t>(input)];
+      range = {std::min(range.least, value), std::max(range.most, value)};
+      for (const TipKind kind : all_kinds)
+        if (find(kind) == tips.end() && is_changed(kind, *there, inputs))
+          tips.push_back(nearest(input, kind, before, value, *there));
+      if (find(TipKind::technique) != tips.end()) break;
+      before = value;
+    }
+    const auto distance = [](const Tip& tip) { return std::abs(std::log(tip.ratio)); };
+    std::stable_sort(tips.begin(), tips.end(), [&](const Tip& a, const Tip& b) { return distance(a) < distance(b); });
+    if (const auto last = find(TipKind::technique); last != tips.end()) tips.erase(last + 1, tips.end());
+    found_.tips.insert(found_.tips.end(), tips.begin(), tips.end());
+  }
+
+  TipInputs present_;
+  TipSearch search_;
+  const ChooseForInputs& choose_;
+  const std::stop_token& stop_;
+  TippedChoice now_;
+  Tips found_;
+};
+
+}  // namespace
+
+Tips find_tips(const TipInputs& present, const TipSearch& search, const ChooseForInputs& choose,
+               const std::stop_token& stop) {
+  return TipFinder(present, search, choose, stop).run();
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,99 @@
+#include "choose_table.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "choose_rows.hpp"
+#include "extrapolated.hpp"
+#include "measured_report.hpp"
+#include "text_table.hpp"
+
+namespace detp::cli {
+namespace {
+
+/// Two cells: the row's predicted time divided by that of the first candidate, and the name of the largest part of the
+/// row's predicted time. For instance "3.5" and "ray-disc tests".
+std::vector<TextCell> comparison_cells(const ChooseAnswer& answer, const ChooseRow& row) {
+  const CostBreakdown& time = row.predicted->time;
+  return {{fmt::format("{:.3g}", time.total() / answer.ranking.front().time.total())}, {largest_part(time)}};
+}
+
+/// "no, 3.4 times", "yes, 2 %", or nothing for the choice.
+std::vector<TextCell> pilot_cells(const ChooseAnswer& answer, const ChooseRow& row) {
+  if (row.chosen) return {{}};
+  const double ratio = row.predicted->time.total() / answer.ranking.front().time.total();
+  const std::string more = ratio < 2 ? fmt::format("{:+.2g} %", 100 * (ratio - 1)) : fmt::format("{:.3g} times", ratio);
+  return {{fmt::format("{}, {}", could_win(answer, row) ? "yes" : "no", more)}};
+}
+
+std::string verdict(const ChooseAnswer& answer, const ChooseRow& row) {
+  if (row.chosen) return "<- choice";
+  if (row.run == nullptr || row.run->seconds) return "";
+  Json json;
+  add_measured(json, *answer.analysis, *row.run);
+  return json["not_run"];
+}
+
+}  // namespace
+
+std::string candidate_table(const ChooseAnswer& answer, const Screen& screen) {
+  std::vector<TextColumn> columns{{.head = "technique", .align = Align::left},
+                                  {.head = "parameters", .align = Align::left},
+                                  {.head = "threads", .spare = 2},
+                                  {.head = "tests", .spare = 1, .group = "predicted"},
+                                  {.head = "seconds", .align = Align::left, .group = "predicted"}};
+  if (answer.analysis)
+    for (const TextColumn& column : measured_table_columns()) columns.push_back(column);
+  else if (answer.pilot)
+    columns.push_back({.head = "could still win", .align = Align::left});
+  else
+    columns.insert(columns.end(),
+                   {{.head = "times the first", .spare = 3}, {.head = "mostly", .align = Align::left, .spare = 2}});
+  columns.push_back({.head = "", .align = Align::left});
+  TextTable table(std::move(columns));
+  for (const ChooseRow& row : rows_of(answer)) {
+    const Style style = row.chosen ? Style::good : Style::plain;
+    std::vector<TextCell> cells{{std::string(name(row.candidate.technique)), style},
+                                {describe(row.candidate), style},
+                                {fmt::format("{}", threads_of(row))}};
+    if (row.predicted != nullptr) {
+      const char* const mark = row.predicted->extrapolated.empty() ? "" : "~";
+      cells.push_back({fmt::format("{:.3g}", tests(row.predicted->counts))});
+      const double error = error_of(answer, row).value_or(0);
+      cells.push_back({fmt::format("{:.3g}{}{}", row.predicted->time.total(), mark,
+                                   error > 0 ? fmt::format(" ± {:.1g}", error) : "")});
+    }
+    cells.resize(5);
+    for (const TextCell& cell : answer.analysis ? measured_cells(*row.run)
+                                : answer.pilot  ? pilot_cells(answer, row)
+                                                : comparison_cells(answer, row))
+      cells.push_back(cell);
+    cells.push_back({verdict(answer, row), row.chosen ? Style::good : Style::faint});
+    table.add(std::move(cells));
+  }
+  return "\n" + table.text(screen);
+}
+
+std::string candidate_notes(const ChooseAnswer& answer, const Screen& screen) {
+  std::vector<std::pair<Technique, std::vector<std::string>>> predictions;
+  for (const ChooseRow& row : rows_of(answer))
+    if (row.predicted != nullptr) predictions.emplace_back(row.candidate.technique, row.predicted->extrapolated);
+  std::string text =
+      "tests: of a ray against a sphere, a box or a disc. X: distance between neighbouring samples over d. D: "
+      "dimension "
+      "of the samples, 2 on surfaces, 3 in a volume. Q, k: ratio of the radii of nested spheres, their number. r0: "
+      "radius of the sphere around all discs.";
+  if (answer.analysis)
+    text +=
+        " ± of measured seconds: half the range of the timed runs; none where there was one run. !: predicted seconds "
+        "off by more than a factor of two.";
+  if (answer.pilot)
+    text +=
+        " ± of predicted seconds: standard error of the pilot. Could still win: less than 15 % slower than the choice, "
+        "which is about the error of unit costs.";
+  const std::string extrapolated = extrapolated_note(predictions);
+  return (extrapolated.empty() ? "" : wrapped(extrapolated, screen.text_width(), 2)) + legend(screen, text);
+}
+
+}  // namespace detp::cli
