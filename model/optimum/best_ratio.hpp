@@ -21,10 +21,13 @@ namespace detp::model {
 struct BestRatio {
   double ratio = 0;          ///< Q
   std::int64_t spheres = 0;  ///< k; 0: no sphere, each disc is tested with all rays
-  /// T at (Q, k), in the unit of the costs; without the costs of rays, hits and the start, which do not depend on Q or k
-  double time = 0;
+  double time = 0;                         ///< T at (Q, k) less time_at_any_ratio, in the unit of the costs
   std::int64_t evaluated_spheres = 0;  ///< spheres evaluated one by one by a search over Q
 };
+
+/// The part of T that does not depend on Q and k: the costs of rays, hits and the start, and of handling discs that are
+/// in no cache of the processor.
+[[nodiscard]] double time_at_any_ratio(const Valid<Workload>& workload, const Valid<UnitCosts>& costs);
 
 inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 

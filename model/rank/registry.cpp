@@ -104,8 +104,9 @@ std::optional<FoundParameters> best_cache(const Valid<Workload>& workload, const
   if (workload.disc_radius >= workload.sphere_radius)
     return FoundParameters{SphereCacheParameters{ratio.value_or(published_ratio), spheres.value_or(0)}};
   if (limits.fastest < HUGE_VAL && fixed.values.empty()) {
-    const BestRatio good = good_ratio_below(workload, costs, limits.fastest);
-    if (good.spheres > 0 && good.time > good_ratio_excess * limits.fastest)
+    const double others = limits.fastest - time_at_any_ratio(workload, costs);
+    const BestRatio good = good_ratio_below(workload, costs, others);
+    if (good.spheres > 0 && good.time > good_ratio_excess * others)
       return not_tuned(SphereCacheParameters{good.ratio, good.spheres});
     const BestRatio better = better_ratio_and_stop(workload, costs, good);
     return FoundParameters{SphereCacheParameters{better.ratio, better.spheres}};
