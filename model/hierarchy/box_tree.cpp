@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -57,9 +58,8 @@ class CrossingProbability {
 /// Joins the inner nodes of the binary tree to wide nodes.
 class Widening {
  public:
-  Widening(const std::vector<LevelNodes>& nodes, const std::vector<CellKind>& kinds, int fan_out)
-      : nodes_(nodes), kinds_(kinds), opened_(fan_out - 1), wide_(nodes.size(), 0), moments_(nodes.size()) {
-    links_.resize(nodes.size());
+  Widening(const std::vector<LevelNodes>& nodes, const std::vector<CellKind>& kinds)
+      : nodes_(nodes), kinds_(kinds), links_(nodes.size()), moments_(nodes.size()) {
     for (std::size_t i = nodes.size(); i-- > 0;) {
       link(i);
       find_moments(i);
@@ -68,14 +68,19 @@ class Widening {
 
   /// Calls visit(kind of cell, number of wide nodes, children of each) for each kind that has wide nodes.
   template <class Visit>
-  void for_each(const Visit& visit) {
+  void for_each(int fan_out, const Visit& visit) {
     if (nodes_.empty()) return;
+    opened_ = fan_out - 1;
+    wide_.assign(nodes_.size(), 0);
     wide_[0] = nodes_[0].inner.count;
     for (std::size_t i = 0; i < nodes_.size(); ++i)
       if (wide_[i] > 1e-9) visit(i, wide_[i], 1 + open(i));
   }
 
  private:
+  /// The model joins inner nodes at most this many levels below the top.
+  static constexpr int deepest = 9;
+
   /// The halves of an inner node that are inner nodes themselves.
   struct Link {
     std::array<std::size_t, 2> child{};
@@ -84,8 +89,8 @@ class Widening {
 
   /// Mean and variance of the number of inner nodes at most `depth` levels below an inner node, including itself.
   struct Moments {
-    std::array<double, box_tree_most_children> mean{};
-    std::array<double, box_tree_most_children> variance{};
+    std::array<double, deepest + 1> mean{};
+    std::array<double, deepest + 1> variance{};
   };
 
   void link(std::size_t number) {
@@ -102,7 +107,7 @@ class Widening {
   void find_moments(std::size_t number) {
     Moments& all = moments_[number];
     all.mean[0] = 1;
-    for (int depth = 1; depth <= opened_; ++depth) {
+    for (int depth = 1; depth <= deepest; ++depth) {
       all.mean[depth] = 1;
       for (int side = 0; side < 2; ++side) {
         const double inner = links_[number].inner[side];
@@ -135,7 +140,7 @@ class Widening {
     const Moments& moments = moments_[number];
     frontier_.assign(1, {number, 1.0});
     double opened = 0;
-    for (int depth = 0; depth <= opened_ && !frontier_.empty(); ++depth) {
+    for (int depth = 0; depth <= std::min(opened_, deepest) && !frontier_.empty(); ++depth) {
       double ready = 0;
       for (const auto& [kind, count] : frontier_) ready += count;
       const double more = at_most_opened(moments.mean[depth], moments.variance[depth]) - opened;
@@ -165,10 +170,10 @@ class Widening {
 
   const std::vector<LevelNodes>& nodes_;
   const std::vector<CellKind>& kinds_;
-  int opened_;  ///< maximum number of inner nodes of the binary tree in one wide node
-  std::vector<double> wide_;
+  int opened_ = 1;  ///< maximum number of inner nodes of the binary tree in one wide node
   std::vector<Link> links_;
   std::vector<Moments> moments_;
+  std::vector<double> wide_;
   std::vector<std::pair<std::size_t, double>> frontier_;
   std::vector<std::pair<std::size_t, double>> next_;
 };
@@ -188,6 +193,7 @@ class BoxTreeShapes::Tree {
     // matter.
     const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
     nodes_ = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
+    widening_.emplace(nodes_, kinds_);
     const CrossingProbability crossing(workload, side);
     for (std::size_t kind = 0; kind < nodes_.size(); ++kind) {
       const Sums& inner = nodes_[kind].inner;
@@ -207,7 +213,7 @@ class BoxTreeShapes::Tree {
 
   [[nodiscard]] TreeCounts counts(int fan_out) {
     TreeCounts counts = fixed_;
-    Widening(nodes_, kinds_, fan_out).for_each([&](std::size_t kind, double wide, double children) {
+    widening_->for_each(fan_out, [&](std::size_t kind, double wide, double children) {
       const double share = inner_share_[kind];
       double& culls = inner_culls_[kind];
       if (culls < 0) culls = blocks_.with_any(share);
@@ -223,6 +229,7 @@ class BoxTreeShapes::Tree {
   const std::vector<CellKind>& kinds_;
   RayBlocks blocks_;
   std::vector<LevelNodes> nodes_;
+  std::optional<Widening> widening_;
   std::vector<double> inner_share_;  ///< by kind of cell: P of its inner nodes
   std::vector<double> inner_culls_;  ///< blocks of rays with a ray in an inner node; negative: not computed yet
   std::vector<double> leaf_lists_;   ///< rays listed for leaves, per ray
