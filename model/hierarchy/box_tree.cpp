@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "box_tree_crossing.hpp"
 #include "box_tree_expected.hpp"
-#include "detp/model/lines/line_measure.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
 
 namespace detp::model {
@@ -35,25 +35,6 @@ using box_tree::Leaves;
 using box_tree::LevelNodes;
 using box_tree::Sums;
 using box_tree::TreeCounts;
-
-/// P(node) from the mean surface and volume of nodes' boxes.
-class CrossingProbability {
- public:
-  CrossingProbability(const Valid<Workload>& workload, double side)
-      : of_surface_(crossing_probability(workload, 0, std::min(largest, unit * side * side)) / unit),
-        of_volume_(crossing_probability(workload, std::min(largest, unit * side * side * side), 0) / unit) {}
-
-  [[nodiscard]] double operator()(double surface, double volume) const {
-    return std::min(1.0, of_surface_ * surface + of_volume_ * volume);
-  }
-
- private:
-  static constexpr double unit = 0x1p-40;  // so small that every probability is below 1
-  static constexpr double largest = 1e300;
-
-  double of_surface_;
-  double of_volume_;
-};
 
 /// Joins the inner nodes of the binary tree to wide nodes.
 class Widening {
@@ -183,18 +164,13 @@ class Widening {
 /// The counts of all fan-outs for samples in a cube, or on its faces, that do not depend on the fan-out.
 class BoxTreeShapes::Tree {
  public:
-  /// `samples` in a cube of that side, or on its faces.
-  Tree(int dimension, const Valid<Workload>& workload, double samples, double side, int leaf, Engine engine)
+  /// `samples` in the cube, or on its faces.
+  Tree(int dimension, const Valid<Workload>& workload, const box_tree::SampleCube& cube, double samples, int leaf,
+       Engine engine)
       : kinds_(box_tree::cell_kinds(dimension, samples)), blocks_(ray_blocks(workload.rays, workload.samples, engine)) {
-    constexpr double far = 1e60;  // a larger or smaller radius makes no difference
-    const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
-    // The margin is 64 · 2⁻²⁴ in units of the frame (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
-    // of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not
-    // matter.
-    const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
-    nodes_ = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
+    nodes_ = box_tree::expected_binary_tree(dimension, samples, cube.radius(), leaf, {engine, cube.margin()});
     widening_.emplace(nodes_, kinds_);
-    const CrossingProbability crossing(workload, side);
+    const auto crossing = [&](double surface, double volume) { return cube.crossing(surface, volume); };
     for (std::size_t kind = 0; kind < nodes_.size(); ++kind) {
       const Sums& inner = nodes_[kind].inner;
       inner_share_.push_back(
@@ -246,9 +222,9 @@ BoxTreeShapes::BoxTreeShapes(const Valid<Workload>& workload, int leaf, Engine e
   // proportionally fewer samples.
   in_one_ = static_cast<double>(leaf) / tabulated;
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
-  const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);
+  const box_tree::SampleCube cube(workload);
   const auto tree_in = [&](int whole) {
-    return std::make_unique<Tree>(whole, workload, std::round(samples / in_one_), side, tabulated, engine);
+    return std::make_unique<Tree>(whole, workload, cube, std::round(samples / in_one_), tabulated, engine);
   };
   if (dimension < 3) surface_ = tree_in(2);
   if (dimension > 2) volume_ = tree_in(3);

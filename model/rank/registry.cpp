@@ -9,6 +9,7 @@
 
 #include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/hierarchy/box_tree.hpp"
+#include "detp/model/hierarchy/box_tree_leaf_costs.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"
 #include "detp/model/hierarchy/sphere_tree.hpp"
 #include "detp/model/lines/line_measure.hpp"
@@ -20,6 +21,8 @@
 #include "fastest.hpp"
 #include "index_best.hpp"
 
+#include <cstdlib>
+static const double HARDLY=getenv("H")?atof(getenv("H")):0.01, HARDLY_FEW=getenv("HF")?atof(getenv("HF")):0.05;
 namespace detp::model {
 namespace {
 
@@ -152,38 +155,27 @@ std::optional<FoundParameters> best_sphere_tree(const Valid<Workload>& workload,
   return tuned(fastest.best());
 }
 
-/// The power of two, 4 … 256, next to 24 (n_P/n_R)^0.21, which is fitted to the best leaves of 450 random workloads at
-/// the built-in unit costs. It is more than a factor of 2^1.5 off in 4 % of them.
-int usual_leaf(const Valid<Workload>& workload) {
-  const double doublings = 4.6 + 0.21 * std::log2(workload.samples / workload.rays);
-  return 1 << std::lround(std::clamp(doublings, 2.0, 8.0));
-}
-
-/// Calls time_with for leaves from 4 to 256: all powers of two, or few of them if not `exhaustive`. Then starts with the
-/// usual leaf; halves it, and doubles it, as long as that is faster or at most 1 % slower than the best so far. Stops
-/// halving where the time no longer changes: there the surface-area heuristic decides which nodes are leaves. Among few
-/// samples, where the time goes up and down with the number of samples in the last leaves, 10 % instead of 1 %.
+/// Calls time_with for leaves from 4 to 256: all powers of two, or few of them if not `exhaustive`. These are the leaf with
+/// the least rough cost, and those with a rough cost that is hardly larger, the least first. Besides, a leaf for all samples.
 template <class TimeWith>
-void search_leaves(const Valid<Workload>& workload, bool exhaustive, const TimeWith& time_with) {
-  constexpr double no_change = 5e-4;
-  const double look_ahead = workload.samples < 1000 ? 1.1 : 1.01;
-  if (exhaustive) {
-    for (int leaf = 4; leaf <= box_tree_largest_leaf; leaf *= 2) time_with(leaf);
-    return;
+void search_leaves(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const SearchLimits& limits,
+                   const TimeWith& time_with) {
+  std::vector<std::pair<double, int>> leaves;
+  const auto rough = rough_leaf_costs(workload, costs, limits.engine);
+  for (std::size_t i = 0; i < rough.size(); ++i) {
+    if (limits.fastest == HUGE_VAL || searched_leaves[i] >= workload.samples) {
+      time_with(searched_leaves[i]);
+      if (limits.fastest < HUGE_VAL) break;
+    } else {
+      leaves.emplace_back(rough[i], searched_leaves[i]);
+    }
   }
-  const int first = usual_leaf(workload);
-  double larger_time = time_with(first);
-  double least = larger_time;
-  for (int leaf = first / 2; leaf >= 4; leaf /= 2) {
-    const double time = time_with(leaf);
-    least = std::min(least, time);
-    if (time > look_ahead * least || std::abs(time - larger_time) < no_change * time) break;
-    larger_time = time;
-  }
-  for (int leaf = 2 * first; leaf <= box_tree_largest_leaf; leaf *= 2) {
-    const double time = time_with(leaf);
-    least = std::min(least, time);
-    if (time > look_ahead * least) break;
+  std::sort(leaves.begin(), leaves.end());
+  const double hardly = workload.samples < 1000 ? HARDLY_FEW : HARDLY;
+  double least = std::numeric_limits<double>::infinity();
+  for (const auto& [cost, leaf] : leaves) {
+    if (cost - leaves.front().first > hardly * least) break;
+    least = std::min(least, time_with(leaf));
   }
 }
 
@@ -213,7 +205,7 @@ std::optional<FoundParameters> best_box_tree(const Valid<Workload>& workload, co
   if (const auto fixed_leaf = fixed.value<std::int64_t>("leaf"))
     consider(static_cast<int>(*fixed_leaf));
   else
-    search_leaves(workload, limits.fastest == HUGE_VAL, consider);
+    search_leaves(workload, costs, limits, consider);
   best_counts.loaded = workload.rays;
   return FoundParameters{*fastest.best(), best_counts};
 }
