@@ -28,18 +28,18 @@ class SplitCosts {
   [[nodiscard]] const box_tree::SampleCube& cube() const { return cube_; }
 
   /// The time with a node of `discs` discs split, minus that with a leaf, times the share of nodes that are split.
-  [[nodiscard]] double of_node(const CellBoxes& whole, const CellBoxes& half, double discs) const {
+  [[nodiscard]] double of_node(const CellBoxes& whole, const CellBoxes& half, double discs, int smaller_leaf) const {
     const MeanBox box = whole(discs);
     const MeanBox half_box = half(discs / 2);
     const double p = cube_.crossing(box.surface, box.volume);
     const double p_half = cube_.crossing(half_box.surface, half_box.volume);
     const double p_top = std::min(1.0, p * p / p_half);
-    const double lists = (7 * p_top * costs_.cull_test + (12 * p_half - 5 * p) * costs_.listed) / 6;
-    const double tests = (p_half - p) * discs * costs_.disc_test;
+    const double again = 2 * below((discs / 2 - smaller_leaf - 0.5) / (std::sqrt(discs) / 2));  // halves split again
+    const double lists = rays_ * (7 * p_top * costs_.cull_test + (12 * p_half - 5 * p) * costs_.listed) / 6 +
+                         7 * blocks_.with_any(p_top) / 6 * costs_.cull + 2 * costs_.make;
+    const double tests = rays_ * (p_half - p) * discs * costs_.disc_test;
     const double visits = (blocks_.with_any(p_half, half_box.spread) - blocks_.with_any(p, box.spread)) * discs;
-    return split_share(box.products, half_box.products, discs) *
-           (rays_ * (lists + tests) + visits * costs_.visit + 7 * blocks_.with_any(p_top) / 6 * costs_.cull +
-            2 * costs_.make);
+    return split_share(box.products, half_box.products, discs) * ((1 + again) * lists + tests + visits * costs_.visit);
   }
 
  private:
@@ -76,7 +76,8 @@ void add_splits(int dimension, double samples, const SplitCosts& split, Engine e
       const double discs = std::clamp<double>(expected + deviation * (density(low) - density(high)) / between,
                                               searched_leaves[i] + 1, searched_leaves[i + 1]);
       const double parent_larger = below((expected + discs - searched_leaves[i + 1] - 0.5) / deviation);
-      splits[i] += weight / kind.share * between * parent_larger * split.of_node(whole, half, discs);
+      splits[i] +=
+          weight / kind.share * between * parent_larger * split.of_node(whole, half, discs, searched_leaves[i]);
     }
   }
 }

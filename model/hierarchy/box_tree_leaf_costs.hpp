@@ -21,8 +21,9 @@ inline constexpr std::array searched_leaves{4, 8, 16, 32, 64, 128, 256};
 ///   where  P, P_h, P'   share of the rays in the list of the node, its half, and the top of its wide node (P²/P_h)
 ///          B(P)         blocks of rays with a ray in that list;   t, u, l, c, r, g   unit costs
 ///
-/// for a fan-out of 8, less the nodes that the surface-area heuristic turns into leaves anyway. All cells of a level
-/// count as equal, with m normal and P at the mean m; on surfaces all as cells of one face.
+/// for a fan-out of 8. Terms of lists also count the halves that are split again. Nodes that the surface-area heuristic
+/// turns into leaves anyway are left out. All cells of a level count as equal, with m normal and P at the mean m; on
+/// surfaces all as cells of one face.
 ///
 /// Source     our derivation.
 [[nodiscard]] std::array<double, searched_leaves.size()> rough_leaf_costs(const Valid<Workload>& workload,

@@ -19,9 +19,9 @@ namespace detp::model {
 /// The result of a search. If k is 0, Q has no effect and is published_ratio. best_ratio_and_stop and
 /// good_ratio_and_stop return k = 0 if d >= 0.98 r₀, because no sphere would hold a disc.
 struct BestRatio {
-  double ratio = 0;          ///< Q
-  std::int64_t spheres = 0;  ///< k; 0: no sphere, each disc is tested with all rays
-  double time = 0;                         ///< T at (Q, k) less time_at_any_ratio, in the unit of the costs
+  double ratio = 0;                    ///< Q
+  std::int64_t spheres = 0;            ///< k; 0: no sphere, each disc is tested with all rays
+  double time = 0;                     ///< T at (Q, k) less time_at_any_ratio, in the unit of the costs
   std::int64_t evaluated_spheres = 0;  ///< spheres evaluated one by one by a search over Q
 };
 
