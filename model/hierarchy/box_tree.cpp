@@ -5,11 +5,12 @@
 #include <cassert>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include "box_tree_crossing.hpp"
 #include "box_tree_expected.hpp"
-#include "detp/model/lines/line_measure.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
 
 namespace detp::model {
@@ -35,31 +36,11 @@ using box_tree::LevelNodes;
 using box_tree::Sums;
 using box_tree::TreeCounts;
 
-/// P(node) from the mean surface and volume of nodes' boxes.
-class CrossingProbability {
- public:
-  CrossingProbability(const Valid<Workload>& workload, double side)
-      : of_surface_(crossing_probability(workload, 0, std::min(largest, unit * side * side)) / unit),
-        of_volume_(crossing_probability(workload, std::min(largest, unit * side * side * side), 0) / unit) {}
-
-  [[nodiscard]] double operator()(double surface, double volume) const {
-    return std::min(1.0, of_surface_ * surface + of_volume_ * volume);
-  }
-
- private:
-  static constexpr double unit = 0x1p-40;  // so small that every probability is below 1
-  static constexpr double largest = 1e300;
-
-  double of_surface_;
-  double of_volume_;
-};
-
 /// Joins the inner nodes of the binary tree to wide nodes.
 class Widening {
  public:
-  Widening(const std::vector<LevelNodes>& nodes, const std::vector<CellKind>& kinds, int fan_out)
-      : nodes_(nodes), kinds_(kinds), opened_(fan_out - 1), wide_(nodes.size(), 0), moments_(nodes.size()) {
-    links_.resize(nodes.size());
+  Widening(const std::vector<LevelNodes>& nodes, const std::vector<CellKind>& kinds)
+      : nodes_(nodes), kinds_(kinds), links_(nodes.size()), moments_(nodes.size()) {
     for (std::size_t i = nodes.size(); i-- > 0;) {
       link(i);
       find_moments(i);
@@ -68,14 +49,19 @@ class Widening {
 
   /// Calls visit(kind of cell, number of wide nodes, children of each) for each kind that has wide nodes.
   template <class Visit>
-  void for_each(const Visit& visit) {
+  void for_each(int fan_out, const Visit& visit) {
     if (nodes_.empty()) return;
+    opened_ = fan_out - 1;
+    wide_.assign(nodes_.size(), 0);
     wide_[0] = nodes_[0].inner.count;
     for (std::size_t i = 0; i < nodes_.size(); ++i)
       if (wide_[i] > 1e-9) visit(i, wide_[i], 1 + open(i));
   }
 
  private:
+  /// The model joins inner nodes at most this many levels below the top.
+  static constexpr int deepest = 9;
+
   /// The halves of an inner node that are inner nodes themselves.
   struct Link {
     std::array<std::size_t, 2> child{};
@@ -84,8 +70,8 @@ class Widening {
 
   /// Mean and variance of the number of inner nodes at most `depth` levels below an inner node, including itself.
   struct Moments {
-    std::array<double, box_tree_most_children> mean{};
-    std::array<double, box_tree_most_children> variance{};
+    std::array<double, deepest + 1> mean{};
+    std::array<double, deepest + 1> variance{};
   };
 
   void link(std::size_t number) {
@@ -102,7 +88,7 @@ class Widening {
   void find_moments(std::size_t number) {
     Moments& all = moments_[number];
     all.mean[0] = 1;
-    for (int depth = 1; depth <= opened_; ++depth) {
+    for (int depth = 1; depth <= deepest; ++depth) {
       all.mean[depth] = 1;
       for (int side = 0; side < 2; ++side) {
         const double inner = links_[number].inner[side];
@@ -135,7 +121,7 @@ class Widening {
     const Moments& moments = moments_[number];
     frontier_.assign(1, {number, 1.0});
     double opened = 0;
-    for (int depth = 0; depth <= opened_ && !frontier_.empty(); ++depth) {
+    for (int depth = 0; depth <= std::min(opened_, deepest) && !frontier_.empty(); ++depth) {
       double ready = 0;
       for (const auto& [kind, count] : frontier_) ready += count;
       const double more = at_most_opened(moments.mean[depth], moments.variance[depth]) - opened;
@@ -165,10 +151,10 @@ class Widening {
 
   const std::vector<LevelNodes>& nodes_;
   const std::vector<CellKind>& kinds_;
-  int opened_;  ///< maximum number of inner nodes of the binary tree in one wide node
-  std::vector<double> wide_;
+  int opened_ = 1;  ///< maximum number of inner nodes of the binary tree in one wide node
   std::vector<Link> links_;
   std::vector<Moments> moments_;
+  std::vector<double> wide_;
   std::vector<std::pair<std::size_t, double>> frontier_;
   std::vector<std::pair<std::size_t, double>> next_;
 };
@@ -178,17 +164,13 @@ class Widening {
 /// The counts of all fan-outs for samples in a cube, or on its faces, that do not depend on the fan-out.
 class BoxTreeShapes::Tree {
  public:
-  /// `samples` in a cube of that side, or on its faces.
-  Tree(int dimension, const Valid<Workload>& workload, double samples, double side, int leaf, Engine engine)
+  /// `samples` in the cube, or on its faces.
+  Tree(int dimension, const Valid<Workload>& workload, const box_tree::SampleCube& cube, double samples, int leaf,
+       Engine engine)
       : kinds_(box_tree::cell_kinds(dimension, samples)), blocks_(ray_blocks(workload.rays, workload.samples, engine)) {
-    constexpr double far = 1e60;  // a larger or smaller radius makes no difference
-    const double radius = std::clamp(workload.disc_radius / side, 1 / far, far);
-    // The margin is 64 · 2⁻²⁴ in units of the frame (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
-    // of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not
-    // matter.
-    const double margin = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side;
-    nodes_ = box_tree::expected_binary_tree(dimension, samples, radius, leaf, {engine, margin});
-    const CrossingProbability crossing(workload, side);
+    nodes_ = box_tree::expected_binary_tree(dimension, samples, cube.radius(), leaf, {engine, cube.margin()});
+    widening_.emplace(nodes_, kinds_);
+    const auto crossing = [&](double surface, double volume) { return cube.crossing(surface, volume); };
     for (std::size_t kind = 0; kind < nodes_.size(); ++kind) {
       const Sums& inner = nodes_[kind].inner;
       inner_share_.push_back(
@@ -207,7 +189,7 @@ class BoxTreeShapes::Tree {
 
   [[nodiscard]] TreeCounts counts(int fan_out) {
     TreeCounts counts = fixed_;
-    Widening(nodes_, kinds_, fan_out).for_each([&](std::size_t kind, double wide, double children) {
+    widening_->for_each(fan_out, [&](std::size_t kind, double wide, double children) {
       const double share = inner_share_[kind];
       double& culls = inner_culls_[kind];
       if (culls < 0) culls = blocks_.with_any(share);
@@ -223,6 +205,7 @@ class BoxTreeShapes::Tree {
   const std::vector<CellKind>& kinds_;
   RayBlocks blocks_;
   std::vector<LevelNodes> nodes_;
+  std::optional<Widening> widening_;
   std::vector<double> inner_share_;  ///< by kind of cell: P of its inner nodes
   std::vector<double> inner_culls_;  ///< blocks of rays with a ray in an inner node; negative: not computed yet
   std::vector<double> leaf_lists_;   ///< rays listed for leaves, per ray
@@ -239,9 +222,9 @@ BoxTreeShapes::BoxTreeShapes(const Valid<Workload>& workload, int leaf, Engine e
   // proportionally fewer samples.
   in_one_ = static_cast<double>(leaf) / tabulated;
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
-  const double side = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);
+  const box_tree::SampleCube cube(workload);
   const auto tree_in = [&](int whole) {
-    return std::make_unique<Tree>(whole, workload, std::round(samples / in_one_), side, tabulated, engine);
+    return std::make_unique<Tree>(whole, workload, cube, std::round(samples / in_one_), tabulated, engine);
   };
   if (dimension < 3) surface_ = tree_in(2);
   if (dimension > 2) volume_ = tree_in(3);

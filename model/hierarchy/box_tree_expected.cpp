@@ -124,16 +124,19 @@ class ExpectedLevels {
     const Halves halves = halves_of(cell);
     double above = 1 - probability_[0];
     double discs_above = expected;
+    constexpr double few = 0.01;
     for (int first = 1; first <= last;) {
-      // Neighbouring numbers of discs have about equal boxes, so evaluate them together.
-      int end = first + std::max(1, first / 5);
-      if (first <= leaf_) end = std::min(end, leaf_ + 1);
-      end = std::min(end, last + 1);
+      // Neighbouring numbers of discs have about equal boxes, so evaluate them together; in the tails, more of them.
+      int end = first;
       double weight = 0;
       double discs = 0;
       double leaves = 0;
       double leaf_boxes = 0;
-      for (int m = first; m < end; ++m) {
+      const auto belongs = [&](int m) {
+        if (m > last || (first <= leaf_ && m > leaf_)) return false;
+        return m == first || m < first + first / 5 || (m < first + first / 2 && weight < few);
+      };
+      for (int m = first; belongs(m); end = ++m) {
         above -= probability_[m];
         discs_above -= m * probability_[m];
         const double present = probability_[m] * node_probability[m];
@@ -255,7 +258,7 @@ class ExpectedLevels {
     }
     for (std::size_t s = 0; s < probability_.size(); ++s) {
       const double p = probability_[s];
-      if (p < 1e-7) continue;
+      if (p < 1e-5) continue;
       rest -= p;
       const double* from = &inner_probability_[s];
       double* to = conditional_.data();

@@ -7,6 +7,7 @@
 #include <queue>
 #include <vector>
 
+#include "detp/model/lines/line_measure.hpp"
 #include "detp/model/sphere_cache/sphere_cache.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/model/sphere_cache/step_pieces.hpp"
@@ -21,7 +22,7 @@ class CacheTimes {
     const double blocks = blocks_of(workload.rays, workload.samples);
     costs_.cull *= blocks;
     costs_.visit *= blocks;
-    costs_.ray = costs_.hit = costs_.start = 0;
+    costs_.ray = costs_.hit = costs_.far = costs_.start = 0;
   }
 
   [[nodiscard]] std::int64_t evaluated_spheres() const { return evaluated_spheres_; }
@@ -230,6 +231,12 @@ bool holds_a_disc(const Valid<Workload>& workload, double ratio) {
 }
 
 }  // namespace
+
+double time_at_any_ratio(const Valid<Workload>& workload, const Valid<UnitCosts>& costs) {
+  const double visits = blocks_of(workload.rays, workload.samples) * workload.samples;
+  return costs.ray * workload.rays + costs.hit * expected_hits(workload) + costs.far * far_discs({.visits = visits}) +
+         costs.start;
+}
 
 BestRatio best_ratio_and_stop(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                               std::int64_t most_spheres) {

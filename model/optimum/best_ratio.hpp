@@ -19,12 +19,15 @@ namespace detp::model {
 /// The result of a search. If k is 0, Q has no effect and is published_ratio. best_ratio_and_stop and
 /// good_ratio_and_stop return k = 0 if d >= 0.98 r₀, because no sphere would hold a disc.
 struct BestRatio {
-  double ratio = 0;          ///< Q
-  std::int64_t spheres = 0;  ///< k; 0: no sphere, each disc is tested with all rays
-  /// T at (Q, k), in the unit of the costs; without the costs of rays, hits and the start, which do not depend on Q or k
-  double time = 0;
+  double ratio = 0;                    ///< Q
+  std::int64_t spheres = 0;            ///< k; 0: no sphere, each disc is tested with all rays
+  double time = 0;                     ///< T at (Q, k) less time_at_any_ratio, in the unit of the costs
   std::int64_t evaluated_spheres = 0;  ///< spheres evaluated one by one by a search over Q
 };
+
+/// The part of T that does not depend on Q and k: the costs of rays, hits and the start, and of handling discs that are
+/// in no cache of the processor.
+[[nodiscard]] double time_at_any_ratio(const Valid<Workload>& workload, const Valid<UnitCosts>& costs);
 
 inline constexpr std::int64_t most_evaluated_spheres = 16'000;
 

@@ -9,6 +9,7 @@
 
 #include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/hierarchy/box_tree.hpp"
+#include "detp/model/hierarchy/box_tree_leaf_costs.hpp"
 #include "detp/model/hierarchy/cell_spheres.hpp"
 #include "detp/model/hierarchy/sphere_tree.hpp"
 #include "detp/model/lines/line_measure.hpp"
@@ -104,8 +105,9 @@ std::optional<FoundParameters> best_cache(const Valid<Workload>& workload, const
   if (workload.disc_radius >= workload.sphere_radius)
     return FoundParameters{SphereCacheParameters{ratio.value_or(published_ratio), spheres.value_or(0)}};
   if (limits.fastest < HUGE_VAL && fixed.values.empty()) {
-    const BestRatio good = good_ratio_below(workload, costs, limits.fastest);
-    if (good.spheres > 0 && good.time > good_ratio_excess * limits.fastest)
+    const double others = limits.fastest - time_at_any_ratio(workload, costs);
+    const BestRatio good = good_ratio_below(workload, costs, others);
+    if (good.spheres > 0 && good.time > good_ratio_excess * others)
       return not_tuned(SphereCacheParameters{good.ratio, good.spheres});
     const BestRatio better = better_ratio_and_stop(workload, costs, good);
     return FoundParameters{SphereCacheParameters{better.ratio, better.spheres}};
@@ -151,39 +153,35 @@ std::optional<FoundParameters> best_sphere_tree(const Valid<Workload>& workload,
   return tuned(fastest.best());
 }
 
-/// The power of two, 4 … 256, next to 24 (n_P/n_R)^0.21, which is fitted to the best leaves of 450 random workloads at
-/// the built-in unit costs. It is more than a factor of 2^1.5 off in 4 % of them.
-int usual_leaf(const Valid<Workload>& workload) {
-  const double doublings = 4.6 + 0.21 * std::log2(workload.samples / workload.rays);
-  return 1 << std::lround(std::clamp(doublings, 2.0, 8.0));
-}
-
-/// Calls time_with for leaves from 4 to 256: all powers of two, or few of them if not `exhaustive`. Then starts with the
-/// usual leaf; halves it, and doubles it, as long as that is faster or at most 1 % slower than the best so far. Stops
-/// halving where the time no longer changes: there the surface-area heuristic decides which nodes are leaves. Among few
-/// samples, where the time goes up and down with the number of samples in the last leaves, 10 % instead of 1 %.
+/// Calls time_with for leaves from 4 to 256: all powers of two, or few of them if not `exhaustive`. These are the leaf with
+/// the least rough cost, and those next to it as long as the rough cost is hardly
+/// larger and the time is at most 0.5 % longer (10 % among few samples, where it goes up and down).
 template <class TimeWith>
-void search_leaves(const Valid<Workload>& workload, bool exhaustive, const TimeWith& time_with) {
-  constexpr double no_change = 5e-4;
-  const double look_ahead = workload.samples < 1000 ? 1.1 : 1.01;
-  if (exhaustive) {
-    for (int leaf = 4; leaf <= box_tree_largest_leaf; leaf *= 2) time_with(leaf);
+void search_leaves(const Valid<Workload>& workload, const Valid<UnitCosts>& costs, const SearchLimits& limits,
+                   const TimeWith& time_with) {
+  if (limits.fastest == HUGE_VAL) {
+    for (const int leaf : searched_leaves) time_with(leaf);
     return;
   }
-  const int first = usual_leaf(workload);
-  double larger_time = time_with(first);
-  double least = larger_time;
-  for (int leaf = first / 2; leaf >= 4; leaf /= 2) {
-    const double time = time_with(leaf);
-    least = std::min(least, time);
-    if (time > look_ahead * least || std::abs(time - larger_time) < no_change * time) break;
-    larger_time = time;
-  }
-  for (int leaf = 2 * first; leaf <= box_tree_largest_leaf; leaf *= 2) {
-    const double time = time_with(leaf);
-    least = std::min(least, time);
-    if (time > look_ahead * least) break;
-  }
+  int end = 0;
+  while (end < std::ssize(searched_leaves) && searched_leaves[end] < workload.samples) ++end;
+  if (end < std::ssize(searched_leaves)) time_with(searched_leaves[end]);
+  if (end == 0) return;
+  const auto rough = rough_leaf_costs(workload, costs, limits.engine);
+  const int first = static_cast<int>(std::min_element(rough.begin(), rough.begin() + end) - rough.begin());
+  const double hardly = workload.samples < 1000 ? 0.2 : 0.06;
+  const double look_ahead = workload.samples < 1000 ? 1.1 : 1.005;
+  double least = time_with(searched_leaves[first]);
+  const auto walk = [&](int step) {
+    for (int i = first + step; i >= 0 && i < end && rough[i] - rough[first] < hardly * least; i += step) {
+      const double time = time_with(searched_leaves[i]);
+      if (time > look_ahead * least) break;
+      least = std::min(least, time);
+    }
+  };
+  const int more_likely = first > 0 && (first + 1 == end || rough[first - 1] < rough[first + 1]) ? -1 : 1;
+  walk(more_likely);
+  walk(-more_likely);
 }
 
 /// Tries fan-outs of 4, 8 and 16 with each leaf of the search. They share the binary tree of the leaf.
@@ -212,7 +210,7 @@ std::optional<FoundParameters> best_box_tree(const Valid<Workload>& workload, co
   if (const auto fixed_leaf = fixed.value<std::int64_t>("leaf"))
     consider(static_cast<int>(*fixed_leaf));
   else
-    search_leaves(workload, limits.fastest == HUGE_VAL, consider);
+    search_leaves(workload, costs, limits, consider);
   best_counts.loaded = workload.rays;
   if (workload.path_length > 0) best_counts.segments = workload.rays;
   return FoundParameters{*fastest.best(), best_counts};
