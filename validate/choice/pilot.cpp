@@ -12,6 +12,7 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
+#include "detp/sim/technique/registry.hpp"
 #include "other_techniques.hpp"
 
 namespace detp::validate {

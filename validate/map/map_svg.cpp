@@ -65,7 +65,7 @@ std::optional<Sign> measured_sign(const MapCell& cell) {
 std::optional<Sign> paper_sign(const MapCell& cell) { return Sign{cell.paper.technique, title(cell.paper)}; }
 
 /// Positions of the edges of cells along an axis of this length.
-std::vector<double> positions(const std::vector<double>& values, double length) {
+std::vector<double> axis_places(const std::vector<double>& values, double length) {
   std::vector<double> edges = cell_edges(values);
   const double first = std::log(edges.front());
   const double range = std::log(edges.back()) - first;
@@ -76,10 +76,10 @@ std::vector<double> positions(const std::vector<double>& values, double length) 
 class MapDrawing {
  public:
   MapDrawing(const TechniqueMap& map, const MapCaption& caption)
-      : map_(map), caption_(caption), agreement_(agreement_of(map)), xs_(positions(map.rays, panel_width)) {
+      : map_(map), caption_(caption), agreement_(agreement_of(map)), xs_(axis_places(map.rays, panel_width)) {
     std::vector<double> radii;
     for (const MapRow& row : map.rows) radii.push_back(row.workload.disc_radius);
-    ys_ = positions(radii, panel_height);
+    ys_ = axis_places(radii, panel_height);
     panels_.push_back({"predicted", predicted_sign});
     if (agreement_.cells > 0) panels_.push_back({"measured", measured_sign});
     panels_.push_back({"the paper's rule (limits: X = 2 and X = 6)", paper_sign});
