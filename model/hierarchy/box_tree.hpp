@@ -66,7 +66,7 @@ inline constexpr int box_tree_largest_leaf = 256;
 ///            discs 0.7, 3.8, 8.2 %, culls 0.8, 5.9, 13.5 %, visits 0.2, 2.8, 5.3 %. In scenes:
 ///            validate/choice/README.md.
 /// Limits     n_P <= leaf: one leaf, every ray tested with every disc.
-/// Costs      with leaves of 4, 16 and 64: 0.39, 0.26, 0.08 million instructions for D = 3, 1.14, 0.74, 0.26 for D = 2,
+/// Costs      with leaves of 4, 16 and 64: 0.57, 0.33, 0.10 million instructions for D = 3, 1.33, 1.10, 0.45 for D = 2,
 ///            and the sum of both between (means over 20 random cubes, valgrind --tool=callgrind). Once 4 ms to make a
 ///            table.
 /// Throws     std::invalid_argument for a workload or parameters out of range.

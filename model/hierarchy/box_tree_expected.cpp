@@ -258,7 +258,7 @@ class ExpectedLevels {
     }
     for (std::size_t s = 0; s < probability_.size(); ++s) {
       const double p = probability_[s];
-      if (p < 1e-5) continue;
+      if (p < 1e-7) continue;
       rest -= p;
       const double* from = &inner_probability_[s];
       double* to = conditional_.data();

@@ -13,7 +13,7 @@ namespace detp::model::box_tree {
 inline constexpr int largest_sah_leaf = 64;
 
 /// Values farther from the mean than this many standard deviations are neglected.
-inline constexpr double deviations = 4.5;
+inline constexpr double deviations = 6;
 
 /// True if almost every cell that expects `expected` discs has more than `discs`.
 [[nodiscard]] bool almost_all_exceed(int discs, double expected);

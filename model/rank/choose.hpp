@@ -38,7 +38,7 @@ struct Ranked {
 /// Parameters are those for one thread; then the number of threads is chosen, at most limits.threads (fastest_price). The
 /// counts are those of the costs' engine.
 ///
-/// Cost       3.1 million instructions for D = 2, 1.2 for D = 3, 3.8 for D between 2 and 3, most of them for the binary
+/// Cost       2.9 million instructions for D = 2, 1.2 for D = 3, 4.0 for D = 2.4, most of them for the binary
 ///            trees of box trees (means over 40 random workloads at the built-in unit costs, valgrind --tool=callgrind).
 ///            The first call of a program also makes a table of box_tree_boxes.cpp.
 /// Throws     std::invalid_argument for a workload or a number of threads out of range.
