@@ -52,6 +52,18 @@ TEST_SUITE("identity") {
     }
   }
 
+  TEST_CASE("rays that end are predicted as segments, by box trees and by brute force") {
+    for (const std::size_t rays : {2UL, 5000UL}) {
+      Example example(2000, 0.02, rays);
+      const auto lines = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+      for (sim::Ray& ray : example.rays) ray.length = 2;
+      const sim::Problem of_segments = sim::make_problem(example.rays, example.discs);
+      const auto segments = validate::choose_by_pilot(of_segments, validate::built_in_unit_costs());
+      for (const validate::Piloted& one : lines.candidates) CHECK(one.counts.segments == 0);
+      for (const validate::Piloted& one : segments.candidates) CHECK(one.counts.segments == static_cast<double>(rays));
+    }
+  }
+
   TEST_CASE("the same rays and discs give the same choice and the same predictions") {
     const Example example(5000, 0.02, 5000);
     const auto one = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
