@@ -201,8 +201,8 @@ class Calibrator {
         if ((engine == Engine::simd || record_of(candidate.technique).simd) && !is_over(place) &&
             !is_hopeless(setting, candidate.technique, engine))
           count(problem, setting, candidate, engine, place, all);
-    for (int repeat = 0; repeat < most_repeats && !is_over(place); ++repeat)
-      for (Timed& one : all)
+    for (Timed& one : all)
+      for (int repeat = 0; repeat < most_repeats && !is_over(place); ++repeat)
         if (repeat < least_repeats || one.timed < enough_timed) time(problem, one);
     for (const Timed& one : all) store(one, place);
   }

@@ -47,8 +47,8 @@ inline constexpr double doubtful_error = 0.15;
 /// Times all exact techniques, with several parameters each, on uniform samples in a cube and on its faces: 10² … 10⁵
 /// discs (10⁶ once), 10² … 10⁵ rays, from few to very many hits; by both engines where they differ. The discs of half the
 /// workloads are in order along a curve. The rays of half the workloads are isotropic lines; those of the others are
-/// pieces of such lines. Runs of more than 0.06 s are left out. The candidates of a workload are run in turn, each two to seven
-/// times, until 0.015 s have passed; the shortest time counts. Fits the unit costs of each technique and engine to its runs on one
+/// pieces of such lines. Runs of more than 0.06 s are left out. Each candidate is run two to seven times in succession,
+/// until 0.015 s have passed; the shortest time counts. Fits the unit costs of each technique and engine to its runs on one
 /// thread, in seconds. On every second workload, each run whose work is divided alternates with runs on 2, 4, … threads; the costs
 /// of threads are fitted to these. A technique with too few runs (10, or 5 on more threads) keeps the built-in costs.
 [[nodiscard]] Calibration calibrate(const CalibrationOptions& options = {});

@@ -8,6 +8,7 @@
 
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
+#include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/geometry/random.hpp"
@@ -135,6 +136,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   if (!sim::PilotedDiscs::can_pilot(problem))
     throw std::invalid_argument("rays start too far from the discs for float kernels; a pilot needs them");
   if (costs.engine != Engine::simd) throw std::invalid_argument("a pilot counts for the simd engine, not for plain");
+  sim::StopCheck(options.stop, "choosing").now();
   const sim::Stopwatch watch;
   const Prices prices{costs, sim::useful_threads(options.threads)};
   const SearchSize size{rays,
