@@ -167,7 +167,7 @@ class Calibrator {
     }
   };
 
-  /// A candidate that is timed, in turn with the others of its workload.
+  /// A candidate of a workload, and its times so far.
   struct Timed {
     Candidate candidate;
     Engine engine;
@@ -195,16 +195,25 @@ class Calibrator {
     const auto discs = discs_of(setting, place);
     const auto rays = rays_of(setting, discs, place);
     const sim::Problem problem = sim::make_problem(rays, discs);
-    std::vector<Timed> all;
     for (const Candidate& candidate : candidates(setting, place))
       for (const Engine engine : {Engine::simd, Engine::plain})
         if ((engine == Engine::simd || record_of(candidate.technique).simd) && !is_over(place) &&
             !is_hopeless(setting, candidate.technique, engine))
-          count(problem, setting, candidate, engine, place, all);
-    for (Timed& one : all)
-      for (int repeat = 0; repeat < most_repeats && !is_over(place); ++repeat)
-        if (repeat < least_repeats || one.timed < enough_timed) time(problem, one);
-    for (const Timed& one : all) store(one, place);
+          measure(problem, setting, candidate, engine, place);
+  }
+
+  /// Counts the candidate's operations, then times it, unless it takes too long.
+  void measure(const sim::Problem& problem, const Setting& setting, const Candidate& candidate, Engine engine,
+               std::size_t place) {
+    const StopAfter limit(options_.stop, longest_run);
+    const sim::Outcome counted = sim::run(problem, candidate, {.engine = engine, .stop = limit.token()});
+    if (counted.stopped) too_long_.push_back({candidate.technique, engine, setting});
+    if (counted.stopped || counted.seconds.total() > longest_run) return;
+    Timed one{candidate, engine, as_expected(counted.counts)};
+    if (place % 2 == 0 && is_divided(one.counts, candidate.technique, engine)) one.numbers = numbers_;
+    one.shortest.resize(one.numbers.size());
+    for (int i = 0; i < most_repeats && (i < least_repeats || one.timed < enough_timed); ++i) time(problem, one);
+    store(one, place);
   }
 
   /// Whether two threads would be busy.
@@ -219,19 +228,6 @@ class Calibrator {
       return one.technique == technique && one.engine == engine && one.setting.samples <= setting.samples &&
              one.setting.rays <= setting.rays;
     });
-  }
-
-  /// Counts the candidate's operations. Adds it to those that will be timed, unless it takes too long.
-  void count(const sim::Problem& problem, const Setting& setting, const Candidate& candidate, Engine engine,
-             std::size_t place, std::vector<Timed>& all) {
-    const StopAfter limit(options_.stop, longest_run);
-    const sim::Outcome counted = sim::run(problem, candidate, {.engine = engine, .stop = limit.token()});
-    if (counted.stopped) too_long_.push_back({candidate.technique, engine, setting});
-    if (counted.stopped || counted.seconds.total() > longest_run) return;
-    Timed one{candidate, engine, as_expected(counted.counts)};
-    if (place % 2 == 0 && is_divided(one.counts, candidate.technique, engine)) one.numbers = numbers_;
-    one.shortest.resize(one.numbers.size());
-    all.push_back(std::move(one));
   }
 
   /// Times the candidate once on each number of threads.

@@ -72,17 +72,16 @@ struct PilotOptions {
 [[nodiscard]] std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t discs);
 
 /// The candidate that finds the hits of `rays` rays fastest by the simd engine, on how many threads, and how long it will
-/// take. `sample` are
-/// some of these rays, drawn at random or in strata, as by pilot_sample.
+/// take. `sample` are some of these rays, drawn at random or in strata, as by pilot_sample.
 ///
 /// The shapes of box trees are compared by sim::PilotedDiscs; brute force by its exact counts. Every other exact
-/// technique is ruled out if a search with the least counts that are possible takes longer than the best box tree:
-/// each disc sorted, placed and visited once, each ray loaded, each hit tested. (If rays reach few of the discs, a search
-/// may visit fewer.) A technique that this does not rule out
-/// is compared by its closed form, if the closed forms and the evidence that they need take less than 2 % of the best; it is ruled out if it
-/// takes twice as long as the best, and chosen if it takes less than half as long: in real scenes, closed forms may be off
-/// by a factor of two. Brute force is chosen if it takes less time than sorting and placing the discs alone; then there is no
-/// pilot. After the pilot, the discs are sorted, and it is chosen only if it is faster than the rest of the run.
+/// technique is ruled out if a search with the least counts that are possible takes longer than the best box tree: each
+/// disc sorted, placed and visited once, each ray loaded, each hit tested. (If rays reach few of the discs, a search
+/// may visit fewer.) A technique that this does not rule out is compared by its closed form, if the closed forms and
+/// the evidence that they need take less than 2 % of the best; it is ruled out if it takes twice as long as the best,
+/// and chosen if it takes less than half as long: in real scenes, closed forms may be off by a factor of two. Brute
+/// force is chosen if it takes less time than sorting and placing the discs alone; then there is no pilot. After the
+/// pilot, the discs are sorted, and it is chosen only if it is faster than the rest of the run.
 ///
 /// Throws std::invalid_argument if the problem cannot be piloted (PilotedDiscs::can_pilot), for an empty sample, for a
 /// number of rays out of 1 … 1e18, for costs of the plain engine and if box-tree is disabled; sim::Stopped on a stop request.
