@@ -19,6 +19,7 @@ inline validate::RegretRow regret_row(double regret, bool held_out, double of_ba
                           .disc_radius = 0.25,
                           .threads = threads,
                           .best = {Technique::grid, GridParameters{}},
+                          .best_threads = 1,
                           .best_seconds = 0.01,
                           .noise = 1,
                           .tried = 30,

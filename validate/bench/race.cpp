@@ -23,14 +23,16 @@ class RaceRunner {
     for (const Competitor& competitor : competitors) race_.results.push_back({competitor});
     double ours = 0;
     double peers = 0;
-    in_turns(competitors.size(), options_.repeats, [&](std::size_t i, int round) {
-      CompetitorResult& result = race_.results[i];
-      if (round == 0) return run(result);
-      if (i == 0 && round >= least_rounds && watch_.seconds() >= options_.most_seconds) return false;
-      if (i == 0 && round == 1) {
+    const auto begin = [&](int round) {
+      if (round == 1) {
         ours = slowest_finalist(true);
         peers = slowest_finalist(false);
       }
+      return round < least_rounds || watch_.seconds() < options_.most_seconds;
+    };
+    in_turns(competitors.size(), options_.repeats, begin, [&](std::size_t i, int round) {
+      CompetitorResult& result = race_.results[i];
+      if (round == 0) return run(result);
       return result.seconds.front() > (is_own_technique(result.competitor) ? ours : peers) || run(result);
     });
     std::erase_if(race_.results, [](const CompetitorResult& result) { return result.seconds.empty(); });

@@ -38,71 +38,59 @@ struct BuiltIn {
   ThreadCosts threads = {};
 };
 
-// All from one run of detp calibrate on a machine with two cores; left-out workloads were 15 % off in the median. The costs of
-// more than two threads are extrapolated. In that run, too few runs of brute force by the simd engine, and of box trees by the
-// plain engine, were divided among threads: these costs of threads are from an earlier run.
+// Unit costs: one fit to the runs of four calibrations of 60 s with different seeds, on a machine with two cores. Costs of
+// threads: from earlier single runs of detp calibrate; those of more than two threads are extrapolated.
 constexpr BuiltIn of_simd[] = {
     {Technique::brute_force,
-     {.u = 0.495, .l = 14.9, .h = 6.62, .i = 4.86, .e = 0.2, .m = 3.23, .a = 9.74e+03},
+     {.u = 0.628, .l = 27.2, .i = 5.21, .e = 0.223, .m = 6.04, .a = 9.34e+03},
      {.serial_preparing = 1, .serial_search = 0.0519, .start = 1.09e-05}},
     {Technique::sphere_cache,
-     {.t = 0.403, .u = 1.12, .c = 1.27, .r = 171, .l = 173, .e = 0.351, .m = 377, .a = 1.53e+04},
+     {.t = 0.643, .u = 0.674, .c = 1.33, .s = 100, .r = 180, .l = 220, .i = 7.92, .e = 0.347, .m = 238},
      {.serial_preparing = 1, .serial_search = 0, .start = 3.31e-06}},
     {Technique::cell_spheres,
-     {.t = 0.731, .u = 0.511, .r = 218, .l = 328, .i = 7.69, .e = 0.193, .a = 1.94e+04},
+     {.t = 1.19, .u = 1, .s = 98.1, .r = 225, .l = 347, .i = 5.61, .e = 0.205, .m = 24.6, .a = 5.2e+03},
      {.serial_preparing = 1, .serial_search = 0, .start = 3.76e-06}},
     {Technique::box_tree,
-     {.t = 0.605,
-      .u = 0.474,
-      .c = 1.43,
-      .p = 53.4,
-      .g = 69.8,
-      .r = 35,
-      .l = 17.9,
-      .h = 0.633,
-      .i = 2.36,
-      .e = 0.271,
-      .m = 1.73,
-      .a = 1.6e+04},
+     {.t = 0.618,
+      .u = 0.56,
+      .c = 2.12,
+      .p = 70.5,
+      .g = 78,
+      .r = 70.4,
+      .l = 18.5,
+      .i = 6.95,
+      .e = 0.231,
+      .m = 11.2,
+      .a = 1.21e+04},
      {.serial_preparing = 0.333, .serial_search = 0.29, .start = 8.82e-05}}};
 
 constexpr BuiltIn of_plain[] = {
     {Technique::brute_force,
-     {.u = 4.25, .h = 62.2, .i = 41.2, .a = 1.34e+04},
+     {.u = 5.78, .h = 116, .e = 0.547},
      {.serial_preparing = 1, .serial_search = 0, .start = 1.94e-05}},
-    {Technique::sphere_cache, {.t = 5.59, .u = 4.22, .c = 28.9, .s = 71.4, .r = 14.9, .h = 88.3, .e = 5.1, .m = 24.2}},
-    {Technique::cell_spheres, {.t = 12.8, .u = 5.13, .s = 71.7, .r = 123, .h = 155, .e = 3.42, .m = 24.6}},
+    {Technique::sphere_cache,
+     {.t = 4.62, .u = 3.78, .c = 30.5, .s = 80.5, .r = 23.1, .l = 57.6, .h = 121, .e = 6.9, .m = 21.2}},
+    {Technique::cell_spheres, {.t = 15.2, .u = 5.89, .s = 78.3, .r = 37.7, .l = 75.7, .h = 106, .e = 3.39, .m = 21.2}},
     {Technique::box_tree,
-     {.t = 8.72,
-      .u = 5,
-      .c = 21.7,
-      .p = 52.8,
-      .g = 80,
-      .l = 2.34,
-      .h = 106,
-      .i = 5.24,
-      .e = 0.495,
-      .m = 3.27,
-      .a = 1.12e+04},
+     {.t = 12.5, .u = 6.11, .c = 30.9, .p = 72.1, .g = 91.5, .h = 104, .e = 0.687, .m = 8.81, .a = 333},
      {.serial_preparing = 0.236, .serial_search = 1, .start = 5.31e-05}}};
 
 /// Of techniques without a simd engine.
 constexpr BuiltIn of_both[] = {
-    {Technique::sphere_tree,
-     {.t = 7.43, .u = 4.24, .c = 12.7, .g = 220, .s = 136, .h = 120, .i = 30.8, .e = 1.91, .m = 8.84}},
+    {Technique::sphere_tree, {.t = 10.4, .u = 5.71, .c = 12, .g = 238, .s = 156, .h = 114, .e = 2.85, .m = 23}},
     {Technique::octree,
-     {.w = 4.28, .n = 108, .b = 119, .h = 274, .e = 0.622, .m = 51.1, .a = 7.64e+03},
+     {.w = 5.77, .n = 131, .b = 136, .h = 127, .e = 0.792, .m = 92.6},
      {.serial_preparing = 1, .serial_search = 0.0965, .start = 1.1e-05}},
     {Technique::grid,
-     {.w = 4.73, .v = 36.6, .b = 113, .h = 199, .i = 34, .e = 1.13, .m = 89.1, .a = 2.46e+03},
+     {.w = 5.74, .v = 45, .b = 133, .h = 288, .i = 31.6, .e = 1.35, .m = 143},
      {.serial_preparing = 1, .serial_search = 0.0869, .start = 2.18e-05}},
     {Technique::bsp,
-     {.w = 4.05, .n = 37.3, .b = 46.4, .h = 159, .e = 2.18, .a = 9.62e+03},
+     {.w = 6.52, .n = 37.4, .b = 59.9, .h = 189, .e = 1.01},
      {.serial_preparing = 1, .serial_search = 0.198, .start = 0}},
     {Technique::bvh,
-     {.w = 3.57, .b = 322, .h = 168, .i = 73.4, .e = 57.7, .a = 8.23e+04},
+     {.w = 3.24, .b = 411, .h = 234, .i = 97.8, .e = 52.2, .a = 7.28e+04},
      {.serial_preparing = 0.00424, .serial_search = 0.177, .start = 2.14e-05}},
-    {Technique::ray_map, {.w = 3.89, .n = 29.7, .c = 41.2, .r = 1.54, .h = 301, .i = 37.3, .e = 0.546}}};
+    {Technique::ray_map, {.w = 6.71, .n = 26.2, .c = 56.9, .h = 95.1, .e = 0.301, .m = 2.09}}};
 
 }  // namespace
 

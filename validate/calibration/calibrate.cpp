@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "built_in_costs.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
@@ -25,7 +26,6 @@ constexpr double longest_run = 0.06;    ///< seconds; a longer run is stopped an
 constexpr double enough_timed = 0.015;  ///< seconds after which a run is not repeated again
 constexpr int least_repeats = 2;
 constexpr int most_repeats = 7;
-constexpr double busy_share = 0.9;  ///< below this processor share, processor time counts
 
 struct Setting {
   sim::Body body;
@@ -140,31 +140,25 @@ class Calibrator {
   }
 
  private:
-  struct Run {
-    TimedRun timed;  ///< in wall time
-    double processor_seconds;
-  };
-
   /// The runs of one technique by one engine.
   struct Runs {
-    std::vector<Run> on_one_thread;
+    std::vector<TimedRun> on_one_thread;
     std::vector<ThreadedRun> on_more;
   };
 
-  /// The shortest of the runs of a candidate on one number of threads.
+  /// The shortest times of the runs of a candidate on one number of threads, each of another run.
   struct Shortest {
-    double seconds = 0;
-    double preparing = 0;
-    double processor_seconds = 0;
+    double seconds = std::numeric_limits<double>::infinity();
+    double preparing = seconds;
+    double processor_seconds = seconds;
 
     void add(const sim::Outcome& outcome, double processor) {
-      const double total = outcome.seconds.total();
-      const bool first = seconds == 0;
-      if (first || processor < processor_seconds) processor_seconds = processor;
-      if (!first && total >= seconds) return;
-      seconds = total;
-      preparing = outcome.seconds.order + outcome.seconds.build;
+      seconds = std::min(seconds, outcome.seconds.total());
+      preparing = std::min(preparing, outcome.seconds.order + outcome.seconds.build);
+      processor_seconds = std::min(processor_seconds, processor);
     }
+
+    [[nodiscard]] bool timed() const { return seconds > 0 && std::isfinite(seconds); }
   };
 
   /// A candidate of a workload, and its times so far.
@@ -250,13 +244,14 @@ class Calibrator {
 
   void store(const Timed& timed, std::size_t place) {
     const Shortest& one = timed.shortest.front();
-    if (!(one.seconds > 0 && one.processor_seconds > 0)) return;
+    if (!one.timed() || !(one.processor_seconds > 0)) return;
     Runs& runs = runs_of(timed.engine, timed.candidate.technique);
-    runs.on_one_thread.push_back({{place, timed.counts, one.seconds, one.preparing}, one.processor_seconds});
+    const double seconds = std::min(one.seconds, one.processor_seconds);  // without those of other programs
+    runs.on_one_thread.push_back({place, timed.counts, seconds, std::min(one.preparing, seconds)});
     for (std::size_t i = 1; i < timed.numbers.size(); ++i)
-      if (timed.shortest[i].seconds > 0)
-        runs.on_more.push_back({place, timed.counts, timed.numbers[i], one.seconds, one.preparing,
-                                timed.shortest[i].seconds, timed.shortest[i].preparing});
+      if (const Shortest& more = timed.shortest[i]; more.timed())
+        runs.on_more.push_back(
+            {place, timed.counts, timed.numbers[i], one.seconds, one.preparing, more.seconds, more.preparing});
   }
 
   void fit_all() {
@@ -280,16 +275,11 @@ class Calibrator {
   }
 
   void fit_costs_of(Technique technique, Engine engine, std::vector<double>& errors) {
-    std::vector<TimedRun> runs;
-    for (const Run& run : runs_of(engine, technique).on_one_thread) {
-      runs.push_back(run.timed);
-      if (result_.processor_share >= busy_share) continue;
-      runs.back().build_seconds *= run.processor_seconds / run.timed.seconds;
-      runs.back().seconds = run.processor_seconds;
-    }
+    const std::vector<TimedRun>& runs = runs_of(engine, technique).on_one_thread;
     if (runs.size() < 10) return;
     EngineCalibration& result = result_.of(engine);
-    const CostFit& fit = result.fits[static_cast<std::size_t>(technique)].emplace(fit_costs(runs, technique));
+    const CostFit& fit = result.fits[static_cast<std::size_t>(technique)].emplace(
+        fit_costs(runs, technique, built_in_unit_costs(engine)[technique]));
     result.costs[technique] = fit.costs;
     errors.insert(errors.end(), fit.left_out_errors.begin(), fit.left_out_errors.end());
   }
@@ -297,7 +287,7 @@ class Calibrator {
   void fit_threads_of(Technique technique, Engine engine, std::vector<double>& errors) {
     const std::vector<ThreadedRun>& runs = runs_of(engine, technique).on_more;
     if (runs.size() < 5) return;
-    const ThreadFit fit = fit_threads(runs, technique, engine);
+    const ThreadFit fit = fit_threads(runs, technique, engine, built_in_unit_costs(engine).threads_of(technique));
     if (fit.left_out_errors.empty()) return;  // too few workloads
     EngineCalibration& result = result_.of(engine);
     result.thread_fits[static_cast<std::size_t>(technique)] = fit;

@@ -46,21 +46,58 @@ bool is_of_building(const UnitCostTerm& term) {
   return term.cost != &UnitCosts::far && (term.part == &CostBreakdown::order || term.part == &CostBreakdown::build);
 }
 
-UnitCosts fit(std::span<const TimedRun> runs, const Terms& terms) {
-  std::vector<double> shares;  // row by row: count divided by the measured time, for each cost
-  std::size_t rows = 0;
+/// Costs that are expected, on this machine, where nothing else is known. 0: nothing is expected.
+UnitCosts expected_costs(std::span<const TimedRun> runs, Technique technique, const std::optional<UnitCosts>& usual) {
+  if (!usual) return no_costs;
+  std::vector<double> slower;
   for (const TimedRun& run : runs) {
-    for (const UnitCostTerm* term : terms) shares.push_back(term->quantity(run.counts) / run.seconds);
-    ++rows;
-    const bool built = std::any_of(terms.begin(), terms.end(), [&](const UnitCostTerm* term) {
-      return is_of_building(*term) && term->quantity(run.counts) > 0;
-    });
-    if (!built || !(run.build_seconds > 0)) continue;
-    for (const UnitCostTerm* term : terms)
-      shares.push_back(is_of_building(*term) ? term->quantity(run.counts) / run.build_seconds : 0);
-    ++rows;
+    const double seconds = price(run.counts, *usual, technique).total();
+    if (seconds > 0) slower.push_back(run.seconds / seconds);
   }
-  const std::vector<double> x = non_negative_fit(shares, terms.size(), std::vector<double>(rows, 1.0));
+  if (slower.empty()) return no_costs;
+  const double factor = median(std::move(slower));
+  UnitCosts expected = *usual;
+  for (const UnitCostTerm& term : unit_cost_terms) expected.*term.cost *= factor;
+  return expected;
+}
+
+/// The equations whose squared errors the fit minimises.
+struct Equations {
+  std::vector<double> left;  ///< row by row: the factor of each cost
+  std::vector<double> right;
+
+  void add(std::span<const double> row, double sum) {
+    left.insert(left.end(), row.begin(), row.end());
+    right.push_back(sum);
+  }
+};
+
+Equations equations_of(std::span<const TimedRun> runs, const Terms& terms, const UnitCosts& expected) {
+  Equations equations;
+  std::vector<double> row(terms.size());
+  const auto add_shares = [&](const TimedRun& run, double seconds, bool only_building) {
+    for (std::size_t i = 0; i < terms.size(); ++i)
+      row[i] = only_building && !is_of_building(*terms[i]) ? 0 : terms[i]->quantity(run.counts) / seconds;
+    if (std::any_of(row.begin(), row.end(), [](double share) { return share > 0; })) equations.add(row, 1);
+  };
+  for (const TimedRun& run : runs) {
+    add_shares(run, run.seconds, false);
+    if (run.build_seconds > 0) add_shares(run, run.build_seconds, true);
+  }
+  const double weight = std::sqrt(weight_of_usual);
+  for (std::size_t i = 0; i < terms.size(); ++i) {
+    const double usual = expected.*terms[i]->cost;
+    if (!(usual > 0)) continue;
+    std::fill(row.begin(), row.end(), 0);
+    row[i] = weight / usual;
+    equations.add(row, weight);
+  }
+  return equations;
+}
+
+UnitCosts fit(std::span<const TimedRun> runs, const Terms& terms, const UnitCosts& expected) {
+  const Equations equations = equations_of(runs, terms, expected);
+  const std::vector<double> x = non_negative_fit(equations.left, terms.size(), equations.right);
   UnitCosts costs = no_costs;
   for (std::size_t i = 0; i < terms.size(); ++i) costs.*terms[i]->cost = x[i];
   return costs;
@@ -78,13 +115,13 @@ struct Separation {
   Terms hardest_to_separate;  ///< terms with a large component in the singular vector of the smallest singular value
 };
 
-Separation separation(std::span<const TimedRun> runs, const Terms& terms) {
+Separation separation(std::span<const TimedRun> runs, const Terms& terms, const UnitCosts& expected) {
   constexpr double large = 0.3;
-  Eigen::MatrixXd matrix(static_cast<Eigen::Index>(runs.size()), static_cast<Eigen::Index>(terms.size()));
-  for (std::size_t i = 0; i < runs.size(); ++i)
-    for (std::size_t j = 0; j < terms.size(); ++j)
-      matrix(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) =
-          terms[j]->quantity(runs[i].counts) / runs[i].seconds;
+  const Equations equations = equations_of(runs, terms, expected);
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  Eigen::MatrixXd matrix =
+      Eigen::Map<const Rows>(equations.left.data(), static_cast<Eigen::Index>(equations.right.size()),
+                             static_cast<Eigen::Index>(terms.size()));
   matrix.colwise().normalize();
   const Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeThinV);
   const auto last = static_cast<Eigen::Index>(terms.size()) - 1;
@@ -114,11 +151,11 @@ double median_error(std::span<const TimedRun> runs, const UnitCosts& costs, Tech
 }
 
 /// The fit of the terms that the runs can tell apart; adds the others to `dropped`.
-UnitCosts fit_separable(std::span<const TimedRun> runs, Terms terms, CostFit& result) {
+UnitCosts fit_separable(std::span<const TimedRun> runs, Terms terms, const UnitCosts& expected, CostFit& result) {
   for (;;) {
-    const UnitCosts costs = fit(runs, terms);
+    const UnitCosts costs = fit(runs, terms, expected);
     const Terms positive = positive_terms(terms, costs);
-    const Separation separated = separation(runs, positive);
+    const Separation separated = separation(runs, positive, expected);
     result.condition = separated.condition;
     if (result.condition <= largest_condition || positive.size() == 1) {
       for (const UnitCostTerm* term : positive) result.fitted.push_back(term->symbol);
@@ -130,7 +167,8 @@ UnitCosts fit_separable(std::span<const TimedRun> runs, Terms terms, CostFit& re
   }
 }
 
-std::vector<double> left_out_errors(std::span<const TimedRun> runs, const Terms& terms, Technique technique) {
+std::vector<double> left_out_errors(std::span<const TimedRun> runs, const Terms& terms, const UnitCosts& expected,
+                                    Technique technique) {
   constexpr std::size_t parts = 5;
   std::vector<double> errors;
   for (std::size_t part = 0; part < parts; ++part) {
@@ -138,7 +176,7 @@ std::vector<double> left_out_errors(std::span<const TimedRun> runs, const Terms&
     std::vector<TimedRun> left_out;
     for (const TimedRun& run : runs) (run.workload % parts == part ? left_out : fitted).push_back(run);
     if (fitted.empty()) continue;
-    const UnitCosts costs = fit(fitted, terms);
+    const UnitCosts costs = fit(fitted, terms, expected);
     for (const TimedRun& run : left_out)
       errors.push_back(std::abs(price(run.counts, costs, technique).total() / run.seconds - 1));
   }
@@ -147,7 +185,7 @@ std::vector<double> left_out_errors(std::span<const TimedRun> runs, const Terms&
 
 }  // namespace
 
-CostFit fit_costs(std::span<const TimedRun> runs, Technique technique) {
+CostFit fit_costs(std::span<const TimedRun> runs, Technique technique, const std::optional<UnitCosts>& usual) {
   constexpr std::size_t least_runs = 10;
   if (runs.size() < least_runs)
     throw std::invalid_argument(fmt::format("a fit of unit costs takes at least {} runs of {} (got {})", least_runs,
@@ -155,9 +193,10 @@ CostFit fit_costs(std::span<const TimedRun> runs, Technique technique) {
   for (const TimedRun& run : runs) require_positive("seconds of a run", run.seconds);
   CostFit result{.costs = no_costs, .runs = runs.size()};
   const Terms terms = occurring_terms(runs, technique);
-  result.costs = fit_separable(runs, terms, result);
+  const UnitCosts expected = expected_costs(runs, technique, usual);
+  result.costs = fit_separable(runs, terms, expected, result);
   result.median_error = median_error(runs, result.costs, technique);
-  result.left_out_errors = left_out_errors(runs, positive_terms(terms, result.costs), technique);
+  result.left_out_errors = left_out_errors(runs, positive_terms(terms, result.costs), expected, technique);
   return result;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -21,7 +22,7 @@ struct CostFit {
   std::size_t runs = 0;
   std::vector<std::string_view> fitted = {};   ///< symbols of the costs that are not 0
   std::vector<std::string_view> dropped = {};  ///< symbols of the costs that the runs could not tell apart from others
-  double condition = 1;                        ///< of the matrix of the fitted terms, whose columns have length 1
+  double condition = 1;                        ///< of the matrix of the fit, whose columns have length 1
   double median_error = 0;                     ///< of |computed / measured seconds - 1|, on the fitted runs
   std::vector<double> left_out_errors = {};    ///< |computed / measured seconds - 1| of each run, by fits without it
 };
@@ -31,11 +32,23 @@ struct CostFit {
 /// time is dropped.
 inline constexpr double largest_condition = 60;
 
-/// The unit costs, all >= 0, that minimise the sum of squared relative errors of the runs' seconds, plus that of their
-/// seconds for sorting and building (non_negative_fit).
+/// How many runs that are off by 100 % weigh as much as a cost that is off by 100 % from its usual share.
+inline constexpr double weight_of_usual = 0.3;
+
+/// The unit costs x, all >= 0, for which this is least (non_negative_fit):
+///
+///     Σ (computed/measured - 1)², of the runs' seconds and of their seconds for sorting and building
+///     + weight_of_usual Σ (x/(v x_usual) - 1)²
+///
+///   where  x_usual   `usual` costs, such as those of another machine; the second sum has only those above 0
+///          v         median of measured seconds over those by the usual costs: how much slower this machine is
+///
+/// Runs decide the costs that they can tell apart. What they cannot, as in a disturbed calibration, keeps its usual ratio.
+///
 /// Only costs whose counts occur in the runs are fitted. The errors of left-out runs are those of five further fits of
-/// the same terms: each leaves out the workloads whose number has one remainder modulo 5. Throws std::invalid_argument if there are fewer than 10 runs,
-/// or if a run took no time.
-[[nodiscard]] CostFit fit_costs(std::span<const TimedRun> runs, Technique technique);
+/// the same terms: each leaves out the workloads whose number has one remainder modulo 5. Throws std::invalid_argument
+/// if there are fewer than 10 runs, or if a run took no time.
+[[nodiscard]] CostFit fit_costs(std::span<const TimedRun> runs, Technique technique,
+                                const std::optional<UnitCosts>& usual = {});
 
 }  // namespace detp::validate

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -27,11 +28,13 @@ struct ThreadFit {
 };
 
 /// The costs that minimise the sum of squared relative errors of the runs' seconds, plus that of their seconds for sorting
-/// and building (non_negative_fit). Times on one thread count as measured, so unit costs have no influence. A share above
-/// 1 becomes 1; so does the share of a phase that no run divided among threads. The errors of left-out runs are those of
-/// five further fits, as in fit_costs.
+/// and building, plus weight_of_usual times the squared differences from the `usual` costs, if there are any: of the
+/// shares, and of the start in units of the usual one (non_negative_fit). Times on one thread count as measured, so unit
+/// costs have no influence. A share above 1 becomes 1; so does the share of a phase that no run divided among threads.
+/// The errors of left-out runs are those of five further fits, as in fit_costs.
 ///
 /// Throws std::invalid_argument if there are fewer than 5 runs, if a run has fewer than 2 threads, or if it took no time.
-[[nodiscard]] ThreadFit fit_threads(std::span<const ThreadedRun> runs, Technique technique, Engine engine);
+[[nodiscard]] ThreadFit fit_threads(std::span<const ThreadedRun> runs, Technique technique, Engine engine,
+                                    const std::optional<ThreadCosts>& usual = {});
 
 }  // namespace detp::validate

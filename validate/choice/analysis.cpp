@@ -156,7 +156,8 @@ class Analyser {
   void time_all() {
     std::vector<std::vector<double>> seconds(all_.candidates.size());
     double remaining = expected_timing();
-    in_turns(all_.candidates.size(), options_.repeats, [&](std::size_t i, int round) {
+    const auto begin = [](int /*round*/) { return true; };
+    in_turns(all_.candidates.size(), options_.repeats, begin, [&](std::size_t i, int round) {
       Analysed& one = all_.candidates[i];
       const bool behind = one.counted && first_seconds_[i] > options_.far_behind * fastest_;
       if (!one.counted || (behind && round > 0)) return true;

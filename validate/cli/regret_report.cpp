@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "detp/model/vocabulary/quoted.hpp"
+#include "measured_report.hpp"
 #include "regret_rows.hpp"
 #include "text_table.hpp"
 #include "workload_options.hpp"
@@ -65,8 +66,8 @@ std::string regret_table(const RegretSummary& summary, const Screen& screen) {
 }
 
 std::string summary_text(const RegretSummary& summary, const Screen& screen) {
-  std::string text = fmt::format("{} thread{}, {} workload{}\n", summary.threads, summary.threads == 1 ? "" : "s",
-                                 summary.rows, summary.rows == 1 ? "" : "s");
+  std::string text = fmt::format("{}{}, {} workload{}\n", summary.threads == 1 ? "" : "At most ",
+                                 threads_text(summary.threads), summary.rows, summary.rows == 1 ? "" : "s");
   if (summary.rows == 0) return text;
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   text += regret_table(summary, screen);
@@ -82,9 +83,8 @@ std::string summary_text(const RegretSummary& summary, const Screen& screen) {
                       tier.tier, number_text(tier.price.geometric_mean, tier.price.at_least > 0), tier.price.rows,
                       1e3 * validate::shortest_priced_run));
     if (tier.prediction.rows > 0)
-      add(fmt::format("predicted {}: the seconds of the choices are off by {:.0f} % in the median, p95 {:.0f} %{}",
-                      tier.tier, 100 * tier.prediction.median_error, 100 * tier.prediction.p95_error,
-                      summary.threads == 1 ? "" : "; predicted for one thread"));
+      add(fmt::format("predicted {}: the seconds of the choices are off by {:.0f} % in the median, p95 {:.0f} %",
+                      tier.tier, 100 * tier.prediction.median_error, 100 * tier.prediction.p95_error));
   }
   return text + "\n";
 }
@@ -96,11 +96,16 @@ std::string worst_text(const RegretResult& regret, const Screen& screen) {
   for (const ChoicePlace& place : places) {
     const RegretRow& row = regret.rows[place.row];
     const ChoiceRow& choice = row.choices[place.choice];
-    text += wrapped(fmt::format("{:<10}{}, {} thread{}: {} takes {}; the best is {}. Reason: {}",
-                                number_text(choice.regret.value, choice.regret.at_least),
-                                escaped(title_of(row.workload)), row.threads, row.threads == 1 ? "" : "s", choice.tier,
-                                title(choice.choice.candidate), title(row.best), choice.reason),
-                    screen.text_width(), 10);
+    const auto run = [&](const Candidate& candidate, int threads) {
+      return row.threads == 1 ? title(candidate) : fmt::format("{}, {}", title(candidate), threads_text(threads));
+    };
+    text +=
+        wrapped(fmt::format("{:<10}{}, {}{}: {} takes {}; the best is {}. Reason: {}",
+                            number_text(choice.regret.value, choice.regret.at_least), escaped(title_of(row.workload)),
+                            row.threads == 1 ? "" : "at most ", threads_text(row.threads), choice.tier,
+                            run(choice.choice.candidate, choice.choice.threads), run(row.best, row.best_threads),
+                            choice.reason),
+                screen.text_width(), 10);
   }
   return text + "\n";
 }

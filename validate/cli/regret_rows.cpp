@@ -83,12 +83,14 @@ Json row_json(const RegretRow& row, const ChoiceRow& choice) {
           {"tier", choice.tier},
           {"technique", name(chosen.candidate.technique)},
           {"parameters", to_json(chosen.candidate)},
+          {"chosen_threads", chosen.threads},
           {"predicted_seconds", chosen.predicted_seconds > 0 ? Json(chosen.predicted_seconds) : Json()},
           {"choosing_seconds", chosen.choosing_seconds},
           {"seconds", choice.seconds},
           {"abandoned", choice.regret.at_least},
           {"best_technique", name(row.best.technique)},
           {"best_parameters", to_json(row.best)},
+          {"best_threads", row.best_threads},
           {"best_seconds", row.best_seconds},
           {"tried", row.tried},
           {"regret", choice.regret.value},
@@ -146,8 +148,8 @@ Json regret_rows_json(const RegretResult& regret, const std::vector<RegretSummar
 std::string regret_rows_csv(const RegretResult& regret, const std::vector<RegretSummary>& summaries) {
   Table table(Columns{"scene", "held_out", "field", "rays", "samples", "disc_radius", "threads", "tier"} +
               candidate_columns() +
-              Columns{"predicted_seconds", "choosing_seconds", "seconds", "abandoned", "best_technique",
-                      "best_parameters", "best_seconds", "tried", "regret", "noise"} +
+              Columns{"chosen_threads", "predicted_seconds", "choosing_seconds", "seconds", "abandoned",
+                      "best_technique", "best_parameters", "best_threads", "best_seconds", "tried", "regret", "noise"} +
               baseline_columns() + Columns{"reason"});
   for_each_choice(regret, summaries, [&](const RegretRow& row, const ChoiceRow& choice, const Json& cells) {
     Json json = row_json(row, choice);

@@ -8,30 +8,36 @@
 namespace detp::validate {
 namespace {
 
-Choice estimate(const Job& job, const CostTable& costs) {
+Choice estimate(const Job& job, const CostTable& costs, int threads) {
   const sim::Stopwatch watch;
-  const model::Ranked first = model::rank(job.workload, costs).front();
-  return {first.candidate, first.time.total(), job.measure_seconds + watch.seconds()};
+  const model::Ranked first = model::rank(job.workload, costs, {.threads = threads}).front();
+  return {first.candidate, first.time.total(), job.measure_seconds + watch.seconds(), first.threads};
 }
 
-Choice pilot(const sim::Problem& problem, const CostTable& costs) {
-  const PilotChoice found = choose_by_pilot(problem, costs);
-  return {found.choice().candidate, found.choice().time.total(), found.pilot_seconds};
+Choice by_pilot(const PilotChoice& found, double seconds_before) {
+  const Piloted& choice = found.choice();
+  return {choice.candidate, choice.time.total(), seconds_before + found.pilot_seconds, choice.threads};
 }
 
-Choice structural(const sim::Problem& problem, const Job& job, const CostTable& costs) {
+Choice pilot(const sim::Problem& problem, const CostTable& costs, int threads) {
+  return by_pilot(choose_by_pilot(problem, costs, {.threads = threads}), 0);
+}
+
+Choice structural(const sim::Problem& problem, const Job& job, const CostTable& costs, int threads) {
   const sim::Problem for_lines = sim::searched_problem(problem.discs(), {}, problem.front_facing(), {});
-  const PilotChoice found = choose_by_structure(for_lines, job.workload, costs);
-  return {found.choice().candidate, found.choice().time.total(), job.measure_seconds + found.pilot_seconds};
+  return by_pilot(choose_by_structure(for_lines, job.workload, costs, {.threads = threads}), job.measure_seconds);
 }
 
 }  // namespace
 
 std::vector<Chooser> all_choosers(const CostTable& costs) {
-  return {
-      {"pilot", [costs](const sim::Problem& problem, const Job& /*job*/) { return pilot(problem, costs); }},
-      {"structural", [costs](const sim::Problem& problem, const Job& job) { return structural(problem, job, costs); }},
-      {"estimate", [costs](const sim::Problem& /*problem*/, const Job& job) { return estimate(job, costs); }}};
+  return {{"pilot", [costs](const sim::Problem& problem, const Job& /*job*/,
+                            int threads) { return pilot(problem, costs, threads); }},
+          {"structural", [costs](const sim::Problem& problem, const Job& job,
+                                 int threads) { return structural(problem, job, costs, threads); }},
+          {"estimate", [costs](const sim::Problem& /*problem*/, const Job& job, int threads) {
+             return estimate(job, costs, threads);
+           }}};
 }
 
 }  // namespace detp::validate

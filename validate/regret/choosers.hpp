@@ -13,11 +13,12 @@ struct Choice {
   Candidate candidate;
   double predicted_seconds = 0;  ///< of a run with the candidate; 0: not predicted
   double choosing_seconds = 0;   ///< time that choosing took
+  int threads = 1;               ///< of that run
 };
 
 struct Chooser {
   std::string name;  ///< of the tier: "estimate"
-  std::function<Choice(const sim::Problem&, const Job&)> choose;
+  std::function<Choice(const sim::Problem&, const Job&, int most_threads)> choose;
 };
 
 /// All tiers, one line each in choosers.cpp. `costs` are the unit costs with which they predict times.

@@ -21,6 +21,7 @@ constexpr double short_run = 0.02;        ///< seconds; the first time of shorte
 constexpr double enough_timed = 0.04;     ///< seconds of the fastest; more rounds of a half are not needed
 constexpr int most_rounds = 60;           ///< of a half, unless more repeats are asked for
 constexpr int most_rounds_of_neighbours = 6;
+constexpr int most_attempts = 4;  ///< of a first run
 /// A candidate takes part in the selection if its first time is at most this many times the fastest. First runs do not
 /// take turns, so the machine's speed may have changed between two of them.
 constexpr double may_be_fastest = 3;
@@ -31,6 +32,11 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double share_of_first_runs = 0.5;
 constexpr double share_of_selecting = 0.3;
 
+/// As Timed says.
+double seconds_of(const sim::Outcome& outcome, double processor_seconds, int threads) {
+  return threads == 1 ? std::min(outcome.seconds.total(), processor_seconds) : outcome.seconds.total();
+}
+
 double least(const std::vector<double>& seconds) {
   return seconds.empty() ? infinite : *std::min_element(seconds.begin(), seconds.end());
 }
@@ -39,20 +45,22 @@ class Search {
  public:
   Search(const sim::Problem& problem, const ExhaustiveOptions& options) : problem_(problem), options_(options) {}
 
-  /// Runs the candidates once, unless they have been run.
-  void add(std::span<const Candidate> candidates, double patience) {
-    for (const Candidate& candidate : candidates)
-      if (!stopped() && found_.find(candidate) == nullptr) run_first(candidate, patience);
+  /// Runs them once, unless they have been run.
+  void add(std::span<const Contender> contenders, double patience) {
+    for (const Contender& contender : contenders)
+      if (!stopped() && found_.find(contender) == nullptr) run_first(contender, patience);
   }
 
   void add_others() {
     std::vector<Candidate> asked;
-    for (const Timed& one : found_.candidates) asked.push_back(one.candidate);
+    for (const Timed& one : found_.candidates) asked.push_back(one.contender.candidate);
     asked_ = asked.size();
-    add(techniques_left_out(asked), options_.patience);
+    std::vector<Contender> others;
+    for (const Candidate& candidate : techniques_left_out(asked)) others.push_back({candidate, options_.threads});
+    add(others, options_.patience);
     for (int round = 0; round < most_rounds_of_neighbours; ++round) {
       const std::size_t before = found_.candidates.size();
-      for (const Candidate& leader : leaders()) add(neighbours(leader), options_.patience);
+      for (const Contender& leader : leaders()) add(near(leader), options_.patience);
       if (found_.candidates.size() == before) return;
     }
   }
@@ -91,27 +99,46 @@ class Search {
     if (options_.progress) options_.progress({std::string(what), from, to});
   }
 
-  [[nodiscard]] std::vector<Candidate> leaders() const {
+  /// The candidate's neighbours, and the candidate on half and twice as many threads.
+  [[nodiscard]] std::vector<Contender> near(const Contender& contender) const {
+    std::vector<Contender> all;
+    for (const Candidate& candidate : neighbours(contender.candidate)) all.push_back({candidate, contender.threads});
+    for (const int threads : {contender.threads / 2, contender.threads * 2})
+      if (threads >= 1 && threads <= options_.threads) all.push_back({contender.candidate, threads});
+    return all;
+  }
+
+  [[nodiscard]] std::vector<Contender> leaders() const {
     std::vector<const Timed*> finished;
     for (const Timed& one : found_.candidates)
       if (!one.abandoned) finished.push_back(&one);
     std::sort(finished.begin(), finished.end(),
               [](const Timed* a, const Timed* b) { return a->first_seconds < b->first_seconds; });
     finished.resize(std::min<std::size_t>(finished.size(), 2));
-    std::vector<Candidate> first;
-    for (const Timed* one : finished) first.push_back(one->candidate);
+    std::vector<Contender> first;
+    for (const Timed* one : finished) first.push_back(one->contender);
     return first;
   }
 
-  void run_first(const Candidate& candidate, double patience) {
-    Timed one{.candidate = candidate};
-    const double limit = fastest_ < infinite ? std::max(least_patience, patience * fastest_) : 1e9;
-    try {
+  /// Runs it once, and abandons it after `limit` seconds; if other programs took most of these, begins again.
+  void run_within(double limit, Timed& one) const {
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      const auto& [candidate, threads] = one.contender;
       const StopAfter clock(options_.stop, limit);
-      const sim::Outcome outcome = sim::run(problem_, candidate, {.stop = clock.token(), .threads = options_.threads});
+      const sim::ProcessorStopwatch processor;
+      const sim::Outcome outcome = sim::run(problem_, candidate, {.stop = clock.token(), .threads = threads});
+      const double used = processor.seconds();
       one.abandoned = outcome.stopped;
-      one.first_seconds = outcome.stopped ? limit : outcome.seconds.total();
+      one.first_seconds = outcome.stopped ? limit : seconds_of(outcome, used, threads);
       if (!outcome.stopped) one.counts = outcome.counts;
+      if (!outcome.stopped || used > limit / 2 || stopped()) return;
+    }
+  }
+
+  void run_first(const Contender& contender, double patience) {
+    Timed one{.contender = contender};
+    try {
+      run_within(fastest_ < infinite ? std::max(least_patience, patience * fastest_) : 1e9, one);
     } catch (const std::length_error&) {  // its index does not fit in memory
       return;
     }
@@ -128,10 +155,12 @@ class Search {
 
   /// The time of a run without counting; nullopt if a stop request ended the run.
   [[nodiscard]] std::optional<double> time(const Timed& one) const {
+    const auto& [candidate, threads] = one.contender;
+    const sim::ProcessorStopwatch processor;
     const sim::Outcome outcome =
-        sim::run(problem_, one.candidate, {.count = false, .stop = options_.stop, .threads = options_.threads});
+        sim::run(problem_, candidate, {.count = false, .stop = options_.stop, .threads = threads});
     if (outcome.stopped) return std::nullopt;
-    return outcome.seconds.total();
+    return seconds_of(outcome, processor.seconds(), threads);
   }
 
   void time_in_turns(const std::vector<Timed*>& entries, double behind, std::vector<double> Timed::*half) const {
@@ -165,13 +194,13 @@ std::optional<std::size_t> fastest_selected(std::span<const Timed> candidates) {
   return best;
 }
 
-const Timed* Exhaustive::find(const Candidate& candidate) const {
+const Timed* Exhaustive::find(const Contender& contender) const {
   const auto found =
-      std::find_if(candidates.begin(), candidates.end(), [&](const Timed& one) { return one.candidate == candidate; });
+      std::find_if(candidates.begin(), candidates.end(), [&](const Timed& one) { return one.contender == contender; });
   return found == candidates.end() ? nullptr : &*found;
 }
 
-Exhaustive measure_all(const sim::Problem& problem, std::span<const Candidate> asked,
+Exhaustive measure_all(const sim::Problem& problem, std::span<const Contender> asked,
                        const ExhaustiveOptions& options) {
   Search search(problem, options);
   if (options.progress) options.progress({"first runs", 0, share_of_first_runs});

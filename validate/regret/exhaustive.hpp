@@ -16,9 +16,18 @@ class Problem;
 /// Measures many candidates on the same rays and discs, and finds the fastest.
 namespace detp::validate {
 
-/// A candidate that was run. Its times are in seconds and include sorting, building and searching.
-struct Timed {
+/// A candidate on a number of threads.
+struct Contender {
   Candidate candidate;
+  int threads = 1;
+
+  friend bool operator==(const Contender&, const Contender&) = default;
+};
+
+/// A contender that was run. Its times are in seconds and include sorting, building and searching. On one thread, they are
+/// those of the processor where these are less than those of the wall clock: other programs do not count.
+struct Timed {
+  Contender contender;
   bool abandoned = false;              ///< it took too long; its seconds are a lower bound
   double first_seconds = 0;            ///< of the first run, or the time after which that run was abandoned
   Counts<std::uint64_t> counts = {};   ///< of the first run; zero if it was abandoned
@@ -43,7 +52,7 @@ struct ExhaustiveOptions {
   double patience = 4;
   double patience_if_asked = 10;  ///< the same for a candidate that was asked for
   double behind = 1.5;            ///< as RoundLimits::behind, while the best is selected
-  int threads = 1;
+  int threads = 1;                ///< most threads
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
 };
@@ -55,16 +64,17 @@ struct Exhaustive {
   double noise = 1;  ///< judging seconds of the best, timed a second time as if it were another candidate, over its own
   bool stopped = false;  ///< a stop was requested before the end
 
-  /// Null if the candidate was not run.
-  [[nodiscard]] const Timed* find(const Candidate& candidate) const;
+  /// Null if it was not run.
+  [[nodiscard]] const Timed* find(const Contender& contender) const;
 };
 
-/// Runs each of these candidates once: those `asked` for, all other exact techniques with default parameters, and
-/// neighbours of the fastest two until none of them is faster. The candidates whose first time is at most three times the
-/// shortest then take turns (timed_rounds), and the fastest of them is the best. Then the candidates asked for and the best, entered twice, take turns and are
-/// judged. So no candidate is judged by the times for which it was selected. The first candidate asked for is never
-/// abandoned. Throws as sim::run does, but leaves out candidates whose index does not fit in memory.
-[[nodiscard]] Exhaustive measure_all(const sim::Problem& problem, std::span<const Candidate> asked,
+/// Runs each of these once: those `asked` for, all other exact techniques with default parameters on all threads, and
+/// neighbours of the fastest two, also on half and twice as many threads, until none of them is faster. Those whose first
+/// time is at most three times the shortest then take turns (timed_rounds), and the fastest of them is the best. Then
+/// those asked for and the best, entered twice, take turns and are judged. So nothing is judged by the times for which it
+/// was selected. The first one asked for is never abandoned. Throws as sim::run does, but leaves out candidates whose
+/// index does not fit in memory.
+[[nodiscard]] Exhaustive measure_all(const sim::Problem& problem, std::span<const Contender> asked,
                                      const ExhaustiveOptions& options = {});
 
 }  // namespace detp::validate

@@ -12,10 +12,14 @@
 namespace detp::validate {
 namespace {
 
-std::optional<model::Ranked> predicted(const Workload& workload, const CostTable& costs, const Candidate& candidate) {
+std::optional<model::Ranked> predicted(const Workload& workload, const CostTable& costs, const Contender& contender) {
+  const auto& [candidate, threads] = contender;
   if (!model::has_closed_form(candidate.technique)) return std::nullopt;
   try {
-    return model::assess(workload, candidate, costs);
+    model::Ranked ranked = model::assess(workload, candidate, costs);
+    ranked.threads = threads;
+    ranked.time = price(ranked.counts, costs, candidate.technique, threads);
+    return ranked;
   } catch (const std::invalid_argument&) {  // some parameters have no closed form
     return std::nullopt;
   }
@@ -34,13 +38,16 @@ std::string counts_reason(const PredictionError& of_choice, const PredictionErro
 
 std::string reason_of_regret(const Workload& workload, const CostTable& costs, const Timed& choice, const Timed& best,
                              double noise) {
-  if (choice.candidate == best.candidate) return "";
+  if (choice.contender == best.contender) return "";
   const double regret = choice.judging_seconds() / best.judging_seconds();
   if (regret <= std::max(noise, 1 / noise)) return "within the noise";
-  const auto of_choice = predicted(workload, costs, choice.candidate);
-  const auto of_best = predicted(workload, costs, best.candidate);
-  if (!of_best) return fmt::format("{} has no closed form", title(best.candidate));
-  if (!of_choice) return fmt::format("{} has no closed form", title(choice.candidate));
+  if (choice.contender.candidate == best.contender.candidate)
+    return fmt::format("costs of threads: {} chosen, the best takes {}", choice.contender.threads,
+                       best.contender.threads);
+  const auto of_choice = predicted(workload, costs, choice.contender);
+  const auto of_best = predicted(workload, costs, best.contender);
+  if (!of_best) return fmt::format("{} has no closed form", title(best.contender.candidate));
+  if (!of_choice) return fmt::format("{} has no closed form", title(choice.contender.candidate));
   const double ratio = of_best->time.total() / of_choice->time.total();
   if (ratio < 1) return fmt::format("the best was not tried: predicted {:.2g} times the choice's seconds", ratio);
   if (choice.abandoned)

@@ -14,7 +14,8 @@ namespace detp::validate {
 /// differ most: counts, with the count that matters most, or unit costs. `noise` is Exhaustive::noise.
 ///
 /// Empty if the two are the same. Other reasons: the difference is within the noise; the best has no closed form; the
-/// best was predicted to be faster than the choice, so the ranking did not try it; the choice was abandoned.
+/// best was predicted to be faster than the choice, so the ranking did not try it; the choice was abandoned; they differ
+/// only in the number of threads.
 [[nodiscard]] std::string reason_of_regret(const Workload& workload, const CostTable& costs, const Timed& choice,
                                            const Timed& best, double noise);
 

@@ -2,10 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <stdexcept>
 
 #include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "reason.hpp"
 
 namespace detp::validate {
@@ -63,12 +65,13 @@ class Runner {
   bool run(const RegretWorkload& workload, const Job& job, int threads, const sim::ReportPhase& progress) {
     const sim::Problem problem = job.problem(threads, options_.stop);
     std::vector<Choice> choices;
-    for (const Chooser& chooser : choosers_) choices.push_back(chooser.choose(problem, job));
+    for (const Chooser& chooser : choosers_) choices.push_back(choice_of(chooser, problem, job, threads));
     std::vector<std::vector<Candidate>> options;
     for (const Baseline& baseline : baselines()) options.push_back(baseline.candidates(job.workload));
-    std::vector<Candidate> asked;
-    for (const Choice& choice : choices) asked.push_back(choice.candidate);
-    for (const auto& candidates : options) asked.insert(asked.end(), candidates.begin(), candidates.end());
+    std::vector<Contender> asked;
+    for (const Choice& choice : choices) asked.push_back({choice.candidate, choice.threads});
+    for (const auto& candidates : options)
+      for (const Candidate& candidate : candidates) asked.push_back({candidate, threads});
     ExhaustiveOptions search = options_.search;
     search.threads = threads;
     search.stop = options_.stop;
@@ -81,7 +84,8 @@ class Runner {
                   .samples = job.workload.samples,
                   .disc_radius = job.workload.disc_radius,
                   .threads = threads,
-                  .best = found.candidates[*found.best].candidate,
+                  .best = found.candidates[*found.best].contender.candidate,
+                  .best_threads = found.candidates[*found.best].contender.threads,
                   .best_seconds = found.candidates[*found.best].judging_seconds(),
                   .noise = found.noise,
                   .tried = found.candidates.size(),
@@ -91,10 +95,19 @@ class Runner {
       row.choices.push_back(choice_row(choosers_[i].name, choices[i], job.workload, found));
     for (const auto& candidates : options) {
       BaselineRow& regrets = row.baselines.emplace_back();
-      for (const Candidate& candidate : candidates) regrets.push_back(regret(found, found.find(candidate)));
+      for (const Candidate& candidate : candidates) regrets.push_back(regret(found, found.find({candidate, threads})));
     }
     result_.rows.push_back(std::move(row));
     return true;
+  }
+
+  /// Time that other programs took does not count as time of choosing.
+  static Choice choice_of(const Chooser& chooser, const sim::Problem& problem, const Job& job, int threads) {
+    const sim::Stopwatch wall;
+    const sim::ProcessorStopwatch processor;
+    Choice choice = chooser.choose(problem, job, threads);
+    if (threads == 1) choice.choosing_seconds *= std::min(1.0, processor.seconds() / wall.seconds());
+    return choice;
   }
 
   static sim::ReportPhase titled(const sim::ReportPhase& progress, const std::string& title) {
@@ -112,7 +125,7 @@ class Runner {
 
   [[nodiscard]] ChoiceRow choice_row(const std::string& tier, const Choice& choice, const Workload& workload,
                                      const Exhaustive& found) const {
-    const Timed* chosen = found.find(choice.candidate);
+    const Timed* chosen = found.find({choice.candidate, choice.threads});
     if (chosen == nullptr)
       throw std::length_error(
           fmt::format("{}, the choice of {}, does not fit in memory", title(choice.candidate), tier));

@@ -39,19 +39,24 @@ struct RegretRow {
   double rays = 0;         ///< actual number, with all segments of photon paths
   double samples = 0;      ///< actual number
   double disc_radius = 0;  ///< in scene units
-  int threads = 1;
+  int threads = 1;         ///< most threads
   Candidate best;
+  int best_threads = 1;
   double best_seconds = 0;             ///< judging time
   double noise = 1;                    ///< Exhaustive::noise
   std::size_t tried = 0;               ///< number of candidates
   std::vector<ChoiceRow> choices;      ///< one for each tier
   std::vector<BaselineRow> baselines;  ///< in the order of baselines()
+
+  [[nodiscard]] bool is_best(const Choice& choice) const {
+    return choice.candidate == best && choice.threads == best_threads;
+  }
 };
 
 struct RegretOptions {
   CostTable costs;                ///< unit costs with which the reasons are found
-  int threads = 1;                ///< each workload is run with this number of threads
-  int more_threads = 0;           ///< unless 0: a fifth of the workloads are also run with this number
+  int threads = 1;                ///< most threads of each workload
+  int more_threads = 0;           ///< unless 0: a fifth of the workloads also have this number
   ExhaustiveOptions search = {};  ///< its threads, stop and progress are not used
   std::uint64_t seed = 1;
   std::stop_token stop = {};

@@ -111,7 +111,7 @@ std::vector<ChoicePlace> worst_choices(std::span<const RegretRow> rows, std::siz
   std::vector<ChoicePlace> places;
   for (std::size_t row = 0; row < rows.size(); ++row)
     for (std::size_t choice = 0; choice < rows[row].choices.size(); ++choice)
-      if (rows[row].choices[choice].choice.candidate != rows[row].best) places.push_back({row, choice});
+      if (!rows[row].is_best(rows[row].choices[choice].choice)) places.push_back({row, choice});
   const auto regret = [&](const ChoicePlace& place) { return rows[place.row].choices[place.choice].regret.value; };
   std::stable_sort(places.begin(), places.end(),
                    [&](const ChoicePlace& a, const ChoicePlace& b) { return regret(a) > regret(b); });

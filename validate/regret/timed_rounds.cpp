@@ -15,9 +15,11 @@ std::vector<std::vector<double>> timed_rounds(std::size_t contenders, const Roun
   std::vector<std::vector<double>> times(contenders);
   std::vector<double> least(contenders, std::numeric_limits<double>::infinity());
   double fastest = std::numeric_limits<double>::infinity();
-  in_turns(contenders, limits.rounds, [&](std::size_t i, int round) {
-    if (i == 0 && round > 0 && watch.seconds() > limits.most_seconds) return false;
-    if (i == 0) fastest = *std::min_element(least.begin(), least.end());
+  const auto begin = [&](int round) {
+    fastest = *std::min_element(least.begin(), least.end());
+    return round == 0 || watch.seconds() <= limits.most_seconds;
+  };
+  in_turns(contenders, limits.rounds, begin, [&](std::size_t i, int round) {
     if (round >= rounds_of_all && least[i] > limits.behind * fastest) return true;
     const std::optional<double> seconds = time(i);
     if (!seconds) return false;

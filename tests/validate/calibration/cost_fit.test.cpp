@@ -111,6 +111,30 @@ TEST_SUITE("known answer") {
     CHECK(fit.median_error < 1e-5);
   }
 
+  TEST_CASE("costs that the runs cannot tell apart keep their usual ratio") {
+    UnitCosts usual = zero_costs();
+    usual.cull_test = 1e-9;
+    usual.listed = 2e-9;
+    usual.disc_test = 1e-9;
+    UnitCosts slower = usual;  // of a machine that is three times as slow, except at disc tests
+    slower.cull_test *= 3;
+    slower.listed *= 3;
+    slower.disc_test *= 1.5;
+    std::vector<validate::TimedRun> runs = exact_runs(slower, Technique::sphere_cache);
+    for (validate::TimedRun& run : runs) {
+      const double other = sim::uniform4(2, sim::Stream::tests, run.workload)[0] - 0.5;
+      run.counts.listed = run.counts.cull_tests * (1 + 0.05 * other);
+      run.counts.disc_tests /= 4;
+      run.seconds = price(run.counts, slower, Technique::sphere_cache).total() * (1 + 0.1 * other);
+    }
+    const UnitCosts alone = validate::fit_costs(runs, Technique::sphere_cache).costs;
+    CHECK(alone.cull_test == 0);  // the disturbance is taken for a cost of `listed`
+    const UnitCosts fit = validate::fit_costs(runs, Technique::sphere_cache, usual).costs;
+    CHECK(fit.listed / fit.cull_test == doctest::Approx(2).epsilon(0.15));
+    CHECK(fit.cull_test + fit.listed == doctest::Approx(9e-9).epsilon(0.03));
+    CHECK(fit.disc_test == doctest::Approx(1.5e-9).epsilon(0.1));
+  }
+
   TEST_CASE("the error on left-out runs shows a fit that does not carry over") {
     UnitCosts costs = zero_costs();
     costs.disc_test = 1e-9;

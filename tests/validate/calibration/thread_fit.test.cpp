@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
@@ -63,6 +64,23 @@ TEST_SUITE("known answer") {
     CHECK(costs.serial_search == 1);
     CHECK(costs.start > 0);
     CHECK_NOTHROW(check(costs));
+  }
+
+  TEST_CASE("what the runs do not show stays as usual") {
+    const ThreadCosts usual{.serial_preparing = 0.4, .serial_search = 0.2, .start = 5e-5};
+    std::vector<validate::ThreadedRun> runs = exact_threaded_runs({.serial_search = 0.7}, Technique::box_tree);
+    for (validate::ThreadedRun& run : runs) {
+      run.one_preparing /= 1000;  // hardly any time for sorting and building, so their share does not show
+      run.preparing = 0;
+      run.one_seconds = 1;  // nor does the start
+      run.seconds = run.threads == 2 ? 0.85 : 0.775;
+    }
+    const ThreadCosts alone = validate::fit_threads(runs, Technique::box_tree, Engine::simd).costs;
+    const ThreadCosts costs = validate::fit_threads(runs, Technique::box_tree, Engine::simd, usual).costs;
+    CHECK(costs.serial_preparing == doctest::Approx(0.4).epsilon(0.01));
+    CHECK(costs.serial_search == doctest::Approx(0.7).epsilon(0.05));
+    CHECK(costs.start == doctest::Approx(5e-5).epsilon(0.01));
+    CHECK(std::abs(alone.serial_preparing - 0.4) > 0.1);
   }
 
   TEST_CASE("the error on left-out runs shows that times do not follow the law") {

@@ -19,7 +19,7 @@ const Candidate small_grid{Technique::grid, GridParameters{4}};
 const Candidate box_tree_4_16{Technique::box_tree, BoxTreeParameters{4, 16}};
 
 Timed timed(const Candidate& candidate, std::vector<double> selecting, std::vector<double> judging) {
-  return {.candidate = candidate, .selecting = std::move(selecting), .judging = std::move(judging)};
+  return {.contender = {candidate}, .selecting = std::move(selecting), .judging = std::move(judging)};
 }
 
 struct SmallProblem {
@@ -44,49 +44,61 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("a candidate that was abandoned is judged by its lower bound") {
-    const Timed abandoned{.candidate = small_grid, .abandoned = true, .first_seconds = 0.25};
+    const Timed abandoned{.contender = {small_grid}, .abandoned = true, .first_seconds = 0.25};
     CHECK(abandoned.judging_seconds() == 0.25);
   }
 
   TEST_CASE("the search runs those asked for, then all exact techniques and neighbours, and all find the same hits") {
     const SmallProblem small;
-    const std::vector asked{box_tree_4_16, small_grid, box_tree_4_16};
+    const std::vector<Contender> asked{{box_tree_4_16}, {small_grid}, {box_tree_4_16}};
     const Exhaustive found = measure_all(small.problem, asked, {.repeats = 1, .patience = 1e3});
     REQUIRE(found.candidates.size() > 2);
-    CHECK(found.candidates[0].candidate == box_tree_4_16);
-    CHECK(found.candidates[1].candidate == small_grid);
+    CHECK(found.candidates[0].contender == asked[0]);
+    CHECK(found.candidates[1].contender == asked[1]);
     for (const Technique technique : all_techniques)
       CHECK(std::any_of(found.candidates.begin(), found.candidates.end(), [&](const Timed& one) {
-              return one.candidate.technique == technique;
+              return one.contender.candidate.technique == technique;
             }) == record_of(technique).exact);
     for (const Timed& one : found.candidates) {
       CHECK(std::count_if(found.candidates.begin(), found.candidates.end(),
-                          [&](const Timed& other) { return other.candidate == one.candidate; }) == 1);
+                          [&](const Timed& other) { return other.contender == one.contender; }) == 1);
       if (!one.abandoned) CHECK(one.counts.hits == found.candidates[0].counts.hits);
     }
     const auto seconds = [](const Timed& one) { return one.abandoned ? HUGE_VAL : one.first_seconds; };
     const auto leader = std::min_element(found.candidates.begin(), found.candidates.end(),
                                          [&](const Timed& a, const Timed& b) { return seconds(a) < seconds(b); });
-    const auto near = neighbours(leader->candidate);  // none of brute force, for instance
-    CHECK((near.empty() || std::any_of(near.begin(), near.end(),
-                                       [&](const Candidate& candidate) { return found.find(candidate) != nullptr; })));
+    const auto near = neighbours(leader->contender.candidate);  // none of brute force, for instance
+    CHECK((near.empty() || std::any_of(near.begin(), near.end(), [&](const Candidate& candidate) {
+             return found.find({candidate}) != nullptr;
+           })));
     REQUIRE(found.best);
     const Timed& best = found.candidates[*found.best];
     CHECK_FALSE(best.abandoned);
     CHECK_FALSE(best.judging.empty());
     CHECK(found.noise > 0);
-    CHECK(found.find(best.candidate) == &best);
-    CHECK(found.find({Technique::grid, GridParameters{1000}}) == nullptr);
-    for (const Candidate& candidate : asked)
-      CHECK((found.find(candidate)->abandoned || !found.find(candidate)->judging.empty()));
+    CHECK(found.find(best.contender) == &best);
+    CHECK(found.find({{Technique::grid, GridParameters{1000}}}) == nullptr);
+    for (const Contender& contender : asked)
+      CHECK((found.find(contender)->abandoned || !found.find(contender)->judging.empty()));
     CHECK_FALSE(found.stopped);
+  }
+
+  TEST_CASE("with two threads allowed, the fastest are also tried on one") {
+    const SmallProblem small;
+    const std::vector<Contender> asked{{box_tree_4_16, 2}, {box_tree_4_16, 1}, {small_grid, 1}};
+    const Exhaustive found = measure_all(small.problem, asked, {.repeats = 1, .patience = 1e3, .threads = 2});
+    for (std::size_t i = 0; i < asked.size(); ++i) CHECK(found.candidates[i].contender == asked[i]);
+    REQUIRE(found.best);
+    const Contender best = found.candidates[*found.best].contender;
+    CHECK(found.find({best.candidate, 3 - best.threads}) != nullptr);
   }
 
   TEST_CASE("a search that is stopped before its first run has no best, and says that it was stopped") {
     const SmallProblem small;
     std::stop_source source;
     source.request_stop();
-    const Exhaustive found = measure_all(small.problem, std::vector{small_grid}, {.stop = source.get_token()});
+    const Exhaustive found =
+        measure_all(small.problem, std::vector<Contender>{{small_grid}}, {.stop = source.get_token()});
     CHECK(found.stopped);
     CHECK_FALSE(found.best);
     CHECK(found.candidates.empty());

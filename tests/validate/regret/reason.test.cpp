@@ -18,7 +18,7 @@ const Workload& reason_workload = support::typical;
 /// A candidate whose counts and seconds are as predicted.
 Timed as_predicted(const Candidate& candidate) {
   const model::Ranked ranked = model::assess(reason_workload, candidate, built_in_unit_costs());
-  Timed one{.candidate = candidate, .judging = {ranked.time.total()}};
+  Timed one{.contender = {candidate}, .judging = {ranked.time.total()}};
   for (const auto& [name, term] : count_terms<double>) {
     for (const auto& [other, counted] : count_terms<std::uint64_t>)
       if (other == name) one.counts.*counted = static_cast<std::uint64_t>(std::llround(ranked.counts.*term));
@@ -68,8 +68,16 @@ TEST_SUITE("known answer") {
     ChoiceAndBest two;
     std::swap(two.choice, two.best);
     CHECK(two.reason().starts_with("the best was not tried: predicted 0."));
-    two.best.candidate = default_candidate(Technique::bvh);
+    two.best.contender.candidate = default_candidate(Technique::bvh);
     CHECK(two.reason() == "bvh, quality low has no closed form");
+  }
+
+  TEST_CASE("a choice that differs from the best only in the number of threads says so") {
+    ChoiceAndBest two;
+    two.choice = two.best;
+    two.choice.contender.threads = 4;
+    two.choice.judging[0] *= 2;
+    CHECK(two.reason() == "costs of threads: 4 chosen, the best takes 1");
   }
 
   TEST_CASE("a choice that was abandoned has no counts to compare") {

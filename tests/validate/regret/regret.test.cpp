@@ -15,7 +15,9 @@ namespace {
 
 /// A tier that always chooses the same candidate.
 Chooser always(const Candidate& candidate) {
-  return {"always", [candidate](const sim::Problem&, const Job&) { return validate::Choice{candidate}; }};
+  return {"always", [candidate](const sim::Problem&, const Job&, int threads) {
+            return validate::Choice{.candidate = candidate, .threads = threads};
+          }};
 }
 
 RegretWorkload tiny_workload(bool held_out) {
@@ -59,7 +61,8 @@ TEST_SUITE("known answer") {
       CHECK(row.choices.back().choice.candidate == constant);
       for (const ChoiceRow& choice : row.choices) {
         CHECK(choice.regret.value == doctest::Approx(choice.seconds / row.best_seconds));
-        CHECK(choice.reason.empty() == (choice.choice.candidate == row.best));
+        CHECK(choice.reason.empty() == row.is_best(choice.choice));
+        CHECK(choice.choice.threads <= row.threads);
       }
       REQUIRE(row.baselines.size() == baselines().size());
       CHECK(row.baselines[0].size() == 6);
@@ -80,7 +83,7 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("a workload that a chooser refuses is skipped, with the reason") {
-    const Chooser refusing{"refusing", [](const sim::Problem&, const Job&) -> validate::Choice {
+    const Chooser refusing{"refusing", [](const sim::Problem&, const Job&, int) -> validate::Choice {
                              throw std::invalid_argument("too flat");
                            }};
     const RegretResult result =

@@ -1,4 +1,4 @@
-#include "support/instruction_sets.hpp"
+#include "detp/sim/lists/simd/instruction_sets.hpp"
 
 #include <doctest/doctest.h>
 #include <fmt/format.h>
@@ -52,11 +52,11 @@ void check_same_bytes_by_all(const Problem& problem) {
   const Outcome expected =
       run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
   CHECK(expected.total_hits > 500);
-  for (const std::int64_t target : compiled_instruction_sets()) {
-    if (!machine_has(target)) continue;
-    const OnlyInstructionSet only(target);
-    CAPTURE(hwy::TargetName(target));
-    REQUIRE(std::string(stream::instruction_set()) == hwy::TargetName(target));
+  for (const stream::InstructionSet& set : stream::compiled_instruction_sets()) {
+    if (!set.here) continue;
+    const stream::OnlyInstructionSet only(set.name);
+    CAPTURE(set.name);
+    REQUIRE(stream::instruction_set() == set.name);
     check_same_bytes(problem, expected);
   }
 }
@@ -64,8 +64,8 @@ void check_same_bytes_by_all(const Problem& problem) {
 /// The names, such as "AVX2 AVX3", of the instruction sets that the machine has (or lacks).
 std::string names(bool had) {
   std::string list;
-  for (const std::int64_t target : compiled_instruction_sets())
-    if (machine_has(target) == had) list += fmt::format("{}{}", list.empty() ? "" : " ", hwy::TargetName(target));
+  for (const stream::InstructionSet& set : stream::compiled_instruction_sets())
+    if (set.here == had) list += fmt::format("{}{}", list.empty() ? "" : " ", set.name);
   return list;
 }
 
@@ -81,5 +81,12 @@ TEST_SUITE("identity") {
       for (const bool front : {false, true}) check_same_bytes_by_all(make_problem(scene.rays, scene.discs, front));
     }
     CHECK(stream::instruction_set() == best);
+  }
+
+  TEST_CASE("an instruction set that the machine lacks is refused") {
+    const auto use = [](const std::string& name) { const stream::OnlyInstructionSet only(name); };
+    CHECK_THROWS_AS(use("AVX"), std::invalid_argument);
+    for (const stream::InstructionSet& set : stream::compiled_instruction_sets())
+      if (!set.here) CHECK_THROWS_AS(use(set.name), std::invalid_argument);
   }
 }
