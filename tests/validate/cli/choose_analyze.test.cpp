@@ -1,0 +1,89 @@
+#include <doctest/doctest.h>
+
+#include <set>
+
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "support/command.hpp"
+
+namespace detp::support {
+
+TEST_SUITE("end to end") {
+  TEST_CASE("--analyze adds counts, measured times and the regret") {
+    const std::string line = "choose @cornell --rays 1000 --analyze";
+    const Json json = result_of(line);
+    CHECK(json.at("regret").get<double>() >= 0);
+    CHECK(json.at("stopped") == false);
+    std::uint64_t hits = 0;
+    const Json& predicted = json.at("candidates")[0];
+    double fastest = predicted.at("measured_seconds");
+    const double choice = fastest;
+    for (const char* key : {"technique", "parameters", "predicted_seconds"})
+      CHECK(json.at("predicted_choice").at(key) == predicted.at(key));
+    for (const char* key : {"technique", "parameters", "measured_seconds"})
+      CHECK(json.at("choice").at(key) == json.at("best_measured").at(key));
+    int run = 0;
+    std::set<std::string> techniques;
+    for (const Json& candidate : json.at("candidates")) {
+      CAPTURE(candidate.dump());
+      techniques.insert(candidate.at("technique"));
+      run += candidate.contains("measured_seconds") || candidate.contains("given_up_after_seconds") ? 1 : 0;
+      if (candidate.contains("not_run")) continue;
+      CHECK(candidate.at("measured_seconds").get<double>() > 0);
+      CHECK(candidate.at("measured_seconds").get<double>() >=
+            json.at("best_measured").at("measured_seconds").get<double>());
+      fastest = std::min(fastest, candidate.at("measured_seconds").get<double>());
+      const std::uint64_t found = candidate.at("counted").at("hits");
+      CHECK(found > 0);
+      if (hits > 0) CHECK(found == hits);
+      hits = found;
+    }
+    CHECK(json.at("regret").get<double>() == doctest::Approx(choice / fastest - 1));
+    CHECK(json.at("tried") == run);
+    for (const Technique technique : all_techniques)
+      CHECK(techniques.contains(std::string(name(technique))) == record_of(technique).exact);
+    for (const Json& missed : json.at("missed"))
+      if (missed.contains("seconds_ratio"))
+        CHECK(missed.at("seconds_ratio").get<double>() ==
+              doctest::Approx(missed.at("counts_ratio").get<double>() * missed.at("unit_costs_ratio").get<double>()));
+    for (const std::string format : {"text", "csv", "json"})
+      CHECK_FALSE(has_no_number(detp(line + " --format " + format).out));
+  }
+
+  TEST_CASE("with --analyze the measured winner is the choice, and the prediction's errors are reported") {
+    // With these unit costs, brute force has by far the shortest predicted time.
+    const std::string line =
+        "choose @uniform --samples 5000 --rays 5000 --disc-radius 1% --analyze "
+        "--costs t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";
+    const Json json = result_of(line);
+    CHECK(json.at("predicted_choice").at("technique") == "brute-force");
+    CHECK(json.at("choice").at("technique") != "brute-force");
+    CHECK(json.at("choice").at("technique") == json.at("best_measured").at("technique"));
+    CHECK(json.at("regret").get<double>() > 1);
+    CHECK(json.at("tried").get<int>() >= 10);
+    CHECK(json.at("missed").at(0).at("counts_ratio").get<double>() == doctest::Approx(1));
+    CHECK(json.at("missed").at(0).at("unit_costs_ratio").get<double>() < 1e-3);
+    const std::string text = detp(line).out;
+    for (const char* said :
+         {"\nchoice    ", " %: brute-force, the predicted choice, takes", "\nmissed    brute-force: predicted"})
+      CHECK(text.find(said) != std::string::npos);
+  }
+
+  TEST_CASE("an analysis that is stopped says after how many candidates, and ends with code 3") {
+    const std::string line =
+        "choose @uniform --samples 100000 --rays 100000 --threads 1 --analyze --costs "
+        "t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";  // starts with brute force, which takes more than 1 s
+    const Finished finished = stopped_in_time(
+        line, [](const Finished& one) { return one.out.find("\nstopped   after 0 of ") != std::string::npos; });
+    CHECK(finished.code == 3);
+    CHECK(finished.out.find("\nstopped   after 0 of ") != std::string::npos);
+    const Finished json =
+        stopped_in_time(line + " --format json", [](const Finished& one) { return one.json().contains("tried"); });
+    CHECK(json.code == 3);
+    CHECK(json.json().at("stopped") == true);
+    CHECK(json.json().at("tried") == 0);
+    CHECK_FALSE(json.json().contains("best_measured"));
+    CHECK_FALSE(json.json().contains("regret"));
+  }
+}
+
+}  // namespace detp::support

@@ -1,0 +1,43 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "support/command.hpp"
+
+namespace detp::support {
+
+TEST_SUITE("end to end") {
+  TEST_CASE("tips say with which inputs the choice is another one") {
+    const std::string scene = "choose @uniform --samples 2000 --disc-radius 2% --calibration none --threads 1 --rays ";
+    const auto fewer_rays = [](const Json& json) {
+      for (const Json& tip : json.at("tips"))
+        if (tip.at("input") == "rays" && tip.at("change") == "technique" && tip.at("ratio") < 1) return tip;
+      return Json();
+    };
+    for (const char* const rigor : {"", " --rigor structural", " --rigor estimate"}) {
+      CAPTURE(rigor);
+      const Json json = result_of(scene + "150" + rigor);
+      REQUIRE(json.at("choice").at("technique") == "box-tree");
+      const Json tip = fewer_rays(json);
+      REQUIRE(tip.is_object());
+      CHECK(tip.at("technique") == "brute-force");
+      CHECK(tip.at("threads") == 1);
+      CHECK(tip.at("parameters").is_object());
+      CHECK(tip.at("at").get<double>() == doctest::Approx(150 * tip.at("ratio").get<double>()));
+      CHECK(json.at("tips_seconds") > 0);
+      const std::string text = detp(scene + "150" + rigor).out;
+      CHECK(text.find("\ntips      ") != std::string::npos);
+      CHECK(text.find(fmt::format("brute-force overtakes below {:.0f} rays", tip.at("at").get<double>())) !=
+            std::string::npos);
+      const auto rays = static_cast<int>(0.9 * tip.at("at").get<double>());
+      const Json there = result_of(fmt::format("{}{}{}", scene, rays, rigor));
+      CHECK(there.at("choice").at("technique") == "brute-force");
+    }
+    const Json without = result_of(scene + "150 --disable brute-force");
+    CHECK_FALSE(fewer_rays(without).is_object());
+    CHECK(without.at("tips_range").at("rays")[0] == 38);
+    CHECK(detp(scene + "150 --disable brute-force").out.find("wins for d from 0.01 to 0.16, for 38 to 600 rays") !=
+          std::string::npos);
+  }
+}
+
+}  // namespace detp::support
