@@ -11,6 +11,7 @@
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/base/stop_after.hpp"
 #include "detp/validate/choice/neighbours.hpp"
+#include "detp/validate/statistics/statistics.hpp"
 #include "timed_rounds.hpp"
 
 namespace detp::validate {
@@ -35,10 +36,6 @@ constexpr double share_of_selecting = 0.3;
 /// As Timed says.
 double seconds_of(const sim::Outcome& outcome, double processor_seconds, int threads) {
   return threads == 1 ? std::min(outcome.seconds.total(), processor_seconds) : outcome.seconds.total();
-}
-
-double least(const std::vector<double>& seconds) {
-  return seconds.empty() ? infinite : *std::min_element(seconds.begin(), seconds.end());
 }
 
 class Search {
@@ -84,7 +81,7 @@ class Search {
       if (Timed& one = found_.candidates[i]; &one == &best || (i < asked_ && !one.abandoned)) entries.push_back(&one);
     entries.push_back(&twin);
     time_in_turns(entries, hopelessly_behind, &Timed::judging);
-    if (!best.judging.empty() && !twin.judging.empty()) found_.noise = twin.judging_seconds() / best.judging_seconds();
+    if (!best.judging.empty() && !twin.judging.empty()) found_.noise = twin.judged_ratio(best);
   }
 
   Exhaustive result() && {
@@ -182,15 +179,27 @@ class Search {
 
 }  // namespace
 
-double Timed::selecting_seconds() const { return least(selecting); }
-double Timed::judging_seconds() const { return abandoned ? first_seconds : least(judging); }
+double Timed::judging_seconds() const { return abandoned ? first_seconds : median(judging); }
+
+double Timed::judged_ratio(const Timed& reference) const {
+  return abandoned ? first_seconds / reference.judging_seconds() : time_ratio(judging, reference.judging);
+}
 
 std::optional<std::size_t> fastest_selected(std::span<const Timed> candidates) {
+  // One that took part in every round, so that it shares rounds with all others.
+  const auto longest = std::max_element(candidates.begin(), candidates.end(), [](const Timed& a, const Timed& b) {
+    return a.selecting.size() < b.selecting.size();
+  });
   std::optional<std::size_t> best;
-  for (std::size_t i = 0; i < candidates.size(); ++i)
-    if (!candidates[i].selecting.empty() &&
-        (!best || candidates[i].selecting_seconds() < candidates[*best].selecting_seconds()))
+  double least = infinite;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].selecting.empty()) continue;
+    const double ratio = time_ratio(candidates[i].selecting, longest->selecting);
+    if (!best || ratio < least) {
       best = i;
+      least = ratio;
+    }
+  }
   return best;
 }
 

@@ -34,20 +34,22 @@ struct Timed {
   std::vector<double> selecting = {};  ///< times from which the best candidate is selected
   std::vector<double> judging = {};    ///< times by which the candidates are judged
 
-  /// The shortest of the times `selecting`; infinite if there is none.
-  [[nodiscard]] double selecting_seconds() const;
-  /// The shortest of the times `judging`; `first_seconds`, a lower bound, if the candidate was abandoned. Infinite if
-  /// the candidate was not judged.
+  /// The median of the times `judging`; `first_seconds`, a lower bound, if the candidate was abandoned. Throws
+  /// std::invalid_argument if the candidate was not judged.
   [[nodiscard]] double judging_seconds() const;
+  /// time_ratio() of the times `judging` to those of `reference`; if the candidate was abandoned, the ratio of
+  /// judging_seconds().
+  [[nodiscard]] double judged_ratio(const Timed& reference) const;
 };
 
-/// The index of the candidate with the shortest selecting time; nullopt if none has one.
+/// The index of the candidate that is fastest by the times `selecting`: the one with the least time_ratio() to one of
+/// them. nullopt if none has such times.
 [[nodiscard]] std::optional<std::size_t> fastest_selected(std::span<const Timed> candidates);
 
 struct ExhaustiveOptions {
-  int repeats = 5;  ///< rounds of each half; more, up to 60, if the fastest run takes less than 2 ms
+  int repeats = 9;  ///< rounds of each half; more, up to 60, if the fastest run takes less than 2 ms
   /// no further round of a half begins after this many seconds
-  double most_seconds = 3;
+  double most_seconds = 4;
   /// a first run is abandoned after this many times the shortest time so far, but at least 5 ms
   double patience = 4;
   double patience_if_asked = 10;  ///< the same for a candidate that was asked for
@@ -61,7 +63,7 @@ struct Exhaustive {
   /// those asked for, in their order, then the others; those whose index does not fit in memory are left out
   std::vector<Timed> candidates;
   std::optional<std::size_t> best;  ///< the fastest on the selecting half; nullopt if the search was stopped before
-  double noise = 1;  ///< judging seconds of the best, timed a second time as if it were another candidate, over its own
+  double noise = 1;      ///< judged_ratio() of the best to itself, timed a second time as if it were another candidate
   bool stopped = false;  ///< a stop was requested before the end
 
   /// Null if it was not run.

@@ -39,7 +39,7 @@ std::string counts_reason(const PredictionError& of_choice, const PredictionErro
 std::string reason_of_regret(const Workload& workload, const CostTable& costs, const Timed& choice, const Timed& best,
                              double noise) {
   if (choice.contender == best.contender) return "";
-  const double regret = choice.judging_seconds() / best.judging_seconds();
+  const double regret = choice.judged_ratio(best);
   if (regret <= std::max(noise, 1 / noise)) return "within the noise";
   if (choice.contender.candidate == best.contender.candidate)
     return fmt::format("costs of threads: {} chosen, the best takes {}", choice.contender.threads,

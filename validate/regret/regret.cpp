@@ -120,7 +120,7 @@ class Runner {
 
   static std::optional<Regret> regret(const Exhaustive& found, const Timed* candidate) {
     if (candidate == nullptr) return std::nullopt;
-    return Regret{candidate->judging_seconds() / found.candidates[*found.best].judging_seconds(), candidate->abandoned};
+    return Regret{candidate->judged_ratio(found.candidates[*found.best]), candidate->abandoned};
   }
 
   [[nodiscard]] ChoiceRow choice_row(const std::string& tier, const Choice& choice, const Workload& workload,

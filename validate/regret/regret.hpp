@@ -15,7 +15,7 @@
 /// Measures the regret of choices: the time of what was chosen over the time of the best of all candidates.
 namespace detp::validate {
 
-/// The judging time of a candidate over that of the best.
+/// Timed::judged_ratio() of a candidate to the best.
 struct Regret {
   double value = 1;
   bool at_least = false;  ///< the candidate was abandoned, so this is a lower bound

@@ -2,9 +2,10 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
-/// Times contenders in turns.
+/// Times contenders in turns, and compares them.
 namespace detp::validate {
 
 struct RoundLimits {
@@ -20,5 +21,10 @@ struct RoundLimits {
 /// `time` returns the seconds of one run of a contender, or nullopt to end the rounds.
 [[nodiscard]] std::vector<std::vector<double>> timed_rounds(
     std::size_t contenders, const RoundLimits& limits, const std::function<std::optional<double>(std::size_t)>& time);
+
+/// How many times as long as `reference` a contender takes: the median of the ratios of their times, over the rounds in
+/// which both took part. Runs of one round follow each other closely, so a change of the machine's speed from round to
+/// round cancels. The shortest times need not be times of the same speed. NaN if there is no such round.
+[[nodiscard]] double time_ratio(std::span<const double> times, std::span<const double> reference);
 
 }  // namespace detp::validate
