@@ -21,7 +21,8 @@ Counts<double> leaf_counts(const Valid<Workload>& workload, const Cells& cells, 
 /// the discs' box.
 double steps_of_ray(const Valid<Workload>& workload, const Cells& cells) {
   std::array<double, 3> length = workload.box;
-  for (double& side : length) side += 2 * std::min(workload.disc_radius, 1e99);  // so that the volume does not overflow
+  for (double& side : length)
+    side += 2 * std::min(largest_radius(workload), 1e99);  // so that the volume does not overflow
   double faces = 0;
   for (std::size_t axis = 0; axis < 3; ++axis)
     faces += 2 * cells.along[axis] * length[(axis + 1) % 3] * length[(axis + 2) % 3];

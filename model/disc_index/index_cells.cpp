@@ -105,7 +105,7 @@ class OverlapProbability {
 
 Cells index_cells(const Valid<Workload>& workload, double parts, Insertion insertion) {
   require_positive("cells along the longest side", parts);
-  const double d = std::min(workload.disc_radius, 1e99);  // larger than all cells, but its volume does not overflow
+  const double d = std::min(largest_radius(workload), 1e99);  // larger than all cells, but its volume does not overflow
   Cells cells{.side = (scene_side(workload) + 2 * d) / parts, .insertion = insertion};
   for (std::size_t axis = 0; axis < 3; ++axis)
     cells.along[axis] = std::max(1.0, std::ceil((workload.box[axis] + 2 * d) / cells.side * (1 - 1e-12)));

@@ -168,7 +168,7 @@ class BoxTreeShapes::Tree {
   Tree(int dimension, const Valid<Workload>& workload, const box_tree::SampleCube& cube, double samples, int leaf,
        Engine engine)
       : kinds_(box_tree::cell_kinds(dimension, samples)), blocks_(ray_blocks(workload.rays, workload.samples, engine)) {
-    nodes_ = box_tree::expected_binary_tree(dimension, samples, cube.radius(), leaf, {engine, cube.margin()});
+    nodes_ = box_tree::expected_binary_tree(dimension, samples, cube.ends(), leaf, {engine, cube.margin()});
     widening_.emplace(nodes_, kinds_);
     const auto crossing = [&](double surface, double volume) { return cube.crossing(surface, volume); };
     for (std::size_t kind = 0; kind < nodes_.size(); ++kind) {

@@ -65,6 +65,8 @@ inline constexpr int box_tree_largest_leaf = 256;
 ///            fan-out 2 … 16 and leaf 1 … 256): tests of boxes 0.8, 4.4, 7.7 %, rays listed 0.9, 4.4, 11.4 %, tests of
 ///            discs 0.7, 3.8, 8.2 %, culls 0.8, 5.9, 13.5 %, visits 0.2, 2.8, 5.3 %. In scenes:
 ///            validate/choice/README.md.
+///            Discs of mixed radii (a lognormal distribution, 10⁴ discs, d 0.0025 … 0.04 of the side, leaf 32): tests of
+///            boxes 10 %, of discs up to 33 % too few (tests/validate/choice/outlier_counts.test.cpp).
 /// Limits     n_P <= leaf: one leaf, every ray tested with every disc.
 /// Costs      with leaves of 4, 16 and 64: 0.57, 0.33, 0.10 million instructions for D = 3, 1.33, 1.10, 0.45 for D = 2,
 ///            and the sum of both between (means over 20 random cubes, valgrind --tool=callgrind). Once 4 ms to make a

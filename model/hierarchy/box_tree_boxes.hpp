@@ -4,6 +4,7 @@
 #include <span>
 
 #include "box_tree_cells.hpp"
+#include "box_tree_ends.hpp"
 #include "detp/model/vocabulary/engine.hpp"
 
 namespace detp::model::box_tree {
@@ -24,26 +25,17 @@ struct MeanBox {
 
 /// The mean box around m isotropic discs in a cell.
 ///
-/// Along an axis where the samples' coordinates x are uniform in [0, L], the box ends at L + d - y. Here y is the
-/// smallest of m values (L - x) + (d - reach). A disc extends along the axis from its centre by reach = d √(1 - u²),
-/// with u uniform in [0, 1]. So
-///
-///     E[y] = ∫₀^{L+d} (1 - G(y))^m dy      G(y) = (1/L) ∫ P(d - reach < v) dv, over v from y - L (or 0) to y
-///
-///   where  P(d - reach < v)   √(1 - (1 - v/d)²) for v < d, 1 beyond
-///          L = 0              samples on a face of the cube: G(y) = P(d - reach < y)
-///
-/// The sides of the box are L + 2d minus E[y] at both ends. Sides along different axes count as independent, so the
+/// The sides of the box are L + 2d minus E[y] at both ends (box_tree_ends.hpp). Sides along different axes count as independent, so the
 /// mean of a product is the product of the means. This is exact for d = 0, where E[side] = L (m - 1)/(m + 1).
 ///
 /// The plain engine lists the lines that cross the box, of surface F = 2 (xy + yz + zx). The simd engine lists as many
 /// lines as cross a convex body of surface F + 2 ln(4/3)/π (x² + y² + z²) (validate/structural).
 ///
 /// Source     our derivation.
-/// Accuracy   E[y], interpolated, 0.2 %.
 class CellBoxes {
  public:
-  CellBoxes(const CellKind& cell, double disc_radius, const Listing& listing = {});
+  /// The boxes are valid as long as the ends.
+  CellBoxes(const CellKind& cell, const BoxEnds& ends, const Listing& listing = {});
 
   /// m >= 1, not necessarily a whole number.
   [[nodiscard]] MeanBox operator()(double discs) const;
@@ -53,13 +45,7 @@ class CellBoxes {
   void products(std::span<double> products) const;
 
  private:
-  /// E[y] for one L and d: interpolated between two rows of a table.
-  struct Row {
-    const double* entries = nullptr;
-    double weight = 0;  ///< weight of the next row
-    double scale = 0;   ///< L + d
-    double single = 0;  ///< E[y] of one disc
-  };
+  using Row = BoxEnds::Row;
 
   struct Axis {
     double length = 0;
@@ -71,12 +57,11 @@ class CellBoxes {
     double log_on_faces = 0;   ///< logarithm of the share of the discs on any face across the axis
   };
 
-  static Row row_of(double side, double radius, double log_radius);
-  static double missing(const Row& row, double discs);
   [[nodiscard]] double side_of(const Axis& axis, double discs) const;
   [[nodiscard]] double variance_of(const Axis& axis, double discs) const;
 
-  double radius_;
+  double radius_;           ///< the largest
+  double extent_variance_;  ///< BoxEnds::extent_variance
   Listing listing_;
   Row flat_;  ///< L = 0
   std::array<Axis, 3> axes_;

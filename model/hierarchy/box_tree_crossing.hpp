@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
+#include "box_tree_ends.hpp"
 #include "detp/model/lines/line_measure.hpp"
 
 namespace detp::model::box_tree {
@@ -11,11 +14,7 @@ namespace detp::model::box_tree {
 /// A cube of samples, or its faces, for the trees of box_tree_expected.hpp, whose unit of length is its side.
 class SampleCube {
  public:
-  explicit SampleCube(const Valid<Workload>& workload) {
-    const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
-    side_ = std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);
-    constexpr double far = 1e60;  // a larger or smaller radius makes no difference
-    radius_ = std::clamp(workload.disc_radius / side_, 1 / far, far);
+  explicit SampleCube(const Valid<Workload>& workload) : side_(side_of(workload)), ends_(ends_of(workload, side_)) {
     // The margin is 64 · 2⁻²⁴ in units of the frame (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
     // of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not matter.
     margin_ = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side_;
@@ -23,7 +22,7 @@ class SampleCube {
     of_volume_ = crossing_probability(workload, std::min(largest, unit * side_ * side_ * side_), 0) / unit;
   }
 
-  [[nodiscard]] double radius() const { return radius_; }  ///< d
+  [[nodiscard]] const BoxEnds& ends() const { return ends_; }
   [[nodiscard]] double margin() const { return margin_; }  ///< as in Listing
 
   /// P(node) from the mean surface and volume of nodes' boxes.
@@ -35,8 +34,22 @@ class SampleCube {
   static constexpr double unit = 0x1p-40;  // so small that every probability is below 1
   static constexpr double largest = 1e300;
 
+  static double side_of(const Workload& workload) {
+    const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
+    return std::pow(sample_extent(workload) / std::pow(6, 3 - dimension), 1 / dimension);
+  }
+
+  static BoxEnds ends_of(const Workload& workload, double side) {
+    constexpr double far = 1e60;  // a larger or smaller radius makes no difference
+    const auto scaled = [&](double radius) { return std::clamp(radius / side, 1 / far, far); };
+    if (workload.radii.empty()) return {scaled(workload.disc_radius)};
+    std::vector<RadiusClass> classes = workload.radii;
+    for (RadiusClass& one : classes) one.radius = scaled(one.radius);
+    return BoxEnds(std::move(classes));
+  }
+
   double side_;  ///< length
-  double radius_;
+  BoxEnds ends_;
   double margin_;
   double of_surface_;
   double of_volume_;

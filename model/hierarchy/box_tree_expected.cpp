@@ -45,15 +45,15 @@ using NodeProbabilities = std::vector<double>;
 
 class ExpectedLevels {
  public:
-  ExpectedLevels(int dimension, double samples, double radius, int leaf, const Listing& listing)
+  ExpectedLevels(int dimension, double samples, const BoxEnds& ends, int leaf, const Listing& listing)
       : kinds_(cell_kinds(dimension, samples)),
         samples_(samples),
-        radius_(radius),
+        ends_(ends),
         leaf_(leaf),
         listing_(listing),
         most_(std::max(leaf, largest_sah_leaf)),
         later_kinds_(dimension == 2 ? 6 : 0),
-        sah_leaf_model_(dimension, samples, radius, leaf),
+        sah_leaf_model_(dimension, samples, ends, leaf),
         node_probabilities_(kinds_.size()),
         reached_(kinds_.size(), false),
         nodes_(kinds_.size()) {
@@ -91,7 +91,7 @@ class ExpectedLevels {
     const CellKind& cell = kinds_[number];
     LevelNodes& nodes = nodes_[number];
     if (are_all_inner(cell)) {
-      nodes.inner.add(cell.cells, CellBoxes(cell, radius_, listing_)(samples_ * cell.share));
+      nodes.inner.add(cell.cells, CellBoxes(cell, ends_, listing_)(samples_ * cell.share));
     } else {
       NodeProbabilities& node_probability = node_probabilities_[number];
       if (node_probability.empty())
@@ -120,7 +120,7 @@ class ExpectedLevels {
     const int last = most_of(expected);
     binomial(samples_, cell.share, last, probability_);
     const SahLeaves* sah_leaves = sah_leaf_model_.for_cell(cell);
-    const CellBoxes boxes(cell, radius_, listing_);
+    const CellBoxes boxes(cell, ends_, listing_);
     const Halves halves = halves_of(cell);
     double above = 1 - probability_[0];
     double discs_above = expected;
@@ -164,9 +164,9 @@ class ExpectedLevels {
 
   [[nodiscard]] Halves halves_of(const CellKind& cell) const {
     if (leaf_ >= most_in_one_half || cell.child[0] == 0) return {};
-    const CellBoxes first(kinds_[cell.child[0]], radius_, listing_);
+    const CellBoxes first(kinds_[cell.child[0]], ends_, listing_);
     if (cell.child[0] == cell.child[1]) return {{first, first}};
-    return {{first, CellBoxes(kinds_[cell.child[1]], radius_, listing_)}};
+    return {{first, CellBoxes(kinds_[cell.child[1]], ends_, listing_)}};
   }
 
   /// The share of cells with discs in both halves. Only these cells are nodes. Changes `box` from the mean box of all
@@ -269,7 +269,7 @@ class ExpectedLevels {
 
   const std::vector<CellKind>& kinds_;
   double samples_;
-  double radius_;
+  const BoxEnds& ends_;
   int leaf_;
   Listing listing_;
   int most_;
@@ -287,9 +287,9 @@ class ExpectedLevels {
 
 }  // namespace
 
-std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf,
+std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, const BoxEnds& ends, int leaf,
                                              const Listing& listing) {
-  return ExpectedLevels(dimension, samples, disc_radius, leaf, listing).level_nodes();
+  return ExpectedLevels(dimension, samples, ends, leaf, listing).level_nodes();
 }
 
 }  // namespace detp::model::box_tree

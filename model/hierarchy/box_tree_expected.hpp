@@ -50,7 +50,7 @@ struct LevelNodes {
 /// Every node of m <= leaf samples is a leaf, and some nodes of m <= 64 are (box_tree_sah_leaves.hpp).
 ///
 /// Source     our derivation. Valid range and accuracy: see box_tree.hpp.
-[[nodiscard]] std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, double disc_radius, int leaf,
+[[nodiscard]] std::vector<LevelNodes> expected_binary_tree(int dimension, double samples, const BoxEnds& ends, int leaf,
                                                            const Listing& listing = {});
 
 }  // namespace detp::model::box_tree

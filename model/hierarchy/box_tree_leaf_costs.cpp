@@ -65,8 +65,8 @@ void add_splits(int dimension, double samples, const SplitCosts& split, Engine e
     const double expected = samples * kind.share;
     if ((dimension == 2 && kind.side[2] > 0) || expected > 1000 || kind.child[0] == 0) continue;
     if (expected < 1) break;
-    const CellBoxes whole(kind, split.cube().radius(), listing);
-    const CellBoxes half(kinds[kind.child[0]], split.cube().radius(), listing);
+    const CellBoxes whole(kind, split.cube().ends(), listing);
+    const CellBoxes half(kinds[kind.child[0]], split.cube().ends(), listing);
     const double deviation = std::sqrt(expected);
     for (std::size_t i = 0; i + 1 < searched_leaves.size(); ++i) {
       const double low = (searched_leaves[i] + 0.5 - expected) / deviation;

@@ -107,12 +107,11 @@ double set_leaf_share(SahLeaves& level, int discs, double area, double children,
 
 bool almost_all_exceed(int discs, double expected) { return expected - deviations * std::sqrt(expected) > discs; }
 
-SahLeafModel::SahLeafModel(int dimension, double samples, double radius, int leaf)
-    : radius_(radius),
+SahLeafModel::SahLeafModel(int dimension, double samples, const BoxEnds& ends, int leaf)
+    : ends_(ends),
       leaf_(leaf),
       on_faces_(dimension == 2),
-      least_side_(radius / 64),
-
+      least_side_(ends.largest_radius() / 64),
       least_discs_(std::exp((std::log(1e-4) + std::lgamma(leaf + 2)) / leaf) / (dimension == 2 ? 3 : 1)) {
   if (leaf >= largest_sah_leaf) return;
   std::vector<const CellKind*> cells;  // by number of halvings
@@ -147,7 +146,7 @@ const SahLeaves* SahLeafModel::for_cell(const CellKind& cell) {
     share *= 1 + 0.75 * inner_share * inner_share * inner_share * inner_share * inner_share;
   }
   if (leaf_ > 1) return &at_edge_;
-  const SmallNodes small(cell, radius_);
+  const SmallNodes small(cell, ends_.rms_radius());
   for (int discs = 2; discs <= most_in_table; ++discs) small.set_leaf_share(at_edge_, discs);
   return &at_edge_;
 }
@@ -161,7 +160,7 @@ void SahLeafModel::start_from_leaves(const CellKind& cell, Row& area, Row& cost)
   SahLeaves& level = levels_.back();
   level.share.fill(1);
   level.box.fill(1);
-  const CellBoxes boxes(cell, radius_);
+  const CellBoxes boxes(cell, ends_);
   boxes.products(std::span(area).subspan(1));
   for (int m = 1; m <= largest_sah_leaf; ++m) cost[m] = m * area[m];
 }
@@ -189,9 +188,9 @@ void SahLeafModel::compute_from_halves(const CellKind& cell, int most, Row& area
   Row either;
   for (int m = 1; m <= most; ++m) either[m] = 2 * (list_cost * half_area[m] + half_cost[m]);
   const double deviation = deviation_factor(leaf_ > 1 ? 1 : levels_[cell.halvings + 1].share[2]);
-  const CellBoxes boxes(cell, radius_);
+  const CellBoxes boxes(cell, ends_);
   boxes.products(std::span(area).subspan(1, static_cast<std::size_t>(most)));
-  const SmallNodes small(cell, radius_);
+  const SmallNodes small(cell, ends_.rms_radius());
   double none = 1;  // probability that one half has all discs
   for (int m = 1; m <= most; ++m, none /= 2) {
     if (m <= leaf_) {

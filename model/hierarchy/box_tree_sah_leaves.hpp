@@ -46,7 +46,7 @@ struct SahLeaves {
 /// φ, Φ are the density and the distribution function of the standard normal.
 ///
 /// For nodes of 2 … 6 discs, with one disc per leaf, Z is far from normal. Their shares, boxes and costs are tabulated
-/// by d over the cell's side and the shape of the cell (validate/tools/box_tree_sah_leaves_table.cpp).
+/// by d (root mean square) over the cell's side and the shape of the cell (validate/tools/box_tree_sah_leaves_table.cpp).
 ///
 /// If two or three faces of the cube pass through a cell, its halves differ. Except for the tabulated nodes, the share
 /// of leaves is then q (1 + 0.75 (1 - q)⁵), where q is the share for a cell on one face.
@@ -54,8 +54,8 @@ struct SahLeaves {
 /// Source     our derivation; the numbers in σ, 0.3 and 0.75 are fitted to counts of about 270 sets of samples.
 class SahLeafModel {
  public:
-  /// Samples uniform in a cube of side 1 (dimension 3) or on its faces (2), discs of that radius.
-  SahLeafModel(int dimension, double samples, double radius, int leaf);
+  /// Samples uniform in a cube of side 1 (dimension 3) or on its faces (2). The ends must outlive the model.
+  SahLeafModel(int dimension, double samples, const BoxEnds& ends, int leaf);
 
   /// The leaves among the nodes at cells of this kind; null if there are none. The result is valid until the next call.
   [[nodiscard]] const SahLeaves* for_cell(const CellKind& cell);
@@ -69,7 +69,7 @@ class SahLeafModel {
   [[nodiscard]] double deviation_factor(double leaf_share_of_pairs) const;
   [[nodiscard]] double point_box_share(const CellKind& cell, int discs, double area) const;
 
-  double radius_;
+  const BoxEnds& ends_;
   int leaf_;
   bool on_faces_;
   double least_side_;              ///< in smaller cells all boxes are about equal, and all nodes become leaves

@@ -81,7 +81,7 @@ double occupied_in_extent(const Valid<Workload>& workload, double cell, int leve
 
 double cell_sphere_radius(const Valid<Workload>& workload, int level) {
   require_level(level);
-  return enclosing_radius(std::ldexp(scene_side(workload), -level), workload.disc_radius);
+  return enclosing_radius(std::ldexp(scene_side(workload), -level), largest_radius(workload));
 }
 
 double occupied_cell_spheres(double samples, int level) {

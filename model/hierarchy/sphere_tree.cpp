@@ -112,7 +112,7 @@ double crossed(const Valid<Workload>& workload, double around_all, double run, d
 
 TreeLevel level_of(const Valid<Workload>& workload, const SphereTreeParameters& parameters, double around_all,
                    double run, double level) {
-  const double d = workload.disc_radius;
+  const double d = largest_radius(workload, run);
   const double square = radius(workload, parameters, mean_square, run, level);
   // Near the root all spheres are about equal. Rounding in the tables must not make their mean larger than the root of
   // their mean square.

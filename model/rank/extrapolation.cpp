@@ -34,7 +34,12 @@ void uncounted_scene(const Valid<Workload>& workload, Reasons& reasons) {
   box_filled.sample_extent = 0;
   const double filled = sample_extent(workload) / sample_extent(box_filled);
   if (differ(filled, 1)) reasons.add(fmt::format("samples that fill {:.3g} of the box or its faces, not all", filled));
-  const double around = enclosing_radius(side, workload.disc_radius);
+  if (!workload.radii.empty())
+    reasons.add(fmt::format("disc radii up to {:.4g}, {:.3g} times the root mean square: only equal discs were counted",
+                            largest_radius(workload), largest_radius(workload) / workload.disc_radius));
+  if (workload.central)
+    reasons.add(fmt::format("{} samples far from the others", workload.samples - workload.central->samples));
+  const double around = enclosing_radius(side, largest_radius(workload));
   if (differ(workload.sphere_radius, around))
     reasons.add(fmt::format("r0 {:.4g}, not {:.4g} around the cube of the samples", workload.sphere_radius, around));
 }

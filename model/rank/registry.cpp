@@ -18,6 +18,7 @@
 #include "detp/model/sphere_cache/sphere_cache.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
+#include "far_samples.hpp"
 #include "fastest.hpp"
 #include "index_best.hpp"
 
@@ -66,7 +67,10 @@ Counts<double> in_blocks(const Valid<Workload>& workload, const Valid<Candidate>
 }
 
 Counts<double> counts_of_box_tree(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
-  return box_tree_counts(workload, checked_parameters<BoxTreeParameters>(candidate), engine);
+  const auto& tree = checked_parameters<BoxTreeParameters>(candidate);
+  if (!workload.central) return box_tree_counts(workload, tree, engine);
+  return with_far_samples(workload, box_tree_counts(central_workload(workload), tree, engine),
+                          box_tree_counts(far_workload(workload, tree.fan_out), {tree.fan_out, 1}, engine));
 }
 
 /// Plain density estimation on the tangent plane: each disc against each ray.
@@ -77,6 +81,21 @@ Counts<double> brute_force(const Valid<Workload>& workload, const BruteForcePara
 Counts<double> published_cache(const Valid<Workload>& workload, const SphereCacheParameters& parameters) {
   require_rebuild_law(parameters.order);
   return published::counts(workload, {parameters.ratio}, parameters.spheres);
+}
+
+/// A large disc has the spheres around its small neighbours made again. So all discs count as large as the largest: the
+/// counts are an upper bound.
+Workload as_large(Workload workload) {
+  workload.disc_radius = largest_radius(workload);
+  workload.radii.clear();
+  return workload;
+}
+
+Counts<double> corrected_cache(const Valid<Workload>& workload, const Valid<SphereCacheParameters>& parameters) {
+  if (workload.radii.empty()) return sphere_cache_counts(workload, parameters);
+  Counts<double> counts = sphere_cache_counts(as_large(workload), parameters);
+  counts.hits = expected_hits(workload);
+  return counts;
 }
 
 Counts<double> octree(const Valid<Workload>& workload, const OctreeParameters& parameters) {
@@ -99,6 +118,7 @@ std::optional<FoundParameters> not_tuned(const P& good) {
 
 std::optional<FoundParameters> best_cache(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                           const FixedParameters& fixed, const SearchLimits& limits) {
+  if (!workload.radii.empty()) return best_cache(as_large(workload), costs, fixed, limits);
   const auto ratio = fixed.value<double>("ratio");
   const auto spheres = fixed.value<std::int64_t>("spheres");
   // No sphere holds a disc.
@@ -184,9 +204,15 @@ void search_leaves(const Valid<Workload>& workload, const Valid<UnitCosts>& cost
   walk(-more_likely);
 }
 
-/// Tries fan-outs of 4, 8 and 16 with each leaf of the search. They share the binary tree of the leaf.
+/// Tries fan-outs of 4, 8 and 16 with each leaf of the search. They share the binary tree of the leaf. If a few samples
+/// lie far from the others, the best parameters are those for the others.
 std::optional<FoundParameters> best_box_tree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                              const FixedParameters& fixed, const SearchLimits& limits) {
+  if (workload.central) {
+    auto found = best_box_tree(central_workload(workload), costs, fixed, limits);
+    if (found) found->counts.reset();
+    return found;
+  }
   SearchLimits any_size = limits;  // a box tree holds each disc once
   any_size.most_references = std::numeric_limits<double>::infinity();
   Fastest<BoxTreeParameters> fastest(costs, Technique::box_tree, any_size);
@@ -236,7 +262,7 @@ std::optional<FoundParameters> best_grid(const Valid<Workload>& workload, const 
 
 const std::array<TechniqueModel, all_techniques.size()> registry{{
     {Technique::brute_force, in_blocks<BruteForceParameters, brute_force>},
-    {Technique::sphere_cache, in_blocks<SphereCacheParameters, sphere_cache_counts>, best_cache, uncounted_cache},
+    {Technique::sphere_cache, in_blocks<SphereCacheParameters, corrected_cache>, best_cache, uncounted_cache},
     {Technique::sphere_cache_published, predicted<SphereCacheParameters, published_cache>, best_cache, uncounted_cache},
     {Technique::cell_spheres, in_blocks<CellSpheresParameters, cell_sphere_counts>, best_cells, uncounted_cells},
     {Technique::sphere_tree, predicted<SphereTreeParameters, sphere_tree_counts>, best_sphere_tree,

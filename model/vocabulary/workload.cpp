@@ -9,26 +9,77 @@
 #include "checks.hpp"
 
 namespace detp {
+namespace {
+
+double longest(const std::array<double, 3>& box) { return *std::max_element(box.begin(), box.end()); }
+
+void check_radii(const Workload& workload) {
+  if (workload.radii.empty()) return;
+  constexpr double rounding = 1e-6;
+  double shares = 0;
+  double squares = 0;
+  double above = HUGE_VAL;
+  for (const RadiusClass& one : workload.radii) {
+    require_positive("radius of a class of discs", one.radius);
+    require_positive("share of a class of discs", one.share);
+    if (!(one.radius < above)) throw std::invalid_argument("classes of radii must begin with the largest radius");
+    above = one.radius;
+    shares += one.share;
+    const double ratio = one.radius / workload.disc_radius;
+    squares += one.share * ratio * ratio;
+  }
+  if (!(std::abs(shares - 1) <= rounding))
+    throw std::invalid_argument(fmt::format("shares of classes of radii must add up to 1 (got {})", shares));
+  if (!(std::abs(squares - 1) <= 2 * rounding))
+    throw std::invalid_argument(
+        fmt::format("disc radius must be the root mean square of the classes of radii (got {}, not {})",
+                    workload.disc_radius, workload.disc_radius * std::sqrt(squares)));
+}
+
+void check_box(const std::array<double, 3>& box, double dimension, double sample_extent) {
+  for (const double side : box) require_non_negative("side of the sample box", side);
+  if (!(dimension >= 1 && dimension <= 3))
+    throw std::invalid_argument(fmt::format("sample dimension must be from 1 to 3 (got {})", dimension));
+  require_non_negative("sample extent", sample_extent);
+  require_positive("longest side of the sample box", longest(box));
+  if (sample_extent > 1e270)
+    throw std::invalid_argument(
+        fmt::format("sample extent must be at most 1e270, or it overflows (got {})", sample_extent));
+}
+
+void check_lengths(double sphere_radius, double side) {
+  for (const double length : {sphere_radius, side})
+    if (length < 1e-90 || length > 1e90)
+      throw std::invalid_argument(fmt::format(
+          "sphere radius and sample box must lie between 1e-90 and 1e90, or their volumes overflow (got {})", length));
+}
+
+void check_central(const Workload& workload) {
+  if (!workload.central) return;
+  const CentralSamples& central = *workload.central;
+  require_count("number of central samples", central.samples, 1, workload.samples - 1);
+  require_positive("radius of the sphere around the central samples", central.sphere_radius);
+  check_box(central.box, central.dimension, central.sample_extent);
+  check_lengths(central.sphere_radius, longest(central.box));
+  if (!(central.ray_share >= 0 && central.ray_share <= 1))
+    throw std::invalid_argument(
+        fmt::format("share of the rays near the central samples must be from 0 to 1 (got {})", central.ray_share));
+  require_non_negative("path length near the central samples", central.path_length);
+}
+
+}  // namespace
 
 void check(const Workload& workload) {
   require_count("number of rays", workload.rays, 1, 1e18);
   require_count("number of samples", workload.samples, 1, 1e18);
   require_positive("disc radius", workload.disc_radius);
+  check_radii(workload);
   require_positive("sphere radius", workload.sphere_radius);
-  for (const double side : workload.box) require_non_negative("side of the sample box", side);
-  if (!(workload.dimension >= 1 && workload.dimension <= 3))
-    throw std::invalid_argument(fmt::format("sample dimension must be from 1 to 3 (got {})", workload.dimension));
-  require_non_negative("sample extent", workload.sample_extent);
+  check_box(workload.box, workload.dimension, workload.sample_extent);
   require_non_negative("sample distance", workload.sample_distance);
   require_non_negative("path length", workload.path_length);
-  require_positive("longest side of the sample box", scene_side(workload));
-  if (workload.sample_extent > 1e270)
-    throw std::invalid_argument(
-        fmt::format("sample extent must be at most 1e270, or it overflows (got {})", workload.sample_extent));
-  for (const double length : {workload.sphere_radius, scene_side(workload)})
-    if (length < 1e-90 || length > 1e90)
-      throw std::invalid_argument(fmt::format(
-          "sphere radius and sample box must lie between 1e-90 and 1e90, or their volumes overflow (got {})", length));
+  check_lengths(workload.sphere_radius, scene_side(workload));
+  check_central(workload);
 }
 
 double sample_extent(const Workload& workload) {
@@ -49,7 +100,35 @@ double sample_distance(const Workload& workload) {
   return static_cast<double>(std::pow(share, 1.0L / workload.dimension));
 }
 
-double scene_side(const Workload& workload) { return *std::max_element(workload.box.begin(), workload.box.end()); }
+double largest_radius(const Workload& workload) {
+  return workload.radii.empty() ? workload.disc_radius : workload.radii.front().radius;
+}
+
+double largest_radius(const Workload& workload, double discs) {
+  if (workload.radii.empty()) return workload.disc_radius;
+  double sum = 0;
+  double larger = 0;  // share of the discs in larger classes
+  double none_larger = 1;
+  for (const RadiusClass& one : workload.radii) {
+    larger += one.share;
+    const double none = larger < 1 ? std::exp(discs * std::log1p(-larger)) : 0;
+    sum += (none_larger - none) * one.radius;
+    none_larger = none;
+  }
+  return sum + none_larger * workload.radii.back().radius;
+}
+
+Workload with_disc_radius(Workload workload, double disc_radius) {
+  const double ratio = disc_radius / workload.disc_radius;
+  const double growth = (ratio - 1) * largest_radius(workload);
+  workload.sphere_radius += growth;
+  if (workload.central) workload.central->sphere_radius += growth;
+  workload.disc_radius = disc_radius;
+  for (RadiusClass& one : workload.radii) one.radius *= ratio;
+  return workload;
+}
+
+double scene_side(const Workload& workload) { return longest(workload.box); }
 
 double enclosing_radius(double side, double disc_radius) { return side * (std::sqrt(3.0) / 2) + disc_radius; }
 

@@ -1,8 +1,27 @@
 #pragma once
 
 #include <array>
+#include <optional>
+#include <vector>
 
 namespace detp {
+
+/// Discs of about the same radius.
+struct RadiusClass {
+  double radius = 0;  ///< root mean square of their radii, length > 0
+  double share = 0;   ///< of all discs, > 0
+};
+
+/// All samples but a few that lie far from the others.
+struct CentralSamples {
+  double samples = 0;                     ///< their number, 1 … n_P - 1
+  double sphere_radius = 0;               ///< of a sphere that contains every disc of theirs, length > 0
+  std::array<double, 3> box = {0, 0, 0};  ///< as in Workload; dimension, extent and path length likewise
+  double dimension = 3;
+  double sample_extent = 0;
+  double ray_share = 1;    ///< share of the rays that cross the sphere, 0 … 1
+  double path_length = 0;  ///< of those rays
+};
 
 /// n_R rays against n_P discs of radius d inside the sphere S₀.
 ///
@@ -20,10 +39,16 @@ struct Workload {
   double sample_distance = 0;  ///< mean distance between neighbouring samples, length; 0: computed from the extent
   double path_length = 0;      ///< mean length of the rays inside the box; 0: unbounded lines
   bool front_facing = false;   ///< only rays that arrive at a disc's front count as hits
+  /// empty: all discs have radius d. Otherwise classes of radii, the largest first; d is the root mean square of all
+  std::vector<RadiusClass> radii = {};
+  /// set if a few samples lie far from the others; box, dimension, extent and path length above are those of all
+  std::optional<CentralSamples> central = {};
 };
 
 /// Throws std::invalid_argument if a number is out of its range, if r₀ or the longest side is not in 1e-90 … 1e90, or
-/// if the extent is above 1e270.
+/// if the extent is above 1e270; if radii do not fall from class to class, shares do not add up to 1, or d is not the
+/// root mean square, to one in a million; if a value of the central samples is out of
+/// its range.
 void check(const Workload& workload);
 
 /// The extent that the samples fill: the workload's value if it is set. Otherwise it is the box's volume (D = 3), the
@@ -34,6 +59,15 @@ void check(const Workload& workload);
 
 /// Mean distance between neighbouring samples: the workload's value if it is set, else (extent / n_P)^(1/D).
 [[nodiscard]] double sample_distance(const Workload& workload);
+
+/// The radius of the largest class; d if all discs have the same radius.
+[[nodiscard]] double largest_radius(const Workload& workload);
+
+/// The expected radius of the largest of `discs` >= 1 random discs.
+[[nodiscard]] double largest_radius(const Workload& workload, double discs);
+
+/// The same workload with all radii scaled so that their root mean square is `disc_radius`. S₀ grows with the largest.
+[[nodiscard]] Workload with_disc_radius(Workload workload, double disc_radius);
 
 /// The longest side of the samples' box: s.
 [[nodiscard]] double scene_side(const Workload& workload);

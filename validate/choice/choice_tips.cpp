@@ -23,10 +23,8 @@ PilotChoice with_growth(const PilotChoice& pilot) {
 }
 
 Workload changed_workload(Workload workload, const TipInputs& inputs) {
-  workload.sphere_radius += inputs.disc_radius - workload.disc_radius;
-  workload.disc_radius = inputs.disc_radius;
   workload.rays = inputs.rays;
-  return workload;
+  return with_disc_radius(std::move(workload), inputs.disc_radius);
 }
 
 TippedChoice tipped(const PilotChoice& choice, const Candidate& present) {

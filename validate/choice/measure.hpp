@@ -25,7 +25,8 @@ struct SurfaceFacts {
 [[nodiscard]] double sample_dimension(std::span<const sim::Disc> discs, const std::stop_token& stop = {});
 
 /// The workload of the problem: numbers of rays and discs, S₀, the samples' box and dimension, root mean square disc
-/// radius d, mean path length. The path length of a ray is its length inside the samples' box grown by d; the mean, over
+/// radius d, classes of radii if the largest is over 1.1 d, mean path length; the
+/// central samples if a few lie far from the others (far_discs.hpp). The path length of a ray is its length inside the samples' box grown by d; the mean, over
 /// a stratified sample of at most 16 384 rays, is 0 if all rays are unbounded lines. Throws sim::Stopped if a stop was requested.
 [[nodiscard]] Workload measure(const sim::Problem& problem, const SurfaceFacts& surface = {},
                                const std::stop_token& stop = {});

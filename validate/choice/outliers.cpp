@@ -4,52 +4,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <glm/vector_relational.hpp>
-#include <utility>
+#include <optional>
 
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/validate/statistics/statistics.hpp"
+#include "far_discs.hpp"
 
 namespace detp::validate {
 namespace {
 
-constexpr double far_boxes = 4;
 constexpr double large_radii = 10;
 constexpr double heavy_radii = 4;
 constexpr double heavy_mean = 1.1;
 constexpr double far_radii = 100;
 
-std::vector<sim::Disc> evenly_spaced(std::span<const sim::Disc> discs) {
-  const std::size_t count = std::min<std::size_t>(4096, discs.size());
-  std::vector<sim::Disc> sampled;
-  for (std::size_t i = 0; i < count; ++i) sampled.push_back(discs[i * discs.size() / count]);
-  return sampled;
-}
-
 double longest(const sim::Box& box) {
   const glm::dvec3 size = box.size();
   return std::max({size.x, size.y, size.z});
-}
-
-/// Leaves out the lowest and the highest twentieth of the centres on each axis.
-sim::Box central_box(const std::vector<sim::Disc>& discs) {
-  const std::size_t left_out = discs.size() / 20;
-  sim::Box box;
-  std::vector<double> values;
-  for (int axis = 0; axis < 3; ++axis) {
-    values.clear();
-    for (const sim::Disc& disc : discs) values.push_back(disc.centre[axis]);
-    std::sort(values.begin(), values.end());
-    box.low[axis] = values[left_out];
-    box.high[axis] = values[values.size() - 1 - left_out];
-  }
-  return box;
-}
-
-double median_radius(const std::vector<sim::Disc>& discs) {
-  std::vector<double> radii;
-  for (const sim::Disc& disc : discs) radii.push_back(disc.radius);
-  return median(std::move(radii));
 }
 
 /// "1 of 10000 discs is" or "20 of 10000 discs are".
@@ -57,23 +27,17 @@ std::string count_text(std::size_t some, std::size_t all, const char* what, cons
   return fmt::format("{} of {} {} {}", some, all, what, some == 1 ? one : many);
 }
 
-void warn_of_far_discs(std::span<const sim::Disc> discs, const std::vector<sim::Disc>& sampled, double radius,
-                       sim::StopCheck& check, std::vector<std::string>& warnings) {
-  sim::Box whole;
-  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) { whole.include(disc.centre); });
-  const sim::Box centre = central_box(sampled);
-  const double reach = std::max(longest(centre), 2 * radius);  // the discs' diameter if that is larger
-  if (!(longest(whole) > far_boxes * reach)) return;
-  std::size_t far = 0;
-  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) {
-    const bool outside = glm::any(glm::lessThan(disc.centre, centre.low - reach)) ||
-                         glm::any(glm::greaterThan(disc.centre, centre.high + reach));
-    far += outside ? 1 : 0;
-  });
+void warn_of_far_discs(std::span<const sim::Disc> discs, const std::stop_token& stop,
+                       std::vector<std::string>& warnings) {
+  const sim::Box whole = box_of_centres(discs, stop);
+  const std::optional<FarDiscs> found = find_far_discs(discs, whole, stop);
+  if (!found) return;
+  const double all = longest(whole);
   warnings.push_back(fmt::format(
-      "{} far from the others: the box of all is {:.3g} long, {:.3g} times that of the central 90 % ({:.3g}); "
-      "predictions, S0 and percentages take the box of all, as if discs were spread over it",
-      count_text(far, discs.size(), "discs", "lies", "lie"), longest(whole), longest(whole) / reach, reach));
+      "{} far from the others: the box of all is {:.3g} long, {:.3g} times that of the central 90 % ({:.3g}); S0 and "
+      "percentages take the box of all; predictions of box trees price the far discs apart, those of other techniques "
+      "spread all discs over the box of all",
+      count_text(found->far, discs.size(), "discs", "lies", "lie"), all, all / found->reach, found->reach));
 }
 
 void warn_of_large_discs(std::span<const sim::Disc> discs, double median, sim::StopCheck& check,
@@ -90,8 +54,8 @@ void warn_of_large_discs(std::span<const sim::Disc> discs, double median, sim::S
   if (!(largest > large_radii * median || (largest > heavy_radii * median && rms > heavy_mean))) return;
   const std::string radius = large == 1 ? "a radius of" : "radii up to";
   warnings.push_back(
-      fmt::format("{} {} {:.4g}, {:.3g} times the median {:.4g}: predictions use the root mean square "
-                  "{:.4g} for all, and S0 is made to hold the largest",
+      fmt::format("{} {} {:.4g}, {:.3g} times the median {:.4g}: S0 is made to hold the largest; predictions of "
+                  "box trees use all radii, those of other techniques mostly the root mean square {:.4g}",
                   count_text(large, discs.size(), "discs", "has", "have"), radius, largest, largest / median, median,
                   rms * median));
 }
@@ -117,11 +81,9 @@ void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::v
 
 std::vector<std::string> outlier_warnings(const sim::Problem& problem, const std::stop_token& stop) {
   sim::StopCheck check(stop, "looking for outliers");
-  const std::vector<sim::Disc> sampled = evenly_spaced(problem.discs());
-  const double usual = median_radius(sampled);
   std::vector<std::string> warnings;
-  warn_of_far_discs(problem.discs(), sampled, usual, check, warnings);
-  warn_of_large_discs(problem.discs(), usual, check, warnings);
+  warn_of_far_discs(problem.discs(), stop, warnings);
+  warn_of_large_discs(problem.discs(), median_radius(evenly_spaced(problem.discs())), check, warnings);
   warn_of_far_rays(problem, check, warnings);
   return warnings;
 }

@@ -10,15 +10,13 @@ namespace detp::validate {
 
 /// Returns one sentence, with numbers, for each of these conditions that holds; usually none:
 ///
-///     discs far away        the longest side of the box of all centres is over 4 times that of the central box, which
-///                           holds the central 90 % of the centres on each axis. (1.0 to 2.4 times in 5 built-in scenes
-///                           and 20 meshes; 13 000 times in a scene made of two scales.)
+///     discs far away        as far_discs.hpp says
 ///     large discs           the largest radius is over 10 times the median radius, or over 4 times if the root mean
 ///                           square radius is over 1.1 times the median
 ///     rays from far away    an origin is over 100 r₀ from the centre of S₀
 ///
-/// The median and the central box are computed from at most 4096 discs, evenly spaced in the array; the other values
-/// from all discs and rays. Throws sim::Stopped if a stop was requested.
+/// The median is that of at most 4096 discs, evenly spaced in the array; the other values are computed from all discs and
+/// rays. Throws sim::Stopped if a stop was requested.
 [[nodiscard]] std::vector<std::string> outlier_warnings(const sim::Problem& problem, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

@@ -65,10 +65,8 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
       const auto fastest = fastest_price(counts, basis.options.costs, one.candidate.technique, most_threads);
       return {&one, fastest.time.total(), fastest.threads};
     }
-    Workload now = *basis.workload;
+    Workload now = with_disc_radius(*basis.workload, disc_radius);
     now.rays = count;
-    now.disc_radius = disc_radius;
-    now.sphere_radius += disc_radius - basis.radius;
     const double ratio = time_ratio(one.candidate, *basis.workload, now, basis.options.costs, most_threads);
     return {&one, one.seconds * ratio, one.threads};
   };

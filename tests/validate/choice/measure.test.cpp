@@ -38,6 +38,40 @@ TEST_SUITE("known answer") {
     CHECK(w.path_length == doctest::Approx((3 + 10 + 0) / 3.0));  // the box ends at 10 + 5
   }
 
+  TEST_CASE("radii that differ by more than a tenth become classes; equal and almost equal ones do not") {
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 1000, 0.02, 1);
+    const std::vector<sim::Ray> rays{{}};
+    for (std::size_t i = 0; i < 1000; i += 2) discs[i].radius = 0.021;
+    CHECK(validate::measure(sim::make_problem(rays, discs)).radii.empty());
+    for (std::size_t i = 0; i < 1000; i += 10) discs[i].radius = 0.25;
+    const Workload w = validate::measure(sim::make_problem(rays, discs));
+    REQUIRE(w.radii.size() == 2);
+    CHECK(w.radii[0].radius == doctest::Approx(0.25));
+    CHECK(w.radii[0].share == doctest::Approx(0.1));
+    CHECK_NOTHROW(check(w));
+  }
+
+  TEST_CASE("a few discs far away are told apart from the central ones") {
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 10'000, 0.02, 1);
+    for (std::size_t i = 0; i < 3; ++i) discs[i].centre *= 1000;
+    const std::vector<sim::Ray> lines = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 10);
+    const Workload w = validate::measure(sim::make_problem(lines, discs));
+    REQUIRE(w.central);
+    CHECK_NOTHROW(check(w));
+    CHECK(w.samples == 10'000);
+    CHECK(w.central->samples == 9997);
+    for (const double side : w.central->box) CHECK(side == doctest::Approx(2).epsilon(0.001));
+    CHECK(w.central->sample_extent == doctest::Approx(8).epsilon(0.01));
+    CHECK(w.central->ray_share == doctest::Approx(std::pow(w.central->sphere_radius / w.sphere_radius, 2)));
+    CHECK(w.central->path_length == 0);
+    const std::vector<sim::Ray> segments{{.origin = {0, 0, 0}, .direction = {1, 0, 0}, .length = 0.5},
+                                         {.origin = {100, 100, 100}, .direction = {1, 0, 0}, .length = 0.5}};
+    const auto central = validate::measure(sim::make_problem(segments, discs)).central;
+    REQUIRE(central);
+    CHECK(central->ray_share == 0.5);
+    CHECK(central->path_length == doctest::Approx(0.5));
+  }
+
   TEST_CASE("a workload records whether only fronts count") {
     const std::vector<sim::Disc> discs{{}};
     const std::vector<sim::Ray> rays{{}};
