@@ -8,6 +8,7 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/validate/statistics/statistics.hpp"
 #include "reason.hpp"
 
 namespace detp::validate {
@@ -101,12 +102,20 @@ class Runner {
     return true;
   }
 
-  /// Time that other programs took does not count as time of choosing.
+  /// The time of choosing is the median of several choices, as runs are judged by medians. Time that other programs took
+  /// does not count.
   static Choice choice_of(const Chooser& chooser, const sim::Problem& problem, const Job& job, int threads) {
-    const sim::Stopwatch wall;
-    const sim::ProcessorStopwatch processor;
-    Choice choice = chooser.choose(problem, job, threads);
-    if (threads == 1) choice.choosing_seconds *= std::min(1.0, processor.seconds() / wall.seconds());
+    constexpr int repeats = 3;
+    Choice choice;
+    std::vector<double> seconds;
+    for (int i = 0; i < repeats; ++i) {
+      const sim::Stopwatch wall;
+      const sim::ProcessorStopwatch processor;
+      choice = chooser.choose(problem, job, threads);
+      const double own = threads == 1 ? std::min(1.0, processor.seconds() / wall.seconds()) : 1;
+      seconds.push_back(own * choice.choosing_seconds);
+    }
+    choice.choosing_seconds = median(std::move(seconds));
     return choice;
   }
 
