@@ -9,6 +9,7 @@
 #include "contenders.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/technique/piloted_discs.hpp"
 
 namespace detp::validate {
 namespace {
@@ -106,12 +107,14 @@ class Benchmark {
     hits_per_ray_ = static_cast<double>(sum) / workload.rays;
     std::vector<Competitor> competitors(ours.candidates.begin(), ours.candidates.end());
     competitors.insert(competitors.end(), options_.embree_modes.begin(), options_.embree_modes.end());
+    if (options_.costs && sim::PilotedDiscs::can_pilot(job.problem())) competitors.emplace_back(OwnChoice{});
     double before = 0;
     for (const int threads : options_.threads) {
       const double after = before + 1.0 / static_cast<double>(options_.threads.size());
       const RaceOptions how{.repeats = options_.repeats,
                             .most_seconds = options_.most_seconds,
                             .threads = threads,
+                            .costs = options_.costs.value_or(CostTable{}),
                             .stop = options_.stop,
                             .progress = sim::part_of(races, before, after)};
       before = after;
@@ -140,14 +143,23 @@ class Benchmark {
 const CompetitorResult* BenchEntry::best(bool ours) const {
   const CompetitorResult* fastest = nullptr;
   for (const CompetitorResult& competitor_result : race.results)
-    if (is_own_technique(competitor_result.competitor) == ours &&
+    if ((ours ? is_own_technique : is_embree)(competitor_result.competitor) &&
         (fastest == nullptr || competitor_result.median_seconds() < fastest->median_seconds()))
       fastest = &competitor_result;
   return fastest;
 }
 
-double BenchEntry::ratio() const {
-  const CompetitorResult* ours = best(true);
+const CompetitorResult* BenchEntry::choice() const {
+  for (const CompetitorResult& result : race.results)
+    if (std::holds_alternative<OwnChoice>(result.competitor)) return &result;
+  return nullptr;
+}
+
+double BenchEntry::ratio() const { return embree_over(best(true)); }
+
+double BenchEntry::choice_ratio() const { return embree_over(choice()); }
+
+double BenchEntry::embree_over(const CompetitorResult* ours) const {
   const CompetitorResult* peer = best(false);
   if (!race.complete || ours == nullptr || peer == nullptr) return 0;
   return peer->median_seconds() / ours->median_seconds();

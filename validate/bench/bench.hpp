@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -15,7 +16,9 @@ namespace detp::validate {
 struct BenchOptions {
   std::vector<Technique> techniques;     ///< our techniques to run; empty: all exact techniques
   std::vector<EmbreeMode> embree_modes;  ///< at least one
-  std::vector<int> threads = {1};        ///< each workload is run with each of these numbers of threads
+  /// unit costs with which our choice is made, and takes part where float kernels can search; none: it does not take part
+  std::optional<CostTable> costs = {};
+  std::vector<int> threads = {1};  ///< each workload is run with each of these numbers of threads
   int repeats = 5;
   double most_seconds = 2;  ///< after this many seconds, a race starts no fourth or later round
   double most_hits = 5e6;   ///< a workload is skipped if more hits are expected
@@ -38,8 +41,17 @@ struct BenchEntry {
   /// Our fastest technique if `ours`, else Embree's fastest mode; null if none has run.
   [[nodiscard]] const CompetitorResult* best(bool ours) const;
 
+  /// Our choice; null if it did not take part.
+  [[nodiscard]] const CompetitorResult* choice() const;
+
   /// Embree's best time divided by our best time; 0 if either is unknown or the race is incomplete.
   [[nodiscard]] double ratio() const;
+
+  /// The same for our choice.
+  [[nodiscard]] double choice_ratio() const;
+
+ private:
+  [[nodiscard]] double embree_over(const CompetitorResult* ours) const;
 };
 
 struct BenchSkip {

@@ -5,8 +5,11 @@
 #include <optional>
 #include <utility>
 
+#include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/base/in_turns.hpp"
+#include "detp/validate/base/own_time.hpp"
+#include "detp/validate/choice/pilot.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::validate {
@@ -32,8 +35,8 @@ class RaceRunner {
     };
     in_turns(competitors.size(), options_.repeats, begin, [&](std::size_t i, int round) {
       CompetitorResult& result = race_.results[i];
-      if (round == 0) return run(result);
-      return result.seconds.front() > (is_own_technique(result.competitor) ? ours : peers) || run(result);
+      if (round == 0 || std::holds_alternative<OwnChoice>(result.competitor)) return run(result);
+      return result.seconds.front() > (is_embree(result.competitor) ? peers : ours) || run(result);
     });
     std::erase_if(race_.results, [](const CompetitorResult& result) { return result.seconds.empty(); });
     race_.complete = race_.results.size() == competitors.size();
@@ -57,15 +60,26 @@ class RaceRunner {
   /// Returns false if a stop request ended the run.
   bool run(CompetitorResult& result) {
     report(result);
-    const sim::Stopwatch watch;
+    const OwnTime time(options_.threads);
     if (const auto* mode = std::get_if<EmbreeMode>(&result.competitor)) {
       const PeerOutcome outcome = embree_.run(job_.rays, job_.discs, *mode, options_.stop);
-      return record_run(result, outcome, watch.seconds());
+      return record_run(result, outcome, time.seconds());
     }
-    const sim::Outcome outcome =
-        sim::run(job_.problem(options_.threads, options_.stop), std::get<Candidate>(result.competitor),
-                 {.count = false, .stop = options_.stop, .threads = options_.threads});
-    return record_run(result, outcome, watch.seconds());
+    const sim::Problem problem = job_.problem(options_.threads, options_.stop);
+    sim::RunOptions how{.count = false, .stop = options_.stop, .threads = options_.threads};
+    if (const auto* candidate = std::get_if<Candidate>(&result.competitor)) {
+      const sim::Outcome outcome = sim::run(problem, *candidate, how);
+      return record_run(result, outcome, time.seconds());
+    }
+    try {
+      PilotChoice choice =
+          choose_by_pilot(problem, options_.costs, {.threads = options_.threads, .stop = options_.stop});
+      how.threads = choice.choice().threads;
+      const sim::Outcome outcome = sim::run(problem, *build_choice(choice, problem, how), how);
+      return record_run(result, outcome, time.seconds());
+    } catch (const sim::Stopped&) {
+      return false;
+    }
   }
 
   template <class Outcome>
@@ -81,7 +95,7 @@ class RaceRunner {
   [[nodiscard]] double slowest_finalist(bool ours) const {
     std::vector<double> first;
     for (const CompetitorResult& result : race_.results)
-      if (is_own_technique(result.competitor) == ours && !result.seconds.empty())
+      if ((ours ? is_own_technique : is_embree)(result.competitor) && !result.seconds.empty())
         first.push_back(result.seconds.front());
     if (first.empty()) return 0;
     std::sort(first.begin(), first.end());
@@ -101,12 +115,14 @@ class RaceRunner {
 
 std::string technique_of(const Competitor& competitor) {
   const auto* ours = std::get_if<Candidate>(&competitor);
-  return ours != nullptr ? std::string(name(ours->technique)) : "embree";
+  return ours != nullptr ? std::string(name(ours->technique)) : is_embree(competitor) ? "embree" : "choice";
 }
 
 std::string parameters_of(const Competitor& competitor) {
   const auto* ours = std::get_if<Candidate>(&competitor);
-  return ours != nullptr ? describe(*ours) : describe(std::get<EmbreeMode>(competitor));
+  if (ours != nullptr) return describe(*ours);
+  const auto* mode = std::get_if<EmbreeMode>(&competitor);
+  return mode != nullptr ? describe(*mode) : "";
 }
 
 double CompetitorResult::median_seconds() const { return median(seconds); }

@@ -13,24 +13,31 @@
 /// A race: competitors take turns on the same rays and discs.
 namespace detp::validate {
 
-/// One of our techniques with parameters, or Embree in one of its modes.
-using Competitor = std::variant<Candidate, EmbreeMode>;
+/// What we choose ourselves, by a pilot, in each run anew. Choosing is part of the run.
+struct OwnChoice {};
+
+/// One of our techniques with parameters, Embree in one of its modes, or our choice.
+using Competitor = std::variant<Candidate, EmbreeMode, OwnChoice>;
 
 [[nodiscard]] inline bool is_own_technique(const Competitor& competitor) {
   return std::holds_alternative<Candidate>(competitor);
 }
+[[nodiscard]] inline bool is_embree(const Competitor& competitor) {
+  return std::holds_alternative<EmbreeMode>(competitor);
+}
 
-/// "sphere-tree", or "embree".
+/// "sphere-tree", "embree" or "choice".
 [[nodiscard]] std::string technique_of(const Competitor& competitor);
 
-/// The parameters as text, or Embree's mode.
+/// The parameters as text, or Embree's mode; nothing for our choice.
 [[nodiscard]] std::string parameters_of(const Competitor& competitor);
 
 struct CompetitorResult {
   Competitor competitor;
-  std::vector<double> seconds = {};  ///< of each run, from discs and rays in memory to irradiance in memory
-  std::uint64_t hits = 0;            ///< hits on all discs in the last run
-  std::uint64_t wrong_hits = 0;      ///< RightHits::wrong_hits, the maximum over the runs
+  /// of each run (OwnTime), from discs and rays in memory to irradiance in memory
+  std::vector<double> seconds = {};
+  std::uint64_t hits = 0;        ///< hits on all discs in the last run
+  std::uint64_t wrong_hits = 0;  ///< RightHits::wrong_hits, the maximum over the runs
 
   [[nodiscard]] double median_seconds() const;
 };
@@ -40,6 +47,7 @@ struct RaceOptions {
   double most_seconds = 2;  ///< after this many seconds, no fourth or later round starts
   int finalists = 2;        ///< number of competitors of each side that run after the first round
   int threads = 1;
+  CostTable costs = {};  ///< with which our choice is made
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
 };
@@ -50,7 +58,7 @@ struct Race {
 };
 
 /// Runs all competitors in turn, round after round, so that a disturbance of the machine affects all alike. After the
-/// first round, only the `finalists` fastest of our techniques and of Embree's modes continue, because a more accurate
+/// first round, only the `finalists` fastest of our techniques and of Embree's modes, and our choice, continue, because a more accurate
 /// time of a slower competitor would not change the result. Every run's hits are compared with the right hits after the
 /// time has been taken.
 ///

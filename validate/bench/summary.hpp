@@ -16,8 +16,16 @@ struct AgainstEmbree {
   std::size_t worst_entry;  ///< index of the entry with the smallest ratio
 };
 
-/// Summary over the complete races with `threads` threads; nothing if there is none.
-[[nodiscard]] std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries, int threads);
+/// Whose times are compared with Embree's.
+enum class Ours { best, choice };
+
+/// Summary over the complete races with `threads` threads; nothing if there is none, or if our choice did not take part.
+[[nodiscard]] std::optional<AgainstEmbree> against_embree(std::span<const BenchEntry> entries, int threads,
+                                                          Ours ours = Ours::best);
+
+/// The share of what our best technique gains on Embree that our choice gains: geometric mean over these races of the time
+/// of the best over that of the choice, with choosing. 0 if there are none.
+[[nodiscard]] double kept_by_choice(std::span<const BenchEntry> entries, int threads);
 
 /// True if all our techniques found the right hits in all races.
 [[nodiscard]] bool do_own_hits_agree(std::span<const BenchEntry> entries);

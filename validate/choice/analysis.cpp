@@ -8,6 +8,7 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/base/in_turns.hpp"
+#include "detp/validate/base/own_time.hpp"
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/base/stop_after.hpp"
 #include "detp/validate/statistics/statistics.hpp"
@@ -54,16 +55,22 @@ class Analyser {
   }
 
   Analysis finish() && {
-    time_all();
-    if (options_.stop.stop_requested())  // then a counting run is better than nothing
-      for (std::size_t i = 0; i < all_.candidates.size(); ++i)
-        if (Analysed& one = all_.candidates[i]; one.counted && !one.seconds) one.seconds = first_seconds_[i];
+    std::vector<std::vector<double>> times = time_all();
     for (std::size_t i = 0; i < all_.candidates.size(); ++i)
-      if (const auto& seconds = all_.candidates[i].seconds;
-          seconds && (!all_.best || *seconds < *all_.candidates[*all_.best].seconds))
+      if (Analysed& one = all_.candidates[i]; one.counted && times[i].empty()) {  // better than nothing
+        times[i] = {first_seconds_[i]};
+        one.seconds = first_seconds_[i];
+      }
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      if (times[i].empty()) continue;
+      const double ratio = times[0].empty() ? median(times[i]) : median_ratio(times[i], times[0]);
+      if (ratio < least) {
+        least = ratio;
         all_.best = i;
-    if (all_.best && all_.candidates.front().seconds)
-      all_.regret = *all_.candidates.front().seconds / *all_.candidates[*all_.best].seconds - 1;
+      }
+    }
+    if (all_.best && !times[0].empty()) all_.regret = 1 / least - 1;
     all_.stopped = options_.stop.stop_requested();
     return std::move(all_);
   }
@@ -121,6 +128,7 @@ class Analyser {
     first_seconds_.push_back(std::numeric_limits<double>::infinity());
     const bool choice = all_.tried == 0;
     const double patience = this->patience();
+    const OwnTime time(one.threads);
     const sim::Outcome outcome = choice ? run(one, true, options_.stop) : run_for(one, patience);
     if (options_.stop.stop_requested() || !one.refused.empty()) return;
     ++all_.tried;
@@ -129,10 +137,10 @@ class Analyser {
       return;
     }
     one.counted = outcome.counts;
-    first_seconds_.back() = outcome.seconds.total();
-    fastest_ = std::min(fastest_, outcome.seconds.total());
-    if (choice && one.predicted && one.predicted->time.total() > 0)
-      slowness_ = outcome.seconds.total() / one.predicted->time.total();
+    const double seconds = time.own_part_of(outcome.seconds.total());
+    first_seconds_.back() = seconds;
+    fastest_ = std::min(fastest_, seconds);
+    if (choice && one.predicted && one.predicted->time.total() > 0) slowness_ = seconds / one.predicted->time.total();
   }
 
   sim::Outcome run_for(Analysed& one, double seconds) {
@@ -153,7 +161,8 @@ class Analyser {
     return stopped;
   }
 
-  void time_all() {
+  /// Returns the times of each candidate.
+  std::vector<std::vector<double>> time_all() {
     std::vector<std::vector<double>> seconds(all_.candidates.size());
     double remaining = expected_timing();
     const auto begin = [](int /*round*/) { return true; };
@@ -164,8 +173,9 @@ class Analyser {
       if (options_.stop.stop_requested()) return false;
       remaining -= first_seconds_[i];
       report(i, first_seconds_[i], std::max(0.0, remaining));
+      const OwnTime time(one.threads);
       const sim::Outcome outcome = run(one, false, options_.stop);
-      if (!outcome.stopped) seconds[i].push_back(outcome.seconds.total());
+      if (!outcome.stopped) seconds[i].push_back(time.own_part_of(outcome.seconds.total()));
       return true;
     });
     for (std::size_t i = 0; i < all_.candidates.size(); ++i)
@@ -174,6 +184,7 @@ class Analyser {
         all_.candidates[i].seconds = median(seconds[i]);
         all_.candidates[i].spread = 0.5 * (*high - *low);
       }
+    return seconds;
   }
 
   const sim::Problem& problem_;

@@ -19,7 +19,7 @@ struct Analysed {
   int threads = 1;  ///< of its runs: those of the prediction, or else the most
   std::optional<model::Ranked> predicted = {};
   std::optional<Counts<std::uint64_t>> counted = {};
-  std::optional<double> seconds = {};         ///< median of the timed runs
+  std::optional<double> seconds = {};         ///< median of the timed runs (OwnTime)
   double spread = 0;                          ///< half the difference of the longest and shortest timed run, seconds
   std::optional<double> given_up_after = {};  ///< seconds after which the run was abandoned before it had ended
   std::string refused = {};  ///< the reason why it cannot be run here: its index does not fit in memory
@@ -28,15 +28,16 @@ struct Analysed {
 struct Analysis {
   /// in the order of the ranking, then the techniques that were not ranked, then neighbours of the fastest
   std::vector<Analysed> candidates;
-  int tried = 0;                    ///< number of candidates that were run to their end or abandoned
-  std::optional<std::size_t> best;  ///< index of the candidate with the shortest measured time
-  /// measured time of the predicted choice (the first candidate) divided by the shortest measured time, minus 1
-  std::optional<double> regret;
-  bool stopped = false;  ///< true if a stop was requested: some candidates may not have been run and timed
+  int tried = 0;  ///< number of candidates that were run to their end or abandoned
+  /// index of the fastest candidate: the one with the least median_ratio() of its times to those of the predicted choice
+  /// (the first candidate), round by round; by its first run if that is all there is
+  std::optional<std::size_t> best;
+  std::optional<double> regret;  ///< that ratio of the choice to the best, minus 1
+  bool stopped = false;          ///< true if a stop was requested: some candidates may not have been run and timed
 };
 
 struct AnalysisOptions {
-  int repeats = 3;          ///< timed runs of each candidate that is not far behind
+  int repeats = 5;          ///< timed runs of each candidate that is not far behind
   double patience = 5;      ///< a run is abandoned after this many times the shortest time so far, but at least 20 ms
   double far_behind = 2;    ///< a candidate that takes more than this many times the shortest time is timed only once
   std::size_t leaders = 2;  ///< number of fastest candidates whose neighbours are tried

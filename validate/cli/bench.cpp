@@ -78,6 +78,7 @@ validate::BenchOptions options_of(const BenchCommand& command, const CommonOptio
   const bool thorough = command.effort == "thorough";
   return {.techniques = techniques_of(command),
           .embree_modes = command.embree_modes == "all" ? validate::all_embree_modes() : validate::best_embree_modes(),
+          .costs = command.techniques.empty() ? std::optional(command.regret.costs(common).simd) : std::nullopt,
           .threads = threads_of(common),
           .repeats = command.repeat,
           .most_seconds = thorough ? 2.0 : 0.5,

@@ -67,9 +67,6 @@ bool RegretCommand::is_wanted() const {
     if (wanted_ && is_given(option))
       throw std::invalid_argument(fmt::format(
           "{} and --regret exclude each other; SCENE, --field and --effort select the workloads of --regret", option));
-  for (const char* option : {"--costs", "--calibration"})
-    if (!wanted_ && is_given(option))
-      throw std::invalid_argument(fmt::format("bench uses {} only with --regret", option));
   return wanted_;
 }
 

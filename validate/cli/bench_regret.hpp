@@ -17,8 +17,7 @@ class RegretCommand {
   /// Adds --regret, --costs and --calibration.
   void add_to(CLI::App& bench);
 
-  /// Whether --regret was given. Throws std::invalid_argument if other options were given that exclude --regret or need
-  /// it.
+  /// Whether --regret was given. Throws std::invalid_argument if options were given that it excludes.
   [[nodiscard]] bool is_wanted() const;
 
   [[nodiscard]] CostsInUse costs(const CommonOptions& common) const { return costs_.costs(common); }

@@ -34,6 +34,7 @@ Json workload_json(const BenchEntry& entry) {
 
 Json parameters_json(const validate::Competitor& competitor) {
   if (const auto* ours = std::get_if<Candidate>(&competitor)) return to_json(*ours);
+  if (!validate::is_embree(competitor)) return Json::object();
   const auto& mode = std::get<validate::EmbreeMode>(competitor);
   return {{"call", call_of(mode)}, {"quality", validate::name(mode.quality)}, {"coherent", mode.coherent}};
 }
@@ -63,12 +64,20 @@ Json worst_json(const BenchEntry& entry) {
   return json;
 }
 
+/// `choice` has the figures of our choice: null if it did not take part.
 Json embree_json(const AgainstEmbree& summary, const BenchResult& bench) {
-  return {{"threads", summary.threads},
-          {"races", summary.races},
-          {"geometric_mean", summary.geometric_mean},
-          {"worst", summary.worst},
-          {"worst_row", worst_json(bench.entries[summary.worst_entry])}};
+  Json json{{"threads", summary.threads},
+            {"races", summary.races},
+            {"geometric_mean", summary.geometric_mean},
+            {"worst", summary.worst},
+            {"worst_row", worst_json(bench.entries[summary.worst_entry])},
+            {"choice", nullptr}};
+  if (const auto chosen = validate::against_embree(bench.entries, summary.threads, validate::Ours::choice))
+    json["choice"] = {{"races", chosen->races},
+                      {"geometric_mean", chosen->geometric_mean},
+                      {"worst", chosen->worst},
+                      {"kept", validate::kept_by_choice(bench.entries, summary.threads)}};
+  return json;
 }
 
 /// `against_embree` has the summary for the first number of threads, and in `by_threads` the summaries for all numbers.
@@ -143,6 +152,11 @@ std::string summary_text(const BenchResult& bench, const validate::BenchOptions&
       add(fmt::format("  worst: {}: {} {:.3g} s, Embree {} {:.3g} s", title_of(worst.workload),
                       technique_of(worst.best(true)->competitor), worst.best(true)->median_seconds(),
                       parameters_of(worst.best(false)->competitor), worst.best(false)->median_seconds()));
+      if (const auto chosen = validate::against_embree(bench.entries, threads, validate::Ours::choice))
+        add(fmt::format(
+            "  our choice, with choosing: {:.3g} times (geometric mean), at worst {:.3g}; it keeps {:.3g} % "
+            "of what the best gains",
+            chosen->geometric_mean, chosen->worst, 100 * validate::kept_by_choice(bench.entries, threads)));
     }
   const validate::WrongHits wrong = validate::embree_wrong_hits(bench.entries);
   const bool agree = validate::do_own_hits_agree(bench.entries);

@@ -3,6 +3,7 @@
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/searcher.hpp"
+#include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/choice/structural_choice.hpp"
 
 namespace detp::validate {
@@ -28,6 +29,17 @@ Choice structural(const sim::Problem& problem, const Job& job, const CostTable& 
   return by_pilot(choose_by_structure(for_lines, job.workload, costs, {.threads = threads}), job.measure_seconds);
 }
 
+/// The candidates of the pilot, the other techniques and neighbours of the fastest, each run several times.
+Choice measure(const sim::Problem& problem, const CostTable& costs, int threads) {
+  const sim::Stopwatch watch;
+  const PilotChoice found = choose_by_pilot(problem, costs, {.threads = threads});
+  std::vector<model::Ranked> ranking;
+  for (const Piloted& one : found.candidates) ranking.push_back({one.candidate, one.counts, one.time, {}, one.threads});
+  const Analysis analysis = analyse(problem, ranking, {.threads = threads});
+  const Analysed& best = analysis.candidates.at(analysis.best.value_or(0));
+  return {best.candidate, *best.seconds, watch.seconds(), best.threads};
+}
+
 }  // namespace
 
 std::vector<Chooser> all_choosers(const CostTable& costs) {
@@ -35,8 +47,10 @@ std::vector<Chooser> all_choosers(const CostTable& costs) {
                             int threads) { return pilot(problem, costs, threads); }},
           {"structural", [costs](const sim::Problem& problem, const Job& job,
                                  int threads) { return structural(problem, job, costs, threads); }},
-          {"estimate", [costs](const sim::Problem& /*problem*/, const Job& job, int threads) {
-             return estimate(job, costs, threads);
+          {"estimate", [costs](const sim::Problem& /*problem*/, const Job& job,
+                               int threads) { return estimate(job, costs, threads); }},
+          {"measure", [costs](const sim::Problem& problem, const Job& /*job*/, int threads) {
+             return measure(problem, costs, threads);
            }}};
 }
 

@@ -27,6 +27,7 @@ struct Chooser {
 ///     structural choose_by_structure; choosing_seconds include those of measuring the workload, but not the sorting
 ///     estimate   the first candidate of model::rank for the job's workload; choosing_seconds include those of
 ///                measuring the workload
+///     measure    analyse, from the candidates of a pilot; predicted are the measured seconds
 [[nodiscard]] std::vector<Chooser> all_choosers(const CostTable& costs);
 
 }  // namespace detp::validate

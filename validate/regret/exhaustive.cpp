@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/own_time.hpp"
 #include "detp/validate/base/stop_after.hpp"
 #include "detp/validate/choice/neighbours.hpp"
 #include "detp/validate/statistics/statistics.hpp"
@@ -32,11 +32,6 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 // Expected shares of the time, for progress only.
 constexpr double share_of_first_runs = 0.5;
 constexpr double share_of_selecting = 0.3;
-
-/// As Timed says.
-double seconds_of(const sim::Outcome& outcome, double processor_seconds, int threads) {
-  return threads == 1 ? std::min(outcome.seconds.total(), processor_seconds) : outcome.seconds.total();
-}
 
 class Search {
  public:
@@ -122,13 +117,12 @@ class Search {
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       const auto& [candidate, threads] = one.contender;
       const StopAfter clock(options_.stop, limit);
-      const sim::ProcessorStopwatch processor;
+      const OwnTime time(threads);
       const sim::Outcome outcome = sim::run(problem_, candidate, {.stop = clock.token(), .threads = threads});
-      const double used = processor.seconds();
       one.abandoned = outcome.stopped;
-      one.first_seconds = outcome.stopped ? limit : seconds_of(outcome, used, threads);
+      one.first_seconds = outcome.stopped ? limit : time.own_part_of(outcome.seconds.total());
       if (!outcome.stopped) one.counts = outcome.counts;
-      if (!outcome.stopped || used > limit / 2 || stopped()) return;
+      if (!outcome.stopped || time.seconds() > limit / 2 || stopped()) return;
     }
   }
 
@@ -153,11 +147,11 @@ class Search {
   /// The time of a run without counting; nullopt if a stop request ended the run.
   [[nodiscard]] std::optional<double> time(const Timed& one) const {
     const auto& [candidate, threads] = one.contender;
-    const sim::ProcessorStopwatch processor;
+    const OwnTime time(threads);
     const sim::Outcome outcome =
         sim::run(problem_, candidate, {.count = false, .stop = options_.stop, .threads = threads});
     if (outcome.stopped) return std::nullopt;
-    return seconds_of(outcome, processor.seconds(), threads);
+    return time.own_part_of(outcome.seconds.total());
   }
 
   void time_in_turns(const std::vector<Timed*>& entries, double behind, std::vector<double> Timed::*half) const {
@@ -182,7 +176,7 @@ class Search {
 double Timed::judging_seconds() const { return abandoned ? first_seconds : median(judging); }
 
 double Timed::judged_ratio(const Timed& reference) const {
-  return abandoned ? first_seconds / reference.judging_seconds() : time_ratio(judging, reference.judging);
+  return abandoned ? first_seconds / reference.judging_seconds() : median_ratio(judging, reference.judging);
 }
 
 std::optional<std::size_t> fastest_selected(std::span<const Timed> candidates) {
@@ -194,7 +188,7 @@ std::optional<std::size_t> fastest_selected(std::span<const Timed> candidates) {
   double least = infinite;
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     if (candidates[i].selecting.empty()) continue;
-    const double ratio = time_ratio(candidates[i].selecting, longest->selecting);
+    const double ratio = median_ratio(candidates[i].selecting, longest->selecting);
     if (!best || ratio < least) {
       best = i;
       least = ratio;

@@ -24,8 +24,7 @@ struct Contender {
   friend bool operator==(const Contender&, const Contender&) = default;
 };
 
-/// A contender that was run. Its times are in seconds and include sorting, building and searching. On one thread, they are
-/// those of the processor where these are less than those of the wall clock: other programs do not count.
+/// A contender that was run. Its times are in seconds (OwnTime) and include sorting, building and searching.
 struct Timed {
   Contender contender;
   bool abandoned = false;              ///< it took too long; its seconds are a lower bound
@@ -37,12 +36,12 @@ struct Timed {
   /// The median of the times `judging`; `first_seconds`, a lower bound, if the candidate was abandoned. Throws
   /// std::invalid_argument if the candidate was not judged.
   [[nodiscard]] double judging_seconds() const;
-  /// time_ratio() of the times `judging` to those of `reference`; if the candidate was abandoned, the ratio of
+  /// median_ratio() of the times `judging` to those of `reference`; if the candidate was abandoned, the ratio of
   /// judging_seconds().
   [[nodiscard]] double judged_ratio(const Timed& reference) const;
 };
 
-/// The index of the candidate that is fastest by the times `selecting`: the one with the least time_ratio() to one of
+/// The index of the candidate that is fastest by the times `selecting`: the one with the least median_ratio() to one of
 /// them. nullopt if none has such times.
 [[nodiscard]] std::optional<std::size_t> fastest_selected(std::span<const Timed> candidates);
 

@@ -8,6 +8,7 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/validate/base/own_time.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "reason.hpp"
 
@@ -102,18 +103,18 @@ class Runner {
     return true;
   }
 
-  /// The time of choosing is the median of several choices, as runs are judged by medians. Time that other programs took
-  /// does not count.
+  /// The time of choosing is the median of several choices, as runs are judged by medians; one choice is enough if it takes
+  /// long. Time that other programs took does not count.
   static Choice choice_of(const Chooser& chooser, const sim::Problem& problem, const Job& job, int threads) {
-    constexpr int repeats = 3;
+    constexpr std::size_t repeats = 3;
+    constexpr double long_time = 0.2;  // seconds
     Choice choice;
     std::vector<double> seconds;
-    for (int i = 0; i < repeats; ++i) {
+    while (seconds.empty() || (seconds.size() < repeats && seconds.front() < long_time)) {
       const sim::Stopwatch wall;
-      const sim::ProcessorStopwatch processor;
+      const OwnTime time(threads);
       choice = chooser.choose(problem, job, threads);
-      const double own = threads == 1 ? std::min(1.0, processor.seconds() / wall.seconds()) : 1;
-      seconds.push_back(own * choice.choosing_seconds);
+      seconds.push_back(choice.choosing_seconds * std::min(1.0, time.seconds() / wall.seconds()));
     }
     choice.choosing_seconds = median(std::move(seconds));
     return choice;

@@ -5,7 +5,6 @@
 
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/base/in_turns.hpp"
-#include "detp/validate/statistics/statistics.hpp"
 
 namespace detp::validate {
 
@@ -29,12 +28,6 @@ std::vector<std::vector<double>> timed_rounds(std::size_t contenders, const Roun
     return true;
   });
   return times;
-}
-
-double time_ratio(std::span<const double> times, std::span<const double> reference) {
-  std::vector<double> ratios;
-  for (std::size_t i = 0; i < std::min(times.size(), reference.size()); ++i) ratios.push_back(times[i] / reference[i]);
-  return ratios.empty() ? std::numeric_limits<double>::quiet_NaN() : median(std::move(ratios));
 }
 
 }  // namespace detp::validate

@@ -2,10 +2,9 @@
 
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
-/// Times contenders in turns, and compares them.
+/// Times contenders in turns.
 namespace detp::validate {
 
 struct RoundLimits {
@@ -18,13 +17,11 @@ struct RoundLimits {
 /// rounds. Then those whose shortest time exceeds `behind` times the shortest of all, in these rounds, drop out. Times of
 /// other runs decide nothing: the speed of the machine may have changed since.
 ///
+/// Two contenders are compared by median_ratio() of their times. Runs of one round follow each other closely, so a change
+/// of the machine's speed from round to round cancels. The shortest times need not be times of the same speed.
+///
 /// `time` returns the seconds of one run of a contender, or nullopt to end the rounds.
 [[nodiscard]] std::vector<std::vector<double>> timed_rounds(
     std::size_t contenders, const RoundLimits& limits, const std::function<std::optional<double>(std::size_t)>& time);
-
-/// How many times as long as `reference` a contender takes: the median of the ratios of their times, over the rounds in
-/// which both took part. Runs of one round follow each other closely, so a change of the machine's speed from round to
-/// round cancels. The shortest times need not be times of the same speed. NaN if there is no such round.
-[[nodiscard]] double time_ratio(std::span<const double> times, std::span<const double> reference);
 
 }  // namespace detp::validate

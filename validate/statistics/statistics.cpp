@@ -33,6 +33,12 @@ double quantile(std::vector<double> values, double share) {
   return std::lerp(values[below], values[above], place - std::floor(place));
 }
 
+double median_ratio(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) ratios.push_back(a[i] / b[i]);
+  return ratios.empty() ? std::numeric_limits<double>::quiet_NaN() : median(std::move(ratios));
+}
+
 Estimate batch_means(std::span<const double> batches) {
   if (batches.size() < 2)
     throw std::invalid_argument(fmt::format("a standard error takes at least 2 batches (got {})", batches.size()));

@@ -26,6 +26,9 @@ struct Estimate {
 /// The middle value, or the mean of the two middle values if their number is even.
 [[nodiscard]] inline double median(std::vector<double> values) { return quantile(std::move(values), 0.5); }
 
+/// The median of a[i]/b[i] over the places that both have; NaN if there are none.
+[[nodiscard]] double median_ratio(std::span<const double> a, std::span<const double> b);
+
 /// Mean and standard error of at least 2 independent, equally long batches. Throws std::invalid_argument for fewer.
 [[nodiscard]] Estimate batch_means(std::span<const double> batches);
 

@@ -22,11 +22,14 @@
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/choice/job.hpp"
+#include "detp/validate/regret/exhaustive.hpp"
 #include "detp/validate/regret/timed_rounds.hpp"
+#include "detp/validate/statistics/statistics.hpp"
 
 namespace {
 
 using namespace detp;
+using validate::Timed;
 
 constexpr double least_ratio = 0.2;
 constexpr double step = 0.04;
@@ -52,26 +55,20 @@ std::vector<Setting> settings(const std::string& folder) {
   return all;
 }
 
-struct Timed {
-  Candidate candidate;
-  double selecting = 0;
-  double judging = 0;
-};
-
 Candidate cache(double ratio, std::int64_t spheres) {
   return {Technique::sphere_cache, SphereCacheParameters{ratio, spheres}};
 }
 
-double ratio_of(const Timed& one) { return std::get<SphereCacheParameters>(one.candidate.parameters).ratio; }
+const SphereCacheParameters& parameters_of(const Timed& one) {
+  return std::get<SphereCacheParameters>(one.contender.candidate.parameters);
+}
 
-double shortest(const std::vector<double>& seconds) { return *std::min_element(seconds.begin(), seconds.end()); }
-
-void time_all(const sim::Problem& problem, Engine engine, std::vector<Timed>& all, double Timed::*half) {
+void time_all(const sim::Problem& problem, Engine engine, std::vector<Timed>& all, std::vector<double> Timed::*half) {
   const auto times = validate::timed_rounds(
-      all.size(), {.rounds = 5, .behind = 1.2, .most_seconds = 10}, [&](std::size_t i) -> std::optional<double> {
-        return sim::run(problem, all[i].candidate, {.count = false, .engine = engine}).seconds.total();
+      all.size(), {.rounds = 9, .behind = 1.2, .most_seconds = 10}, [&](std::size_t i) -> std::optional<double> {
+        return sim::run(problem, all[i].contender.candidate, {.count = false, .engine = engine}).seconds.total();
       });
-  for (std::size_t i = 0; i < all.size(); ++i) all[i].*half = shortest(times[i]);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].*half = times[i];
 }
 
 void compare(const Setting& setting, const validate::Job& job, const sim::Problem& problem, const CostTable& table) {
@@ -79,31 +76,30 @@ void compare(const Setting& setting, const validate::Job& job, const sim::Proble
   const Engine engine = table.engine;
   const model::BestRatio chosen = model::best_ratio_and_stop(job.workload, costs);
   if (chosen.spheres == 0) return;
-  std::vector<Timed> all{{cache(chosen.ratio, chosen.spheres)}};
+  std::vector<Timed> all{{.contender = {cache(chosen.ratio, chosen.spheres)}}};
   for (int i = 0; i < ratios; ++i) {
     const double ratio = least_ratio + step * i;
     const std::int64_t best = model::best_stop(job.workload, costs, {ratio}).spheres;
     for (const std::int64_t spheres : {best - 1, best, best + 1})
-      if (spheres >= 1) all.push_back({cache(ratio, spheres)});
+      if (spheres >= 1) all.push_back({.contender = {cache(ratio, spheres)}});
   }
   time_all(problem, engine, all, &Timed::selecting);
-  const auto faster = [](const Timed& a, const Timed& b) { return a.selecting < b.selecting; };
-  const Timed fastest = *std::min_element(all.begin(), all.end(), faster);
-  double low = ratio_of(fastest);
+  const Timed fastest = all[*validate::fastest_selected(all)];
+  double low = parameters_of(fastest).ratio;
   double high = low;
   for (const Timed& one : all)
-    if (one.selecting <= plateau * fastest.selecting) {
-      low = std::min(low, ratio_of(one));
-      high = std::max(high, ratio_of(one));
+    if (validate::median_ratio(one.selecting, fastest.selecting) <= plateau) {
+      low = std::min(low, parameters_of(one).ratio);
+      high = std::max(high, parameters_of(one).ratio);
     }
   std::vector<Timed> judged{all.front(), fastest, fastest};
   time_all(problem, engine, judged, &Timed::judging);
-  const auto& best = std::get<SphereCacheParameters>(fastest.candidate.parameters);
+  const SphereCacheParameters& best = parameters_of(fastest);
   fmt::print("{},{},{},{:.0f},{:.0f},{:.5g},{:.3f},{},{:.3f},{},{:.4g},{:.3f},{:.3f},{:.3f},{:.3f}\n",
              std::filesystem::path(setting.scene).stem().string(),
              setting.field == sim::Field::photons ? "photons" : "isotropic", name(engine), job.workload.rays,
              job.workload.samples, job.workload.disc_radius, chosen.ratio, chosen.spheres, best.ratio, best.spheres,
-             judged[1].judging, judged[0].judging / judged[1].judging, judged[2].judging / judged[1].judging, low,
+             judged[1].judging_seconds(), judged[0].judged_ratio(judged[1]), judged[2].judged_ratio(judged[1]), low,
              high);
   std::fflush(stdout);
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "detp/validate/bench/summary.hpp"
+#include "detp/validate/calibration/built_in_costs.hpp"
 
 using namespace detp;
 using namespace detp::validate;
@@ -56,6 +57,22 @@ TEST_SUITE("known answer") {
     CHECK_FALSE(against_embree(entries, 3));
   }
 
+  TEST_CASE("our choice is compared with Embree, too, and keeps a share of what the best gains") {
+    std::vector<BenchEntry> entries{entry(8), entry(2), entry(8)};
+    entries[0].race.results.push_back(competitor_result(OwnChoice{}, {2, 2, 9}));
+    entries[1].race.results.push_back(competitor_result(OwnChoice{}, {0.5}));
+    CHECK(entries[0].ratio() == doctest::Approx(8));
+    CHECK(entries[0].choice_ratio() == doctest::Approx(4));
+    CHECK(entries[2].choice_ratio() == 0);
+    const auto chosen = against_embree(entries, 1, Ours::choice);
+    REQUIRE(chosen);
+    CHECK(chosen->races == 2);
+    CHECK(chosen->geometric_mean == doctest::Approx(4));
+    CHECK(chosen->worst == doctest::Approx(4));
+    CHECK(kept_by_choice(entries, 1) == doctest::Approx(1));  // half in one, twice in the other
+    CHECK(kept_by_choice(entries, 2) == 0);
+  }
+
   TEST_CASE("a race that was stopped has no ratio and is not in the summary") {
     std::vector<BenchEntry> entries{entry(8)};
     entries[0].race.complete = false;
@@ -84,17 +101,19 @@ TEST_SUITE("known answer") {
     REQUIRE(right);
     const std::vector<Competitor> competitors{
         Candidate{},  Candidate{Technique::grid, GridParameters{4}}, Candidate{Technique::octree, OctreeParameters{2}},
-        EmbreeMode{}, EmbreeMode{.query = EmbreeQuery::occluded},    EmbreeMode{.rays = EmbreeRays::packet_8}};
-    const RaceOptions options{.repeats = 3, .most_seconds = 60};
+        EmbreeMode{}, EmbreeMode{.query = EmbreeQuery::occluded},    EmbreeMode{.rays = EmbreeRays::packet_8},
+        OwnChoice{}};
+    const RaceOptions options{.repeats = 3, .most_seconds = 60, .costs = built_in_unit_costs()};
     Race found = race(job, *right, EmbreePeer(1), competitors, options);
     CHECK(found.complete);
     REQUIRE(found.results.size() == competitors.size());
-    for (const bool ours : {true, false})
+    for (const auto side : {is_own_technique, is_embree})
       CHECK(std::count_if(found.results.begin(), found.results.end(), [&](const CompetitorResult& one) {
-              return is_own_technique(one.competitor) == ours && one.seconds.size() == 3;
+              return side(one.competitor) && one.seconds.size() == 3;
             }) == 2);
-    for (const CompetitorResult& one : found.results)
-      CHECK(one.wrong_hits <= (is_own_technique(one.competitor) ? 0U : 2U));
+    CHECK(technique_of(found.results.back().competitor) == "choice");
+    CHECK(found.results.back().seconds.size() == 3);
+    for (const CompetitorResult& one : found.results) CHECK(one.wrong_hits <= (is_embree(one.competitor) ? 2U : 0U));
     ++right->hits[0];
     found = race(job, *right, EmbreePeer(1), competitors, options);
     for (const CompetitorResult& one : found.results) CHECK(one.wrong_hits >= 1);

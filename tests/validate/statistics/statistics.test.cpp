@@ -42,6 +42,15 @@ TEST_SUITE("known answer") {
     CHECK(quantile(values, 0.95) == doctest::Approx(38));
   }
 
+  TEST_CASE("the median of ratios compares places, so what changes from place to place cancels; minima would not do") {
+    const std::vector<double> fast_first{1, 2, 2, 2};
+    const std::vector<double> slow_first{3.3, 1.65, 3.3, 3.3};
+    CHECK(median_ratio(fast_first, fast_first) == 1);
+    CHECK(median_ratio(slow_first, fast_first) == 1.65);
+    CHECK(median_ratio(std::array{2.0, 9.0}, std::array{1.0, 3.0, 7.0}) == 2.5);  // places of both
+    CHECK(std::isnan(median_ratio({}, fast_first)));
+  }
+
   TEST_CASE("batch means 1, 2, 3, 4 have mean 5/2 and standard error sqrt(5/12)") {
     const Estimate estimate = batch_means(std::array{1.0, 2.0, 3.0, 4.0});
     CHECK(estimate.mean == 2.5);
