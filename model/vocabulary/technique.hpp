@@ -102,7 +102,7 @@ enum class Division {
   rays,   ///< chunks of rays_in_chunk rays
   discs,  ///< chunks of discs_in_chunk discs
   axes,   ///< the rays by the dominant axis of their directions: three pieces
-  nodes   ///< subtrees (tests_in_task)
+  nodes   ///< subtrees (rays_to_divide)
 };
 
 struct WorkDivision {

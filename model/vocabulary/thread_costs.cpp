@@ -23,8 +23,8 @@ double pieces_of_search(const Counts<double>& counts, Division division) {
       return 3;
     case Division::nodes: {
       constexpr double children = 8;
-      const double tests = children * counts.loaded;  // at the root
-      return tests < tests_in_task ? 1 : children * tests / tests_in_task;
+      const double lists = counts.loaded / rays_to_divide;  // at the root
+      return lists < 1 ? 1 : children * lists;
     }
   }
   return 1;

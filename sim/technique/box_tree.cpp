@@ -115,7 +115,7 @@ class BoxTreeIndex final : public Index {
       : parameters_(parameters), simd_(options.engine == Engine::simd && stream::can_search(problem)), frame_(problem) {
     Stopwatch watch;
     const stream::TreeSize expected = stream::expected_tree(problem.discs().size(), parameters);
-    checked_bytes(what, stream::boxes_bytes(stream::size_of(problem, options), parameters.fan_out, expected), problem);
+    checked_bytes(what, stream::boxes_bytes(stream::size_of(problem, options), expected), problem);
     const double sort_seconds = sorted ? sorted->seconds : 0;  // before this constructor
     if (!sorted) sorted = stream::sort_discs(problem, frame_, options);
     const std::size_t newly_sorted = sorted->sorted;
@@ -131,7 +131,7 @@ class BoxTreeIndex final : public Index {
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     const stream::SearchInput input{problem, frame_, tree_};
-    if (simd_) return search_boxes(input, parameters_.fan_out, options, outcome);
+    if (simd_) return search_boxes(input, options, outcome);
     const double tree = sizeof(stream::FloatDisc) * static_cast<double>(tree_.discs.size()) +
                         sizeof(TreeNode) * static_cast<double>(tree_.nodes.size());
     add_checked_bytes(what, tree + listing_bytes(problem, options, tree_.lists.all), problem, outcome);

@@ -55,22 +55,16 @@ class Analyser {
   }
 
   Analysis finish() && {
-    std::vector<std::vector<double>> times = time_all();
+    time_all();
+    if (options_.stop.stop_requested())  // then a counting run is better than nothing
+      for (std::size_t i = 0; i < all_.candidates.size(); ++i)
+        if (Analysed& one = all_.candidates[i]; one.counted && !one.seconds) one.seconds = first_seconds_[i];
     for (std::size_t i = 0; i < all_.candidates.size(); ++i)
-      if (Analysed& one = all_.candidates[i]; one.counted && times[i].empty()) {  // better than nothing
-        times[i] = {first_seconds_[i]};
-        one.seconds = first_seconds_[i];
-      }
-    double least = std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      if (times[i].empty()) continue;
-      const double ratio = times[0].empty() ? median(times[i]) : median_ratio(times[i], times[0]);
-      if (ratio < least) {
-        least = ratio;
+      if (const auto& seconds = all_.candidates[i].seconds;
+          seconds && (!all_.best || *seconds < *all_.candidates[*all_.best].seconds))
         all_.best = i;
-      }
-    }
-    if (all_.best && !times[0].empty()) all_.regret = 1 / least - 1;
+    if (all_.best && all_.candidates.front().seconds)
+      all_.regret = *all_.candidates.front().seconds / *all_.candidates[*all_.best].seconds - 1;
     all_.stopped = options_.stop.stop_requested();
     return std::move(all_);
   }
@@ -161,8 +155,7 @@ class Analyser {
     return stopped;
   }
 
-  /// Returns the times of each candidate.
-  std::vector<std::vector<double>> time_all() {
+  void time_all() {
     std::vector<std::vector<double>> seconds(all_.candidates.size());
     double remaining = expected_timing();
     const auto begin = [](int /*round*/) { return true; };
@@ -184,7 +177,6 @@ class Analyser {
         all_.candidates[i].seconds = median(seconds[i]);
         all_.candidates[i].spread = 0.5 * (*high - *low);
       }
-    return seconds;
   }
 
   const sim::Problem& problem_;

@@ -29,10 +29,9 @@ struct Analysis {
   /// in the order of the ranking, then the techniques that were not ranked, then neighbours of the fastest
   std::vector<Analysed> candidates;
   int tried = 0;  ///< number of candidates that were run to their end or abandoned
-  /// index of the fastest candidate: the one with the least median_ratio() of its times to those of the predicted choice
-  /// (the first candidate), round by round; by its first run if that is all there is
-  std::optional<std::size_t> best;
-  std::optional<double> regret;  ///< that ratio of the choice to the best, minus 1
+  std::optional<std::size_t> best;  ///< index of the candidate with the shortest measured time
+  /// measured time of the predicted choice (the first candidate) divided by the shortest measured time, minus 1
+  std::optional<double> regret;
   bool stopped = false;          ///< true if a stop was requested: some candidates may not have been run and timed
 };
 

@@ -30,10 +30,21 @@ std::uint32_t boundary(std::span<const CurvePlace> places, std::uint32_t first, 
   const std::uint32_t high = place_code(places[first + count - 1]);
   if (low == high) return first + count / 2;
   const std::uint32_t start = high & ~(std::bit_floor(low ^ high) - 1);
-  const auto begin = places.begin() + first;
-  const auto found =
-      std::partition_point(begin, begin + count, [start](CurvePlace p) { return place_code(p) < start; });
-  return static_cast<std::uint32_t>(found - places.begin());
+  const auto below = [start](CurvePlace place) { return place_code(place) < start; };
+  // The boundary is mostly near the middle. Steps that double from there touch fewer cache lines than halving the run.
+  auto from = places.begin() + first;
+  auto to = from + count;
+  const auto middle = from + count / 2;
+  if (below(*middle)) {
+    std::ptrdiff_t step = 1;
+    for (from = middle; step < to - from && below(from[step]); step *= 2) from += step;
+    to = std::min(to, from + step);
+  } else {
+    std::ptrdiff_t step = 1;
+    for (to = middle; step < to - from && !below(to[-step]); step *= 2) to -= step;
+    from = std::max(from, to - step);
+  }
+  return static_cast<std::uint32_t>(std::partition_point(from, to, below) - places.begin());
 }
 
 void join(BinaryNode& node, const BinaryNode& left, const BinaryNode& right, std::uint32_t right_number) {

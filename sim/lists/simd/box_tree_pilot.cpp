@@ -14,7 +14,7 @@
 namespace detp::sim::stream {
 namespace {
 
-constexpr std::uint32_t coarse_leaf = 128;  ///< the nodes of subtrees that are not drawn are built down to this size
+constexpr std::uint32_t coarse_leaf = 256;  ///< the nodes of subtrees that are not drawn are built down to this size
 constexpr std::uint64_t seed = 1;
 
 using FourFloats = float __attribute__((vector_size(16)));

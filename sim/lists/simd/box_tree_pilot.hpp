@@ -29,7 +29,7 @@ struct PilotRays {
 ///
 /// The top of the binary tree, down to subtrees of at most 512 discs, is built and culled whole. Of the subtrees, a few
 /// are drawn with probabilities proportional to their expected work: one plus the sampled rays that cross them, times the
-/// sum of the surfaces of the boxes below (those of at most 128 discs times the root of their number of discs), over the
+/// sum of the surfaces of the boxes below (those of at most 256 discs times the root of their number of discs), over the
 /// surface of the subtree's box. They are built down to leaves of four discs and culled. Any box tree with leaves of at least four discs is made of nodes of the same binary tree, so its
 /// counts are sums over these nodes:
 ///

@@ -18,7 +18,7 @@ using Workers = tbb::enumerable_thread_specific<Worker>;
 
 /// Searches everything below a node. Processes the children as tasks if there is enough work.
 void divide(const BlockSearch& block, const TreeNode& node, const RayLists& lists, Workers& workers) {
-  if (node.leaf || size(lists) * node.count < tests_in_task) {
+  if (node.leaf || size(lists) < rays_to_divide) {
     search_below(block, node, lists, workers.local());
     return;
   }
@@ -41,13 +41,13 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
 
 bool can_search(const Problem& problem) { return Frame(problem).slack <= 0.01; }
 
-void search_boxes(const SearchInput& input, int fan_out, const RunOptions& options, Outcome& outcome) {
+void search_boxes(const SearchInput& input, const RunOptions& options, Outcome& outcome) {
   const Problem& problem = input.problem;
   const Frame& frame = input.frame;
   const DiscTree& tree = input.tree;
   const SearchSize size = size_of(problem, options);
   const TreeSize made{static_cast<double>(tree.binary_nodes), static_cast<double>(tree.nodes.size()), tree.lists};
-  add_checked_bytes("the tree of boxes and its lists of rays", boxes_bytes(size, fan_out, made), problem, outcome);
+  add_checked_bytes("the tree of boxes and its lists of rays", boxes_bytes(size, made), problem, outcome);
   on_threads(thread_count(options.threads), [&] {
     Workers workers([&] { return Worker(options.memory, options.stop, list_floats(size, tree.lists)); });
     DiscResults results(problem, tree, options, outcome);

@@ -44,7 +44,7 @@ struct TreeSize {
 /// isotropic lines, uniform through S₀. Rays that are concentrated in one place need more: a thread checks again before
 /// its lists grow. Untouched pages, and memory that the heap keeps of freed arrays, are not included. The searches
 /// throw std::length_error, naming the bytes, if the memory does not suffice.
-[[nodiscard]] double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree);
+[[nodiscard]] double boxes_bytes(const SearchSize& size, const TreeSize& tree);
 
 /// Predicted peak bytes of brute force (prepare_all), in addition to rays, discs and pairs.
 [[nodiscard]] double all_bytes(const SearchSize& size);
@@ -66,6 +66,6 @@ struct SearchInput {
 [[nodiscard]] std::unique_ptr<Index> prepare_all(const Problem& problem, const RunOptions& options);
 
 /// Finds the hits of all rays, by culling lists down a tree of boxes. Gives the same bytes for any number of threads.
-void search_boxes(const SearchInput& input, int fan_out, const RunOptions& options, Outcome& outcome);
+void search_boxes(const SearchInput& input, const RunOptions& options, Outcome& outcome);
 
 }  // namespace detp::sim::stream

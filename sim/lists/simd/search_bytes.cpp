@@ -63,8 +63,8 @@ double walk_bytes(const SearchSize& size, const ListCapacity& lists) {
   return std::max(sorting_bytes(size.discs), searching_bytes(size, 0, list_bytes(size, lists)));
 }
 
-double boxes_bytes(const SearchSize& size, int fan_out, const TreeSize& tree) {
-  const bool alone = rays_together(size) * fan_out < static_cast<double>(tests_in_task);
+double boxes_bytes(const SearchSize& size, const TreeSize& tree) {
+  const bool alone = rays_together(size) < static_cast<double>(rays_to_divide);
   const double lists = (alone ? 1 : thread_count(size.threads)) * list_bytes(size, tree.lists);
   return std::max(building_bytes(size.discs, tree.binary_nodes, tree.nodes),
                   searching_bytes(size, sizeof(TreeNode) * tree.nodes, lists));

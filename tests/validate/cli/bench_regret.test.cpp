@@ -27,8 +27,8 @@ TEST_SUITE("end to end") {
                    {"bench --regret --most-hits 1e5", "--regret"},
                    {"bench --regret --costs t=x", "t"},
                    {"bench --regret --calibration missing.json", "missing.json"},
-                   {"bench @tree --costs t=1e-9", "--regret"},
-                   {"bench @tree --calibration none", "--regret"}});
+                   {"bench @tree --costs t=x", "t"},
+                   {"bench @tree --calibration missing.json", "missing.json"}});
   }
 }
 
