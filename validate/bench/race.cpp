@@ -72,8 +72,8 @@ class RaceRunner {
       return record_run(result, outcome, time.seconds());
     }
     try {
-      PilotChoice choice =
-          choose_by_pilot(problem, options_.costs, {.threads = options_.threads, .stop = options_.stop});
+      PilotChoice choice = choose_by_pilot(problem, options_.costs,
+                                           {.threads = options_.threads, .only_choice = true, .stop = options_.stop});
       how.threads = choice.choice().threads;
       const sim::Outcome outcome = sim::run(problem, *build_choice(choice, problem, how), how);
       return record_run(result, outcome, time.seconds());

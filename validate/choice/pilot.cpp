@@ -15,6 +15,7 @@
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
 #include "other_techniques.hpp"
+#include "usual_shape.hpp"
 
 namespace detp::validate {
 namespace {
@@ -92,6 +93,21 @@ Piloted brute_force(const SearchSize& size, double hits, const Prices& prices) {
   return found;
 }
 
+/// The usual shape, with a rough guess of its counts, from which the number of threads follows.
+Piloted usual_box_tree(const SearchSize& size, const Prices& prices) {
+  constexpr double culls_of_ray = 40;
+  constexpr double leaves_of_ray = 5;
+  const BoxTreeParameters shape = usual_shape(size.rays, size.discs);
+  const Counts<double> counts{.loaded = size.rays,
+                              .segments = size.segments ? size.rays : 0,
+                              .cull_tests = culls_of_ray * size.rays,
+                              .disc_tests = leaves_of_ray * shape.leaf * size.rays,
+                              .references = size.discs,
+                              .placements = size.discs,
+                              .sorted = size.discs};
+  return priced({Technique::box_tree, shape}, counts, prices, 0);
+}
+
 /// Sorts by time, but with the choice first: the candidate that is fastest even if closed forms and unit costs are off.
 /// A box tree needs `preparing` less than its time, because its discs are sorted already.
 void sort_by_time(std::vector<Piloted>& candidates, double preparing) {
@@ -108,6 +124,9 @@ void sort_by_time(std::vector<Piloted>& candidates, double preparing) {
 
 /// The time of a run in units of some 50 ns, roughly.
 double work_of(double rays, double discs) { return discs + 4 * rays; }
+
+/// Below this work, a pilot takes more than some 5 % of the run.
+constexpr double least_work = 1e6;
 
 std::size_t subtrees_of(double rays, double discs) {
   return static_cast<std::size_t>(std::clamp(work_of(rays, discs) / 50'000, 4.0, 32.0));
@@ -158,6 +177,12 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
       found.pilot_seconds = watch.seconds();
       return found;
     }
+  }
+  if (options.only_choice && work_of(rays, size.discs) < least_work) {
+    found.candidates = {usual_box_tree(size, prices)};
+    found.predicted = false;
+    found.pilot_seconds = watch.seconds();
+    return found;
   }
   found.sampled_rays = sample.size();
   found.discs = std::make_shared<sim::PilotedDiscs>(

@@ -49,6 +49,7 @@ struct PilotChoice {
   double pilot_seconds = 0;           ///< for everything else
   std::size_t sampled_rays = 0;
   std::shared_ptr<sim::PilotedDiscs> discs;  ///< kept for the run; null if there was no pilot
+  bool predicted = true;  ///< false: counts and times of the choice are rough guesses (PilotOptions::only_choice)
 
   [[nodiscard]] const Piloted& choice() const { return candidates.front(); }
 };
@@ -62,6 +63,9 @@ struct PilotOptions {
   bool for_replans = false;              ///< set Piloted::counts_at
   std::vector<Technique> disabled = {};  ///< techniques that may not be chosen; box-tree must be allowed
   bool all_closed_forms = false;         ///< compare closed forms even if that takes longer than it could save
+  /// no prediction is wanted. For a short search, a pilot would take longer than its choice saves: then the choice is the
+  /// usual_shape() of a box tree
+  bool only_choice = false;
   std::stop_token stop = {};
 };
 

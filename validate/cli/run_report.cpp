@@ -36,9 +36,9 @@ double hits_per_disc(const sim::Outcome& outcome) {
   return static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size());
 }
 
-/// The counts that the pilot predicted, or else the closed form; nothing if the candidate has none.
+/// The counts that a pilot predicted, or else the closed form; nothing if the candidate has none.
 std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer) {
-  if (answer.pilot) return answer.pilot->choice().counts;
+  if (answer.pilot && answer.pilot->predicted) return answer.pilot->choice().counts;
   if (!model::has_closed_form(answer.candidate.technique)) return {};
   try {
     return model::predict(workload, answer.candidate, answer.engine);
@@ -221,9 +221,10 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   add(fmt::format("technique {}, {} engine, {}", title(answer.candidate), name(answer.engine),
                   threads_text(answer.threads)) +
-      (answer.pilot ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays", 1e3 * answer.pilot->pilot_seconds,
-                                  answer.pilot->sampled_rays)
-                    : ""));
+      (!answer.pilot             ? ""
+       : answer.pilot->predicted ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays",
+                                               1e3 * answer.pilot->pilot_seconds, answer.pilot->sampled_rays)
+                                 : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
   add("hits      " + hits_text(answer));
   add(fmt::format(
       "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before{}",

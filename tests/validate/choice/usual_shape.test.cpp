@@ -1,0 +1,25 @@
+#include "detp/validate/choice/usual_shape.hpp"
+
+#include <doctest/doctest.h>
+
+#include <stdexcept>
+
+using namespace detp;
+using validate::usual_shape;
+
+TEST_SUITE("known answer") {
+  TEST_CASE("leaves are 32 times the fourth root of discs over rays, a power of two from 8 to 512") {
+    CHECK(usual_shape(1000, 1000) == BoxTreeParameters{8, 32});
+    CHECK(usual_shape(1000, 16'000) == BoxTreeParameters{8, 64});
+    CHECK(usual_shape(16'000, 1000) == BoxTreeParameters{8, 16});
+    CHECK(usual_shape(1, 1e18) == BoxTreeParameters{8, 512});
+    CHECK(usual_shape(1e18, 1) == BoxTreeParameters{8, 8});
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("numbers that are no numbers of rays and discs are refused") {
+    CHECK_THROWS_AS(static_cast<void>(usual_shape(0, 10)), std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(usual_shape(10, 0.5)), std::invalid_argument);
+  }
+}
