@@ -205,19 +205,24 @@ void search_leaves(const Valid<Workload>& workload, const Valid<UnitCosts>& cost
 }
 
 /// Tries fan-outs of 4, 8 and 16 with each leaf of the search. They share the binary tree of the leaf. If a few samples
-/// lie far from the others, the best parameters are those for the others.
+/// lie far from the others, the leaf is the best one for the others.
 std::optional<FoundParameters> best_box_tree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                              const FixedParameters& fixed, const SearchLimits& limits) {
-  if (workload.central) {
-    auto found = best_box_tree(central_workload(workload), costs, fixed, limits);
-    if (found) found->counts.reset();
-    return found;
-  }
   SearchLimits any_size = limits;  // a box tree holds each disc once
   any_size.most_references = std::numeric_limits<double>::infinity();
   Fastest<BoxTreeParameters> fastest(costs, Technique::box_tree, any_size);
   std::vector<int> fan_outs{8, 4, 16};
   if (const auto fan_out = fixed.value<std::int64_t>("fan-out")) fan_outs = {static_cast<int>(*fan_out)};
+  if (workload.central) {
+    auto found = best_box_tree(central_workload(workload), costs, fixed, limits);
+    if (!found) return found;
+    const int leaf = std::get<BoxTreeParameters>(found->parameters).leaf;
+    for (const int fan_out : fan_outs) {
+      const BoxTreeParameters tree{fan_out, leaf};
+      fastest.consider(tree, counts_of_box_tree(workload, Candidate{Technique::box_tree, tree}, limits.engine));
+    }
+    return FoundParameters{*fastest.best()};
+  }
   Counts<double> best_counts;
   /// Returns the least time with this leaf.
   const auto consider = [&](int leaf) {
