@@ -10,7 +10,7 @@ using namespace detp;
 
 namespace {
 
-const UnitCosts costs{.cull_test = 1, .disc_test = 1, .listed = 1, .cull = 20};
+const UnitCosts simple_costs{.cull_test = 1, .disc_test = 1, .listed = 1, .cull = 20};
 
 /// A cube of side 2 in the middle of a scene of side 600 that holds 5 more samples.
 Workload with_strays(double rays, double samples) {
@@ -65,8 +65,8 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("the best leaf is that for the central samples; if most rays miss them, the root has few children") {
     const Workload w = with_strays(1e9, 1e5);
-    const auto best = model::best_of(Technique::box_tree, w, costs);
-    const auto central = model::best_of(Technique::box_tree, model::central_workload(w), costs);
+    const auto best = model::best_of(Technique::box_tree, w, simple_costs);
+    const auto central = model::best_of(Technique::box_tree, model::central_workload(w), simple_costs);
     REQUIRE(best);
     REQUIRE(central);
     const auto& tree = std::get<BoxTreeParameters>(best->candidate.parameters);
