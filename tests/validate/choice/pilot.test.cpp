@@ -13,6 +13,7 @@
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/choice/usual_shape.hpp"
 
 using namespace detp;
 using doctest::Approx;
@@ -73,6 +74,25 @@ TEST_SUITE("identity") {
       CHECK(one.candidates[i].candidate == again.candidates[i].candidate);
       CHECK(one.candidates[i].counts == again.candidates[i].counts);
     }
+  }
+
+  TEST_CASE("if only the choice matters, a short search takes the usual shape without a pilot; a long one is piloted") {
+    const Example small(5000, 0.02, 5000);
+    auto choice = validate::choose_by_pilot(small.problem, validate::built_in_unit_costs(), {.only_choice = true});
+    CHECK_FALSE(choice.predicted);
+    CHECK(choice.sampled_rays == 0);
+    CHECK(choice.discs == nullptr);
+    REQUIRE(choice.candidates.size() == 1);
+    const Candidate tree = choice.choice().candidate;
+    CHECK(tree == Candidate{Technique::box_tree, validate::usual_shape(5000, 5000)});
+    const auto index = validate::build_choice(choice, small.problem, {});
+    CHECK(sim::run(small.problem, *index).hits == sim::run(small.problem, tree).hits);
+    CHECK(validate::choose_by_pilot(small.problem, validate::built_in_unit_costs()).predicted);
+    const Example large(5000, 0.002, 250'000);
+    const auto piloted =
+        validate::choose_by_pilot(large.problem, validate::built_in_unit_costs(), {.only_choice = true});
+    CHECK(piloted.predicted);
+    CHECK(piloted.sampled_rays > 0);
   }
 
   TEST_CASE("on more threads, a candidate has the same counts; only its time may be another") {
