@@ -28,11 +28,11 @@ struct Analysed {
 struct Analysis {
   /// in the order of the ranking, then the techniques that were not ranked, then neighbours of the fastest
   std::vector<Analysed> candidates;
-  int tried = 0;  ///< number of candidates that were run to their end or abandoned
+  int tried = 0;                    ///< number of candidates that were run to their end or abandoned
   std::optional<std::size_t> best;  ///< index of the candidate with the shortest measured time
   /// measured time of the predicted choice (the first candidate) divided by the shortest measured time, minus 1
   std::optional<double> regret;
-  bool stopped = false;          ///< true if a stop was requested: some candidates may not have been run and timed
+  bool stopped = false;  ///< true if a stop was requested: some candidates may not have been run and timed
 };
 
 struct AnalysisOptions {
