@@ -12,7 +12,7 @@ BoxTreeParameters usual_shape(double rays, double discs) {
   require_count("number of discs", discs, 1, 1e18);
   constexpr double least = 3;  // powers of two
   constexpr double most = 9;
-  const double power = std::clamp(5 + std::log2(discs / rays) / 4, least, most);
+  const double power = std::clamp(std::log2(24) + 0.3 * std::log2(discs / rays), least, most);
   return {8, 1 << std::lround(power)};
 }
 

@@ -8,10 +8,10 @@ using namespace detp;
 using validate::usual_shape;
 
 TEST_SUITE("known answer") {
-  TEST_CASE("leaves are 32 times the fourth root of discs over rays, a power of two from 8 to 512") {
+  TEST_CASE("leaves are 24 (discs/rays)^0.3, a power of two from 8 to 512") {
     CHECK(usual_shape(1000, 1000) == BoxTreeParameters{8, 32});
     CHECK(usual_shape(1000, 16'000) == BoxTreeParameters{8, 64});
-    CHECK(usual_shape(16'000, 1000) == BoxTreeParameters{8, 16});
+    CHECK(usual_shape(4000, 1000) == BoxTreeParameters{8, 16});
     CHECK(usual_shape(1, 1e18) == BoxTreeParameters{8, 512});
     CHECK(usual_shape(1e18, 1) == BoxTreeParameters{8, 8});
   }
