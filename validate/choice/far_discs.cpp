@@ -12,11 +12,6 @@ namespace {
 
 constexpr double far_boxes = 4;
 
-double longest(const sim::Box& box) {
-  const glm::dvec3 size = box.size();
-  return std::max({size.x, size.y, size.z});
-}
-
 /// Leaves out the lowest and the highest twentieth of the centres on each axis.
 sim::Box central_box(const std::vector<sim::Disc>& discs) {
   const auto left_out = static_cast<std::ptrdiff_t>(discs.size() / 20);
@@ -46,12 +41,17 @@ std::optional<FarDiscs> find_far_discs(std::span<const sim::Disc> discs, const s
   FarDiscs found;
   const std::vector<sim::Disc> sampled = evenly_spaced(discs);
   const sim::Box central = central_box(sampled);
-  found.reach = std::max(longest(central), 2 * median_radius(sampled));
-  if (!(longest(whole) > far_boxes * found.reach)) return std::nullopt;
+  found.reach = std::max(longest_side(central), 2 * median_radius(sampled));
+  if (!(longest_side(whole) > far_boxes * found.reach)) return std::nullopt;
   found.near = {central.low - found.reach, central.high + found.reach};
   sim::StopCheck check(stop, "looking for outliers");
   sim::for_each_checked(discs, check, [&](const sim::Disc& disc) { found.far += found.is_near(disc) ? 0 : 1; });
   return found;
+}
+
+double longest_side(const sim::Box& box) {
+  const glm::dvec3 size = box.size();
+  return std::max({size.x, size.y, size.z});
 }
 
 sim::Box box_of_centres(std::span<const sim::Disc> discs, const std::stop_token& stop) {

@@ -26,6 +26,8 @@ struct FarDiscs {
 [[nodiscard]] std::optional<FarDiscs> find_far_discs(std::span<const sim::Disc> discs, const sim::Box& whole,
                                                      const std::stop_token& stop = {});
 
+[[nodiscard]] double longest_side(const sim::Box& box);
+
 [[nodiscard]] sim::Box box_of_centres(std::span<const sim::Disc> discs, const std::stop_token& stop = {});
 
 /// At most 4096 discs, evenly spaced in the array.

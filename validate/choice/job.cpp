@@ -19,6 +19,7 @@
 #include "detp/sim/scene/open/open_scene.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/streamed.hpp"
+#include "far_discs.hpp"
 #include "job_progress.hpp"
 #include "measure.hpp"
 #include "outliers.hpp"
@@ -44,11 +45,6 @@ double triangle_area(const sim::Mesh& mesh, const std::stop_token& stop) {
     area += 0.5 * glm::length(glm::cross(mesh.positions[corners[1]] - a, mesh.positions[corners[2]] - a));
   });
   return area;
-}
-
-double longest_side(const sim::Box& box) {
-  const glm::dvec3 size = box.size();
-  return std::max({size.x, size.y, size.z});
 }
 
 double absolute(const Length& length, double side) { return length.relative ? length.value * side : length.value; }

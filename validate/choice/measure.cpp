@@ -135,7 +135,7 @@ std::optional<CentralSamples> central_samples(const sim::Problem& problem, const
                          .sphere_radius = glm::length(size) / 2 + radii.largest,
                          .box = {size.x, size.y, size.z},
                          .dimension = sample_dimension(near, stop)};
-  if (!(std::max({size.x, size.y, size.z}) > 0)) central.box.fill(2 * radii.rms);
+  if (!(longest_side(box) > 0)) central.box.fill(2 * radii.rms);
   central.sample_extent = extent_of({.box = central.box, .dimension = central.dimension}, area);
   if (problem.segments()) {
     const Paths paths = paths_inside(problem, box, radii.rms, stop);

@@ -17,11 +17,6 @@ constexpr double heavy_radii = 4;
 constexpr double heavy_mean = 1.1;
 constexpr double far_radii = 100;
 
-double longest(const sim::Box& box) {
-  const glm::dvec3 size = box.size();
-  return std::max({size.x, size.y, size.z});
-}
-
 /// "1 of 10000 discs is" or "20 of 10000 discs are".
 std::string count_text(std::size_t some, std::size_t all, const char* what, const char* one, const char* many) {
   return fmt::format("{} of {} {} {}", some, all, what, some == 1 ? one : many);
@@ -32,7 +27,7 @@ void warn_of_far_discs(std::span<const sim::Disc> discs, const std::stop_token& 
   const sim::Box whole = box_of_centres(discs, stop);
   const std::optional<FarDiscs> found = find_far_discs(discs, whole, stop);
   if (!found) return;
-  const double all = longest(whole);
+  const double all = longest_side(whole);
   warnings.push_back(fmt::format(
       "{} far from the others: the box of all is {:.3g} long, {:.3g} times that of the central 90 % ({:.3g}); S0 and "
       "percentages take the box of all; predictions of box trees price the far discs apart, those of other techniques "

@@ -203,9 +203,15 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
 
 PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>& costs, const PilotOptions& options) {
   const sim::Stopwatch watch;
-  const std::vector<sim::Ray> sample = pilot_sample(problem.rays(), problem.discs().size());
+  const std::span<const sim::Ray> rays = problem.rays();
+  const std::size_t discs = problem.discs().size();
+  // Without a pilot, one ray stands for all: nothing is culled.
+  const bool piloted =
+      !options.only_choice || work_of(static_cast<double>(rays.size()), static_cast<double>(discs)) >= least_work;
+  const std::vector<sim::Ray> sample =
+      pilot_sample(piloted ? rays : rays.first(std::min<std::size_t>(1, rays.size())), discs);
   const double sampling = watch.seconds();
-  PilotChoice found = choose_by_pilot(problem, sample, static_cast<double>(problem.rays().size()), costs, options);
+  PilotChoice found = choose_by_pilot(problem, sample, static_cast<double>(rays.size()), costs, options);
   found.pilot_seconds += sampling;
   return found;
 }

@@ -51,7 +51,7 @@ TEST_SUITE("known answer") {
     CHECK_NOTHROW(check(w));
   }
 
-  TEST_CASE("a few discs far away are told apart from the central ones") {
+  TEST_CASE("a few discs far away do not count among the central samples") {
     auto discs = sim::uniform_discs(sim::Body::cube, 2, 10'000, 0.02, 1);
     for (std::size_t i = 0; i < 3; ++i) discs[i].centre *= 1000;
     const std::vector<sim::Ray> lines = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 10);
