@@ -23,14 +23,15 @@ double block_bytes(const SearchSize& size) {
 /// Floats of a ray in a list that is culled from a block's lists.
 double floats_per_ray(const SearchSize& size) { return size.segments ? 7 : 5; }
 
-/// Bytes of the nested lists of one thread. If the last block is smaller than the others, its lists are smaller and
-/// closer together: they use pages that earlier lists left untouched.
-double list_bytes(const SearchSize& size, const ListCapacity& lists) {
-  const auto last = static_cast<double>(size.rays % rays_in_block(size.discs));
+/// Bytes of the nested lists of one thread. Lists that begin with fewer rays are smaller and closer together: they use
+/// pages that other lists left untouched. Fewer rays are in the last block, and in a node that another thread divided.
+double list_bytes(const SearchSize& size, const ListCapacity& lists, bool divided = false) {
   const double rays = rays_together(size);
+  const std::size_t block = rays_in_block(size.discs);
+  const auto last = static_cast<double>(size.rays > block ? size.rays % block : 0);
+  const double fewer = std::max(last, divided ? lists.first * rays : 0);
   const double unfilled = std::max(0.0, 1 - lists.first) * rays;
-  const double beside = last < rays ? std::min(unfilled, (1 + lists.all) * last) : 0;
-  return sizeof(float) * floats_per_ray(size) * (rays * lists.all + beside);
+  return sizeof(float) * floats_per_ray(size) * (rays * lists.all + std::min(unfilled, (1 + lists.all) * fewer));
 }
 
 /// The larger of two peaks: during the search (with the blocks of rays) and after it (with the outcome, no blocks).
@@ -64,8 +65,8 @@ double walk_bytes(const SearchSize& size, const ListCapacity& lists) {
 }
 
 double boxes_bytes(const SearchSize& size, const TreeSize& tree) {
-  const bool alone = rays_together(size) < static_cast<double>(rays_to_divide);
-  const double lists = (alone ? 1 : thread_count(size.threads)) * list_bytes(size, tree.lists);
+  const bool divided = thread_count(size.threads) > 1 && rays_together(size) >= static_cast<double>(rays_to_divide);
+  const double lists = (divided ? thread_count(size.threads) : 1) * list_bytes(size, tree.lists, divided);
   return std::max(building_bytes(size.discs, tree.binary_nodes, tree.nodes),
                   searching_bytes(size, sizeof(TreeNode) * tree.nodes, lists));
 }
