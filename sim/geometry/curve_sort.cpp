@@ -42,8 +42,7 @@ Box box_of_centres(std::span<const Disc> discs) {
 
 std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells, const std::stop_token& stop) {
   const Box box = box_of_centres(discs);
-  const glm::dvec3 size = box.size();
-  const double side = std::max({size.x, size.y, size.z});
+  const double side = box.longest_side();
   // with a smaller side the scale might not be finite: then all discs are in one cell
   constexpr double least_side = 1e-290;
   const double scale = side > least_side ? cells / side : 0;

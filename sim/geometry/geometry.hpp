@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <limits>
@@ -46,6 +47,7 @@ struct Box {
   [[nodiscard]] bool empty() const { return !(low.x <= high.x && low.y <= high.y && low.z <= high.z); }
   [[nodiscard]] glm::dvec3 size() const { return high - low; }
   [[nodiscard]] glm::dvec3 centre() const { return low + 0.5 * (high - low); }
+  [[nodiscard]] double longest_side() const { return std::max({size().x, size().y, size().z}); }
 };
 
 /// A point of a surface where irradiance is wanted.

@@ -11,15 +11,10 @@ constexpr int lines_along_edge = 5;
 constexpr double step = 0.01;   // distance between the heights tried, as a share of the box's height
 constexpr int most_steps = 20;  // of `step`, below the top
 
-double longest_side(const Box& box) {
-  const glm::dvec3 size = box.size();
-  return std::max({size.x, size.y, size.z});
-}
-
 /// The light at its place along X and Z, at the height of the box's top.
 AreaLight level_light(const Box& box) {
   const glm::dvec3 size = box.size();
-  const double least = 0.05 * longest_side(box);
+  const double least = 0.05 * box.longest_side();
   const double along_x = std::max(0.5 * size.x, least);
   const double along_z = std::max(0.5 * size.z, least);
   const glm::dvec3 middle = box.centre();
@@ -58,7 +53,7 @@ void add_intersection(VerticalLine& line, const glm::dvec3& a, const glm::dvec3&
 /// All coordinates are in units of the box's longest side.
 std::vector<VerticalLine> vertical_lines(const Mesh& mesh, const Box& box, const AreaLight& light,
                                          const std::stop_token& stop) {
-  const double unit = longest_side(box);
+  const double unit = box.longest_side();
   const glm::dvec3 top{box.centre().x, box.high.y, box.centre().z};
   std::vector<VerticalLine> all;
   for (int i = 0; i < lines_along_edge; ++i)
@@ -79,7 +74,7 @@ std::vector<VerticalLine> vertical_lines(const Mesh& mesh, const Box& box, const
 
 /// Depth of the light below the box's top, as a share of the box's height.
 double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
-  const double height = box.size().y / longest_side(box);
+  const double height = box.size().y / box.longest_side();
   const std::vector<VerticalLine> all = vertical_lines(mesh, box, light, stop);
   for (int i = 1; i <= most_steps; ++i) {
     // The distance starts half a step higher, so that the light cannot lie in the ceiling.
@@ -96,8 +91,8 @@ double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light, 
 AreaLight light_for(const Mesh& mesh, const Box& box, const std::stop_token& stop) {
   AreaLight light = level_light(box);
   const double height = box.size().y;
-  const bool flat = height < 0.05 * longest_side(box);
-  light.corner.y += flat ? 0.5 * longest_side(box) : -depth_of_light(mesh, box, light, stop) * height;
+  const bool flat = height < 0.05 * box.longest_side();
+  light.corner.y += flat ? 0.5 * box.longest_side() : -depth_of_light(mesh, box, light, stop) * height;
   return light;
 }
 

@@ -23,20 +23,6 @@ void require_number(const char* what, std::size_t count) {
     throw std::length_error(fmt::format("{} {}s are too many; the maximum is 4294967294", count, what));
 }
 
-struct Radii {
-  double smallest = unbounded;
-  double largest = 0;
-};
-
-Radii radii_of(std::span<const Disc> discs, StopCheck& check) {
-  Radii radii;
-  for_each_checked(discs, check, [&](const Disc& disc) {
-    radii.smallest = std::min(radii.smallest, disc.radius);
-    radii.largest = std::max(radii.largest, disc.radius);
-  });
-  return radii;
-}
-
 /// The largest power for which the sum over 2⁶⁴ rays, also divided by the smallest disc's area, does not overflow.
 double most_power_for(double smallest_radius) {
   const double area = std::numbers::pi * smallest_radius * smallest_radius;
@@ -54,22 +40,34 @@ double cull_slack(const Sphere& enclosing, double farthest, double largest_radiu
   return (16e-12 + grazing) * extent + 1e-15 * offset;
 }
 
-/// The sphere as documented at enclosing_sphere.
-Sphere sphere_around(std::span<const Disc> discs, StopCheck& check) {
-  Box box;
-  double largest = 0;
-  double sum = 0;  // NaN if any number is not finite
+/// What one pass over the discs finds.
+struct Extent {
+  Box centres;
+  Sphere enclosing;  ///< as documented at enclosing_sphere
+  DiscRadii radii;
+};
+
+Extent extent_of(std::span<const Disc> discs, StopCheck& check) {
+  Extent extent;
+  double squares = 0;  // cannot overflow or underflow, because radii are 1e-100 to 1e100
+  double sum = 0;      // NaN if any number is not finite
   for_each_checked(discs, check, [&](const Disc& disc) {
-    box.include(disc.centre);
-    largest = std::max(largest, disc.radius);
+    extent.centres.include(disc.centre);
+    extent.radii.smallest = std::min(extent.radii.smallest, disc.radius);
+    extent.radii.largest = std::max(extent.radii.largest, disc.radius);
+    squares += disc.radius * disc.radius;
     sum += 0 * (disc.centre.x + disc.centre.y + disc.centre.z + disc.radius);
   });
-  const glm::dvec3 centre = box.centre();
+  const double smallest = extent.radii.smallest;
+  const double largest = extent.radii.largest;
+  extent.radii.rms = smallest == largest ? largest : std::sqrt(squares / static_cast<double>(discs.size()));
+  const glm::dvec3 centre = extent.centres.centre();
   // The distance of the farther corner, as computed: half the diagonal can be an ulp shorter.
-  const double reach = std::max(glm::distance(centre, box.low), glm::distance(centre, box.high));
+  const double reach = std::max(glm::distance(centre, extent.centres.low), glm::distance(centre, extent.centres.high));
   const double radius = (reach + largest) * (1 + 1e-15);
   if (!(radius > 0 && radius + sum < unbounded)) require_sound(discs, check);
-  return {centre, radius};
+  extent.enclosing = {centre, radius};
+  return extent;
 }
 
 }  // namespace
@@ -77,7 +75,7 @@ Sphere sphere_around(std::span<const Disc> discs, StopCheck& check) {
 Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop) {
   require_number("disc", discs.size());
   StopCheck check(stop, checking);
-  return sphere_around(discs, check);
+  return extent_of(discs, check).enclosing;
 }
 
 Problem::Problem(std::span<const Disc> discs, bool front_facing, const std::stop_token& stop)
@@ -86,10 +84,11 @@ Problem::Problem(std::span<const Disc> discs, bool front_facing, const std::stop
   StopCheck check(stop, checking);
   own_discs_ = normalised_if_needed(discs, check);
   discs_ = own_discs_ ? std::span<const Disc>(*own_discs_) : discs;
-  enclosing_ = sphere_around(discs_, check);
-  const Radii radii = radii_of(discs_, check);
-  largest_radius_ = radii.largest;
-  most_power_ = most_power_for(radii.smallest);
+  const Extent extent = extent_of(discs_, check);
+  enclosing_ = extent.enclosing;
+  centres_ = extent.centres;
+  radii_ = extent.radii;
+  most_power_ = most_power_for(radii_.smallest);
 }
 
 double Problem::store_rays(std::span<const Ray> rays, int threads, std::uint64_t first, const std::stop_token& stop) {
@@ -109,7 +108,7 @@ void Problem::set_farthest(double farthest) {
   if (!(farthest + enclosing_.radius < largest_coordinate))
     throw std::invalid_argument("rays and discs must lie within 1e100 of each other, or their squares overflow");
   farthest_ = farthest;
-  slack_ = cull_slack(enclosing_, farthest, largest_radius_);
+  slack_ = cull_slack(enclosing_, farthest, radii_.largest);
 }
 
 Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing, int threads,

@@ -11,6 +11,13 @@
 
 namespace detp::sim {
 
+/// The radii of a problem's discs.
+struct DiscRadii {
+  double smallest = unbounded;
+  double largest = 0;
+  double rms = 0;  ///< root mean square; exactly the radius if all are equal
+};
+
 /// Rays and discs that have been checked: a problem that exists is valid. It refers to the caller's rays and discs,
 /// which must outlive every use of the problem. They are copied only to be normalised.
 class Problem {
@@ -19,6 +26,9 @@ class Problem {
   [[nodiscard]] std::span<const Disc> discs() const { return discs_; }
   /// S₀: contains every disc completely; rays may start or pass outside it.
   [[nodiscard]] const Sphere& enclosing() const { return enclosing_; }
+  /// The smallest box around the discs' centres.
+  [[nodiscard]] const Box& centres() const { return centres_; }
+  [[nodiscard]] const DiscRadii& radii() const { return radii_; }
   /// Count only rays that arrive at a disc's front.
   [[nodiscard]] bool front_facing() const { return front_facing_; }
   /// Length by which culls are enlarged. A ray that hits comes nearer to its disc than this length (make_problem).
@@ -47,8 +57,9 @@ class Problem {
   std::span<const Ray> rays_;
   std::span<const Disc> discs_;
   Sphere enclosing_{};
+  Box centres_;
+  DiscRadii radii_;
   bool front_facing_ = false;
-  double largest_radius_ = 0;  ///< of a disc
   double slack_ = 0;
   double farthest_ = 0;
   double most_power_ = 0;

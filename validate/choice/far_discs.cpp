@@ -36,33 +36,20 @@ bool FarDiscs::is_near(const sim::Disc& disc) const {
   return glm::all(glm::greaterThanEqual(disc.centre, near.low)) && glm::all(glm::lessThanEqual(disc.centre, near.high));
 }
 
-std::optional<FarDiscs> find_far_discs(std::span<const sim::Disc> discs, const sim::Box& whole,
-                                       const std::stop_token& stop) {
+std::optional<FarDiscs> find_far_discs(const sim::Problem& problem, const std::stop_token& stop) {
   FarDiscs found;
-  const std::vector<sim::Disc> sampled = evenly_spaced(discs);
+  const std::vector<sim::Disc> sampled = evenly_spaced(problem.discs());
   const sim::Box central = central_box(sampled);
-  found.reach = std::max(longest_side(central), 2 * median_radius(sampled));
-  if (!(longest_side(whole) > far_boxes * found.reach)) return std::nullopt;
+  found.reach = std::max(central.longest_side(), 2 * median_radius(sampled));
+  if (!(problem.centres().longest_side() > far_boxes * found.reach)) return std::nullopt;
   found.near = {central.low - found.reach, central.high + found.reach};
   sim::StopCheck check(stop, "looking for outliers");
-  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) { found.far += found.is_near(disc) ? 0 : 1; });
+  sim::for_each_checked(problem.discs(), check, [&](const sim::Disc& disc) { found.far += found.is_near(disc) ? 0 : 1; });
   return found;
 }
 
-double longest_side(const sim::Box& box) {
-  const glm::dvec3 size = box.size();
-  return std::max({size.x, size.y, size.z});
-}
-
-sim::Box box_of_centres(std::span<const sim::Disc> discs, const std::stop_token& stop) {
-  sim::StopCheck check(stop, "measuring the samples");
-  sim::Box box;
-  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) { box.include(disc.centre); });
-  return box;
-}
-
 std::vector<sim::Disc> evenly_spaced(std::span<const sim::Disc> discs) {
-  const std::size_t count = std::min<std::size_t>(4096, discs.size());
+  const std::size_t count = std::min<std::size_t>(1024, discs.size());
   std::vector<sim::Disc> sampled;
   sampled.reserve(count);
   for (std::size_t i = 0; i < count; ++i) sampled.push_back(discs[i * discs.size() / count]);

@@ -121,7 +121,7 @@ class JobMaker {
     job_.notices = scene_->notices;
     job_.triangles = scene_->mesh.triangles.size();
     surface_ = {triangle_area(scene_->mesh, stop_), request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
-    const double side = longest_side(scene_->box);
+    const double side = scene_->box.longest_side();
     const double radius = request_.disc_radius ? absolute(*request_.disc_radius, side)
                                                : default_radius(*scene_, side, surface_.edge_length);
     job_.discs = discs_at(scene_->samples, radius, stop_);

@@ -28,7 +28,7 @@ JobProgress::Part JobProgress::making(sim::Field field, double rays, bool stream
 }
 
 JobProgress::Part JobProgress::measuring(double rays, double discs) {
-  return {rays + 55 * discs, 2e-7 * (rays + discs)};
+  return {rays + 5 * discs, 1e-8 * (rays + discs)};
 }
 
 void JobProgress::read(const JobRequest& request) {

@@ -1,8 +1,8 @@
 #include "measure.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
@@ -22,26 +22,56 @@ std::vector<std::size_t> sample_of(std::size_t size, std::size_t most) {
   return sim::stratified_sample(size, most, 1, sim::Stream::evidence);
 }
 
-/// Number of cells that the sampled discs occupy after each number of halvings, 0 … 16.
-std::vector<double> occupied_cells(std::span<const sim::Disc> discs, const std::vector<std::size_t>& sample,
-                                   const std::stop_token& stop) {
-  sim::StopCheck check(stop, "measuring the samples");
-  const sim::Box box = box_of_centres(discs, stop);
-  std::vector<sim::KeyedIndex> codes;
-  codes.reserve(sample.size());
-  sim::for_each_checked(std::span(sample), check, [&](std::size_t disc) {
-    codes.push_back({sim::lebesgue_code(discs[disc].centre, box), 0});
-  });
-  sim::radix_sort(codes, 48, stop);
-  std::vector<double> occupied;
-  for (int level = 0; level <= 16; ++level) {
-    const int shift = 48 - 3 * level;
-    double cells = 1;
-    sim::for_each_checked(1, codes.size(), check,
-                          [&](std::size_t i) { cells += codes[i].key >> shift != codes[i - 1].key >> shift ? 1 : 0; });
-    occupied.push_back(cells);
+/// The cells that hold sampled points on one level.
+struct Occupancy {
+  double cells = 0;
+  double once = 0;   ///< cells with one point
+  double twice = 0;  ///< cells with two points
+
+  /// Estimate of the cells that all points occupy: adds those in which the sample has none (Chao 1984).
+  [[nodiscard]] double all_cells() const { return cells + once * (once - 1) / (2 * (twice + 1)); }
+};
+
+constexpr int finest_level = 16;
+using Levels = std::array<Occupancy, finest_level + 1>;
+
+/// The different places of the sampled discs on Lebesgue's curve, in its order, which is that of cells on every level.
+std::vector<sim::KeyedIndex> places_of(std::span<const sim::Disc> discs, const std::vector<std::size_t>& sample,
+                                       const std::stop_token& stop) {
+  sim::Box box;
+  for (const std::size_t disc : sample) box.include(discs[disc].centre);
+  std::vector<sim::KeyedIndex> places;
+  places.reserve(sample.size());
+  for (const std::size_t disc : sample) places.push_back({sim::lebesgue_code(discs[disc].centre, box), 0});
+  sim::radix_sort(places, 3 * finest_level, stop);
+  const auto equal = [](const sim::KeyedIndex& a, const sim::KeyedIndex& b) { return a.key == b.key; };
+  places.erase(std::unique(places.begin(), places.end(), equal), places.end());
+  return places;
+}
+
+/// Counts cells by the level from which on neighbours in the order are in different cells.
+Levels occupied_cells(const std::vector<sim::KeyedIndex>& places) {
+  constexpr int never = 0;  // neighbours beyond both ends are apart on all levels
+  std::vector<int> apart{never, never};
+  for (std::size_t i = 1; i < places.size(); ++i)
+    apart.push_back((std::countl_zero(places[i].key ^ places[i - 1].key) - (64 - 3 * finest_level)) / 3 + 1);
+  apart.insert(apart.end(), {never, never});
+  Levels levels;  // first the changes from level to level
+  for (std::size_t i = 1; i + 2 < apart.size(); ++i) {
+    const int alone = std::max(apart[i], apart[i + 1]);
+    levels[static_cast<std::size_t>(apart[i])].cells += 1;
+    levels[static_cast<std::size_t>(alone)].once += 1;
+    const int two = std::max(apart[i - 1], apart[i + 1]);
+    if (i == 1 || two >= apart[i]) continue;
+    levels[static_cast<std::size_t>(two)].twice += 1;
+    levels[static_cast<std::size_t>(apart[i])].twice -= 1;
   }
-  return occupied;
+  for (std::size_t level = 1; level < levels.size(); ++level) {
+    levels[level].cells += levels[level - 1].cells;
+    levels[level].once += levels[level - 1].once;
+    levels[level].twice += levels[level - 1].twice;
+  }
+  return levels;
 }
 
 struct Paths {
@@ -54,7 +84,7 @@ Paths paths_inside(const sim::Problem& problem, const sim::Box& box, double disc
   sim::StopCheck check(stop, "measuring the rays");
   const sim::Box grown{box.low - disc_radius, box.high + disc_radius};
   Paths paths;
-  const std::vector<std::size_t> sample = sample_of(problem.rays().size(), 1U << 14);
+  const std::vector<std::size_t> sample = sample_of(problem.rays().size(), 1U << 11);
   const double each = 1 / static_cast<double>(sample.size());
   sim::for_each_checked(std::span(sample), check, [&](std::size_t ray) {
     const sim::RayInterval inside = sim::ClippedRay(problem.rays()[ray]).inside(grown);
@@ -65,26 +95,8 @@ Paths paths_inside(const sim::Problem& problem, const sim::Box& box, double disc
   return paths;
 }
 
-struct Radii {
-  double rms = 0;  ///< if all radii are equal, exactly this radius
-  double smallest = 0;
-  double largest = 0;
-};
-
-Radii measure_radii(std::span<const sim::Disc> discs, sim::StopCheck& check) {
-  double sum = 0;
-  Radii radii{.smallest = discs.front().radius, .largest = discs.front().radius};
-  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) {
-    sum += disc.radius * disc.radius;
-    radii.smallest = std::min(radii.smallest, disc.radius);
-    radii.largest = std::max(radii.largest, disc.radius);
-  });
-  radii.rms = radii.smallest == radii.largest ? radii.largest : std::sqrt(sum / static_cast<double>(discs.size()));
-  return radii;
-}
-
 /// Classes of radii whose squares have the same binary exponent. The radii below 1/64 of the largest are one class.
-std::vector<RadiusClass> radius_classes(std::span<const sim::Disc> discs, const Radii& radii, sim::StopCheck& check) {
+std::vector<RadiusClass> radius_classes(std::span<const sim::Disc> discs, const sim::DiscRadii& radii, sim::StopCheck& check) {
   constexpr double about_equal = 1.1;
   if (radii.largest <= about_equal * radii.rms) return {};
   struct Sums {
@@ -120,22 +132,23 @@ double extent_of(Workload samples, double area) {
 }
 
 /// Lines are isotropic, so the share that crosses a sphere is known; that of segments is measured.
-std::optional<CentralSamples> central_samples(const sim::Problem& problem, const sim::Box& whole, const Radii& radii,
-                                              double area, const std::stop_token& stop) {
-  const std::optional<FarDiscs> found = find_far_discs(problem.discs(), whole, stop);
+std::optional<CentralSamples> central_samples(const sim::Problem& problem, double area, const std::stop_token& stop) {
+  const std::optional<FarDiscs> found = find_far_discs(problem, stop);
   if (!found) return std::nullopt;
   sim::StopCheck check(stop, "measuring the samples");
+  const sim::DiscRadii& radii = problem.radii();
   std::vector<sim::Disc> near;
   sim::for_each_checked(problem.discs(), check, [&](const sim::Disc& disc) {
     if (found->is_near(disc)) near.push_back(disc);
   });
-  const sim::Box box = box_of_centres(near, stop);
+  sim::Box box;
+  for (const sim::Disc& disc : near) box.include(disc.centre);
   const glm::dvec3 size = box.size();
   CentralSamples central{.samples = static_cast<double>(near.size()),
                          .sphere_radius = glm::length(size) / 2 + radii.largest,
                          .box = {size.x, size.y, size.z},
                          .dimension = sample_dimension(near, stop)};
-  if (!(longest_side(box) > 0)) central.box.fill(2 * radii.rms);
+  if (!(box.longest_side() > 0)) central.box.fill(2 * radii.rms);
   central.sample_extent = extent_of({.box = central.box, .dimension = central.dimension}, area);
   if (problem.segments()) {
     const Paths paths = paths_inside(problem, box, radii.rms, stop);
@@ -151,30 +164,25 @@ std::optional<CentralSamples> central_samples(const sim::Problem& problem, const
 }  // namespace
 
 double sample_dimension(std::span<const sim::Disc> discs, const std::stop_token& stop) {
-  constexpr double least_points = 4096;
-  constexpr double points_per_cell = 4;
-  constexpr int levels = 3;
-  const std::vector<std::size_t> sample = sample_of(discs.size(), 1U << 17);
-  const auto points = static_cast<double>(sample.size());
-  if (points < least_points) return 3;
-  const std::vector<double> occupied = occupied_cells(discs, sample, stop);
-  int last = levels;
-  while (last < 16 && occupied[static_cast<std::size_t>(last) + 1] * points_per_cell <= points) ++last;
-  Eigen::Matrix<double, levels, 2> line;
-  Eigen::Matrix<double, levels, 1> logs;
-  for (int i = 0; i < levels; ++i) {
-    line.row(i) << 1, i;
-    logs[i] = std::log2(occupied[static_cast<std::size_t>(last - levels + 1 + i)]);
-  }
-  const Eigen::Vector2d fit = line.colPivHouseholderQr().solve(logs);
-  return std::clamp(fit[1], 1.0, 3.0);
+  constexpr std::size_t least_points = 1024;
+  constexpr double least_covered = 0.25;
+  constexpr int last_level = finest_level - 3;  // on finer ones, points that share a place would be missed
+  const std::vector<sim::KeyedIndex> places = places_of(discs, sample_of(discs.size(), 1U << 13), stop);
+  if (places.size() < least_points) return 3;
+  const Levels levels = occupied_cells(places);
+  const auto covered = [&](std::size_t level) { return 1 - levels[level].once / static_cast<double>(places.size()); };
+  std::size_t last = 3;
+  while (last < last_level && covered(last + 1) >= least_covered) ++last;
+  // the slope of a least-squares line through three levels does not depend on the middle one
+  const double slope = 0.5 * std::log2(levels[last].all_cells() / levels[last - 2].all_cells());
+  return std::clamp(slope, 1.0, 3.0);
 }
 
 Workload measure(const sim::Problem& problem, const SurfaceFacts& surface, const std::stop_token& stop) {
   sim::StopCheck check(stop, "measuring the samples");
-  const sim::Box box = box_of_centres(problem.discs(), stop);
+  const sim::Box& box = problem.centres();
   const glm::dvec3 size = box.size();
-  const Radii radii = measure_radii(problem.discs(), check);
+  const sim::DiscRadii& radii = problem.radii();
   Workload workload{.rays = static_cast<double>(problem.rays().size()),
                     .samples = static_cast<double>(problem.discs().size()),
                     .disc_radius = radii.rms,
@@ -185,7 +193,7 @@ Workload measure(const sim::Problem& problem, const SurfaceFacts& surface, const
                     .path_length = problem.segments() ? paths_inside(problem, box, radii.rms, stop).length : 0,
                     .front_facing = problem.front_facing(),
                     .radii = radius_classes(problem.discs(), radii, check),
-                    .central = central_samples(problem, box, radii, surface.area, stop)};
+                    .central = central_samples(problem, surface.area, stop)};
   // If all samples are at one point, their box has no size. Then uses a cube with the discs' diameter as side.
   if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
   workload.sample_extent = extent_of(workload, surface.area);

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "detp/sim/base/stop_check.hpp"
@@ -22,37 +21,31 @@ std::string count_text(std::size_t some, std::size_t all, const char* what, cons
   return fmt::format("{} of {} {} {}", some, all, what, some == 1 ? one : many);
 }
 
-void warn_of_far_discs(std::span<const sim::Disc> discs, const std::stop_token& stop,
-                       std::vector<std::string>& warnings) {
-  const sim::Box whole = box_of_centres(discs, stop);
-  const std::optional<FarDiscs> found = find_far_discs(discs, whole, stop);
+void warn_of_far_discs(const sim::Problem& problem, const std::stop_token& stop, std::vector<std::string>& warnings) {
+  const std::optional<FarDiscs> found = find_far_discs(problem, stop);
   if (!found) return;
-  const double all = longest_side(whole);
+  const double all = problem.centres().longest_side();
   warnings.push_back(fmt::format(
       "{} far from the others: the box of all is {:.3g} long, {:.3g} times that of the central 90 % ({:.3g}); S0 and "
       "percentages take the box of all; predictions of box trees price the far discs apart, those of other techniques "
       "spread all discs over the box of all",
-      count_text(found->far, discs.size(), "discs", "lies", "lie"), all, all / found->reach, found->reach));
+      count_text(found->far, problem.discs().size(), "discs", "lies", "lie"), all, all / found->reach, found->reach));
 }
 
-void warn_of_large_discs(std::span<const sim::Disc> discs, double median, sim::StopCheck& check,
-                         std::vector<std::string>& warnings) {
-  double largest = 0;
-  double squares = 0;
+void warn_of_large_discs(const sim::Problem& problem, sim::StopCheck& check, std::vector<std::string>& warnings) {
+  const double median = median_radius(evenly_spaced(problem.discs()));
+  const double largest = problem.radii().largest;
+  const double rms = problem.radii().rms;
+  if (!(largest > large_radii * median || (largest > heavy_radii * median && rms > heavy_mean * median))) return;
   std::size_t large = 0;
-  sim::for_each_checked(discs, check, [&](const sim::Disc& disc) {
-    largest = std::max(largest, disc.radius);
-    squares += disc.radius / median * (disc.radius / median);
-    large += disc.radius > heavy_radii * median ? 1 : 0;
-  });
-  const double rms = std::sqrt(squares / static_cast<double>(discs.size()));
-  if (!(largest > large_radii * median || (largest > heavy_radii * median && rms > heavy_mean))) return;
+  sim::for_each_checked(problem.discs(), check,
+                        [&](const sim::Disc& disc) { large += disc.radius > heavy_radii * median ? 1 : 0; });
   const std::string radius = large == 1 ? "a radius of" : "radii up to";
   warnings.push_back(
       fmt::format("{} {} {:.4g}, {:.3g} times the median {:.4g}: S0 is made to hold the largest; predictions of "
                   "box trees use all radii, those of other techniques mostly the root mean square {:.4g}",
-                  count_text(large, discs.size(), "discs", "has", "have"), radius, largest, largest / median, median,
-                  rms * median));
+                  count_text(large, problem.discs().size(), "discs", "has", "have"), radius, largest, largest / median,
+                  median, rms));
 }
 
 void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::vector<std::string>& warnings) {
@@ -77,8 +70,8 @@ void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::v
 std::vector<std::string> outlier_warnings(const sim::Problem& problem, const std::stop_token& stop) {
   sim::StopCheck check(stop, "looking for outliers");
   std::vector<std::string> warnings;
-  warn_of_far_discs(problem.discs(), stop, warnings);
-  warn_of_large_discs(problem.discs(), median_radius(evenly_spaced(problem.discs())), check, warnings);
+  warn_of_far_discs(problem, stop, warnings);
+  warn_of_large_discs(problem, check, warnings);
   warn_of_far_rays(problem, check, warnings);
   return warnings;
 }

@@ -26,8 +26,7 @@ double longest_side(const Mesh& mesh) {
   Box box;
   for (const auto& triangle : mesh.triangles)
     for (const std::uint32_t corner : triangle) box.include(mesh.positions[corner]);
-  const glm::dvec3 size = box.size();
-  return std::max({size.x, size.y, size.z});
+  return box.longest_side();
 }
 
 /// A uniform point in the triangle: a uniform point of the unit square, folded along its diagonal.

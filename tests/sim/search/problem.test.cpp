@@ -206,3 +206,17 @@ TEST_SUITE("identity") {
     check_all_agree(tiny);
   }
 }
+
+TEST_SUITE("known answer") {
+  TEST_CASE("a problem knows the box of the centres, and the smallest, largest and root mean square radius") {
+    const std::vector<Disc> discs{{.centre = {1, 5, 2}, .radius = 7}, {.centre = {3, 4, 2}, .radius = 1}};
+    const Problem problem = make_problem_without_rays(discs, 100);
+    CHECK(problem.centres().low == glm::dvec3(1, 4, 2));
+    CHECK(problem.centres().high == glm::dvec3(3, 5, 2));
+    CHECK(problem.radii().smallest == 1);
+    CHECK(problem.radii().largest == 7);
+    CHECK(problem.radii().rms == 5);
+    const std::vector<Disc> equal(10, {.radius = 1e-100});
+    CHECK(make_problem_without_rays(equal, 1).radii().rms == 1e-100);
+  }
+}

@@ -45,7 +45,7 @@ TEST_SUITE("statistical") {  // because it takes long
   TEST_CASE("progress on a terminal never goes back, seldom stands still and tells the time left") {
     for (const std::string line :
          {"validate --rays 100000 --samples 5000", "run @tree --rays 3000000 --technique sphere-cache --threads 1",
-          "choose @tree --rays 100000 --disc-radius 1% --analyze"}) {
+          "choose @tree --rays 1000000 --disc-radius 1% --analyze"}) {
       CAPTURE(line);
       const auto drawings = drawings_in(shown_on_terminal(line));
       REQUIRE(drawings.size() > 5);
