@@ -44,7 +44,8 @@ std::optional<FarDiscs> find_far_discs(const sim::Problem& problem, const std::s
   if (!(problem.centres().longest_side() > far_boxes * found.reach)) return std::nullopt;
   found.near = {central.low - found.reach, central.high + found.reach};
   sim::StopCheck check(stop, "looking for outliers");
-  sim::for_each_checked(problem.discs(), check, [&](const sim::Disc& disc) { found.far += found.is_near(disc) ? 0 : 1; });
+  sim::for_each_checked(problem.discs(), check,
+                        [&](const sim::Disc& disc) { found.far += found.is_near(disc) ? 0 : 1; });
   return found;
 }
 

@@ -96,7 +96,8 @@ Paths paths_inside(const sim::Problem& problem, const sim::Box& box, double disc
 }
 
 /// Classes of radii whose squares have the same binary exponent. The radii below 1/64 of the largest are one class.
-std::vector<RadiusClass> radius_classes(std::span<const sim::Disc> discs, const sim::DiscRadii& radii, sim::StopCheck& check) {
+std::vector<RadiusClass> radius_classes(std::span<const sim::Disc> discs, const sim::DiscRadii& radii,
+                                        sim::StopCheck& check) {
   constexpr double about_equal = 1.1;
   if (radii.largest <= about_equal * radii.rms) return {};
   struct Sums {
