@@ -31,6 +31,7 @@ struct UnitCosts {
   double ray = 0;         ///< i: bringing one ray into a search
   double ends = 0;        ///< e: what the ends of rays add to a test against a sphere, a box or a disc
   double far = 0;         ///< m: handling one disc, for each doubling of their number above near_discs
+  double uncached = 0;    ///< o: sorting or placing one disc, for each doubling of their number above cached_discs
   double start = 0;       ///< a: fixed cost of a run
 
   bool operator==(const UnitCosts&) const = default;
@@ -78,6 +79,16 @@ inline constexpr double near_discs = 1e4;
   return counts.loaded > 0 ? counts.segments / counts.loaded * tests(counts) : 0;
 }
 
+/// The data of up to about this many discs stay in the last-level cache.
+inline constexpr double cached_discs = 1.2e5;
+
+/// The number of discs that are sorted or placed, times the binary logarithm of this number over cached_discs. Sorting
+/// reads the discs in random order, so most reads of many more wait for the memory.
+[[nodiscard]] inline double uncached_discs(const Counts<double>& counts) {
+  const double discs = std::max(counts.placements, counts.sorted);
+  return discs > cached_discs ? discs * std::log2(discs / cached_discs) : 0;
+}
+
 /// One count, for UnitCostTerm::quantity.
 template <auto count>
 [[nodiscard]] constexpr double quantity_of(const Counts<double>& counts) {
@@ -117,6 +128,8 @@ inline constexpr std::array unit_cost_terms{
                  "the ends of a ray in a test, if some rays end"},
     UnitCostTerm{"m", &UnitCosts::far, far_discs, CostEngine::both, &CostBreakdown::build,
                  "handling a disc, for each doubling of the number of discs above 10 000"},
+    UnitCostTerm{"o", &UnitCosts::uncached, uncached_discs, CostEngine::both, &CostBreakdown::build,
+                 "sorting or placing a disc, for each doubling of the number of discs above 120 000"},
     UnitCostTerm{"a", &UnitCosts::start, [](const Counts<double>&) { return 1.0; }, CostEngine::both,
                  &CostBreakdown::start, "a run, whatever it does"},
 };

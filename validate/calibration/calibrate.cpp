@@ -22,8 +22,9 @@ namespace detp::validate {
 namespace {
 
 constexpr double side = 1;
-constexpr double longest_run = 0.06;    ///< seconds; a longer run is stopped and left out
-constexpr double enough_timed = 0.015;  ///< seconds after which a run is not repeated again
+constexpr double longest_run = 0.06;     ///< seconds; a longer run is stopped and left out
+constexpr double longest_of_many = 0.2;  ///< the same with many discs
+constexpr double enough_timed = 0.015;   ///< seconds after which a run is not repeated again
 constexpr int least_repeats = 2;
 constexpr int most_repeats = 7;
 
@@ -33,6 +34,9 @@ struct Setting {
   std::size_t rays;
   double radius;
 };
+
+/// More discs than the last-level cache holds. Only techniques with short runs are timed on them.
+constexpr std::size_t many_discs = 200'000;
 
 constexpr std::size_t least_workloads = 16;  ///< measured even if that takes longer than asked
 
@@ -49,7 +53,6 @@ std::vector<Setting> settings() {
           const double radius = std::min(0.2 * side, spacing * distance);
           if (static_cast<double>(samples * rays) * radius * radius < 3e6) all.push_back({body, samples, rays, radius});
         }
-  all.push_back({sim::Body::cube_faces, 1'000'000, 1000, 0.0005});
   std::vector<Setting> first;
   std::vector<Setting> mixed;
   constexpr std::size_t stride = 29;  // has no common factor with the number of settings
@@ -58,7 +61,15 @@ std::vector<Setting> settings() {
     const bool small = one.samples <= 1000 && one.rays <= 1000;
     (small && first.size() < least_workloads ? first : mixed).push_back(one);
   }
-  first.insert(first.end(), mixed.begin(), mixed.end());
+  const std::vector<Setting> large{{sim::Body::cube, 300'000, 100, 0.004},
+                                   {sim::Body::cube_faces, 1'000'000, 1000, 0.0005},
+                                   {sim::Body::cube_faces, 300'000, 10'000, 0.002},
+                                   {sim::Body::cube, 600'000, 100, 0.001}};
+  constexpr std::size_t apart = 4;
+  for (std::size_t i = 0; i < mixed.size(); ++i) {
+    if (i % apart == 0 && i / apart < large.size()) first.push_back(large[i / apart]);
+    first.push_back(mixed[i]);
+  }
   return first;
 }
 
@@ -88,8 +99,17 @@ std::vector<sim::Ray> rays_of(const Setting& setting, const std::vector<sim::Dis
   return rays;
 }
 
+/// Those whose runs are short even with many discs.
+std::vector<Candidate> candidates_of_many(std::size_t place) {
+  const int leaf = place % 2 == 0 ? 64 : 256;
+  return {{Technique::brute_force, BruteForceParameters{}},
+          {Technique::box_tree, BoxTreeParameters{8, leaf}},
+          {Technique::box_tree, BoxTreeParameters{16, 2 * leaf}}};
+}
+
 /// Parameters from too coarse to too fine; `place` varies them from setting to setting.
 std::vector<Candidate> candidates(const Setting& setting, std::size_t place) {
+  if (setting.samples > many_discs) return candidates_of_many(place);
   const auto pick = [&](auto... values) {
     const std::array list{values...};
     return list[place % list.size()];
@@ -199,10 +219,11 @@ class Calibrator {
   /// Counts the candidate's operations, then times it, unless it takes too long.
   void measure(const sim::Problem& problem, const Setting& setting, const Candidate& candidate, Engine engine,
                std::size_t place) {
-    const StopAfter limit(options_.stop, longest_run);
+    const double longest = setting.samples > many_discs ? longest_of_many : longest_run;
+    const StopAfter limit(options_.stop, longest);
     const sim::Outcome counted = sim::run(problem, candidate, {.engine = engine, .stop = limit.token()});
     if (counted.stopped) too_long_.push_back({candidate.technique, engine, setting});
-    if (counted.stopped || counted.seconds.total() > longest_run) return;
+    if (counted.stopped || counted.seconds.total() > longest) return;
     Timed one{candidate, engine, as_expected(counted.counts)};
     if (place % 2 == 0 && is_divided(one.counts, candidate.technique, engine)) one.numbers = numbers_;
     one.shortest.resize(one.numbers.size());

@@ -25,18 +25,20 @@ CostEngine engine_of(Technique technique) {
   return record_of(technique).ray_by_ray ? CostEngine::ray_by_ray : CostEngine::lists;
 }
 
+bool occurs(const UnitCostTerm& term, std::span<const TimedRun> runs) {
+  return std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return term.quantity(run.counts) > 0; });
+}
+
 /// The terms whose counts occur in the runs. Of terms with the same counts in all runs, only the first.
 Terms occurring_terms(std::span<const TimedRun> runs, Technique technique) {
   Terms terms;
   for (const UnitCostTerm& term : unit_cost_terms) {
     if (term.engine != CostEngine::both && term.engine != engine_of(technique)) continue;
-    const bool occurs =
-        std::any_of(runs.begin(), runs.end(), [&](const auto& run) { return term.quantity(run.counts) > 0; });
     const bool known = std::any_of(terms.begin(), terms.end(), [&](const UnitCostTerm* other) {
       return std::all_of(runs.begin(), runs.end(),
                          [&](const auto& run) { return term.quantity(run.counts) == other->quantity(run.counts); });
     });
-    if (occurs && !known) terms.push_back(&term);
+    if (occurs(term, runs) && !known) terms.push_back(&term);
   }
   return terms;
 }
@@ -195,6 +197,8 @@ CostFit fit_costs(std::span<const TimedRun> runs, Technique technique, const std
   const Terms terms = occurring_terms(runs, technique);
   const UnitCosts expected = expected_costs(runs, technique, usual);
   result.costs = fit_separable(runs, terms, expected, result);
+  for (const UnitCostTerm& term : unit_cost_terms)
+    if (!occurs(term, runs)) result.costs.*term.cost = expected.*term.cost;
   result.median_error = median_error(runs, result.costs, technique);
   result.left_out_errors = left_out_errors(runs, positive_terms(terms, result.costs), expected, technique);
   return result;

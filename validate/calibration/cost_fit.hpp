@@ -45,7 +45,7 @@ inline constexpr double weight_of_usual = 0.3;
 ///
 /// Runs decide the costs that they can tell apart. What they cannot, as in a disturbed calibration, keeps its usual ratio.
 ///
-/// Only costs whose counts occur in the runs are fitted. The errors of left-out runs are those of five further fits of
+/// Only costs whose counts occur in the runs are fitted. The others are v x_usual, or 0 without usual costs. The errors of left-out runs are those of five further fits of
 /// the same terms: each leaves out the workloads whose number has one remainder modulo 5. Throws std::invalid_argument
 /// if there are fewer than 10 runs, or if a run took no time.
 [[nodiscard]] CostFit fit_costs(std::span<const TimedRun> runs, Technique technique,

@@ -25,11 +25,11 @@ double seconds(const Piloted& one) { return one.time.total(); }
 /// Looks for the fastest box tree: halves and doubles leaf and fan-out in turn, as long as that is faster.
 class ShapeSearch {
  public:
-  ShapeSearch(const sim::PilotedDiscs& discs, const Prices& prices, bool for_replans)
-      : discs_(discs), prices_(prices), for_replans_(for_replans) {}
+  ShapeSearch(const sim::PilotedDiscs& discs, const SearchSize& size, const Prices& prices, bool for_replans)
+      : discs_(discs), size_(size), prices_(prices), for_replans_(for_replans) {}
 
   std::vector<Piloted> run() {
-    consider({8, 32});
+    consider(usual_shape(size_.rays, size_.discs));
     for (BoxTreeParameters before{}; !(before == best());) {
       before = best();
       walk(&BoxTreeParameters::leaf, 4, 1024);
@@ -74,6 +74,7 @@ class ShapeSearch {
   }
 
   const sim::PilotedDiscs& discs_;
+  const SearchSize& size_;
   const Prices& prices_;
   bool for_replans_;
   std::vector<Piloted> tried_;
@@ -189,7 +190,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
       problem, sim::stream::PilotRays{sample, rays, options.independent_sample, options.expected_hits},
       subtrees_of(rays, size.discs), sim::RunOptions{.stop = options.stop, .threads = options.threads});
   found.sort_seconds = found.discs->sort_seconds();
-  found.candidates = ShapeSearch(*found.discs, prices, options.for_replans).run();
+  found.candidates = ShapeSearch(*found.discs, size, prices, options.for_replans).run();
   const auto add = [&](auto&& more) {
     more();
     sort_by_time(found.candidates, preparing);

@@ -1,6 +1,7 @@
 #include "baselines.hpp"
 
 #include "detp/model/rank/paper_rule.hpp"
+#include "detp/validate/choice/usual_shape.hpp"
 
 namespace detp::validate {
 namespace {
@@ -10,6 +11,10 @@ std::vector<Candidate> box_trees(const Workload& /*workload*/) {
   for (const int fan_out : {4, 8, 16})
     for (const int leaf : {16, 64}) all.push_back({Technique::box_tree, BoxTreeParameters{fan_out, leaf}});
   return all;
+}
+
+std::vector<Candidate> usual_box_tree(const Workload& workload) {
+  return {{Technique::box_tree, usual_shape(workload.rays, workload.samples)}};
 }
 
 std::vector<Candidate> by_paper_rule(const Workload& workload) { return {model::paper_rule(workload)}; }
@@ -22,8 +27,9 @@ std::vector<Candidate> brute_force(const Workload& /*workload*/) { return {defau
 
 }  // namespace
 
-const std::array<Baseline, 4>& baselines() {
-  static const std::array<Baseline, 4> all{{{"best_constant", "best constant", false, box_trees},
+const std::array<Baseline, 5>& baselines() {
+  static const std::array<Baseline, 5> all{{{"best_constant", "best constant", false, box_trees},
+                                            {"usual_shape", "usual shape", true, usual_box_tree},
                                             {"paper_rule", "paper's rule", true, by_paper_rule},
                                             {"always_embree", "always Embree", false, embree},
                                             {"always_brute_force", "always brute force", false, brute_force}}};

@@ -19,9 +19,10 @@ struct Baseline {
 };
 
 /// best constant        box trees with a fan-out of 4, 8 or 16 and leaves of 16 or 64
+/// usual shape          box tree with the shape of usual_shape()
 /// paper's rule         model::paper_rule
 /// always Embree        bvh with quality low or medium
 /// always brute force   brute-force
-[[nodiscard]] const std::array<Baseline, 4>& baselines();
+[[nodiscard]] const std::array<Baseline, 5>& baselines();
 
 }  // namespace detp::validate

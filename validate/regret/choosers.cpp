@@ -17,11 +17,12 @@ Choice estimate(const Job& job, const CostTable& costs, int threads) {
 
 Choice by_pilot(const PilotChoice& found, double seconds_before) {
   const Piloted& choice = found.choice();
-  return {choice.candidate, choice.time.total(), seconds_before + found.pilot_seconds, choice.threads};
+  return {choice.candidate, found.predicted ? choice.time.total() : 0, seconds_before + found.pilot_seconds,
+          choice.threads};
 }
 
-Choice pilot(const sim::Problem& problem, const CostTable& costs, int threads) {
-  return by_pilot(choose_by_pilot(problem, costs, {.threads = threads}), 0);
+Choice pilot(const sim::Problem& problem, const CostTable& costs, int threads, bool only_choice) {
+  return by_pilot(choose_by_pilot(problem, costs, {.threads = threads, .only_choice = only_choice}), 0);
 }
 
 Choice structural(const sim::Problem& problem, const Job& job, const CostTable& costs, int threads) {
@@ -44,7 +45,9 @@ Choice measure(const sim::Problem& problem, const CostTable& costs, int threads)
 
 std::vector<Chooser> all_choosers(const CostTable& costs) {
   return {{"pilot", [costs](const sim::Problem& problem, const Job& /*job*/,
-                            int threads) { return pilot(problem, costs, threads); }},
+                            int threads) { return pilot(problem, costs, threads, false); }},
+          {"run", [costs](const sim::Problem& problem, const Job& /*job*/,
+                          int threads) { return pilot(problem, costs, threads, true); }},
           {"structural", [costs](const sim::Problem& problem, const Job& job,
                                  int threads) { return structural(problem, job, costs, threads); }},
           {"estimate", [costs](const sim::Problem& /*problem*/, const Job& job,

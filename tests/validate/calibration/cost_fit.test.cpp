@@ -63,6 +63,19 @@ void check_recovered(const UnitCosts& costs, Technique technique) {
 }  // namespace
 
 TEST_SUITE("known answer") {
+  TEST_CASE("a cost whose count no run has keeps its usual ratio to the others") {
+    UnitCosts usual = zero_costs();
+    usual.cull_test = usual.disc_test = 1e-9;
+    usual.sort = 5e-8;
+    usual.ray = 6e-9;
+    UnitCosts slower = usual;
+    for (const UnitCostTerm& term : unit_cost_terms) slower.*term.cost *= 3;
+    usual.uncached = 7e-9;  // of more discs than the runs have
+    const auto runs = exact_runs(slower, Technique::sphere_cache);
+    CHECK(validate::fit_costs(runs, Technique::sphere_cache, usual).costs.uncached == doctest::Approx(21e-9));
+    CHECK(validate::fit_costs(runs, Technique::sphere_cache).costs.uncached == 0);
+  }
+
   TEST_CASE("the fit recovers the costs that made the times") {
     UnitCosts lists = zero_costs();
     lists.cull_test = 1e-9;

@@ -138,6 +138,7 @@ TEST_SUITE("end to end") {
                                          {"i", 0},
                                          {"e", 0},
                                          {"m", 0},
+                                         {"o", 0},
                                          {"a", 0}});
     const Json choose = result_of("choose --costs t=3,u=2,w=1,v=1,n=1" + numbers).at("inputs");
     CHECK(choose.at("unit_costs").at("t") == 3);
