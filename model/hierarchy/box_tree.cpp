@@ -26,16 +26,6 @@ struct TreeCounts {
   double made = 0;
 };
 
-}  // namespace box_tree
-
-namespace {
-
-using box_tree::CellKind;
-using box_tree::Leaves;
-using box_tree::LevelNodes;
-using box_tree::Sums;
-using box_tree::TreeCounts;
-
 /// Joins the inner nodes of the binary tree to wide nodes.
 class Widening {
  public:
@@ -158,6 +148,17 @@ class Widening {
   std::vector<std::pair<std::size_t, double>> frontier_;
   std::vector<std::pair<std::size_t, double>> next_;
 };
+
+}  // namespace box_tree
+
+namespace {
+
+using box_tree::CellKind;
+using box_tree::Leaves;
+using box_tree::LevelNodes;
+using box_tree::Sums;
+using box_tree::TreeCounts;
+using box_tree::Widening;
 
 }  // namespace
 

@@ -4,6 +4,22 @@
 #include <utility>
 
 namespace detp::validate {
+namespace {
+
+double cautious_seconds(const model::Ranked& one) {
+  const Technique technique = one.candidate.technique;
+  const bool compared = technique == Technique::brute_force || technique == Technique::box_tree;
+  return one.time.total() * (compared || one.extrapolated.empty() ? 1 : closed_form_doubt);
+}
+
+void move_choice_to_front(std::vector<model::Ranked>& ranking) {
+  const auto choice = std::min_element(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) {
+    return cautious_seconds(a) < cautious_seconds(b);
+  });
+  if (choice != ranking.end()) std::rotate(ranking.begin(), choice, choice + 1);
+}
+
+}  // namespace
 
 std::vector<model::Ranked> allowed_ranking(const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                            std::span<const Technique> disabled, const model::SearchLimits& limits) {
@@ -11,13 +27,15 @@ std::vector<model::Ranked> allowed_ranking(const Valid<Workload>& workload, cons
   const auto removed = std::erase_if(ranking, [&](const model::Ranked& one) {
     return std::find(disabled.begin(), disabled.end(), one.candidate.technique) != disabled.end();
   });
-  if (removed == 0) return ranking;
-  for (model::Ranked& one : ranking) {
-    if (one.tuned || limits.stop.stop_requested()) continue;
-    if (auto best = model::best_of(one.candidate.technique, workload, costs, limits)) one = std::move(*best);
+  if (removed > 0) {
+    for (model::Ranked& one : ranking) {
+      if (one.tuned || limits.stop.stop_requested()) continue;
+      if (auto best = model::best_of(one.candidate.technique, workload, costs, limits)) one = std::move(*best);
+    }
+    std::stable_sort(ranking.begin(), ranking.end(),
+                     [](const auto& a, const auto& b) { return a.time.total() < b.time.total(); });
   }
-  std::stable_sort(ranking.begin(), ranking.end(),
-                   [](const auto& a, const auto& b) { return a.time.total() < b.time.total(); });
+  move_choice_to_front(ranking);
   return ranking;
 }
 

@@ -2,13 +2,12 @@
 
 #include <algorithm>
 
+#include "allowed_ranking.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "measure.hpp"
 
 namespace detp::validate {
 namespace {
-
-constexpr double doubt = 2;  ///< by which a closed form may be off
 
 /// The least counts with which any technique can find the hits, other than brute force.
 Counts<double> least_counts(const SearchSize& size, double hits) {
@@ -39,13 +38,13 @@ class Comparison {
       return found_.unexamined.push_back(technique);
     const model::SearchLimits limits{.threads = prices_.most_threads,
                                      .stop = options_.stop,
-                                     .fastest = doubt * best() * prices_.most_threads};  // on one thread
+                                     .fastest = closed_form_doubt * best() * prices_.most_threads};  // on one thread
     const auto tuned = model::best_of(technique, workload(), prices_.costs, limits);
     if (!tuned) return found_.unexamined.push_back(technique);
     const double seconds = tuned->time.total();
-    if (seconds >= doubt * best()) return found_.ruled_out.push_back({technique, seconds, false});
+    if (seconds >= closed_form_doubt * best()) return found_.ruled_out.push_back({technique, seconds, false});
     found_.candidates.push_back(
-        {tuned->candidate, tuned->counts, tuned->time, tuned->threads, seconds * (doubt - 1), true});
+        {tuned->candidate, tuned->counts, tuned->time, tuned->threads, seconds * (closed_form_doubt - 1), true});
   }
 
  private:
@@ -53,10 +52,7 @@ class Comparison {
   [[nodiscard]] bool can_measure() const { return options_.workload || !problem_.rays().empty(); }
 
   /// Whether closed forms, and the measurements that they need, take less than some 2 % of the best.
-  [[nodiscard]] bool worth_finding() const {
-    const double measuring = options_.workload ? 0 : 1.4e-7 * std::min(size_.discs, 131'072.0);  // seconds
-    return best() > 50 * (0.002 + measuring);
-  }
+  [[nodiscard]] bool worth_finding() const { return best() > 50 * 0.0025; }
 
   const Workload& workload() {
     if (!workload_) {

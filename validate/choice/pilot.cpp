@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "box_tree_bound.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
 #include "detp/sim/base/stop_check.hpp"
@@ -109,6 +110,16 @@ Piloted usual_box_tree(const SearchSize& size, const Prices& prices) {
   return priced({Technique::box_tree, shape}, counts, prices, 0);
 }
 
+/// The least time that any box tree takes: that of preparing, and of the search only if it decides whether brute force,
+/// which takes `brute` seconds, is faster.
+double least_box_tree_seconds(const sim::Problem& problem, std::span<const sim::Ray> sample, const SearchSize& size,
+                              double preparing, double brute, const Prices& prices) {
+  constexpr double longest_search = 0.5;  // over the time of preparing; brute force is faster only if rays are few
+  if (brute < preparing || brute > (1 + longest_search) * preparing) return preparing;
+  const std::span<const sim::Ray> rays = problem.rays().empty() ? sample : problem.rays();
+  return prices(least_box_tree_counts(problem, rays, size.rays), Technique::box_tree).time.total();
+}
+
 /// Sorts by time, but with the choice first: the candidate that is fastest even if closed forms and unit costs are off.
 /// A box tree needs `preparing` less than its time, because its discs are sorted already.
 void sort_by_time(std::vector<Piloted>& candidates, double preparing) {
@@ -169,11 +180,12 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
                         : options.workload    ? model::expected_hits(*options.workload)
                                               : 0;
     const Piloted brute = brute_force(size, hits, prices);
-    if (seconds(brute) < preparing) {  // to sort the discs would take longer
+    const double least = least_box_tree_seconds(problem, sample, size, preparing, seconds(brute), prices);
+    if (seconds(brute) < least) {
       sim::Problem of_sample = problem;
       sim::set_rays(of_sample, sample);  // checks the sample, as a pilot does
       found.candidates = {brute};
-      found.ruled_out = {{Technique::box_tree, preparing, true}};
+      found.ruled_out = {{Technique::box_tree, least, true}};
       compare_others(problem, size, prices, options, found);
       found.pilot_seconds = watch.seconds();
       return found;

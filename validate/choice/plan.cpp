@@ -6,12 +6,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
+#include "allowed_ranking.hpp"
 #include "late_searcher.hpp"
 #include "measure.hpp"
 #include "pilot.hpp"
@@ -124,7 +124,7 @@ class Plan::Planner {
     basis_->workload->rays = basis_->rays;
     const int threads = sim::useful_threads(options_.threads);
     for (const model::Ranked& one :
-         model::rank(*basis_->workload, options_.costs, {.threads = threads, .stop = options_.stop}))
+         allowed_ranking(*basis_->workload, options_.costs, {}, {.threads = threads, .stop = options_.stop}))
       basis_->candidates.push_back({one.candidate, one.time.total(), 0, one.threads});
     seconds_ += watch.seconds();
     remember(Rigor::estimate, true);  // techniques without a closed form were not examined

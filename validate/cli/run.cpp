@@ -13,6 +13,7 @@
 #include "detp/sim/files/writing_check.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/validate/base/search_work.hpp"
+#include "detp/validate/choice/allowed_ranking.hpp"
 #include "detp/validate/choice/pilot.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"
@@ -53,9 +54,9 @@ int chosen_threads(const Candidate& candidate, const Workload& workload, const C
 /// at most so many. The closed forms also choose the parameters that the options leave open.
 Choice complete(const CandidateOptions& options, const Workload& workload, const CostTable& costs, int threads) {
   const int most = sim::useful_threads(threads);
-  const Technique technique = options.technique
-                                  ? options.technique_or(Technique::brute_force)
-                                  : model::rank(workload, costs, {.threads = most}).front().candidate.technique;
+  const Technique technique =
+      options.technique ? options.technique_or(Technique::brute_force)
+                        : validate::allowed_ranking(workload, costs, {}, {.threads = most}).front().candidate.technique;
   const model::FixedParameters fixed = options.fixed_parameters(technique);
   auto candidate = model::complete(technique, fixed, workload, costs);
   if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));

@@ -1,8 +1,8 @@
 #include "choosers.hpp"
 
-#include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/searcher.hpp"
+#include "detp/validate/choice/allowed_ranking.hpp"
 #include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/choice/structural_choice.hpp"
 
@@ -11,7 +11,7 @@ namespace {
 
 Choice estimate(const Job& job, const CostTable& costs, int threads) {
   const sim::Stopwatch watch;
-  const model::Ranked first = model::rank(job.workload, costs, {.threads = threads}).front();
+  const model::Ranked first = allowed_ranking(job.workload, costs, {}, {.threads = threads}).front();
   return {first.candidate, first.time.total(), job.measure_seconds + watch.seconds(), first.threads};
 }
 

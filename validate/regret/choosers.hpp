@@ -26,7 +26,7 @@ struct Chooser {
 ///     pilot      choose_by_pilot; choosing_seconds do not include sorting the discs, which the run needs anyway
 ///     run        the same for the choice only, as in `detp run`: short searches take the usual shape, with no prediction
 ///     structural choose_by_structure; choosing_seconds include those of measuring the workload, but not the sorting
-///     estimate   the first candidate of model::rank for the job's workload; choosing_seconds include those of
+///     estimate   the first candidate of allowed_ranking for the job's workload; choosing_seconds include those of
 ///                measuring the workload
 ///     measure    analyse, from the candidates of a pilot; predicted are the measured seconds
 [[nodiscard]] std::vector<Chooser> all_choosers(const CostTable& costs);

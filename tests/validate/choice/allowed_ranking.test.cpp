@@ -47,6 +47,25 @@ TEST_SUITE("known answer") {
     }
     CHECK(was_untuned);
   }
+
+  TEST_CASE("a sphere cache with extrapolated counts comes first only if it wins with twice its time") {
+    const auto first = [](double dimension, double seconds_over_others) {
+      Workload workload = cube_workload(1e5, 2e4, 0.02, 2);
+      workload.dimension = dimension;
+      CostTable costs = validate::built_in_unit_costs();
+      const auto ranking = model::rank(workload, costs);
+      const double sphere_cache = model::best_of(Technique::sphere_cache, workload, costs)->time.total();
+      REQUIRE(ranking.front().candidate.technique == Technique::box_tree);
+      UnitCosts& scaled = costs[Technique::sphere_cache];
+      for (const UnitCostTerm& term : unit_cost_terms)
+        scaled.*term.cost *= seconds_over_others * ranking.front().time.total() / sphere_cache;
+      return validate::allowed_ranking(workload, costs, {}).front().candidate.technique;
+    };
+    CHECK(first(2, 0.7) == Technique::sphere_cache);
+    CHECK(first(2, 1.2) == Technique::box_tree);
+    CHECK(first(2.3, 0.7) == Technique::box_tree);  // between the dimensions with which closed forms were compared
+    CHECK(first(2.3, 0.4) == Technique::sphere_cache);
+  }
 }
 
 TEST_SUITE("bad input") {
