@@ -6,12 +6,12 @@
 #include <type_traits>
 #include <utility>
 
+#include "allowed_ranking.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
-#include "allowed_ranking.hpp"
 #include "late_searcher.hpp"
 #include "measure.hpp"
 #include "pilot.hpp"
