@@ -11,6 +11,7 @@
 #include <cstdint>
 
 #include "disc_tree.hpp"
+#include "kept_lanes-inl.hpp"
 #include "ray_list.hpp"
 
 /// The inner loops: a list of rays of one class against one box, one sphere, one disc.
@@ -44,23 +45,22 @@ HWY_INLINE Mask in_list(std::size_t first, std::size_t size) {
 
 /// Appends to `to` the kept lanes of the vector at `first` of `from`.
 ///
-/// One Compress computes the places of the kept lanes. Each array is then permuted. (A Compress for each array would
-/// take five cycles on Zen 5, and a table lookup without AVX-512.)
+/// The numbers of the kept lanes are found once. Each array is then permuted. (A Compress for each array would take five
+/// cycles on Zen 5, and a table lookup without AVX-512.)
 template <bool segments>
 HWY_INLINE void append(const RayList& from, std::size_t first, Floats a, Floats b, Floats p, Floats q, Mask kept,
                        RayList& to) {
   const FloatLanes lanes;
   const WordLanes words;
-  const hn::RebindToSigned<WordLanes> numbers;
-  const auto kept_lanes = hn::Compress(hn::Iota(numbers, 0), hn::RebindMask(numbers, kept));
-  const auto places = hn::IndicesFromVec(lanes, kept_lanes);
+  const auto chosen = kept_lanes(lanes, kept);
+  const auto places = hn::IndicesFromVec(lanes, chosen);
   const std::size_t end = to.size;
   hn::StoreU(hn::TableLookupLanes(a, places), lanes, to.a + end);
   hn::StoreU(hn::TableLookupLanes(b, places), lanes, to.b + end);
   hn::StoreU(hn::TableLookupLanes(p, places), lanes, to.p + end);
   hn::StoreU(hn::TableLookupLanes(q, places), lanes, to.q + end);
   const auto ids = hn::Load(words, from.id + first);
-  hn::StoreU(hn::TableLookupLanes(ids, hn::IndicesFromVec(words, kept_lanes)), words, to.id + end);
+  hn::StoreU(hn::TableLookupLanes(ids, hn::IndicesFromVec(words, chosen)), words, to.id + end);
   if constexpr (segments) {
     hn::StoreU(hn::TableLookupLanes(hn::Load(lanes, from.from + first), places), lanes, to.from + end);
     hn::StoreU(hn::TableLookupLanes(hn::Load(lanes, from.to + first), places), lanes, to.to + end);

@@ -65,7 +65,8 @@ HWY_INLINE void keep_hits(const BlockSearch& block, Mask hit, const std::uint32_
   const WordLanes words;
   if (hn::AllFalse(lanes, hit)) return;
   HWY_ALIGN std::uint32_t found[padding] = {};
-  hn::StoreU(hn::Compress(hn::Load(words, ids), hn::RebindMask(words, hit)), words, found);
+  const auto places = hn::IndicesFromVec(words, kept_lanes(lanes, hit));
+  hn::StoreU(hn::TableLookupLanes(hn::Load(words, ids), places), words, found);
   const std::size_t count = hn::CountTrue(lanes, hit);
   const Ray* const first = block.problem.rays().data() + block.first_ray;
   DiscTotals& totals = block.totals[place];

@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "kept_lanes-inl.hpp"
+
 HWY_BEFORE_NAMESPACE();
 namespace detp::sim::stream {
 namespace HWY_NAMESPACE {
@@ -47,13 +49,11 @@ struct Lines {
   HWY_INLINE void append(Mask chosen, RayList& list) const {
     const FloatLanes floats;
     const WordLanes words;
-    const hn::RebindToSigned<WordLanes> numbers;
     std::uint8_t bits[8] = {};
     hn::StoreMaskBits(DoubleLanes(), hn::And(chosen, near), bits);
     const auto kept = hn::LoadMaskBits(floats, bits);
-    // As in kernels-inl.hpp: one Compress gives the places in all arrays.
-    const auto kept_lanes = hn::Compress(hn::Iota(numbers, 0), hn::RebindMask(numbers, kept));
-    const auto places = hn::IndicesFromVec(floats, kept_lanes);
+    const auto numbers = kept_lanes(floats, kept);
+    const auto places = hn::IndicesFromVec(floats, numbers);
     const std::size_t end = list.size;
     hn::StoreU(hn::TableLookupLanes(a, places), floats, list.a + end);
     hn::StoreU(hn::TableLookupLanes(b, places), floats, list.b + end);
@@ -61,7 +61,7 @@ struct Lines {
     hn::StoreU(hn::TableLookupLanes(q, places), floats, list.q + end);
     hn::StoreU(hn::TableLookupLanes(from, places), floats, list.from + end);
     hn::StoreU(hn::TableLookupLanes(to, places), floats, list.to + end);
-    hn::StoreU(hn::TableLookupLanes(id, hn::IndicesFromVec(words, kept_lanes)), words, list.id + end);
+    hn::StoreU(hn::TableLookupLanes(id, hn::IndicesFromVec(words, numbers)), words, list.id + end);
     list.size = end + hn::CountTrue(floats, kept);
   }
 };
