@@ -22,9 +22,9 @@ namespace detp::validate {
 namespace {
 
 constexpr double side = 1;
-constexpr double longest_run = 0.06;     ///< seconds; a longer run is stopped and left out
-constexpr double longest_of_many = 0.2;  ///< the same with many discs
-constexpr double enough_timed = 0.015;   ///< seconds after which a run is not repeated again
+constexpr double longest_run = 0.06;      ///< seconds; a longer run is stopped and left out
+constexpr double longest_of_large = 0.2;  ///< the same with many discs or many rays
+constexpr double enough_timed = 0.015;    ///< seconds after which a run is not repeated again
 constexpr int least_repeats = 2;
 constexpr int most_repeats = 7;
 
@@ -35,8 +35,9 @@ struct Setting {
   double radius;
 };
 
-/// More discs than the last-level cache holds. Only techniques with short runs are timed on them.
-constexpr std::size_t many_discs = 200'000;
+/// More discs, or more rays, than the last-level cache holds. Only techniques with short runs are timed on them.
+constexpr std::size_t many = 200'000;
+bool is_large(const Setting& setting) { return setting.samples > many || setting.rays > many; }
 
 constexpr std::size_t least_workloads = 16;  ///< measured even if that takes longer than asked
 
@@ -61,11 +62,12 @@ std::vector<Setting> settings() {
     const bool small = one.samples <= 1000 && one.rays <= 1000;
     (small && first.size() < least_workloads ? first : mixed).push_back(one);
   }
-  const std::vector<Setting> large{{sim::Body::cube, 300'000, 100, 0.004},
-                                   {sim::Body::cube_faces, 1'000'000, 1000, 0.0005},
-                                   {sim::Body::cube_faces, 300'000, 10'000, 0.002},
-                                   {sim::Body::cube, 600'000, 100, 0.001}};
-  constexpr std::size_t apart = 4;
+  const std::vector<Setting> large{
+      {sim::Body::cube, 300'000, 100, 0.004},           {sim::Body::cube, 100, 1'000'000, 0.03},
+      {sim::Body::cube_faces, 1'000'000, 1000, 0.0005}, {sim::Body::cube_faces, 1000, 300'000, 0.01},
+      {sim::Body::cube_faces, 300'000, 10'000, 0.002},  {sim::Body::cube, 1000, 1'000'000, 0.01},
+      {sim::Body::cube, 600'000, 100, 0.001},           {sim::Body::cube_faces, 10'000, 300'000, 0.01}};
+  constexpr std::size_t apart = 2;
   for (std::size_t i = 0; i < mixed.size(); ++i) {
     if (i % apart == 0 && i / apart < large.size()) first.push_back(large[i / apart]);
     first.push_back(mixed[i]);
@@ -99,9 +101,9 @@ std::vector<sim::Ray> rays_of(const Setting& setting, const std::vector<sim::Dis
   return rays;
 }
 
-/// Those whose runs are short even with many discs.
-std::vector<Candidate> candidates_of_many(std::size_t place) {
-  const int leaf = place % 2 == 0 ? 64 : 256;
+/// Those whose runs are short even with many discs or many rays.
+std::vector<Candidate> candidates_of_large(const Setting& setting, std::size_t place) {
+  const int leaf = setting.rays > setting.samples ? 8 : place % 2 == 0 ? 64 : 256;
   return {{Technique::brute_force, BruteForceParameters{}},
           {Technique::box_tree, BoxTreeParameters{8, leaf}},
           {Technique::box_tree, BoxTreeParameters{16, 2 * leaf}}};
@@ -109,7 +111,7 @@ std::vector<Candidate> candidates_of_many(std::size_t place) {
 
 /// Parameters from too coarse to too fine; `place` varies them from setting to setting.
 std::vector<Candidate> candidates(const Setting& setting, std::size_t place) {
-  if (setting.samples > many_discs) return candidates_of_many(place);
+  if (is_large(setting)) return candidates_of_large(setting, place);
   const auto pick = [&](auto... values) {
     const std::array list{values...};
     return list[place % list.size()];
@@ -219,7 +221,7 @@ class Calibrator {
   /// Counts the candidate's operations, then times it, unless it takes too long.
   void measure(const sim::Problem& problem, const Setting& setting, const Candidate& candidate, Engine engine,
                std::size_t place) {
-    const double longest = setting.samples > many_discs ? longest_of_many : longest_run;
+    const double longest = is_large(setting) ? longest_of_large : longest_run;
     const StopAfter limit(options_.stop, longest);
     const sim::Outcome counted = sim::run(problem, candidate, {.engine = engine, .stop = limit.token()});
     if (counted.stopped) too_long_.push_back({candidate.technique, engine, setting});
