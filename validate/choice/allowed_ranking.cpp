@@ -6,11 +6,7 @@
 namespace detp::validate {
 namespace {
 
-double cautious_seconds(const model::Ranked& one) {
-  const Technique technique = one.candidate.technique;
-  const bool compared = technique == Technique::brute_force || technique == Technique::box_tree;
-  return one.time.total() * (compared || one.extrapolated.empty() ? 1 : closed_form_doubt);
-}
+double cautious_seconds(const model::Ranked& one) { return one.time.total() * doubt_of(one); }
 
 void move_choice_to_front(std::vector<model::Ranked>& ranking) {
   const auto choice = std::min_element(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) {
@@ -20,6 +16,12 @@ void move_choice_to_front(std::vector<model::Ranked>& ranking) {
 }
 
 }  // namespace
+
+double doubt_of(const model::Ranked& one) {
+  const Technique technique = one.candidate.technique;
+  const bool compared = technique == Technique::brute_force || technique == Technique::box_tree;
+  return compared || one.extrapolated.empty() ? 1 : closed_form_doubt;
+}
 
 std::vector<model::Ranked> allowed_ranking(const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                            std::span<const Technique> disabled, const model::SearchLimits& limits) {

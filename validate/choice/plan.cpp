@@ -113,7 +113,11 @@ class Plan::Planner {
   }
 
   Plan from_memory(const RememberedChoice& choice) {
-    basis_->candidates = {{choice.candidate, choice.predicted_seconds, choice.predicted_error, choice.threads}};
+    basis_->candidates = {{.candidate = choice.candidate,
+                           .seconds = choice.predicted_seconds,
+                           .error = choice.predicted_error,
+                           .threads = choice.threads}};
+    assess_for_replans();
     return built(choice.rigor, true);
   }
 
@@ -125,7 +129,12 @@ class Plan::Planner {
     const int threads = sim::useful_threads(options_.threads);
     for (const model::Ranked& one :
          allowed_ranking(*basis_->workload, options_.costs, {}, {.threads = threads, .stop = options_.stop}))
-      basis_->candidates.push_back({one.candidate, one.time.total(), 0, one.threads});
+      basis_->candidates.push_back({.candidate = one.candidate,
+                                    .seconds = one.time.total(),
+                                    .error = 0,
+                                    .threads = one.threads,
+                                    .doubt = doubt_of(one)});
+    assess_for_replans();
     seconds_ += watch.seconds();
     remember(Rigor::estimate, true);  // techniques without a closed form were not examined
     return built(Rigor::estimate, false);
@@ -139,12 +148,28 @@ class Plan::Planner {
                              options_.costs, {.threads = options_.threads, .for_replans = true, .stop = options_.stop});
     });
     for (const Piloted& one : choice.candidates)
-      basis_->candidates.push_back({one.candidate, one.time.total(), one.error, one.threads, one.counts_at});
+      basis_->candidates.push_back({.candidate = one.candidate,
+                                    .seconds = one.time.total(),
+                                    .error = one.error,
+                                    .threads = one.threads,
+                                    .counts_at = one.counts_at});
     if (choice.discs) basis_->order = choice.discs->order();
     seconds_ += watch.seconds() - choice.sort_seconds;
     remember(Rigor::pilot, !choice.unexamined.empty());
     report("building the index", 0.6, 1);
     return planned(Rigor::pilot, false, build_choice(choice, basis_->problem, building_));
+  }
+
+  /// Sets what replans need to know of candidates without counts of a pilot.
+  void assess_for_replans() {
+    for (PlanCandidate& one : basis_->candidates) {
+      if (!model::has_closed_form(one.candidate.technique)) continue;
+      try {
+        const int threads = sim::useful_threads(options_.threads);
+        one.closed_form_seconds = model::assess(*basis_->workload, one.candidate, options_.costs, threads).time.total();
+      } catch (const std::invalid_argument&) {  // no closed form for these parameters
+      }
+    }
   }
 
   void remember(Rigor rigor, bool cut_off) const {

@@ -16,6 +16,8 @@ struct PlanCandidate {
   double seconds;
   double error;  ///< standard error of the seconds
   int threads = 1;
+  double doubt = 1;                ///< it is compared as if it took so many times as long
+  double closed_form_seconds = 0;  ///< by its closed form, for the basis's workload; 0: there is none
   /// its counts with another radius and number of rays, as Piloted::counts_at; may be empty
   std::function<Counts<double>(double radius_ratio, double rays)> counts_at = {};
 };
@@ -36,5 +38,10 @@ struct Plan::Basis {
 [[nodiscard]] std::unique_ptr<sim::Index> build_index(const sim::Problem& problem, const Candidate& candidate,
                                                       const std::optional<sim::DiscOrder>& order,
                                                       const sim::RunOptions& options);
+
+/// The least ratio of times of any search and its preparation, with radii and numbers of rays of these ratios. Tests are
+/// proportional to areas, and discs in cells to volumes, of bodies that are grown by the radius: these are polynomials of
+/// the radius, of the second and third degree, without negative coefficients (Steiner's formula).
+[[nodiscard]] double least_time_ratio(double radius_ratio, double rays_ratio);
 
 }  // namespace detp::validate

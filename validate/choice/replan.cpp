@@ -20,19 +20,9 @@ struct Replanned {
   const PlanCandidate* candidate = nullptr;
   double seconds = std::numeric_limits<double>::infinity();
   int threads = 1;
-};
 
-/// The ratio by which the closed form changes the time of a candidate, or that of the numbers of rays where there is none.
-double time_ratio(const Candidate& candidate, const Workload& before, const Workload& now, const CostTable& costs,
-                  int most_threads) {
-  try {
-    if (model::has_closed_form(candidate.technique))
-      return model::assess(now, candidate, costs, most_threads).time.total() /
-             model::assess(before, candidate, costs, most_threads).time.total();
-  } catch (const std::invalid_argument&) {  // no closed form for these parameters
-  }
-  return now.rays / before.rays;
-}
+  [[nodiscard]] double judged_seconds() const { return candidate == nullptr ? seconds : seconds * candidate->doubt; }
+};
 
 /// The discs with another radius.
 std::vector<sim::Disc> resized(std::span<const sim::Disc> discs, double radius, const std::stop_token& stop) {
@@ -48,6 +38,11 @@ std::vector<sim::Disc> resized(std::span<const sim::Disc> discs, double radius, 
 
 }  // namespace
 
+double least_time_ratio(double radius_ratio, double rays_ratio) {
+  const double least = std::min(1.0, radius_ratio);
+  return least * least * least * std::min(1.0, rays_ratio);
+}
+
 Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
   const sim::Stopwatch watch;
   const Plan::Basis& basis = *plan.basis_;
@@ -58,21 +53,29 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
   const double count = rays.value_or(plan.rays_);
   require_count("number of rays", count, 1, 1e18);
   const int most_threads = sim::useful_threads(basis.options.threads);
-  const auto replanned = [&](const PlanCandidate& one) -> Replanned {
-    if (one.counts_at) {
-      Counts<double> counts = one.counts_at(disc_radius / basis.radius, count);
-      if (basis.order) counts.sorted = 0;
-      const auto fastest = fastest_price(counts, basis.options.costs, one.candidate.technique, most_threads);
-      return {&one, fastest.time.total(), fastest.threads};
+  const double least_ratio = least_time_ratio(disc_radius / basis.radius, count / basis.rays);
+  std::optional<Workload> now;
+  const auto by_closed_form = [&](const PlanCandidate& one) -> Replanned {
+    if (!(one.closed_form_seconds > 0)) return {&one, one.seconds * count / basis.rays, one.threads};
+    if (!now) {
+      now = with_disc_radius(*basis.workload, disc_radius);
+      now->rays = count;
     }
-    Workload now = with_disc_radius(*basis.workload, disc_radius);
-    now.rays = count;
-    const double ratio = time_ratio(one.candidate, *basis.workload, now, basis.options.costs, most_threads);
-    return {&one, one.seconds * ratio, one.threads};
+    const model::Ranked found = model::assess(*now, one.candidate, basis.options.costs, most_threads);
+    return {&one, one.seconds * found.time.total() / one.closed_form_seconds, found.threads};
+  };
+  const auto by_pilot = [&](const PlanCandidate& one) -> Replanned {
+    Counts<double> counts = one.counts_at(disc_radius / basis.radius, count);
+    if (basis.order) counts.sorted = 0;
+    const auto fastest = fastest_price(counts, basis.options.costs, one.candidate.technique, most_threads);
+    return {&one, fastest.time.total(), fastest.threads};
   };
   Replanned best;
-  for (const PlanCandidate& one : basis.candidates)
-    if (const Replanned now = replanned(one); now.seconds < best.seconds || best.candidate == nullptr) best = now;
+  for (const PlanCandidate& one : basis.candidates) {
+    if (!one.counts_at && one.seconds * one.doubt * least_ratio >= best.judged_seconds()) continue;  // it cannot win
+    const Replanned found = one.counts_at ? by_pilot(one) : by_closed_form(one);
+    if (found.judged_seconds() < best.judged_seconds() || best.candidate == nullptr) best = found;
+  }
   Plan made(plan.basis_, best.candidate->candidate);
   made.searcher_ =
       std::make_shared<LateSearcher>([shared = plan.basis_, candidate = made.candidate_, disc_radius,

@@ -6,11 +6,14 @@
 #include <thread>
 #include <vector>
 
+#include "detp/model/rank/choose.hpp"
+#include "detp/model/rank/registry.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/choice/plan.hpp"
+#include "detp/validate/choice/plan_basis.hpp"
 #include "detp/validate/choice/plan_memory.hpp"
 
 using namespace detp;
@@ -139,6 +142,47 @@ TEST_SUITE("known answer") {
     CHECK(replan(first, 0.003).predicted_seconds() < first.predicted_seconds());
     CHECK(replan(first, 0.12).predicted_seconds() > first.predicted_seconds());
     CHECK(replan(first, first_radius, 1e6).predicted_seconds() > 5 * first.predicted_seconds());
+  }
+
+  TEST_CASE("a plan by closed forms keeps its choice for the same radius, extrapolated or not") {
+    const auto discs = discs_with(first_radius);  // on faces: most closed forms are extrapolated
+    const auto rays = rays_of_pass(1, 1500);
+    for (const double number : {10.0, 1e3, 1e5, 1e7})
+      for (double factor = 1; factor > 0.01; factor *= 0.7) {  // for some, the cells' spheres are faster, but not twice
+        CAPTURE(factor);
+        validate::PlanOptions options{.rays = number, .farthest = 2e12};
+        for (const auto& term : unit_cost_terms) options.costs[Technique::cell_spheres].*term.cost *= factor;
+        const auto first = validate::plan(discs, rays, options);
+        REQUIRE(first.rigor() == Rigor::estimate);
+        CHECK(replan(first, first_radius).candidate() == first.candidate());
+      }
+  }
+}
+
+TEST_SUITE("bound") {
+  TEST_CASE("no closed form falls faster with the radius and the number of rays than replans assume") {
+    for (const double samples : {300.0, 1e4, 1e6})
+      for (const double radius : {0.002, 0.02})
+        for (const double radius_ratio : {0.3, 0.9, 1.2, 4.0})
+          for (const double rays_ratio : {0.01, 1.0, 30.0})
+            for (const Technique technique : all_techniques) {
+              if (!model::has_closed_form(technique)) continue;
+              CAPTURE(name(technique));
+              Workload before{.rays = 1e5,
+                              .samples = samples,
+                              .disc_radius = radius,
+                              .sphere_radius = 1,
+                              .box = {1, 1, 1},
+                              .dimension = 2.5};
+              Workload after = before;
+              after.rays *= rays_ratio;
+              after.disc_radius *= radius_ratio;
+              const Candidate candidate = default_candidate(technique);
+              const CostTable costs;
+              const double ratio = model::assess(after, candidate, costs).time.total() /
+                                   model::assess(before, candidate, costs).time.total();
+              CHECK(ratio >= 0.999 * validate::least_time_ratio(radius_ratio, rays_ratio));
+            }
   }
 }
 
