@@ -23,6 +23,13 @@ namespace {
 
 double seconds(const Piloted& one) { return one.time.total(); }
 
+/// usual_shape with the costs' p/u; where one of these is zero, with the usual one.
+BoxTreeParameters usual_shape_of(const SearchSize& size, const Prices& prices) {
+  const UnitCosts& costs = prices.costs[Technique::box_tree];
+  const bool known = costs.leaf > 0 && costs.disc_test > 0;
+  return usual_shape(size.rays, size.discs, known ? costs.leaf / costs.disc_test : usual_placing);
+}
+
 /// Looks for the fastest box tree: halves and doubles leaf and fan-out in turn, as long as that is faster.
 class ShapeSearch {
  public:
@@ -30,7 +37,7 @@ class ShapeSearch {
       : discs_(discs), size_(size), prices_(prices), for_replans_(for_replans) {}
 
   std::vector<Piloted> run() {
-    consider(usual_shape(size_.rays, size_.discs));
+    consider(usual_shape_of(size_, prices_));
     for (BoxTreeParameters before{}; !(before == best());) {
       before = best();
       walk(&BoxTreeParameters::leaf, 4, 1024);
@@ -99,7 +106,7 @@ Piloted brute_force(const SearchSize& size, double hits, const Prices& prices) {
 Piloted usual_box_tree(const SearchSize& size, const Prices& prices) {
   constexpr double culls_of_ray = 40;
   constexpr double leaves_of_ray = 5;
-  const BoxTreeParameters shape = usual_shape(size.rays, size.discs);
+  const BoxTreeParameters shape = usual_shape_of(size, prices);
   const Counts<double> counts{.loaded = size.rays,
                               .segments = size.segments ? size.rays : 0,
                               .cull_tests = culls_of_ray * size.rays,
