@@ -14,7 +14,7 @@ Counts<double> predict(const Valid<Workload>& workload, const Valid<Candidate>& 
         fmt::format("there is no closed form of {}; it can only be run", name(candidate.technique)));
   Counts<double> counts = model_of(candidate.technique).predict(workload, candidate, engine);
   counts.loaded = workload.rays;
-  if (workload.path_length > 0) counts.segments = workload.rays;
+  if (some_rays_end(workload)) counts.segments = workload.rays;
   return counts;
 }
 

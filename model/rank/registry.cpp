@@ -243,7 +243,7 @@ std::optional<FoundParameters> best_box_tree(const Valid<Workload>& workload, co
   else
     search_leaves(workload, costs, limits, consider);
   best_counts.loaded = workload.rays;
-  if (workload.path_length > 0) best_counts.segments = workload.rays;
+  if (some_rays_end(workload)) best_counts.segments = workload.rays;
   return FoundParameters{*fastest.best(), best_counts};
 }
 

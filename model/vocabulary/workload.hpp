@@ -37,7 +37,8 @@ struct Workload {
   /// volume (D = 3) or area (D = 2) that the samples fill; 0: that of the box, or of its faces
   double sample_extent = 0;
   double sample_distance = 0;  ///< mean distance between neighbouring samples, length; 0: computed from the extent
-  double path_length = 0;      ///< mean length of the rays inside the box; 0: unbounded lines
+  double path_length = 0;      ///< mean length of the rays inside the box; 0: as for unbounded lines
+  bool rays_end = false;       ///< some rays end, so tests of them cost more
   bool front_facing = false;   ///< only rays that arrive at a disc's front count as hits
   /// empty: all discs have radius d. Otherwise classes of radii, the largest first; d is the root mean square of all
   std::vector<RadiusClass> radii = {};
@@ -68,6 +69,11 @@ void check(const Workload& workload);
 
 /// The same workload with all radii scaled so that their root mean square is `disc_radius`. S₀ grows with the largest.
 [[nodiscard]] Workload with_disc_radius(Workload workload, double disc_radius);
+
+/// Whether some rays end: rays_end, or a path length is set.
+[[nodiscard]] inline bool some_rays_end(const Workload& workload) {
+  return workload.rays_end || workload.path_length > 0;
+}
 
 /// The longest side of the samples' box: s.
 [[nodiscard]] double scene_side(const Workload& workload);

@@ -1,10 +1,10 @@
 #include <doctest/doctest.h>
 
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/validate/bench/bench.hpp"
 #include "detp/validate/choice/job.hpp"
-#include "detp/validate/choice/measure.hpp"
 #include "detp/validate/claims/experiments.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "detp/validate/sweep/sweep.hpp"

@@ -19,9 +19,7 @@
 #include "detp/sim/scene/open/open_scene.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/streamed.hpp"
-#include "far_discs.hpp"
 #include "job_progress.hpp"
-#include "measure.hpp"
 #include "outliers.hpp"
 
 namespace detp::validate {
@@ -120,10 +118,11 @@ class JobMaker {
     job_.name = scene_->name;
     job_.notices = scene_->notices;
     job_.triangles = scene_->mesh.triangles.size();
-    surface_ = {triangle_area(scene_->mesh, stop_), request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
+    job_.surface = {triangle_area(scene_->mesh, stop_),
+                    request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};
     const double side = scene_->box.longest_side();
     const double radius = request_.disc_radius ? absolute(*request_.disc_radius, side)
-                                               : default_radius(*scene_, side, surface_.edge_length);
+                                               : default_radius(*scene_, side, job_.surface.edge_length);
     job_.discs = discs_at(scene_->samples, radius, stop_);
   }
 
@@ -184,9 +183,8 @@ class JobMaker {
     const sim::Problem problem =
         sim::make_problem(job_.stream ? block : job_.rays, job_.discs, job_.front_facing, 1, stop_);
     job_.warnings = outlier_warnings(problem, stop_);
-    const sim::Stopwatch watch;
-    Workload workload = measure(problem, surface_, stop_);
-    job_.measure_seconds = watch.seconds();
+    job_.observed = sim::observe(problem, job_.surface, request_.effects, stop_);
+    Workload workload = job_.observed.workload;
     if (job_.stream)
       workload.rays = static_cast<double>(job_.stream->size());
     else if (request_.workload_only && !request_.ray_file)
@@ -210,7 +208,6 @@ class JobMaker {
   std::stop_token stop_;
   JobProgress progress_;
   std::optional<sim::Scene> scene_;
-  SurfaceFacts surface_;
   Job job_;
 };
 

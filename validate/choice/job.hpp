@@ -10,6 +10,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/phase.hpp"
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -41,6 +42,7 @@ struct JobRequest {
   std::optional<double> sample_extent;
   std::optional<sim::Field> field;
   bool front_facing = false;
+  sim::EffectSelection effects;  ///< that the workload has
   std::uint64_t seed = 1;
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
   /// block of rays is made, and the workload is measured on this block. Has no effect on rays from a file.
@@ -65,13 +67,14 @@ struct Job {
   std::unique_ptr<const sim::RaySource> stream;  ///< makes ray number i for any i; null if all rays are in memory
   sim::Field field = sim::Field::isotropic;
   std::size_t triangles = 0;
-  Workload workload;  ///< measured on discs and rays (the path length of a stream on its first block)
+  Workload workload;          ///< measured on discs and rays (the path length of a stream on its first block)
+  sim::Observed observed;     ///< the effects, and what finding them cost; its workload is that of the first block
+  sim::SurfaceFacts surface;  ///< of the scene's mesh
   sim::Notices notices;
   /// warnings about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
   bool front_facing = false;
-  double read_seconds = 0;     ///< time for reading or making scene and rays
-  double measure_seconds = 0;  ///< time for measuring the workload
+  double read_seconds = 0;  ///< time for reading or making scene and rays
 
   /// The problem. It refers to this job's rays and discs. Throws std::invalid_argument if the rays are a stream.
   [[nodiscard]] sim::Problem problem(int threads = 1, const std::stop_token& stop = {}) const {

@@ -4,7 +4,7 @@
 
 #include "allowed_ranking.hpp"
 #include "detp/model/rank/choose.hpp"
-#include "measure.hpp"
+#include "detp/sim/effects/observe.hpp"
 
 namespace detp::validate {
 namespace {
@@ -56,7 +56,7 @@ class Comparison {
 
   const Workload& workload() {
     if (!workload_) {
-      workload_ = options_.workload ? *options_.workload : measure(problem_, {}, options_.stop);
+      workload_ = options_.workload ? *options_.workload : sim::observe(problem_, {}, {}, options_.stop).workload;
       workload_->rays = size_.rays;
     }
     return *workload_;

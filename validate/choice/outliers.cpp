@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "detp/sim/base/stop_check.hpp"
-#include "far_discs.hpp"
+#include "detp/sim/effects/far_discs.hpp"
 
 namespace detp::validate {
 namespace {
@@ -22,7 +22,7 @@ std::string count_text(std::size_t some, std::size_t all, const char* what, cons
 }
 
 void warn_of_far_discs(const sim::Problem& problem, const std::stop_token& stop, std::vector<std::string>& warnings) {
-  const std::optional<FarDiscs> found = find_far_discs(problem, stop);
+  const std::optional<sim::FarDiscs> found = sim::find_far_discs(problem, stop);
   if (!found) return;
   const double all = problem.centres().longest_side();
   warnings.push_back(fmt::format(
@@ -33,7 +33,7 @@ void warn_of_far_discs(const sim::Problem& problem, const std::stop_token& stop,
 }
 
 void warn_of_large_discs(const sim::Problem& problem, sim::StopCheck& check, std::vector<std::string>& warnings) {
-  const double median = median_radius(evenly_spaced(problem.discs()));
+  const double median = sim::median_radius(sim::evenly_spaced(problem.discs()));
   const double largest = problem.radii().largest;
   const double rms = problem.radii().rms;
   if (!(largest > large_radii * median || (largest > heavy_radii * median && rms > heavy_mean * median))) return;

@@ -10,7 +10,7 @@ namespace detp::validate {
 
 /// Returns one sentence, with numbers, for each of these conditions that holds; usually none:
 ///
-///     discs far away        as far_discs.hpp says
+///     discs far away        as sim/effects/far_discs.hpp says
 ///     large discs           the largest radius is over 10 times the median radius, or over 4 times if the root mean
 ///                           square radius is over 1.1 times the median
 ///     rays from far away    an origin is over 100 r₀ from the centre of S₀

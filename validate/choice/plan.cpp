@@ -10,10 +10,10 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
 #include "late_searcher.hpp"
-#include "measure.hpp"
 #include "pilot.hpp"
 #include "plan_basis.hpp"
 #include "plan_memory.hpp"
@@ -124,7 +124,7 @@ class Plan::Planner {
   Plan by_closed_forms() {
     report("measuring discs and rays", 0.1, 0.4);
     const sim::Stopwatch watch;
-    basis_->workload = measure(problem_with_rays(), {}, options_.stop);
+    basis_->workload = sim::observe(problem_with_rays(), {}, {}, options_.stop).workload;
     basis_->workload->rays = basis_->rays;
     const int threads = sim::useful_threads(options_.threads);
     for (const model::Ranked& one :

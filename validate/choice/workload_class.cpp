@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/geometry/random.hpp"
-#include "measure.hpp"
 
 namespace detp::validate {
 namespace {
@@ -49,7 +49,8 @@ Workload sampled_workload(const sim::Problem& problem, std::span<const sim::Ray>
                           const std::stop_token& stop) {
   const std::vector<sim::Disc> discs = part_of(problem.discs(), 8192);
   const std::vector<sim::Ray> some = part_of(like, 1024);
-  Workload workload = measure(sim::make_problem(some, discs, problem.front_facing(), 1, stop), {}, stop);
+  Workload workload =
+      sim::observe(sim::make_problem(some, discs, problem.front_facing(), 1, stop), {}, {}, stop).workload;
   workload.rays = rays;
   workload.samples = static_cast<double>(problem.discs().size());
   workload.sphere_radius = problem.enclosing().radius;

@@ -128,7 +128,7 @@ std::optional<sim::Progress> decide_by_pilot(ChooseAnswer& answer, const validat
                                              job.workload.rays, costs, options);
   for (const validate::Piloted& one : answer.pilot->candidates)
     answer.ranking.push_back({one.candidate, one.counts, one.time, {}, one.threads});
-  if (structural) answer.evidence_seconds = job.measure_seconds;
+  if (structural) answer.evidence_seconds = job.observed.seconds;
   answer.choosing_seconds = answer.evidence_seconds + answer.pilot->pilot_seconds;
   check_ranking(answer, costs, threads);
   find_tips(answer, [&] { return validate::tips_of(*answer.pilot, problem, job.workload, costs, options); });
@@ -227,6 +227,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   answer.rigor = structural || rigor == Rigor::pilot ? *rigor : Rigor::estimate;
   if (request.numbers_alone() && !analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
+    answer.effects = sim::effects_of_numbers(answer.workload);
     result.stopped = decide(answer, costs, disabled, threads, stop);
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
@@ -236,6 +237,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);
     answer.workload = job.workload;
+    answer.effects = job.observed.effects;
     if (!structural && rigor != Rigor::estimate && engine == Engine::simd &&
         (!request.numbers_alone() || rigor == Rigor::measure) && !is_in(disabled, Technique::box_tree) &&
         sim::PilotedDiscs::can_pilot(job.problem()))
@@ -243,7 +245,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     if (answer.rigor != Rigor::estimate) {
       result.stopped = decide_by_pilot(answer, job, costs, disabled, threads, stop);
     } else {
-      answer.evidence_seconds = job.measure_seconds;
+      answer.evidence_seconds = job.observed.seconds;
       result.stopped = decide(answer, costs, disabled, threads, stop);
     }
     if (analyze && !result.stopped) {

@@ -1,5 +1,6 @@
 #include "choose_report.hpp"
 #include "choose_rows.hpp"
+#include "effects_report.hpp"
 #include "measured_report.hpp"
 #include "table.hpp"
 #include "workload_options.hpp"

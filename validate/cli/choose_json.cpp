@@ -5,6 +5,7 @@
 #include "choose_report.hpp"
 #include "choose_rows.hpp"
 #include "choose_tips.hpp"
+#include "effects_report.hpp"
 #include "extrapolated.hpp"
 #include "measured_report.hpp"
 #include "workload_options.hpp"
@@ -83,7 +84,7 @@ Json to_json(const ChooseAnswer& answer) {
               {"parameters", to_json(answer.paper.candidate)},
               {"threads", answer.paper.threads},
               {"predicted_seconds", answer.paper.time.total()}}},
-            {"effects", effects_json(answer.workload)},
+            {"effects", to_json(answer.effects)},
             {"rigor", name(answer.rigor)},
             {"engine", name(answer.costs.engine)},
             {"unit_costs", answer.costs_origin},

@@ -6,6 +6,7 @@
 
 #include "command.hpp"
 #include "detp/model/rank/choose.hpp"
+#include "detp/sim/effects/observe.hpp"
 #include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/choice/pilot.hpp"
 #include "detp/validate/choice/tips.hpp"
@@ -15,6 +16,7 @@ namespace detp::cli {
 struct ChooseAnswer {
   std::string title;  ///< first lines of the text: scene and rays
   Workload workload;
+  std::vector<sim::EffectReport> effects;
   std::vector<model::Ranked> ranking;          ///< fastest first
   std::optional<validate::PilotChoice> pilot;  ///< its candidates are the ranking's, in the same order
   model::Ranked paper;                         ///< the paper's rule of thumb

@@ -6,6 +6,7 @@
 #include "choose_report.hpp"
 #include "choose_table.hpp"
 #include "choose_tips.hpp"
+#include "effects_report.hpp"
 #include "measured_report.hpp"
 #include "workload_options.hpp"
 
@@ -66,22 +67,12 @@ std::string how_chosen(const ChooseAnswer& answer) {
   return fmt::format("{}{}, through parts of the tree of boxes; the discs that it sorted are kept", run, sample);
 }
 
-std::string effects_line(const Workload& workload) {
-  std::string on;
-  std::string off;
-  for (const Json& effect : effects_json(workload)) {
-    std::string& list = effect["on"].get<bool>() ? on : off;
-    list += (list.empty() ? "" : ", ") + effect["name"].get<std::string>();
-  }
-  return fmt::format("effects   on: {}; off: {}", on.empty() ? "none" : on, off.empty() ? "none" : off);
-}
-
 }  // namespace
 
 std::string to_text(const ChooseAnswer& answer, const Screen& screen) {
   std::string text = wrapped(answer.title, screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
-  add(effects_line(answer.workload));
+  add(effects_line(answer.effects));
   text += candidate_table(answer, screen) + candidate_notes(answer, screen) + "\n";
   const double fastest = answer.ranking.front().time.total();
   if (!answer.analysis || !answer.analysis->best)

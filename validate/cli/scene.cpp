@@ -9,10 +9,10 @@
 #include "detp/sim/files/mesh_writer.hpp"
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/scene/open/open_scene.hpp"
+#include "effects_report.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"
 #include "table.hpp"
-#include "text_table.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -49,33 +49,21 @@ std::string csv_of(const Json& inputs, const Json& json) {
   return table.csv();
 }
 
-std::string effects_table(const Workload& workload, const Screen& screen) {
-  TextTable table({{.head = "effect", .align = Align::left},
-                   {.head = "evidence", .align = Align::left, .spare = 1},
-                   {.head = "value"},
-                   {.head = "on", .align = Align::left}});
-  for (const Json& effect : effects_json(workload)) {
-    const bool on = effect["on"].get<bool>();
-    table.add({{effect["name"].get<std::string>()},
-               {effect["meaning"].get<std::string>()},
-               {fmt::format("{:.2f}", effect["evidence"].get<double>())},
-               {on ? "on" : "off", on ? Style::good : Style::faint}});
-  }
-  return table.text(screen);
-}
-
-std::string to_text(const validate::Job& job, const Screen& screen) {
+std::string to_text(const validate::Job& job, const std::vector<double>& if_switched, const Screen& screen) {
   const Workload& w = job.workload;
   std::string text = wrapped(describe(job), screen.text_width(), 10);
   text +=
       fmt::format("box       {:.5g} x {:.5g} x {:.5g}, r0 = {:.5g}\nsamples   {:.4g} apart, dimension D = {:.2f}\n\n",
                   w.box[0], w.box[1], w.box[2], w.sphere_radius, sample_distance(w), w.dimension);
-  text += effects_table(w, screen);
+  text += effects_table(job.observed, if_switched, screen);
   text += legend(screen,
                  "X: distance between neighbouring samples over the discs' radius d. D: dimension of the samples, 2 on "
                  "surfaces, 3 in a volume. r0: radius of S0, the sphere around all discs. on: predictions take the "
-                 "effect into account.");
-  return text + fmt::format("\nread or made in {:.3g} s\n", job.read_seconds);
+                 "effect into account. Tests if switched: predicted tests of a tree of boxes with the effect switched "
+                 "by hand, over those as it is.");
+  const sim::Observed& observed = job.observed;
+  return text + fmt::format("\nmeasured in {:.2g} ms on {} rays and {} discs; read or made in {:.3g} s\n",
+                            1e3 * observed.seconds, observed.rays, observed.discs, job.read_seconds);
 }
 
 Result run_scene(const SceneOptions& options, const CommonOptions& common, const std::stop_token& stop) {
@@ -113,11 +101,15 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
                  {"distance_over_radius", sample_distance(w) / w.disc_radius},
                  {"dimension", w.dimension},
                  {"path_length", w.path_length},
-                 {"effects", effects_json(w)},
+                 {"effects", to_json(job.observed.effects)},
+                 {"effects_seconds", job.observed.seconds},
                  {"notices", job.notices},
                  {"warnings", job.warnings},
                  {"read_seconds", job.read_seconds}};
-  result.text = to_text(job, common.screen());
+  const std::vector<double> if_switched = tests_if_switched(job, stop);
+  for (std::size_t i = 0; i < if_switched.size(); ++i)
+    if (if_switched[i] > 0) result.json["effects"][i]["tests_if_switched"] = if_switched[i];
+  result.text = to_text(job, if_switched, common.screen());
   result.csv = csv_of(result.inputs, result.json);
   return result;
 }

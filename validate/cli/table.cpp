@@ -121,11 +121,6 @@ Columns count_columns(const std::string& prefix) {
   return columns;
 }
 
-const Columns& effect_columns() {
-  static const Columns columns{"finite_paths", "finite_paths_evidence", "surface_samples", "surface_samples_evidence"};
-  return columns;
-}
-
 std::string joined(const std::vector<std::string>& texts) { return fmt::format("{}", fmt::join(texts, "; ")); }
 
 Json workload_cells(const Json& inputs) {

@@ -47,9 +47,6 @@ class Table {
 /// One column for each term of Counts, and `tests`, each after the prefix ("predicted_").
 [[nodiscard]] Columns count_columns(const std::string& prefix = "");
 
-/// The columns of effect_cells().
-[[nodiscard]] const Columns& effect_columns();
-
 /// The number, or null if it is not finite. A relative error, for instance, is not finite if all observations are zero.
 [[nodiscard]] inline Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 

@@ -94,6 +94,11 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
       },
       "isotropic (lines) or photons (paths from the scene's light); default: photons where there is a light");
   command.add_flag("--front-facing", request_.front_facing, "count only rays that arrive at a disc's front");
+  lists.add(
+      command, "--effects", Values::one, words,
+      [this](const std::string& text) { request_.effects = sim::EffectSelection(text); },
+      "deviations from uniform lines and samples that predictions take into account: auto (where the evidence calls "
+      "for them), none, all, or a list of finite-paths, surface-samples, far-samples; default: auto");
 }
 
 validate::JobRequest WorkloadOptions::request(const CommonOptions& common, bool complete) const {
@@ -217,29 +222,6 @@ Json to_json(const validate::Job& job, const validate::JobRequest& request) {
   Json json = origin_json(request, job.name, job.field);
   json.update(to_json(job.workload));
   return json;
-}
-
-Json effects_json(const Workload& workload) {
-  const double chord = 4 * workload.sphere_radius / 3;
-  return Json::array({{{"name", "finite paths"},
-                       {"on", workload.path_length > 0},
-                       {"evidence", workload.path_length > 0 ? workload.path_length / chord : 1.0},
-                       {"meaning", "mean length of the rays over the mean chord of S0"}},
-                      {{"name", "surface samples"},
-                       {"on", workload.dimension < 2.9},
-                       {"evidence", workload.dimension},
-                       {"meaning", "dimension of the samples by box counting"}}});
-}
-
-Json effect_cells(const Json& effects) {
-  Json cells = Json::object();
-  for (const Json& effect : effects) {
-    std::string name = effect["name"];
-    std::replace(name.begin(), name.end(), ' ', '_');
-    cells[name] = effect["on"];
-    cells[name + "_evidence"] = effect["evidence"];
-  }
-  return cells;
 }
 
 void note_all(const CommonOptions& common, const validate::Job& job) {

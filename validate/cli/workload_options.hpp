@@ -116,13 +116,6 @@ template <class T>
 /// Resolved inputs of a job; file names as the user wrote them.
 [[nodiscard]] Json to_json(const validate::Job& job, const validate::JobRequest& request);
 
-/// For each effect beyond the basic model (finite paths, surface samples): whether predictions take it into account,
-/// and the measured evidence for it.
-[[nodiscard]] Json effects_json(const Workload& workload);
-
-/// The effects as cells of a table, two for each effect: "finite_paths" (true or false) and "finite_paths_evidence".
-[[nodiscard]] Json effect_cells(const Json& effects);
-
 void note_all(const CommonOptions& common, const validate::Job& job);
 
 /// The lines "scene" and "rays" of the text output.

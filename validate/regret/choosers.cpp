@@ -12,7 +12,7 @@ namespace {
 Choice estimate(const Job& job, const CostTable& costs, int threads) {
   const sim::Stopwatch watch;
   const model::Ranked first = allowed_ranking(job.workload, costs, {}, {.threads = threads}).front();
-  return {first.candidate, first.time.total(), job.measure_seconds + watch.seconds(), first.threads};
+  return {first.candidate, first.time.total(), job.observed.seconds + watch.seconds(), first.threads};
 }
 
 Choice by_pilot(const PilotChoice& found, double seconds_before) {
@@ -27,7 +27,7 @@ Choice pilot(const sim::Problem& problem, const CostTable& costs, int threads, b
 
 Choice structural(const sim::Problem& problem, const Job& job, const CostTable& costs, int threads) {
   const sim::Problem for_lines = sim::searched_problem(problem.discs(), {}, problem.front_facing(), {});
-  return by_pilot(choose_by_structure(for_lines, job.workload, costs, {.threads = threads}), job.measure_seconds);
+  return by_pilot(choose_by_structure(for_lines, job.workload, costs, {.threads = threads}), job.observed.seconds);
 }
 
 /// The candidates of the pilot, the other techniques and neighbours of the fastest, each run several times.

@@ -4,7 +4,6 @@
 #include <filesystem>
 
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/validate/choice/measure.hpp"
 
 namespace detp::validate {
 namespace {
@@ -96,7 +95,8 @@ Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const st
                             workload.radius, seed);
   job.rays = sim::LineField(sim::enclosing_sphere(job.discs, stop), seed)
                  .lines(0, static_cast<std::size_t>(workload.rays), stop);
-  job.workload = measure(job.problem(1, stop), {}, stop);
+  job.observed = sim::observe(job.problem(1, stop), {}, {}, stop);
+  job.workload = job.observed.workload;
   return job;
 }
 

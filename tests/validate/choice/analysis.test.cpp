@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
-#include "detp/validate/choice/measure.hpp"
 
 using namespace detp;
 using namespace detp::validate;
@@ -23,7 +23,7 @@ struct Scene {
 
   /// A wrong ranking: brute force first, the sphere tree last with a predicted time of 10⁶ s.
   [[nodiscard]] std::vector<model::Ranked> wrong_ranking() const {
-    auto ranking = model::rank(measure(problem()), built_in_unit_costs());
+    auto ranking = model::rank(sim::observe(problem()).workload, built_in_unit_costs());
     std::reverse(ranking.begin(), ranking.end());
     for (model::Ranked& ranked : ranking) {
       ranked.time = {};

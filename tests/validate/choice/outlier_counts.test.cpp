@@ -3,9 +3,9 @@
 #include <doctest/doctest.h>
 
 #include "detp/model/rank/predict.hpp"
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/choice/measure.hpp"
 #include "detp/validate/regret/awkward_scenes.hpp"
 
 using namespace detp;
@@ -24,7 +24,7 @@ Compared compare(AwkwardScene scene, double radius, std::size_t lines, const Box
   const auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, lines);
   const sim::Problem problem = sim::make_problem(rays, discs);
   const Candidate tree{Technique::box_tree, parameters};
-  const Workload workload = measure(problem);
+  const Workload workload = sim::observe(problem).workload;
   Workload alike = workload;
   alike.radii.clear();
   alike.central.reset();

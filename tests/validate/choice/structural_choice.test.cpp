@@ -9,11 +9,11 @@
 
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/sim/base/stopped.hpp"
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
-#include "detp/validate/choice/measure.hpp"
 
 using namespace detp;
 using doctest::Approx;
@@ -28,7 +28,7 @@ struct FieldExample {
     for (sim::Ray& ray : rays)
       if (length > 0) ray.length = length;
     problem = sim::make_problem(rays, discs);
-    workload = validate::measure(*problem);
+    workload = sim::observe(*problem).workload;
   }
 
   [[nodiscard]] validate::PilotChoice choose(const validate::PilotOptions& options = {}) const {
@@ -118,7 +118,7 @@ TEST_SUITE("known answer") {
         discs.push_back({{extent * (i % 10), extent * std::floor(0.1 * i), 0}, {0, 0, 1}, 1e-9});
       std::vector<sim::Ray> rays(10, sim::Ray{{0, 0, 1}, {0, 0, -1}, 2.0});
       const sim::Problem problem = sim::make_problem(rays, discs);
-      const auto sample = validate::structural_sample(problem.enclosing(), validate::measure(problem), 300);
+      const auto sample = validate::structural_sample(problem.enclosing(), sim::observe(problem).workload, 300);
       CHECK(sample.size() > 0);
       CHECK(std::all_of(sample.begin(), sample.end(), [](const sim::Ray& ray) { return ray.length > 0; }));
     }

@@ -5,10 +5,10 @@
 #include <stdexcept>
 #include <vector>
 
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/choice/measure.hpp"
 
 using namespace detp;
 using validate::class_of;
@@ -49,7 +49,7 @@ TEST_SUITE("known answer") {
     auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 5000);
     for (sim::Ray& ray : rays) ray.length = 0.5;
     const sim::Problem problem = sim::make_problem(rays, discs);
-    const Workload measured = validate::measure(problem);
+    const Workload measured = sim::observe(problem).workload;
     const Workload sampled = validate::sampled_workload(problem, rays, 1e6);
     CHECK(sampled.rays == 1e6);
     CHECK(sampled.samples == measured.samples);

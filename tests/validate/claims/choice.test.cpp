@@ -5,11 +5,11 @@
 #include <string>
 
 #include "detp/model/rank/choose.hpp"
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
-#include "detp/validate/choice/measure.hpp"
 #include "detp/validate/claims/experiments.hpp"
 
 using namespace detp;
@@ -19,7 +19,7 @@ namespace {
 
 Experiment asking(std::vector<sim::Disc> discs, std::vector<sim::Ray> rays) {
   Experiment experiment;
-  const Workload workload = measure(sim::make_problem(rays, discs));
+  const Workload workload = sim::observe(sim::make_problem(rays, discs)).workload;
   experiment.discs = std::move(discs);
   experiment.choice = {workload, std::move(rays)};
   return experiment;
@@ -111,7 +111,7 @@ TEST_SUITE("known answer") {
     const Experiment both = lines_in_a_cube();
     Experiment fronts = both;
     fronts.choice->workload =
-        measure(sim::make_problem(fronts.choice->rays, fronts.discs, true));  // as choose measures it
+        sim::observe(sim::make_problem(fronts.choice->rays, fronts.discs, true)).workload;  // as choose measures it
     const std::vector<Claim> claims = judge_all(choice_findings(fronts));
     const std::vector<Claim> of_both = judge_all(choice_findings(both));
     REQUIRE(claims.size() == of_both.size());

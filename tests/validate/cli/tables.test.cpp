@@ -94,7 +94,7 @@ TEST_SUITE("end to end") {
             std::string column = effect.at("name");
             std::replace(column.begin(), column.end(), ' ', '_');
             CHECK(row.at(column) == effect.at("on").dump());
-            CHECK(number(row, column + "_evidence") == effect.at("evidence").get<double>());
+            CHECK(number(row, column + "_value") == effect.at("value").get<double>());
           }
           if (command == "scene") continue;
           CHECK(row.at("extrapolated_because").empty() == (row.at("extrapolated") == "false"));

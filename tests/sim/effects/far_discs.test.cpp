@@ -1,11 +1,11 @@
-#include "detp/validate/choice/far_discs.hpp"
+#include "detp/sim/effects/far_discs.hpp"
 
 #include <doctest/doctest.h>
 
 #include "detp/sim/scene/open/uniform_discs.hpp"
 
 using namespace detp;
-using namespace detp::validate;
+using namespace detp::sim;
 
 namespace {
 

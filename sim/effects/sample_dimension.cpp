@@ -1,0 +1,93 @@
+#include "sample_dimension.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "detp/sim/base/radix_sort.hpp"
+#include "detp/sim/geometry/lebesgue.hpp"
+
+namespace detp::sim {
+namespace {
+
+/// The cells that hold sampled points on one level.
+struct Occupancy {
+  double cells = 0;
+  double once = 0;   ///< cells with one point
+  double twice = 0;  ///< cells with two points
+
+  /// Estimate of the cells that all points occupy: adds those in which the sample has none (Chao 1984).
+  [[nodiscard]] double all_cells() const { return cells + once * (once - 1) / (2 * (twice + 1)); }
+
+  /// Standard error of all_cells, relative to it (Chao 1987, for one or two points in a cell).
+  [[nodiscard]] double relative_error() const {
+    const double ratio = once / std::max(1.0, twice);
+    return std::sqrt(twice * ratio * ratio * (0.5 + ratio * (1 + ratio / 4))) / all_cells();
+  }
+};
+
+constexpr int finest_level = 16;
+using Levels = std::array<Occupancy, finest_level + 1>;
+
+/// The different places of the sampled discs on Lebesgue's curve, in its order, which is that of cells on every level.
+std::vector<KeyedIndex> places_of(std::span<const Disc> discs, std::span<const std::size_t> sample,
+                                  const std::stop_token& stop) {
+  Box box;
+  for (const std::size_t disc : sample) box.include(discs[disc].centre);
+  std::vector<KeyedIndex> places;
+  places.reserve(sample.size());
+  for (const std::size_t disc : sample) places.push_back({lebesgue_code(discs[disc].centre, box), 0});
+  radix_sort(places, 3 * finest_level, stop);
+  const auto equal = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key == b.key; };
+  places.erase(std::unique(places.begin(), places.end(), equal), places.end());
+  return places;
+}
+
+/// Counts cells by the level from which on neighbours in the order are in different cells.
+Levels occupied_cells(const std::vector<KeyedIndex>& places) {
+  constexpr int never = 0;  // neighbours beyond both ends are apart on all levels
+  std::vector<int> apart{never, never};
+  for (std::size_t i = 1; i < places.size(); ++i)
+    apart.push_back((std::countl_zero(places[i].key ^ places[i - 1].key) - (64 - 3 * finest_level)) / 3 + 1);
+  apart.insert(apart.end(), {never, never});
+  Levels levels;  // first the changes from level to level
+  for (std::size_t i = 1; i + 2 < apart.size(); ++i) {
+    const int alone = std::max(apart[i], apart[i + 1]);
+    levels[static_cast<std::size_t>(apart[i])].cells += 1;
+    levels[static_cast<std::size_t>(alone)].once += 1;
+    const int two = std::max(apart[i - 1], apart[i + 1]);
+    if (i == 1 || two >= apart[i]) continue;
+    levels[static_cast<std::size_t>(two)].twice += 1;
+    levels[static_cast<std::size_t>(apart[i])].twice -= 1;
+  }
+  for (std::size_t level = 1; level < levels.size(); ++level) {
+    levels[level].cells += levels[level - 1].cells;
+    levels[level].once += levels[level - 1].once;
+    levels[level].twice += levels[level - 1].twice;
+  }
+  return levels;
+}
+
+}  // namespace
+
+SampleDimension sample_dimension(std::span<const Disc> discs, std::span<const std::size_t> sample,
+                                 const std::stop_token& stop) {
+  constexpr std::size_t least_points = 1024;
+  constexpr double least_covered = 0.25;
+  constexpr int last_level = finest_level - 3;  // on finer ones, points that share a place would be missed
+  const std::vector<KeyedIndex> places = places_of(discs, sample, stop);
+  if (places.size() < least_points) return {};
+  const Levels levels = occupied_cells(places);
+  const auto covered = [&](std::size_t level) { return 1 - levels[level].once / static_cast<double>(places.size()); };
+  std::size_t last = 3;
+  while (last < last_level && covered(last + 1) >= least_covered) ++last;
+  // the slope of a least-squares line through three levels does not depend on the middle one
+  const double slope = 0.5 * std::log2(levels[last].all_cells() / levels[last - 2].all_cells());
+  const double error = std::hypot(levels[last].relative_error(), levels[last - 2].relative_error());
+  return {std::clamp(slope, 1.0, 3.0), 0.5 * error / std::numbers::ln2};
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,207 @@
+#include "detp/sim/effects/observe.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+
+using namespace detp;
+
+TEST_SUITE("known answer") {
+  TEST_CASE("a workload has the scene's counts, box, sphere, root mean square radius, length inside the box") {
+    const std::vector<sim::Disc> discs{{.centre = {0, 0, 0}, .radius = 1}, {.centre = {10, 4, 2}, .radius = 7}};
+    const std::vector<sim::Ray> rays{{.origin = {5, 2, 1}, .direction = {1, 0, 0}, .length = 3},
+                                     {.origin = {5, 2, 1}, .direction = {1, 0, 0}, .length = 300},
+                                     {.origin = {500, 2, 1}, .direction = {1, 0, 0}, .length = 3}};
+    const Workload w = sim::observe(sim::make_problem(rays, discs)).workload;
+    CHECK(w.rays == 3);
+    CHECK(w.samples == 2);
+    CHECK(w.disc_radius == 5);
+    CHECK(w.box == std::array<double, 3>{10, 4, 2});
+    CHECK(w.sphere_radius == doctest::Approx(std::sqrt(30.0) + 7));
+    CHECK(w.path_length == doctest::Approx((3 + 10 + 0) / 3.0));  // the box ends at 10 + 5
+  }
+
+  TEST_CASE("radii that differ by more than a tenth become classes; equal and almost equal ones do not") {
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 1000, 0.02, 1);
+    const std::vector<sim::Ray> rays{{}};
+    for (std::size_t i = 0; i < 1000; i += 2) discs[i].radius = 0.021;
+    CHECK(sim::observe(sim::make_problem(rays, discs)).workload.radii.empty());
+    for (std::size_t i = 0; i < 1000; i += 10) discs[i].radius = 0.25;
+    const Workload w = sim::observe(sim::make_problem(rays, discs)).workload;
+    REQUIRE(w.radii.size() == 2);
+    CHECK(w.radii[0].radius == doctest::Approx(0.25));
+    CHECK(w.radii[0].share == doctest::Approx(0.1));
+    CHECK_NOTHROW(check(w));
+  }
+
+  TEST_CASE("a few discs far away do not count among the central samples") {
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 10'000, 0.02, 1);
+    for (std::size_t i = 0; i < 3; ++i) discs[i].centre *= 1000;
+    const std::vector<sim::Ray> lines = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 10);
+    const Workload w = sim::observe(sim::make_problem(lines, discs)).workload;
+    REQUIRE(w.central);
+    CHECK_NOTHROW(check(w));
+    CHECK(w.samples == 10'000);
+    CHECK(w.central->samples == 9997);
+    for (const double side : w.central->box) CHECK(side == doctest::Approx(2).epsilon(0.001));
+    CHECK(w.central->sample_extent == doctest::Approx(8).epsilon(0.01));
+    CHECK(w.central->ray_share == doctest::Approx(std::pow(w.central->sphere_radius / w.sphere_radius, 2)));
+    CHECK(w.central->path_length == 0);
+    const std::vector<sim::Ray> segments{{.origin = {0, 0, 0}, .direction = {1, 0, 0}, .length = 0.5},
+                                         {.origin = {100, 100, 100}, .direction = {1, 0, 0}, .length = 0.5}};
+    const auto central = sim::observe(sim::make_problem(segments, discs)).workload.central;
+    REQUIRE(central);
+    CHECK(central->ray_share == 0.5);
+    CHECK(central->path_length == doctest::Approx(0.5));
+  }
+
+  TEST_CASE("a workload records whether only fronts count") {
+    const std::vector<sim::Disc> discs{{}};
+    const std::vector<sim::Ray> rays{{}};
+    CHECK_FALSE(sim::observe(sim::make_problem(rays, discs)).workload.front_facing);
+    CHECK(sim::observe(sim::make_problem(rays, discs, true)).workload.front_facing);
+  }
+
+  TEST_CASE("unbounded lines have no path length") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 100, 0.01, 1);
+    const auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 10);
+    CHECK(sim::observe(sim::make_problem(rays, discs)).workload.path_length == 0);
+  }
+
+  TEST_CASE("a single sample is a valid workload") {
+    const std::vector<sim::Disc> discs{{}};
+    const std::vector<sim::Ray> rays{{}};
+    CHECK_NOTHROW(check(sim::observe(sim::make_problem(rays, discs)).workload));
+  }
+
+  TEST_CASE("a mesh's area becomes the samples' extent, and its mean edge their distance") {
+    const auto discs = sim::uniform_discs(sim::Body::cube_faces, 2, 50'000, 0.01, 1);
+    const std::vector<sim::Ray> rays{{}};
+    const Workload w = sim::observe(sim::make_problem(rays, discs), {.area = 24, .edge_length = 0.03}).workload;
+    CHECK(sample_distance(w) == 0.03);
+    const double weight = w.dimension - 2;  // of the box's volume; the area has 1 - weight
+    CHECK(sample_extent(w) == doctest::Approx(std::pow(8, weight) * std::pow(24, 1 - weight)).epsilon(1e-3));
+  }
+}
+
+namespace {
+
+const sim::EffectReport& report_of(const sim::Observed& observed, const sim::Effect& effect) {
+  for (const sim::EffectReport& report : observed.effects)
+    if (report.effect == &effect) return report;
+  throw std::logic_error("no report");
+}
+
+/// Segments from the faces of a cube of side 2 inwards, half as long as its side, and discs on the faces.
+struct Room {
+  std::vector<sim::Disc> discs = sim::uniform_discs(sim::Body::cube_faces, 2, 20'000, 0.01, 1);
+  std::vector<sim::Ray> rays;
+
+  Room() {
+    for (std::size_t i = 0; i < 1000; ++i) {
+      const glm::dvec3 to_centre = -glm::normalize(discs[i].centre);
+      rays.push_back({.origin = discs[i].centre, .direction = to_centre, .length = 1});
+    }
+  }
+};
+
+}  // namespace
+
+TEST_SUITE("effects") {
+  TEST_CASE("uniform lines and samples in a volume call for no effect; the workload is the plain one, bit for bit") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 1);
+    const auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 5000);
+    const sim::Problem problem = sim::make_problem(rays, discs);
+    const sim::Observed automatic = sim::observe(problem);
+    for (const sim::EffectReport& report : automatic.effects) CHECK_FALSE(report.on);
+    const Workload none = sim::observe(problem, {}, sim::EffectSelection("none")).workload;
+    CHECK(automatic.workload.dimension == 3);
+    CHECK(automatic.workload.sample_extent == 0);
+    CHECK(automatic.workload.path_length == 0);
+    CHECK_FALSE(automatic.workload.rays_end);
+    CHECK(sample_distance(automatic.workload) == sample_distance(none));
+    CHECK(automatic.workload.box == none.box);
+  }
+
+  TEST_CASE(
+      "segments and samples on surfaces are found; none leaves lines and a volume, but segments still cost more") {
+    const Room room;
+    const sim::Problem problem = sim::make_problem(room.rays, room.discs);
+    const sim::Observed found = sim::observe(problem);
+    CHECK(report_of(found, sim::finite_paths).on);
+    CHECK(report_of(found, sim::surface_samples).on);
+    CHECK(found.workload.path_length == doctest::Approx(1).epsilon(0.02));
+    CHECK(found.workload.dimension < 2.3);
+    const sim::Observed none = sim::observe(problem, {}, sim::EffectSelection("none"));
+    CHECK(none.workload.path_length == 0);
+    CHECK(none.workload.dimension == 3);
+    CHECK(some_rays_end(none.workload));
+    CHECK(report_of(none, sim::finite_paths).value == report_of(found, sim::finite_paths).value);
+  }
+
+  TEST_CASE("segments as long as lines call for no effect") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 1);
+    auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 20'000);
+    for (sim::Ray& ray : rays) {
+      ray.origin -= 4.0 * ray.direction;
+      ray.length = 8;
+    }
+    const sim::Observed found = sim::observe(sim::make_problem(rays, discs));
+    const sim::EffectReport& report = report_of(found, sim::finite_paths);
+    CHECK_FALSE(report.on);
+    CHECK(std::abs(report.value - 1) < 4 * report.standard_error);
+    CHECK(found.workload.path_length == 0);
+    CHECK(some_rays_end(found.workload));
+  }
+
+  TEST_CASE("a list switches the effects that it names on and the others off, but not what the input means") {
+    const Room room;
+    const sim::Problem problem = sim::make_problem(room.rays, room.discs, true);
+    const sim::Observed one = sim::observe(problem, {}, sim::EffectSelection("surface-samples"));
+    CHECK_FALSE(report_of(one, sim::finite_paths).on);
+    CHECK(report_of(one, sim::surface_samples).on);
+    CHECK(report_of(one, sim::one_face).on);
+    CHECK(one.workload.front_facing);
+    CHECK(report_of(one, sim::finite_paths).reason == "switched off by --effects surface-samples");
+    const sim::Observed all = sim::observe(problem, {}, sim::EffectSelection("all"));
+    CHECK(report_of(all, sim::far_samples).on);
+    CHECK_FALSE(all.workload.central);  // there are none
+    CHECK_FALSE(report_of(all, sim::mixed_radii).on);
+    CHECK_NOTHROW(check(all.workload));
+  }
+
+  TEST_CASE("a selection reads what it writes; unknown names and meanings of the input are refused") {
+    for (const char* text : {"auto", "none", "all", "finite-paths", "far-samples,surface-samples"})
+      CHECK(sim::EffectSelection(text).text() == text);
+    CHECK(sim::EffectSelection("finite paths").text() == "finite-paths");
+    CHECK_THROWS_WITH_AS(sim::EffectSelection("fog"),
+                         "there is no effect \"fog\"; there are auto, none, all, or a list of finite-paths, "
+                         "surface-samples, far-samples",
+                         std::invalid_argument);
+    for (const char* bad : {"", ",", "finite-paths,", "all,none", "Auto"})
+      CHECK_THROWS_AS(sim::EffectSelection{bad}, std::invalid_argument);
+    CHECK_THROWS_WITH_AS(sim::EffectSelection("facing"),
+                         "the effect \"facing\" is a meaning of the input; it cannot be switched",
+                         std::invalid_argument);
+  }
+
+  TEST_CASE("the reason says where the value lies, and whether it is close to the threshold") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 5000, 0.01, 1);
+    auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 2000);
+    for (sim::Ray& ray : rays) {
+      ray.origin -= 4.0 * ray.direction;
+      ray.length = 8;
+    }
+    const sim::Observed found = sim::observe(sim::make_problem(rays, discs));
+    const sim::EffectReport& paths = report_of(found, sim::finite_paths);  // its standard error is near the tolerance
+    CHECK(paths.is_close());
+    CHECK(paths.reason.ends_with("; close to its threshold"));
+    CHECK(report_of(found, sim::far_samples).reason.find("is not above 4") != std::string::npos);
+  }
+}

@@ -1,0 +1,119 @@
+#include "effects_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "detp/model/rank/predict.hpp"
+#include "text_table.hpp"
+
+namespace detp::cli {
+namespace {
+
+std::string column_of(std::string name) {
+  std::replace(name.begin(), name.end(), ' ', '_');
+  return name;
+}
+
+/// The effects that are on, but for one that is switched, as --effects takes them.
+sim::EffectSelection switched(const std::vector<sim::EffectReport>& effects, const sim::Effect& one) {
+  std::string names;
+  for (const sim::EffectReport& report : effects) {
+    const bool on = report.on != (report.effect == &one);
+    if (on && !report.effect->is_input) names += (names.empty() ? "" : ",") + sim::option_name(*report.effect);
+  }
+  return sim::EffectSelection(names.empty() ? "none" : names);
+}
+
+double tests(const Workload& workload) {
+  const Counts<double> counts = model::predict(workload, Candidate{Technique::box_tree, BoxTreeParameters{8, 16}});
+  return counts.cull_tests + counts.disc_tests;
+}
+
+}  // namespace
+
+Json to_json(const std::vector<sim::EffectReport>& effects) {
+  Json json = Json::array();
+  for (const sim::EffectReport& report : effects)
+    json.push_back({{"name", report.effect->name},
+                    {"on", report.on},
+                    {"value", report.value},
+                    {"standard_error", report.standard_error},
+                    {"threshold", report.effect->threshold.at},
+                    {"on_if", sim::condition(report.effect->threshold)},
+                    {"close", report.is_close()},
+                    {"seconds", report.seconds},
+                    {"evidence", report.effect->evidence},
+                    {"reason", report.reason}});
+  return json;
+}
+
+const Columns& effect_columns() {
+  static const Columns columns = [] {
+    Columns all;
+    for (const sim::Effect* effect : sim::all_effects) {
+      all.push_back(column_of(std::string(effect->name)));
+      all.push_back(all.back() + "_value");
+    }
+    return all;
+  }();
+  return columns;
+}
+
+Json effect_cells(const Json& effects) {
+  Json cells = Json::object();
+  for (const Json& effect : effects) {
+    const std::string column = column_of(effect["name"]);
+    cells[column] = effect["on"];
+    cells[column + "_value"] = effect["value"];
+  }
+  return cells;
+}
+
+std::string effects_line(const std::vector<sim::EffectReport>& effects) {
+  std::string on;
+  std::string off;
+  for (const sim::EffectReport& report : effects) {
+    std::string& list = report.on ? on : off;
+    list += (list.empty() ? "" : ", ") + std::string(report.effect->name);
+  }
+  return fmt::format("effects   on: {}; off: {}", on.empty() ? "none" : on, off.empty() ? "none" : off);
+}
+
+std::vector<double> tests_if_switched(const validate::Job& job, const std::stop_token& stop) {
+  const auto& effects = job.observed.effects;
+  const sim::Problem problem = job.problem(1, stop);
+  const double as_is = tests(job.observed.workload);
+  std::vector<double> ratios;
+  for (const sim::EffectReport& report : effects) {
+    const bool is_input = report.effect->is_input;
+    ratios.push_back(
+        is_input ? 0
+                 : tests(sim::observe(problem, job.surface, switched(effects, *report.effect), stop).workload) / as_is);
+  }
+  return ratios;
+}
+
+std::string effects_table(const sim::Observed& observed, const std::vector<double>& if_switched, const Screen& screen) {
+  TextTable table({{.head = "effect", .align = Align::left},
+                   {.head = "evidence", .align = Align::left, .spare = 2},
+                   {.head = "value"},
+                   {.head = "on if", .align = Align::left},
+                   {.head = "", .align = Align::left},
+                   {.head = "tests if switched", .spare = 1},
+                   {.head = "", .align = Align::left}});
+  for (std::size_t i = 0; i < observed.effects.size(); ++i) {
+    const sim::EffectReport& report = observed.effects[i];
+    const std::string error = report.standard_error > 0 ? fmt::format(" ± {:.1g}", report.standard_error) : "";
+    table.add({{std::string(report.effect->name)},
+               {std::string(report.effect->evidence)},
+               {fmt::format("{:.3g}{}", report.value, error)},
+               {sim::condition(report.effect->threshold)},
+               {report.on ? "on" : "off", report.on ? Style::good : Style::faint},
+               {if_switched[i] > 0 ? fmt::format("{:.3g}x", if_switched[i]) : ""},
+               {report.is_close() ? "close to its threshold" : ""}});
+  }
+  return table.text(screen);
+}
+
+}  // namespace detp::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "command.hpp"
+#include "detp/sim/effects/observe.hpp"
+#include "detp/validate/choice/job.hpp"
+#include "screen.hpp"
+#include "table.hpp"
+
+/// The effects in JSON, CSV and text.
+namespace detp::cli {
+
+/// An array with one object for each effect.
+[[nodiscard]] Json to_json(const std::vector<sim::EffectReport>& effects);
+
+/// The columns of effect_cells(): for each effect its name (true or false), and the name with "_value".
+[[nodiscard]] const Columns& effect_columns();
+
+/// The effects of to_json as cells of a table.
+[[nodiscard]] Json effect_cells(const Json& effects);
+
+/// "effects   on: finite paths; off: far samples".
+[[nodiscard]] std::string effects_line(const std::vector<sim::EffectReport>& effects);
+
+/// What switching an effect by hand changes: predicted tests of a tree of boxes with the effect switched, over those as
+/// they are. 0 for an effect that is a meaning of the input. In the order of the job's effects.
+[[nodiscard]] std::vector<double> tests_if_switched(const validate::Job& job, const std::stop_token& stop);
+
+/// The table of `detp scene`.
+[[nodiscard]] std::string effects_table(const sim::Observed& observed, const std::vector<double>& if_switched,
+                                        const Screen& screen);
+
+}  // namespace detp::cli
