@@ -11,6 +11,7 @@
 
 #include "box_tree_crossing.hpp"
 #include "box_tree_expected.hpp"
+#include "box_tree_nodes.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
 
 namespace detp::model {
@@ -165,21 +166,27 @@ using box_tree::Widening;
 /// The counts of all fan-outs for samples in a cube, or on its faces, that do not depend on the fan-out.
 class BoxTreeShapes::Tree {
  public:
-  /// `samples` in the cube, or on its faces.
-  Tree(int dimension, const Valid<Workload>& workload, const box_tree::SampleCube& cube, double samples, int leaf,
-       Engine engine)
+  /// `samples` in the cube, or on its faces, each of which stands for `in_one`.
+  Tree(int dimension, const Valid<Workload>& workload, const box_tree::SampleCube& cube, double samples, double in_one,
+       int leaf, Engine engine)
       : kinds_(box_tree::cell_kinds(dimension, samples)), blocks_(ray_blocks(workload.rays, workload.samples, engine)) {
     nodes_ = box_tree::expected_binary_tree(dimension, samples, cube.ends(), leaf, {engine, cube.margin()});
     widening_.emplace(nodes_, kinds_);
-    const auto crossing = [&](double surface, double volume) { return cube.crossing(surface, volume); };
+    std::optional<box_tree::ClusteredNodes> clustered;
+    if (!workload.nodes.empty()) clustered.emplace(workload, engine, cube.margin() * cube.side());
+    const auto crossing = [&](double discs, double surface, double volume) {
+      return clustered ? clustered->crossing(discs * in_one) : cube.crossing(surface, volume);
+    };
     for (std::size_t kind = 0; kind < nodes_.size(); ++kind) {
       const Sums& inner = nodes_[kind].inner;
       inner_share_.push_back(
-          kind == 0 || !(inner.count > 0) ? 1 : crossing(inner.surface / inner.count, inner.volume / inner.count));
+          kind == 0 || !(inner.count > 0)
+              ? 1
+              : crossing(kinds_[kind].share * samples, inner.surface / inner.count, inner.volume / inner.count));
       inner_culls_.push_back(-1);
       fixed_.made += inner.count;
       for (const Leaves& leaves : nodes_[kind].leaves) {
-        const double share = kind > 0 ? crossing(leaves.surface, leaves.volume) : 1;
+        const double share = kind > 0 ? crossing(leaves.discs, leaves.surface, leaves.volume) : 1;
         if (kind > 0) leaf_lists_.push_back(leaves.count * share);
         fixed_.discs += leaves.count * leaves.discs * share;
         fixed_.visits += leaves.count * leaves.discs * blocks_.with_any(share, leaves.spread);
@@ -225,7 +232,7 @@ BoxTreeShapes::BoxTreeShapes(const Valid<Workload>& workload, int leaf, Engine e
   const double dimension = std::clamp(workload.dimension, 2.0, 3.0);
   const box_tree::SampleCube cube(workload);
   const auto tree_in = [&](int whole) {
-    return std::make_unique<Tree>(whole, workload, cube, std::round(samples / in_one_), tabulated, engine);
+    return std::make_unique<Tree>(whole, workload, cube, std::round(samples / in_one_), in_one_, tabulated, engine);
   };
   if (dimension < 3) surface_ = tree_in(2);
   if (dimension > 2) volume_ = tree_in(3);

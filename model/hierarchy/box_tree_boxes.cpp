@@ -67,7 +67,6 @@ double CellBoxes::variance_of(const Axis& axis, double discs) const {
 }
 
 MeanBox CellBoxes::operator()(double discs) const {
-  constexpr double for_missing = 0.28768207245178093 / std::numbers::pi;  // ln(4/3)/π
   std::array<double, 3> side{};
   std::array<double, 3> variance{};
   for (int i = 0; i < 3; ++i) {
@@ -91,7 +90,7 @@ MeanBox CellBoxes::operator()(double discs) const {
     squares += side[i] * side[i];
     box.volume *= side[i];
   }
-  box.surface = 2 * (grown + (listing_.engine == Engine::simd ? for_missing * squares : 0));
+  box.surface = 2 * (grown + (listing_.engine == Engine::simd ? listed_beyond * squares : 0));
   return box;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <numbers>
 #include <span>
 
 #include "box_tree_cells.hpp"
@@ -14,6 +15,10 @@ struct Listing {
   Engine engine = Engine::simd;
   double margin = 0;
 };
+
+/// The simd engine lists as many lines as cross a convex body whose half surface is larger than that of the box by
+/// this times the sum of the squared sides (validate/structural).
+inline constexpr double listed_beyond = 0.28768207245178093 / std::numbers::pi;  // ln(4/3)/π
 
 /// Means over boxes.
 struct MeanBox {

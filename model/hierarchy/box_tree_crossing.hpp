@@ -18,16 +18,19 @@ class SampleCube {
     // The margin is 64 · 2⁻²⁴ in units of the frame (sim/lists/simd/frame.hpp). The frame scales r₀ to [½, 1) by a power
     // of two. Here r₀ is scaled to √3/2, as in a cube of side 1, so that the unit of length does not matter.
     margin_ = 0x1p-18 * workload.sphere_radius / (std::numbers::sqrt3 / 2) / side_;
-    of_surface_ = crossing_probability(workload, 0, std::min(largest, unit * side_ * side_)) / unit;
-    of_volume_ = crossing_probability(workload, std::min(largest, unit * side_ * side_ * side_), 0) / unit;
+    density_ = workload.ray_density;
+    const double tiny = unit * density_;
+    of_surface_ = crossing_probability(workload, 0, std::min(largest, unit * side_ * side_)) / tiny;
+    of_volume_ = crossing_probability(workload, std::min(largest, unit * side_ * side_ * side_), 0) / tiny;
   }
 
   [[nodiscard]] const BoxEnds& ends() const { return ends_; }
+  [[nodiscard]] double side() const { return side_; }      ///< length
   [[nodiscard]] double margin() const { return margin_; }  ///< as in Listing
 
   /// P(node) from the mean surface and volume of nodes' boxes.
   [[nodiscard]] double crossing(double surface, double volume) const {
-    return std::min(1.0, of_surface_ * surface + of_volume_ * volume);
+    return at_density(std::min(1.0, of_surface_ * surface + of_volume_ * volume), density_);
   }
 
  private:
@@ -51,6 +54,7 @@ class SampleCube {
   double side_;  ///< length
   BoxEnds ends_;
   double margin_;
+  double density_;  ///< Workload::ray_density
   double of_surface_;
   double of_volume_;
 };

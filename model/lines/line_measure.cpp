@@ -20,8 +20,8 @@ void require_inside(std::string_view what, double size, double outer) {
         fmt::format("{} must not exceed the sphere radius {}, or it pokes out (got {})", what, outer, size));
 }
 
-/// In long double, because d² or V_box may be below the range of doubles, and V + ℓF above it.
-long double crossing(const Valid<Workload>& workload, long double volume, long double area) {
+/// With uniform rays. In long double, because d² or V_box may be below the range of doubles, and V + ℓF above it.
+long double uniform_crossing(const Valid<Workload>& workload, long double volume, long double area) {
   const long double r0 = workload.sphere_radius;
   if (workload.path_length <= 0) return std::min(1.0L, area / (4 * exact_pi * r0 * r0));
   long double space = 1;
@@ -97,13 +97,18 @@ double disc_hit_probability(DiscRadius disc, SphereRadius outer) {
 double crossing_probability(const Valid<Workload>& workload, double volume, double area) {
   require_non_negative("volume of the body", volume);
   require_non_negative("surface area of the body", area);
-  return static_cast<double>(crossing(workload, volume, area));
+  return at_density(static_cast<double>(uniform_crossing(workload, volume, area)), workload.ray_density);
+}
+
+double at_density(double probability, double density) {
+  return density == 1 ? probability : density * probability / (1 + (density - 1) * probability);
 }
 
 double expected_hits(const Valid<Workload>& workload) {
   const long double d = workload.disc_radius;
   const long double faces = workload.front_facing ? 1 : 2;
-  return saturated(workload.rays * (workload.samples * crossing(workload, 0, faces * exact_pi * d * d)));
+  return saturated(workload.ray_density * workload.hit_ratio * workload.rays *
+                   (workload.samples * uniform_crossing(workload, 0, faces * exact_pi * d * d)));
 }
 
 double both_hit_share(double a, double b, double c) {

@@ -51,13 +51,20 @@ namespace detp::model {
 ///
 /// Source     eq (3); for segments our derivation: a segment with uniform origin meets a body if its origin lies in the
 ///            body or if it enters through the body's surface, where the flux of segments is ℓ/(4 V_box) per area.
-/// Valid      segments: origins uniform in the box, isotropic directions. Real paths start and end on surfaces: expect
-///            errors of tens of percent.
+/// Valid      segments: origins uniform in the box, isotropic directions. If the rays are denser around the samples than
+///            elsewhere, P is at_density(P, Workload::ray_density).
 /// Accuracy   1.1e-16.
 /// Throws     std::invalid_argument unless V, F >= 0, both finite.
 [[nodiscard]] double crossing_probability(const Valid<Workload>& workload, double volume, double area);
 
-/// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability with V = 0, F = 2πd².
+/// The probability if rays are ρ times as dense around samples as uniform rays: ρp / (1 + (ρ - 1) p). A small probability
+/// is multiplied by ρ; that of a body that all rays cross stays 1.
+///
+/// Source     our choice of an interpolation.
+[[nodiscard]] double at_density(double probability, double density);
+
+/// Expected (ray, disc) hits of a workload: n_R n_P P(disc), by crossing_probability of uniform rays with V = 0,
+/// F = 2πd², times Workload::ray_density and Workload::hit_ratio.
 ///
 /// Half as many if only rays that arrive at a disc's front count. (Our derivation: reversing all rays exchanges front
 /// and back and does not change the isotropic measure.)

@@ -13,6 +13,9 @@ Workload central_workload(const Workload& workload) {
   const CentralSamples& central = *workload.central;
   Workload part = workload;
   part.central.reset();
+  part.nodes.clear();
+  part.ray_density = 1;
+  part.hit_ratio = 1;
   part.rays = std::max(1.0, std::round(workload.rays * central.ray_share));
   part.samples = central.samples;
   part.sphere_radius = central.sphere_radius;
@@ -27,6 +30,9 @@ Workload far_workload(const Workload& workload, double parts) {
   assert(workload.central);
   Workload part = workload;
   part.central.reset();
+  part.nodes.clear();
+  part.ray_density = 1;
+  part.hit_ratio = 1;
   part.samples = workload.samples - workload.central->samples + parts;
   part.dimension = 3;
   part.sample_extent = 0;

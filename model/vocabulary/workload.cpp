@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "checks.hpp"
@@ -67,6 +68,23 @@ void check_central(const Workload& workload) {
   require_non_negative("path length near the central samples", central.path_length);
 }
 
+void check_nodes(const Workload& workload) {
+  if (workload.nodes.empty()) return;
+  double before = std::numeric_limits<double>::infinity();
+  for (const NodeBoxes& node : workload.nodes) {
+    if (!(node.samples >= 1 && node.samples < before))
+      throw std::invalid_argument(fmt::format(
+          "boxes around samples must hold fewer samples from one to the next, at least 1 (got {})", node.samples));
+    before = node.samples;
+    require_non_negative("edges of the boxes around samples", node.edges);
+    for (const double one : node.surface) require_non_negative("surface of the boxes around samples", one);
+    for (const double one : node.squares) require_non_negative("squares of the boxes around samples", one);
+    for (const double one : node.volume) require_non_negative("volume of the boxes around samples", one);
+  }
+  if (workload.nodes.size() < 2 || workload.nodes.back().samples != 1)
+    throw std::invalid_argument("the last of at least two boxes around samples must hold one sample");
+}
+
 }  // namespace
 
 void check(const Workload& workload) {
@@ -78,7 +96,10 @@ void check(const Workload& workload) {
   check_box(workload.box, workload.dimension, workload.sample_extent);
   require_non_negative("sample distance", workload.sample_distance);
   require_non_negative("path length", workload.path_length);
+  require_positive("density of the rays", workload.ray_density);
+  require_positive("ratio of the hits", workload.hit_ratio);
   check_lengths(workload.sphere_radius, scene_side(workload));
+  check_nodes(workload);
   check_central(workload);
 }
 

@@ -23,6 +23,16 @@ struct CentralSamples {
   double path_length = 0;  ///< of those rays
 };
 
+/// Boxes around the discs of samples that follow each other on the Lebesgue curve, in cells of the curve. Means over the
+/// cells that hold about as many samples, as polynomials in d: the coefficient k belongs to d^k.
+struct NodeBoxes {
+  double samples = 0;                           ///< in each, >= 1
+  double edges = 0;                             ///< sum of the sides of the box around the centres, length
+  std::array<double, 3> surface = {0, 0, 0};    ///< length²
+  std::array<double, 3> squares = {0, 0, 0};    ///< sum of the squared sides, length²
+  std::array<double, 4> volume = {0, 0, 0, 0};  ///< length³
+};
+
 /// n_R rays against n_P discs of radius d inside the sphere S₀.
 ///
 /// The models assume that the rays are lines of the measure μ_ℓ through S₀, and that the samples are uniform over a
@@ -38,17 +48,22 @@ struct Workload {
   double sample_extent = 0;
   double sample_distance = 0;  ///< mean distance between neighbouring samples, length; 0: computed from the extent
   double path_length = 0;      ///< mean length of the rays inside the box; 0: as for unbounded lines
+  double ray_density = 1;      ///< rays that cross small spheres around samples, over that of uniform rays, > 0
+  double hit_ratio = 1;        ///< hits of discs, over those of isotropic rays of the same density, > 0
   bool rays_end = false;       ///< some rays end, so tests of them cost more
   bool front_facing = false;   ///< only rays that arrive at a disc's front count as hits
   /// empty: all discs have radius d. Otherwise classes of radii, the largest first; d is the root mean square of all
   std::vector<RadiusClass> radii = {};
+  /// empty: samples are uniform over their extent. Otherwise the boxes around them, at least two: those with the most
+  /// samples first, those with one sample last
+  std::vector<NodeBoxes> nodes = {};
   /// set if a few samples lie far from the others; box, dimension, extent and path length above are those of all
   std::optional<CentralSamples> central = {};
 };
 
 /// Throws std::invalid_argument if a number is out of its range, if r₀ or the longest side is not in 1e-90 … 1e90, or
 /// if the extent is above 1e270; if radii do not fall from class to class, shares do not add up to 1, or d is not the
-/// root mean square, to one in a million; if a value of the central samples is out of
+/// root mean square, to one in a million; if a value of the boxes around samples or of the central samples is out of
 /// its range.
 void check(const Workload& workload);
 

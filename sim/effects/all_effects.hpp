@@ -9,11 +9,15 @@ namespace detp::sim {
 
 extern const Effect finite_paths;
 extern const Effect surface_samples;
+extern const Effect clustered_samples;
+extern const Effect uneven_rays;
+extern const Effect directional_bias;
 extern const Effect far_samples;
 extern const Effect mixed_radii;
 extern const Effect one_face;
 
-/// In the order in which they are applied: far samples need to know whether paths are finite.
-inline constexpr std::array all_effects{&finite_paths, &surface_samples, &far_samples, &mixed_radii, &one_face};
+/// In the order in which they are applied: uneven rays are those that finite paths and facing do not explain.
+inline constexpr std::array all_effects{&one_face,    &surface_samples,  &clustered_samples, &finite_paths,
+                                        &uneven_rays, &directional_bias, &far_samples,       &mixed_radii};
 
 }  // namespace detp::sim

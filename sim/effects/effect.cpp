@@ -1,8 +1,6 @@
 #include "effect.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "detp/sim/geometry/random.hpp"
 
@@ -18,12 +16,39 @@ std::vector<std::size_t> sample_of(std::size_t size, std::size_t most) {
 
 }  // namespace
 
-EffectSample::EffectSample(const Problem& of, const SurfaceFacts& mesh, std::stop_token stop_token)
-    : problem(of),
-      surface(mesh),
-      stop(std::move(stop_token)),
-      rays(sample_of(of.rays().size(), most_rays)),
-      discs(sample_of(of.discs().size(), most_discs)) {}
+const std::vector<std::size_t>& EffectSample::rays() const {
+  return once(rays_, [&] { return sample_of(problem.rays().size(), most_rays); });
+}
+
+const std::vector<KeyedIndex>& EffectSample::places() const {
+  return once(places_,
+              [&] { return sample_places(problem.discs(), sample_of(problem.discs().size(), most_discs), stop); });
+}
+
+const SampleDimension& EffectSample::dimension() const {
+  return once(dimension_, [&] { return sample_dimension(places()); });
+}
+
+const PathsInside& EffectSample::paths() const {
+  return once(paths_, [&] {
+    if (!problem.segments()) return PathsInside{};
+    return paths_inside(problem, rays(), problem.centres(), problem.radii().rms, stop);
+  });
+}
+
+const UniformRays& EffectSample::uniform() const {
+  return once(uniform_, [&] {
+    const glm::dvec3 size = problem.centres().size();
+    return uniform_rays({.disc_radius = problem.radii().rms,
+                         .sphere_radius = problem.enclosing().radius,
+                         .box = {size.x, size.y, size.z},
+                         .path_length = paths().length});
+  });
+}
+
+const Crossings& EffectSample::crossings() const {
+  return once(crossings_, [&] { return count_crossings(problem, uniform(), stop); });
+}
 
 bool Threshold::passed(double value) const {
   switch (side) {

@@ -2,12 +2,17 @@
 
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <stop_token>
 #include <string_view>
+#include <utility>
 #include <vector>
 
+#include "crossings.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/search/problem.hpp"
+#include "paths_inside.hpp"
+#include "sample_dimension.hpp"
 
 namespace detp::sim {
 
@@ -17,15 +22,43 @@ struct SurfaceFacts {
   double edge_length = 0;  ///< mean
 };
 
-/// What effects are looked for in. It refers to the problem, which must outlive it.
-struct EffectSample {
-  EffectSample(const Problem& of, const SurfaceFacts& mesh, std::stop_token stop_token);
+/// What effects are looked for in, and what they share of it. Everything is measured on first use; not for use from
+/// several threads. It refers to the problem, which must outlive it. Every function throws Stopped if a stop was
+/// requested.
+class EffectSample {
+ public:
+  EffectSample(const Problem& of, const SurfaceFacts& mesh, std::stop_token stop_token)
+      : problem(of), surface(mesh), stop(std::move(stop_token)) {}
 
   const Problem& problem;
-  SurfaceFacts surface;
-  std::stop_token stop;
-  std::vector<std::size_t> rays;   ///< stratified, at most 2048
-  std::vector<std::size_t> discs;  ///< stratified, at most 8192
+  const SurfaceFacts surface;
+  const std::stop_token stop;
+
+  /// Stratified, at most 2048.
+  [[nodiscard]] const std::vector<std::size_t>& rays() const;
+  /// Of at most 8192 discs, stratified.
+  [[nodiscard]] const std::vector<KeyedIndex>& places() const;
+  /// Of these discs.
+  [[nodiscard]] const SampleDimension& dimension() const;
+  /// Of the rays; zeros if all are lines.
+  [[nodiscard]] const PathsInside& paths() const;
+  /// Uniform rays with the mean length of the rays.
+  [[nodiscard]] const UniformRays& uniform() const;
+  [[nodiscard]] const Crossings& crossings() const;
+
+ private:
+  template <class T, class F>
+  static const T& once(std::optional<T>& value, const F& measure) {
+    if (!value) value = measure();
+    return *value;
+  }
+
+  mutable std::optional<std::vector<std::size_t>> rays_;
+  mutable std::optional<std::vector<KeyedIndex>> places_;
+  mutable std::optional<SampleDimension> dimension_;
+  mutable std::optional<PathsInside> paths_;
+  mutable std::optional<UniformRays> uniform_;
+  mutable std::optional<Crossings> crossings_;
 };
 
 /// The values of an evidence with which its effect is on.

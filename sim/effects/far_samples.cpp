@@ -24,8 +24,8 @@ CentralSamples samples_near(const FarDiscs& found, const EffectSample& sample) {
   });
   const DiscRadii& radii = sample.problem.radii();
   const glm::dvec3 size = box.size();
-  const auto counted = stratified_sample(near.size(), sample.discs.size(), 1, Stream::evidence);
-  const double dimension = sample_dimension(near, counted, sample.stop).value;
+  const auto counted = stratified_sample(near.size(), sample.places().size(), 1, Stream::evidence);
+  const double dimension = sample_dimension(sample_places(near, counted, sample.stop)).value;
   CentralSamples central{.samples = static_cast<double>(near.size()),
                          .sphere_radius = glm::length(size) / 2 + radii.largest,
                          .box = {size.x, size.y, size.z},
@@ -33,7 +33,7 @@ CentralSamples samples_near(const FarDiscs& found, const EffectSample& sample) {
   if (!(box.longest_side() > 0)) central.box.fill(2 * radii.rms);
   central.sample_extent = extent_on_surfaces({.box = central.box, .dimension = central.dimension}, sample.surface.area);
   if (sample.problem.segments()) {
-    const PathsInside paths = paths_inside(sample.problem, sample.rays, box, radii.rms, sample.stop);
+    const PathsInside paths = paths_inside(sample.problem, sample.rays(), box, radii.rms, sample.stop);
     central.ray_share = std::min(1.0, paths.share);
     central.path_length = paths.share > 0 ? paths.length / paths.share : central.sphere_radius;
   } else {
@@ -44,7 +44,7 @@ CentralSamples samples_near(const FarDiscs& found, const EffectSample& sample) {
   return central;
 }
 
-Finding find(const EffectSample& sample) {
+Finding find_far_samples(const EffectSample& sample) {
   const Spread spread = spread_of(sample.problem);
   return {.value = spread.ratio, .apply = [&sample, spread](Workload& workload) {
             const FarDiscs found = discs_beyond(spread, sample.problem, sample.stop);
@@ -52,14 +52,14 @@ Finding find(const EffectSample& sample) {
           }};
 }
 
-double of_numbers(const Workload&) { return 1; }
+double far_samples_of_numbers(const Workload&) { return 1; }
 
 }  // namespace
 
 constinit const Effect far_samples{.name = "far samples",
                                    .evidence = "side of the samples' box, over that of the central 90 %",
                                    .threshold = {Threshold::Side::above, far_ratio, 0},
-                                   .find = find,
-                                   .of_numbers = of_numbers};
+                                   .find = find_far_samples,
+                                   .of_numbers = far_samples_of_numbers};
 
 }  // namespace detp::sim

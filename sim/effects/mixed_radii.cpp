@@ -35,13 +35,13 @@ std::vector<RadiusClass> radius_classes(const EffectSample& sample) {
   return classes;
 }
 
-Finding find(const EffectSample& sample) {
+Finding find_radii(const EffectSample& sample) {
   const DiscRadii& radii = sample.problem.radii();
   return {.value = radii.largest / radii.rms,
           .apply = [&sample](Workload& workload) { workload.radii = radius_classes(sample); }};
 }
 
-double of_numbers(const Workload& workload) { return largest_radius(workload) / workload.disc_radius; }
+double radii_of_numbers(const Workload& workload) { return largest_radius(workload) / workload.disc_radius; }
 
 }  // namespace
 
@@ -49,7 +49,7 @@ constinit const Effect mixed_radii{.name = "radius per disc",
                                    .evidence = "largest radius over the root mean square",
                                    .threshold = {Threshold::Side::above, 1.1, 0},
                                    .is_input = true,
-                                   .find = find,
-                                   .of_numbers = of_numbers};
+                                   .find = find_radii,
+                                   .of_numbers = radii_of_numbers};
 
 }  // namespace detp::sim

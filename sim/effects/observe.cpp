@@ -49,8 +49,10 @@ std::string reason_for(const EffectReport& report, const EffectSelection& select
 }
 
 EffectReport judged(const Effect& effect, double value, double standard_error, const EffectSelection& selection) {
-  EffectReport report{
-      .effect = &effect, .on = selection.is_on(effect, value), .value = value, .standard_error = standard_error};
+  EffectReport report{.effect = &effect,
+                      .on = selection.is_on(effect, value, standard_error),
+                      .value = value,
+                      .standard_error = standard_error};
   report.reason = reason_for(report, selection);
   return report;
 }
@@ -84,8 +86,9 @@ EffectSelection::EffectSelection(std::string_view text) : automatic_(text == "au
   }
 }
 
-bool EffectSelection::is_on(const Effect& effect, double value) const {
-  if (is_decided_by_evidence(effect)) return effect.threshold.passed(value);
+bool EffectSelection::is_on(const Effect& effect, double value, double standard_error) const {
+  if (is_decided_by_evidence(effect))
+    return effect.threshold.passed(value) && effect.threshold.distance(value) > standard_error;
   return std::find(on_.begin(), on_.end(), &effect) != on_.end();
 }
 
@@ -109,7 +112,8 @@ Observed observe(const Problem& problem, const SurfaceFacts& surface, const Effe
                  const std::stop_token& stop) {
   const Stopwatch watch;
   const EffectSample sample(problem, surface, stop);
-  Observed observed{.workload = without_effects(problem), .rays = sample.rays.size(), .discs = sample.discs.size()};
+  Observed observed{
+      .workload = without_effects(problem), .rays = sample.rays().size(), .discs = sample.places().size()};
   for (const Effect* effect : all_effects) {
     const Stopwatch one;
     const Finding finding = effect->find(sample);

@@ -12,14 +12,14 @@ namespace detp::sim {
 /// Which effects predictions take into account, as --effects says.
 class EffectSelection {
  public:
-  /// Those whose evidence passes its threshold.
+  /// Those whose evidence passes its threshold by more than its standard error.
   EffectSelection() = default;
 
   /// "auto", "none", "all", or names separated by commas, with spaces or hyphens. Throws std::invalid_argument for
   /// anything else; the message lists the names.
   explicit EffectSelection(std::string_view text);
 
-  [[nodiscard]] bool is_on(const Effect& effect, double value) const;
+  [[nodiscard]] bool is_on(const Effect& effect, double value, double standard_error) const;
   /// Whether the evidence decides.
   [[nodiscard]] bool is_decided_by_evidence(const Effect& effect) const { return automatic_ || effect.is_input; }
   /// As the constructor reads it.
@@ -36,7 +36,7 @@ struct EffectReport {
   bool on = false;
   double value = 0;
   double standard_error = 0;
-  double seconds = 0;  ///< for its evidence, and if it is on, for what predictions take from it
+  double seconds = 0;       ///< for its evidence, and if it is on, for what predictions take from it
   std::string reason = {};  ///< why it is on or off, in words
 
   /// The evidence decides, and the value is within two standard errors of switching, or within 2 % of
@@ -47,9 +47,9 @@ struct EffectReport {
 struct Observed {
   Workload workload;
   std::vector<EffectReport> effects = {};  ///< one for each of all_effects
-  std::size_t rays = 0;               ///< sampled
-  std::size_t discs = 0;              ///< sampled
-  double seconds = 0;                 ///< for all of it
+  std::size_t rays = 0;                    ///< sampled
+  std::size_t discs = 0;                   ///< sampled
+  double seconds = 0;                      ///< for all of it
 };
 
 /// The workload of the problem: numbers of rays and discs, S₀, the samples' box, the root mean square disc radius d, and

@@ -7,9 +7,6 @@
 #include <numbers>
 #include <vector>
 
-#include "detp/sim/base/radix_sort.hpp"
-#include "detp/sim/geometry/lebesgue.hpp"
-
 namespace detp::sim {
 namespace {
 
@@ -29,29 +26,14 @@ struct Occupancy {
   }
 };
 
-constexpr int finest_level = 16;
-using Levels = std::array<Occupancy, finest_level + 1>;
-
-/// The different places of the sampled discs on Lebesgue's curve, in its order, which is that of cells on every level.
-std::vector<KeyedIndex> places_of(std::span<const Disc> discs, std::span<const std::size_t> sample,
-                                  const std::stop_token& stop) {
-  Box box;
-  for (const std::size_t disc : sample) box.include(discs[disc].centre);
-  std::vector<KeyedIndex> places;
-  places.reserve(sample.size());
-  for (const std::size_t disc : sample) places.push_back({lebesgue_code(discs[disc].centre, box), 0});
-  radix_sort(places, 3 * finest_level, stop);
-  const auto equal = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key == b.key; };
-  places.erase(std::unique(places.begin(), places.end(), equal), places.end());
-  return places;
-}
+using Levels = std::array<Occupancy, levels_of_cells + 1>;
 
 /// Counts cells by the level from which on neighbours in the order are in different cells.
 Levels occupied_cells(const std::vector<KeyedIndex>& places) {
   constexpr int never = 0;  // neighbours beyond both ends are apart on all levels
   std::vector<int> apart{never, never};
   for (std::size_t i = 1; i < places.size(); ++i)
-    apart.push_back((std::countl_zero(places[i].key ^ places[i - 1].key) - (64 - 3 * finest_level)) / 3 + 1);
+    apart.push_back((std::countl_zero(places[i].key ^ places[i - 1].key) - (64 - 3 * levels_of_cells)) / 3 + 1);
   apart.insert(apart.end(), {never, never});
   Levels levels;  // first the changes from level to level
   for (std::size_t i = 1; i + 2 < apart.size(); ++i) {
@@ -73,12 +55,12 @@ Levels occupied_cells(const std::vector<KeyedIndex>& places) {
 
 }  // namespace
 
-SampleDimension sample_dimension(std::span<const Disc> discs, std::span<const std::size_t> sample,
-                                 const std::stop_token& stop) {
+SampleDimension sample_dimension(std::vector<KeyedIndex> places) {
   constexpr std::size_t least_points = 1024;
   constexpr double least_covered = 0.25;
-  constexpr int last_level = finest_level - 3;  // on finer ones, points that share a place would be missed
-  const std::vector<KeyedIndex> places = places_of(discs, sample, stop);
+  constexpr int last_level = levels_of_cells - 3;  // on finer ones, points that share a place would be missed
+  const auto equal = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key == b.key; };
+  places.erase(std::unique(places.begin(), places.end(), equal), places.end());
   if (places.size() < least_points) return {};
   const Levels levels = occupied_cells(places);
   const auto covered = [&](std::size_t level) { return 1 - levels[level].once / static_cast<double>(places.size()); };

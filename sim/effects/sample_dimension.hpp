@@ -1,10 +1,8 @@
 #pragma once
 
-#include <cstddef>
-#include <span>
-#include <stop_token>
+#include <vector>
 
-#include "detp/sim/geometry/geometry.hpp"
+#include "sample_places.hpp"
 
 namespace detp::sim {
 
@@ -14,15 +12,13 @@ struct SampleDimension {
 };
 
 /// Dimension of a set of points by box counting: the slope of log₂(number of occupied cells) against the number of
-/// halvings of the cells, over three levels, clamped to [1, 3]. Counts the discs with the numbers in `sample`.
+/// halvings of the cells, over three levels, clamped to [1, 3]. Counts sampled points, given by their sorted places.
 /// Estimates the occupied cells without sampled points from those with one or two (Chao 1984). The finest level is the
 /// last at which at least a quarter of further points would come to lie in cells that have sampled points (Good 1953:
 /// one minus the share of points that are alone in their cells). Coarser levels are not used, because a body's corners
-/// and edges distort the slope there. Returns 3 for fewer than 1024 different points. Throws Stopped if a stop was
-/// requested.
+/// and edges distort the slope there. Returns 3 for fewer than 1024 different places.
 ///
-/// Accuracy   0.1 for 10⁵ points uniform in a cube or on its faces.
-[[nodiscard]] SampleDimension sample_dimension(std::span<const Disc> discs, std::span<const std::size_t> sample,
-                                               const std::stop_token& stop = {});
+/// Accuracy   0.1 for 8192 of 10⁵ points uniform in a cube or on its faces.
+[[nodiscard]] SampleDimension sample_dimension(std::vector<KeyedIndex> places);
 
 }  // namespace detp::sim

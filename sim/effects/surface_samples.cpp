@@ -2,14 +2,13 @@
 #include <cmath>
 
 #include "all_effects.hpp"
-#include "sample_dimension.hpp"
 #include "sample_extent.hpp"
 
 namespace detp::sim {
 namespace {
 
-Finding find(const EffectSample& sample) {
-  const SampleDimension dimension = sample_dimension(sample.problem.discs(), sample.discs, sample.stop);
+Finding find_surfaces(const EffectSample& sample) {
+  const SampleDimension& dimension = sample.dimension();
   return {.value = dimension.value,
           .standard_error = dimension.standard_error,
           .apply = [dimension = dimension.value, surface = sample.surface](Workload& workload) {
@@ -19,7 +18,7 @@ Finding find(const EffectSample& sample) {
           }};
 }
 
-double of_numbers(const Workload& workload) { return workload.dimension; }
+double surfaces_of_numbers(const Workload& workload) { return workload.dimension; }
 
 }  // namespace
 
@@ -34,7 +33,7 @@ double extent_on_surfaces(Workload samples, double area) {
 constinit const Effect surface_samples{.name = "surface samples",
                                        .evidence = "dimension D of the samples, by box counting",
                                        .threshold = {Threshold::Side::below, 2.9, 0},
-                                       .find = find,
-                                       .of_numbers = of_numbers};
+                                       .find = find_surfaces,
+                                       .of_numbers = surfaces_of_numbers};
 
 }  // namespace detp::sim

@@ -98,7 +98,9 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
       command, "--effects", Values::one, words,
       [this](const std::string& text) { request_.effects = sim::EffectSelection(text); },
       "deviations from uniform lines and samples that predictions take into account: auto (where the evidence calls "
-      "for them), none, all, or a list of finite-paths, surface-samples, far-samples; default: auto");
+      "for them), none, all, or a list of surface-samples, clustered-samples, finite-paths, uneven-rays, "
+      "directional-bias, far-samples; "
+      "default: auto");
 }
 
 validate::JobRequest WorkloadOptions::request(const CommonOptions& common, bool complete) const {

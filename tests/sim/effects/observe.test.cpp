@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -18,7 +19,7 @@ TEST_SUITE("known answer") {
     const std::vector<sim::Ray> rays{{.origin = {5, 2, 1}, .direction = {1, 0, 0}, .length = 3},
                                      {.origin = {5, 2, 1}, .direction = {1, 0, 0}, .length = 300},
                                      {.origin = {500, 2, 1}, .direction = {1, 0, 0}, .length = 3}};
-    const Workload w = sim::observe(sim::make_problem(rays, discs)).workload;
+    const Workload w = sim::observe(sim::make_problem(rays, discs), {}, sim::EffectSelection("all")).workload;
     CHECK(w.rays == 3);
     CHECK(w.samples == 2);
     CHECK(w.disc_radius == 5);
@@ -181,8 +182,8 @@ TEST_SUITE("effects") {
       CHECK(sim::EffectSelection(text).text() == text);
     CHECK(sim::EffectSelection("finite paths").text() == "finite-paths");
     CHECK_THROWS_WITH_AS(sim::EffectSelection("fog"),
-                         "there is no effect \"fog\"; there are auto, none, all, or a list of finite-paths, "
-                         "surface-samples, far-samples",
+                         "there is no effect \"fog\"; there are auto, none, all, or a list of surface-samples, "
+                         "clustered-samples, finite-paths, uneven-rays, directional-bias, far-samples",
                          std::invalid_argument);
     for (const char* bad : {"", ",", "finite-paths,", "all,none", "Auto"})
       CHECK_THROWS_AS(sim::EffectSelection{bad}, std::invalid_argument);
@@ -203,5 +204,58 @@ TEST_SUITE("effects") {
     CHECK(paths.is_close());
     CHECK(paths.reason.ends_with("; close to its threshold"));
     CHECK(report_of(found, sim::far_samples).reason.find("is not above 4") != std::string::npos);
+  }
+
+  TEST_CASE("samples in small clusters have small boxes around them; uniform ones the boxes of uniform samples") {
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 50'000, 0.01, 1);
+    const auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 100);
+    const sim::Observed uniform = sim::observe(sim::make_problem(rays, discs), {}, sim::EffectSelection("all"));
+    CHECK(std::abs(report_of(uniform, sim::clustered_samples).value - 1) < 0.1);
+    const auto& nodes = uniform.workload.nodes;
+    REQUIRE(nodes.size() > 2);
+    CHECK(nodes.front().samples == doctest::Approx(50'000));
+    CHECK(nodes.front().surface[0] == doctest::Approx(24).epsilon(0.01));
+    CHECK(nodes.front().volume[0] == doctest::Approx(8).epsilon(0.01));
+    CHECK(nodes.back().samples == 1);
+    CHECK(nodes.back().squares[2] == doctest::Approx(8).epsilon(1e-9));  // 4 Σ (1 - n_i²)
+    CHECK_NOTHROW(check(uniform.workload));
+    for (std::size_t i = 0; i < discs.size(); ++i) {  // eight clusters of a tenth of the side
+      const int corner = static_cast<int>(i % 8);
+      discs[i].centre = 0.1 * discs[i].centre + glm::dvec3(corner & 1, (corner >> 1) & 1, corner >> 2);
+    }
+    const sim::Observed clusters = sim::observe(sim::make_problem(rays, discs));
+    CHECK(report_of(clusters, sim::clustered_samples).on);
+    CHECK(report_of(clusters, sim::clustered_samples).value < 0.2);
+    const auto eighth = std::find_if(clusters.workload.nodes.begin(), clusters.workload.nodes.end(),
+                                     [](const NodeBoxes& one) { return one.samples < 10'000; });
+    REQUIRE(eighth != clusters.workload.nodes.end());
+    CHECK(eighth->surface[0] == doctest::Approx(0.24).epsilon(0.02));
+  }
+
+  TEST_CASE("parallel rays hit the discs that face them twice as often as isotropic rays") {
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 1);
+    for (sim::Disc& disc : discs) disc.normal = {0, 0, 1};
+    std::vector<sim::Ray> rays;
+    for (const sim::Disc& disc : sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 2))
+      rays.push_back({.origin = {disc.centre.x, disc.centre.y, -2}, .direction = {0, 0, 1}, .length = 4});
+    const sim::Observed found = sim::observe(sim::make_problem(rays, discs));
+    const Workload& w = found.workload;
+    const double density = report_of(found, sim::uneven_rays).value;
+    CHECK(density == doctest::Approx(1).epsilon(0.25));
+    CHECK(w.hit_ratio == doctest::Approx(2).epsilon(0.25));
+  }
+
+  TEST_CASE("rays that pass only the emptier half of the samples are less dense around the samples") {
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 1);
+    for (std::size_t i = 0; i < discs.size(); ++i)
+      if (i % 10 != 0) discs[i].centre.x = -std::abs(discs[i].centre.x);  // 95 % of the samples
+    std::vector<sim::Ray> rays;
+    for (const sim::Disc& disc : sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 2))
+      rays.push_back({.origin = {std::abs(disc.centre.x), disc.centre.y, -2}, .direction = {0, 0, 1}, .length = 4});
+    const sim::Observed found = sim::observe(sim::make_problem(rays, discs));
+    const sim::EffectReport& report = report_of(found, sim::uneven_rays);
+    CHECK(report.on);
+    CHECK(report.value < 0.5);
+    CHECK(found.workload.ray_density == report.value);
   }
 }

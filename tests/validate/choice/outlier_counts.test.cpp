@@ -28,6 +28,7 @@ Compared compare(AwkwardScene scene, double radius, std::size_t lines, const Box
   Workload alike = workload;
   alike.radii.clear();
   alike.central.reset();
+  alike.nodes.clear();
   return {model::predict(workload, tree), model::predict(alike, tree), sim::run(problem, tree, {}).counts};
 }
 

@@ -1,0 +1,19 @@
+#include "sample_places.hpp"
+
+#include "detp/sim/geometry/lebesgue.hpp"
+
+namespace detp::sim {
+
+std::vector<KeyedIndex> sample_places(std::span<const Disc> discs, std::span<const std::size_t> sample,
+                                      const std::stop_token& stop) {
+  Box box;
+  for (const std::size_t disc : sample) box.include(discs[disc].centre);
+  std::vector<KeyedIndex> places;
+  places.reserve(sample.size());
+  for (const std::size_t disc : sample)
+    places.push_back({lebesgue_code(discs[disc].centre, box), static_cast<std::uint32_t>(disc)});
+  radix_sort(places, 3 * levels_of_cells, stop);
+  return places;
+}
+
+}  // namespace detp::sim
