@@ -11,7 +11,8 @@
 #include "detp/sim/geometry/unit_vector.hpp"
 #include "file_error.hpp"
 #include "number_text.hpp"
-#include "obj_lines.hpp"
+#include "mtl_file.hpp"
+#include "statements.hpp"
 
 namespace detp::sim {
 namespace {
@@ -45,15 +46,18 @@ struct Corner {
 
 class ObjReader {
  public:
-  ObjReader(const std::string& path, std::stop_token stop) : lines_(path, std::move(stop)), memory_(path) {}
+  ObjReader(const std::string& path, std::stop_token stop) : path_(path), stop_(stop), lines_(path, obj_format, std::move(stop)), memory_(path) {}
 
   Mesh read(Notices& notices) {
     while (lines_.next()) {
       if (lines_.keyword() == "v") add_position();
       if (lines_.keyword() == "vn") add_normal();
       if (lines_.keyword() == "f") add_face();
+      if (lines_.keyword() == "usemtl") use_material(lines_.rest());
+      if (lines_.keyword() == "mtllib") add_library(lines_.rest());
     }
     lines_.note_unknown(notices);
+    add_materials(notices);
     if (!normals_.empty() && all_used_have_normals()) {
       memory_.reserve(mesh_.normals, at_positions_.size());
       for (const CornerNormals& normals : at_positions_) mesh_.normals.push_back(normals.vector());
@@ -82,19 +86,50 @@ class ObjReader {
       memory_.push(mesh_.triangles, {polygon_[0], polygon_[i - 1], polygon_[i]});
   }
 
+  /// The material of the faces that follow. Faces before the first one have number 0, that of no name.
+  void use_material(std::string_view name) {
+    if (runs_.empty()) memory_.push(runs_, {std::size_t{0}, std::uint16_t{0}});
+    const auto found = std::find(names_.begin(), names_.end(), name);
+    const auto number = static_cast<std::size_t>(found - names_.begin());
+    if (number > UINT16_MAX) lines_.fail("a mesh can have 65535 materials");
+    if (found == names_.end()) names_.emplace_back(name);
+    memory_.push(runs_, {mesh_.triangles.size(), static_cast<std::uint16_t>(number)});
+  }
+
+  void add_library(std::string_view name) {
+    if (std::find(libraries_.begin(), libraries_.end(), name) == libraries_.end()) libraries_.emplace_back(name);
+  }
+
+  /// Reads the libraries, and gives each triangle its material. Without a library that can be found, all are matt.
+  void add_materials(Notices& notices) {
+    if (runs_.empty() || libraries_.empty()) return;
+    std::vector<Material> known;
+    for (const std::string& library : libraries_)
+      for (Material& one : read_mtl(beside(path_, library), notices, stop_)) known.push_back(std::move(one));
+    if (known.empty()) return;
+    mesh_.materials.all.resize(names_.size());
+    std::size_t unknown = 0;
+    for (std::size_t i = 1; i < names_.size(); ++i) {
+      const auto found = std::find_if(known.begin(), known.end(), [&](const Material& m) { return m.name == names_[i]; });
+      if (found != known.end())
+        mesh_.materials.all[i] = *found;
+      else
+        ++unknown;
+    }
+    if (unknown > 0)
+      notices.push_back("materials that no library defines, taken as matt: " + std::to_string(unknown));
+    std::vector<std::uint16_t>& numbers = mesh_.materials.of_triangle;
+    memory_.reserve(numbers, mesh_.triangles.size());
+    for (std::size_t i = 0; i < runs_.size(); ++i)
+      numbers.resize(i + 1 < runs_.size() ? runs_[i + 1].first : mesh_.triangles.size(), runs_[i].second);
+  }
+
   /// The first three numbers of a v or vn line.
   [[nodiscard]] glm::dvec3 vector_in_line() const {
     std::string_view words = lines_.rest();
     glm::dvec3 vector{0.0};
-    for (int axis = 0; axis < 3; ++axis) vector[axis] = number(cut_word(words));
+    for (int axis = 0; axis < 3; ++axis) vector[axis] = lines_.number(cut_word(words));
     return vector;
-  }
-
-  [[nodiscard]] double number(std::string_view word) const {
-    if (const auto value = number_in(word)) return *value;
-    if (word.find("1.#") != std::string_view::npos) return nan;  // how older Microsoft libraries print NaN and infinity
-    if (word.empty()) lines_.fail("has too few numbers, 3 are needed");
-    lines_.fail(quoted(word) + " is not a number");
   }
 
   /// Reads 1, 1/2, 1//3 or 1/2/3: the vertex, its texture (ignored) and its normal.
@@ -141,12 +176,17 @@ class ObjReader {
     });
   }
 
-  ObjLines lines_;
+  const std::string& path_;
+  std::stop_token stop_;
+  Statements lines_;
   KeptMemory memory_;
   Mesh mesh_;
   std::vector<glm::dvec3> normals_;
   std::vector<CornerNormals> at_positions_;
   std::vector<std::uint32_t> polygon_;
+  std::vector<std::string> libraries_;
+  std::vector<std::string> names_{""};                           ///< of materials
+  std::vector<std::pair<std::size_t, std::uint16_t>> runs_;  ///< first triangle and material, in rising order
 };
 
 }  // namespace

@@ -1,6 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
 
 #include "detp/sim/scene/scene.hpp"
 
@@ -9,21 +12,18 @@ namespace detp::sim {
 /// Origin and direction of a photon.
 struct PhotonStart {
   glm::dvec3 origin{0.0};
-  glm::dvec3 direction{0.0, 0.0, 1.0};  ///< unit length
+  glm::dvec3 direction{0.0, 0.0, 1.0};        ///< unit length
+  std::optional<std::uint32_t> triangle = {};  ///< on which the origin lies
 };
 
-/// Samples photons from a light. All photons have the same power.
-class Emitter {
- public:
-  /// Throws std::invalid_argument for a light that is not finite, or an area light without area.
-  explicit Emitter(const Light& light);
+/// Samples the photons of one light, all of the same power: the photon that four uniform numbers in [0, 1) determine.
+using Emitter = std::function<PhotonStart(const std::array<double, 4>& random)>;
 
-  /// The photon that four uniform numbers in [0, 1) determine.
-  [[nodiscard]] PhotonStart photon(const std::array<double, 4>& random) const;
+/// The emitter of a light of the scene; it keeps copies of what it needs. Throws std::invalid_argument for a light that is not
+/// finite, has no area or no direction, and for a surface light of a scene in which no triangle with an area emits.
+[[nodiscard]] Emitter emitter_of(const Light& light, const Scene& scene);
 
- private:
-  Light light_;
-  glm::dvec3 normal_{0.0};  ///< of an area light
-};
+/// Flux of the scene's emitting triangles: π times the sum of area times emitted radiance.
+[[nodiscard]] double emitted_flux(const Mesh& mesh);
 
 }  // namespace detp::sim

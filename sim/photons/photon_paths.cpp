@@ -44,7 +44,7 @@ std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64
       }
       traced += photons;
     }
-    for_each_checked(std::span(rays), check, [&](Ray& ray) { ray.power = 1 / static_cast<double>(emitted); });
+    for_each_checked(std::span(rays), check, [&](Ray& ray) { ray.power /= static_cast<double>(emitted); });
   } catch (const Stopped&) {
     stopped_tracing(rays.size(), count);
   }

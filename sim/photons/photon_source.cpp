@@ -22,7 +22,7 @@ PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_
       photons += rounds.next(starts_.back());
       count_rays((photons + group_size - 1) / group_size, stop);
     }
-    power_ = 1 / static_cast<double>(emitted(stop));
+    emitted_ = static_cast<double>(emitted(stop));
   } catch (const Stopped&) {
     stopped_tracing(std::min(starts_.back(), count), count);
   }
@@ -68,7 +68,7 @@ void PhotonSource::read(std::uint64_t first, std::span<Ray> block, const std::st
     const std::uint64_t to = std::min(last, starts_[group] + rays.size());
     for (std::uint64_t number = from; number < to; ++number) {
       Ray& ray = block[number - first] = rays[number - starts_[group]];
-      ray.power = power_;
+      ray.power /= emitted_;
     }
   });
 }

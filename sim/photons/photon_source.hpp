@@ -32,7 +32,7 @@ class PhotonSource final : public RaySource {
   std::uint64_t limit_;                ///< in photons
   std::vector<std::uint64_t> starts_;  ///< number of each group's first ray; at the end, the number of all rays found
   Box origins_;
-  double power_ = 0;
+  double emitted_ = 1;  ///< number of photons that yield the rays
 };
 
 }  // namespace detp::sim

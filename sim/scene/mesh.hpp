@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "detp/sim/geometry/geometry.hpp"
+#include "material.hpp"
 
 /// Triangle meshes, and the samples at their vertices.
 namespace detp::sim {
@@ -15,6 +16,7 @@ struct Mesh {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;  ///< one for each position, or none at all; not necessarily of unit length
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< indices into positions, all in range
+  Materials materials = {};
 };
 
 /// Messages for the user that are not errors: "12 unreferenced vertices dropped".

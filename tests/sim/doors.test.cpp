@@ -69,7 +69,7 @@ Scene lit_scene() {
   scene.mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   scene.mesh.triangles = {{0, 1, 2}};
   for (const glm::dvec3& position : scene.mesh.positions) scene.box.include(position);
-  scene.light = PointLight{{0.2, 0.2, 1}};
+  scene.lights = {{PointLight{{0.2, 0.2, 1}}}};
   return scene;
 }
 
@@ -95,12 +95,12 @@ const std::vector<Door>& doors() {
       {"photon paths, albedo", "albedo",
        [](double x) {
          Scene scene = lit_scene();
-         scene.albedo = x;
+         scene.mesh.materials.all = {{.diffuse = x}};
          return all_finite(photon_paths(scene, 9, 1));
        }},
       {"photon paths, light", "light", [](double x) {
          Scene scene = lit_scene();
-         scene.light = PointLight{{0.2, x, 1}};
+         scene.lights = {{PointLight{{0.2, x, 1}}}};
          return all_finite(photon_paths(scene, 9, 1));
        }}};
   return list;

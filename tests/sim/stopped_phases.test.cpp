@@ -12,7 +12,7 @@
 #include "detp/sim/lists/plain/ray_list.hpp"
 #include "detp/sim/lists/simd/disc_tree.hpp"
 #include "detp/sim/lists/sphere_nodes.hpp"
-#include "detp/sim/photons/mesh_light.hpp"
+#include "detp/sim/photons/placed_lights.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/rays/line_field.hpp"
@@ -116,7 +116,10 @@ TEST_SUITE("identity") {
     const Mesh& mesh = tree().mesh;
     const std::uint64_t triangles = mesh.triangles.size();
     check_phase({"edges", [&](const auto& stop) { use(mean_edge_length(mesh, stop)); }, 3 * triangles});
-    check_phase({"light", [&](const auto& stop) { use(light_for(mesh, tree().box, stop)); }, 25 * triangles});
+    check_phase({"light",
+                 [&](const auto& stop) { use(placed_lights(std::array{LightKind::area}, mesh, tree().box, {}, stop)); },
+                 25 * triangles});
+    check_phase({"up", [&](const auto& stop) { use(up_of(mesh, tree().box, stop)); }, triangles});
     Notices notices;
     check_phase({"vertices", [&](const auto& stop) { use(samples_at_vertices(mesh, notices, stop)); }, triangles});
   }

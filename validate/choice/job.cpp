@@ -114,9 +114,11 @@ class JobMaker {
     std::optional<std::size_t> samples;
     if (request_.samples)
       samples = count_in_memory("samples", *request_.samples, sizeof(sim::Sample) + sizeof(sim::Disc));
-    scene_ = sim::open_scene({*request_.scene, samples, request_.seed}, stop_);
+    scene_ = sim::open_scene({*request_.scene, samples, request_.seed, request_.lights, request_.up}, stop_);
     job_.name = scene_->name;
     job_.notices = scene_->notices;
+    job_.lights = scene_->lights;
+    job_.up = scene_->up;
     job_.triangles = scene_->mesh.triangles.size();
     job_.surface = {triangle_area(scene_->mesh, stop_),
                     request_.samples ? 0 : sim::mean_edge_length(scene_->mesh, stop_)};

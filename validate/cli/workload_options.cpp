@@ -93,6 +93,15 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
         request_.field = lines ? sim::Field::isotropic : sim::Field::photons;
       },
       "isotropic (lines) or photons (paths from the scene's light); default: photons where there is a light");
+  lists.add(
+      command, "--light", Values::one, words,
+      [this](const std::string& text) { request_.lights = parse_lights(text); },
+      "lights placed in the scene, a list of area, point, spot, directional, environment, surface (materials that "
+      "emit); default: the scene's own lights, or an area light");
+  lists.add(
+      command, "--up", Values::one, words,
+      [this](const std::string& text) { request_.up = parse_up(text); },
+      "which way is up, for lights that are placed: x, y, z, -x, -y, -z, auto; default: auto (by the mesh's shape)");
   command.add_flag("--front-facing", request_.front_facing, "count only rays that arrive at a disc's front");
   lists.add(
       command, "--effects", Values::one, words,
@@ -101,6 +110,28 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
       "for them), none, all, or a list of surface-samples, clustered-samples, finite-paths, uneven-rays, "
       "directional-bias, far-samples; "
       "default: auto");
+}
+
+std::vector<sim::LightKind> parse_lights(std::string_view text) {
+  std::vector<std::string_view> names;
+  for (const sim::LightKind kind : sim::light_kinds) names.push_back(name(kind));
+  std::vector<sim::LightKind> lights;
+  for (std::size_t from = 0; from <= text.size();) {
+    const std::size_t comma = std::min(text.find(',', from), text.size());
+    const std::string word = one_of("--light", std::string(text.substr(from, comma - from)), names);
+    lights.push_back(sim::light_kinds[static_cast<std::size_t>(std::ranges::find(names, word) - names.begin())]);
+    from = comma + 1;
+  }
+  return lights;
+}
+
+std::optional<sim::Up> parse_up(const std::string& text) {
+  std::vector<std::string_view> names;
+  for (const auto& [known, up] : sim::named_ups) names.push_back(known);
+  names.emplace_back("auto");
+  const std::string word = one_of("--up", text, names);
+  if (word == "auto") return std::nullopt;
+  return std::ranges::find(sim::named_ups, word, &std::pair<std::string_view, sim::Up>::first)->second;
 }
 
 validate::JobRequest WorkloadOptions::request(const CommonOptions& common, bool complete) const {
@@ -220,8 +251,19 @@ Json origin_json(const validate::JobRequest& request, const std::string& scene, 
   return json;
 }
 
+Json lights_json(const std::vector<sim::Light>& lights) {
+  Json json = Json::array();
+  for (const sim::Light& light : lights)
+    json.push_back({{"kind", name(sim::kind_of(light))}, {"flux", light.flux}});
+  return json;
+}
+
 Json to_json(const validate::Job& job, const validate::JobRequest& request) {
   Json json = origin_json(request, job.name, job.field);
+  if (!job.lights.empty() && job.field == sim::Field::photons && !request.ray_file) {
+    json["light"] = lights_json(job.lights);
+    json["up"] = sim::name(job.up);
+  }
   json.update(to_json(job.workload));
   return json;
 }

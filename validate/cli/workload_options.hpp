@@ -42,6 +42,12 @@ enum class SphereStop {
   best  ///< SphereStops::best
 };
 
+/// "area,spot". Throws std::invalid_argument for an unknown kind.
+[[nodiscard]] std::vector<sim::LightKind> parse_lights(std::string_view text);
+
+/// "-z"; nothing for "auto". Throws std::invalid_argument for other text.
+[[nodiscard]] std::optional<sim::Up> parse_up(const std::string& text);
+
 /// The help of --engine.
 inline constexpr const char* engine_help =
     "simd: vectors of floats, with exact decisions; plain: in double, one ray and one disc at a time; the hits are the "

@@ -10,10 +10,10 @@
 /// @courtyard are in metres.
 namespace detp::sim::built_in {
 
-/// A mesh and its light.
+/// A mesh and its lights.
 struct LitMesh {
   Mesh mesh;
-  Light light;
+  std::vector<Light> lights;
 };
 
 /// A broad tree on uneven ground: 72 500 triangles, edges 1 % of the scene's length on the tree, 2 % on the ground, as

@@ -45,7 +45,7 @@ LitMesh cornell() {
   add_room(lit_mesh.mesh);
   add_block(lit_mesh.mesh, {.x = 0.34, .z = 0.36, .height = 0.6, .turn = 0.3});
   add_block(lit_mesh.mesh, {.x = 0.66, .z = 0.68, .height = 0.3, .turn = -0.3});
-  lit_mesh.light = AreaLight{.corner = {0.38, 0.999, 0.4}, .edge_u = {0.24, 0, 0}, .edge_v = {0, 0, 0.2}};
+  lit_mesh.lights = {{AreaLight{.corner = {0.38, 0.999, 0.4}, .edge_u = {0.24, 0, 0}, .edge_v = {0, 0, 0.2}}}};
   return lit_mesh;
 }
 

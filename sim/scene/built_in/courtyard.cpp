@@ -99,8 +99,8 @@ LitMesh courtyard() {
     for (const Side& side : sides) add_storey(mesh, side, level);
   }
   add_roof(mesh);
-  lit_mesh.light =
-      AreaLight{.corner = {-court, ridge, -court}, .edge_u = {2 * court, 0, 0}, .edge_v = {0, 0, 2 * court}};
+  lit_mesh.lights = {
+      {AreaLight{.corner = {-court, ridge, -court}, .edge_u = {2 * court, 0, 0}, .edge_v = {0, 0, 2 * court}}}};
   return lit_mesh;
 }
 

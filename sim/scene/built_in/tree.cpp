@@ -59,7 +59,7 @@ LitMesh tree() {
                     .edge = 0.124,
                     .seed = 12};
   const Foliage foliage{.leaves = 0, .length = 0.23, .width = 0.115, .droop = 0.25, .seed = 13};
-  return {.mesh = landscape(ground, plant, foliage, 72'500), .light = light_over(ground, 9)};
+  return {.mesh = landscape(ground, plant, foliage, 72'500), .lights = {{light_over(ground, 9)}}};
 }
 
 LitMesh tree_coarse() {
@@ -88,7 +88,7 @@ LitMesh tree_coarse() {
                     .edge = 0.48,
                     .seed = 24};
   const Foliage foliage{.leaves = 0, .length = 1.1, .width = 0.45, .droop = 0.3, .seed = 23};
-  return {.mesh = landscape(ground, plant, foliage, 18'000), .light = light_over(ground, 21)};
+  return {.mesh = landscape(ground, plant, foliage, 18'000), .lights = {{light_over(ground, 21)}}};
 }
 
 }  // namespace detp::sim::built_in

@@ -5,7 +5,8 @@
 #include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/mesh_file.hpp"
-#include "detp/sim/photons/mesh_light.hpp"
+#include "detp/sim/photons/emitter.hpp"
+#include "detp/sim/photons/placed_lights.hpp"
 #include "detp/sim/scene/built_in/built_in.hpp"
 #include "resample.hpp"
 
@@ -63,6 +64,14 @@ void add_samples(Scene& scene, const SceneRequest& request, const std::stop_toke
                                       std::to_string(wanted) + " asked for)");
 }
 
+/// Adds the lights that are requested, in place of the scene's own; if it has none at all, an area light.
+void add_lights(Scene& scene, const SceneRequest& request, const Up& up, const std::stop_token& stop) {
+  std::vector<LightKind> kinds = request.lights;
+  if (kinds.empty() && scene.lights.empty()) kinds = {LightKind::area};
+  if (!kinds.empty()) scene.lights = placed_lights(kinds, scene.mesh, scene.box, up, stop);
+  scene.up = up;
+}
+
 Scene uniform_scene(const SceneRequest& request, const std::stop_token& stop) {
   Scene scene;
   scene.name = request.name;
@@ -80,9 +89,10 @@ Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
   scene.name = request.name;
   built_in::LitMesh lit_mesh = known.make();
   scene.mesh = std::move(lit_mesh.mesh);
-  scene.light = lit_mesh.light;
+  scene.lights = std::move(lit_mesh.lights);
   add_samples(scene, request, stop);
   scene.box = box_of(scene);
+  add_lights(scene, request, request.up.value_or(Up{}), stop);
   return scene;
 }
 
@@ -92,7 +102,11 @@ Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
   scene.mesh = read_mesh(request.name, scene.notices, stop);
   add_samples(scene, request, stop);
   scene.box = box_of(scene);
-  if (scene.box.low != scene.box.high) scene.light = light_for(scene.mesh, scene.box, stop);
+  if (scene.box.low == scene.box.high) return scene;
+  if (emitted_flux(scene.mesh) > 0) scene.lights = {{SurfaceLight{}, emitted_flux(scene.mesh)}};
+  const bool needs_up = scene.lights.empty() || !request.lights.empty();
+  const Up up = request.up ? *request.up : needs_up ? up_of(scene.mesh, scene.box, stop) : Up{};
+  add_lights(scene, request, up, stop);
   return scene;
 }
 

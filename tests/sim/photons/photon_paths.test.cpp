@@ -25,7 +25,7 @@ Scene closed_box(double scale = 1, const glm::dvec3& centre = glm::dvec3{0.0}) {
   built_in::add_box(scene.mesh, centre - scale * glm::dvec3{1.0},
                     {{{2 * scale, 0, 0}, {0, 2 * scale, 0}, {0, 0, 2 * scale}}}, 0.25 * scale);
   for (const glm::dvec3& position : scene.mesh.positions) scene.box.include(position);
-  scene.light = PointLight{.position = centre};
+  scene.lights = {{PointLight{.position = centre}}};
   return scene;
 }
 
@@ -115,8 +115,8 @@ TEST_SUITE("known answer") {
     Scene scene;
     built_in::add_quad(scene.mesh, {{{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}}}, 1);
     for (const glm::dvec3& position : scene.mesh.positions) scene.box.include(position);
-    scene.light = PointLight{.position = {0, 0.5, 0}};
-    scene.albedo = 0;
+    scene.lights = {{PointLight{.position = {0, 0.5, 0}}}};
+    scene.mesh.materials.all = {{.diffuse = 0}};
     std::size_t away = 0;
     for (const Ray& ray : photon_paths(scene, 2000, 1)) {
       const double radius = glm::length(end_of(ray));
@@ -130,13 +130,13 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("with albedo 1 paths in a closed box terminate: a photon has at most 1000 pieces") {
     Scene scene = closed_box();
-    scene.albedo = 1;
+    scene.mesh.materials.all = {{.diffuse = 1}};
     CHECK(1 / photon_paths(scene, 10'000, 1)[0].power == doctest::Approx(10));
   }
 
   TEST_CASE("with albedo 0 every photon in a closed box has one segment") {
     Scene scene = closed_box();
-    scene.albedo = 0;
+    scene.mesh.materials.all = {{.diffuse = 0}};
     CHECK(1 / photon_paths(scene, 1000, 1)[0].power == doctest::Approx(1000));
   }
 }
@@ -161,7 +161,7 @@ TEST_SUITE("statistical") {
     constexpr double count = 200'000;
     for (const double albedo : {0.2, 0.5, 0.8}) {
       Scene scene = closed_box();
-      scene.albedo = albedo;
+      scene.mesh.materials.all = {{.diffuse = albedo}};
       const double photons = 1 / photon_paths(scene, static_cast<std::size_t>(count), 5)[0].power;
       const double expected = 1 / (1 - albedo);
       const double error = std::sqrt(albedo) / (1 - albedo) / std::sqrt(photons);  // of a geometric distribution
@@ -188,7 +188,7 @@ TEST_SUITE("statistical") {
 
   TEST_CASE("a lamp in the middle of a cube lights its six faces equally") {
     Scene scene = closed_box();
-    scene.albedo = 0;
+    scene.mesh.materials.all = {{.diffuse = 0}};
     constexpr double count = 60'000;
     glm::dvec3 low{0.0}, high{0.0};
     for (const Ray& ray : photon_paths(scene, static_cast<std::size_t>(count), 4))
@@ -210,7 +210,7 @@ TEST_SUITE("bad input") {
                          "photon paths need a light; @uniform has none", std::invalid_argument);
     Scene empty;
     empty.name = "empty";
-    empty.light = PointLight{};
+    empty.lights = {{PointLight{}}};
     CHECK_THROWS_WITH_AS((void)photon_paths(empty, 1, 1), "photon paths need triangles; empty has none",
                          std::invalid_argument);
     Scene boxless = closed_box();
@@ -226,15 +226,15 @@ TEST_SUITE("bad input") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     for (const double albedo : {-0.1, 1.1, nan}) {
       Scene scene = closed_box();
-      scene.albedo = albedo;
+      scene.mesh.materials.all = {{.diffuse = albedo}};
       CHECK_THROWS_WITH_AS((void)photon_paths(scene, 1, 1), doctest::Contains("albedo must be in [0, 1]"),
                            std::invalid_argument);
     }
     Scene scene = closed_box();
-    scene.light = AreaLight{.corner = {}, .edge_u = {1, 0, 0}, .edge_v = {2, 0, 0}};
+    scene.lights = {{AreaLight{.corner = {}, .edge_u = {1, 0, 0}, .edge_v = {2, 0, 0}}}};
     CHECK_THROWS_WITH_AS((void)photon_paths(scene, 1, 1), doctest::Contains("area light has no area"),
                          std::invalid_argument);
-    scene.light = PointLight{.position = {0, nan, 0}};
+    scene.lights = {{PointLight{.position = {0, nan, 0}}}};
     CHECK_THROWS_WITH_AS((void)photon_paths(scene, 1, 1), doctest::Contains("point light must be finite"),
                          std::invalid_argument);
   }
@@ -242,7 +242,7 @@ TEST_SUITE("bad input") {
   TEST_CASE("tracing gives up after the stated number of photons if the light meets no surface") {
     Scene scene = closed_box();
     // shines up, far above the scene
-    scene.light = AreaLight{.corner = {0, 50, 0}, .edge_u = {0, 0, 1}, .edge_v = {1, 0, 0}};
+    scene.lights = {{AreaLight{.corner = {0, 50, 0}, .edge_u = {0, 0, 1}, .edge_v = {1, 0, 0}}}};
     CHECK_THROWS_WITH_AS((void)photon_paths(scene, 100, 1), doctest::Contains("11000 photons gave 0 pieces"),
                          std::invalid_argument);
   }

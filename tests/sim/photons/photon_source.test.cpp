@@ -50,7 +50,7 @@ TEST_SUITE("limit") {
 TEST_SUITE("bad input") {
   TEST_CASE("a light that meets no surface is refused instead of traced for ever") {
     Scene scene = open_scene({.name = "@cornell", .samples = {}});
-    scene.light = PointLight{scene.box.high + 1000.0 * scene.box.size()};
+    scene.lights = {{PointLight{scene.box.high + 1000.0 * scene.box.size()}}};
     CHECK_THROWS_WITH_AS(PhotonSource(scene, 50, 1), doctest::Contains("hardly meets"), std::invalid_argument);
   }
 }

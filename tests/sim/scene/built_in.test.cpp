@@ -84,7 +84,7 @@ TEST_SUITE("known answer") {
     CHECK(static_cast<double>(lit_mesh.mesh.triangles.size()) == doctest::Approx(10'000).epsilon(0.05));
     for (const glm::dvec3& position : lit_mesh.mesh.positions)
       for (int axis = 0; axis < 3; ++axis) CHECK((position[axis] >= 0 && position[axis] <= 1));
-    const auto light = std::get<AreaLight>(lit_mesh.light);
+    const auto light = std::get<AreaLight>(lit_mesh.lights.at(0).shape);
     CHECK(light.corner.y < 1);
     CHECK(light.corner.y > 0.99);
   }
@@ -93,7 +93,7 @@ TEST_SUITE("known answer") {
     for (const auto& [bound_name, make] : all) {
       const auto& name = bound_name;
       CAPTURE(name);
-      const auto light = std::get<AreaLight>(make().light);
+      const auto light = std::get<AreaLight>(make().lights.at(0).shape);
       CHECK(glm::cross(light.edge_u, light.edge_v).y < 0);
     }
   }

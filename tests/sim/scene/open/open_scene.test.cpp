@@ -39,7 +39,7 @@ TEST_SUITE("known answer") {
       const Scene scene = open_scene({.name = name, .samples = {}});
       CHECK(scene.name == name);
       CHECK(scene.samples.size() > 1000);
-      CHECK(scene.light.has_value() == (scene.field == Field::photons));
+      CHECK(!scene.lights.empty() == (scene.field == Field::photons));
       Box box = scene.box;
       for (const Sample& sample : scene.samples) box.include(sample.position);
       CHECK(box.low == scene.box.low);

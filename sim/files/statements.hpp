@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -11,12 +12,21 @@
 
 namespace detp::sim {
 
-/// The statements of an OBJ file, without comments and blank lines. Lines that a backslash continues are joined.
-class ObjLines {
- public:
-  ObjLines(const std::string& path, std::stop_token stop);
+/// A format whose files consist of lines "keyword arguments".
+struct StatementFormat {
+  std::string_view name;  ///< "OBJ"
+  std::span<const std::string_view> keywords;
+};
 
-  /// Goes to the next statement with a keyword of OBJ; false at the end of the file. Throws FileError if most
+extern const StatementFormat obj_format;
+extern const StatementFormat mtl_format;
+
+/// The statements of such a file, without comments and blank lines. Lines that a backslash continues are joined.
+class Statements {
+ public:
+  Statements(const std::string& path, const StatementFormat& format, std::stop_token stop);
+
+  /// Goes to the next statement with a known keyword; false at the end of the file. Throws FileError if most
   /// statements have unknown keywords, and as TextLines does.
   bool next();
 
@@ -27,6 +37,10 @@ class ObjLines {
   /// Throws FileError with the line, the first of joined lines.
   [[noreturn]] void fail(const std::string& what) const;
 
+  /// The number in a word. "1.#IND" and the like, as older Microsoft libraries print NaN and infinity, are NaN. Throws
+  /// FileError for an empty word and for other text.
+  [[nodiscard]] double number(std::string_view word) const;
+
   /// Adds a notice of the statements that were skipped.
   void note_unknown(Notices& notices) const;
 
@@ -34,6 +48,7 @@ class ObjLines {
   [[nodiscard]] std::string_view joined();
   void count_unknown();
 
+  const StatementFormat& format_;
   InputFile file_;
   TextLines lines_;
   std::string joined_;

@@ -1,4 +1,4 @@
-#include "detp/sim/photons/mesh_light.hpp"
+#include "detp/sim/photons/placed_lights.hpp"
 
 #include <doctest/doctest.h>
 
@@ -15,6 +15,10 @@ Mesh box_mesh(const glm::dvec3& low, const glm::dvec3& size) {
   Mesh mesh;
   built_in::add_box(mesh, low, {{{size.x, 0, 0}, {0, size.y, 0}, {0, 0, size.z}}}, 0.5 * glm::length(size));
   return mesh;
+}
+
+AreaLight light_for(const Mesh& mesh, const Box& box, const Up& up = {}) {
+  return std::get<AreaLight>(placed_lights(std::array{LightKind::area}, mesh, box, up).at(0).shape);
 }
 
 void add(Mesh& mesh, const Mesh& other) {

@@ -1,8 +1,10 @@
-#include "mesh_light.hpp"
+#include "placed_lights.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "detp/sim/base/stop_check.hpp"
+#include "emitter.hpp"
 
 namespace detp::sim {
 namespace {
@@ -50,8 +52,8 @@ void add_intersection(VerticalLine& line, const glm::dvec3& a, const glm::dvec3&
   if (u >= 0 && v >= 0 && u + v <= 1) line.depths.push_back(-(a.y + u * (b.y - a.y) + v * (c.y - a.y)));
 }
 
-/// All coordinates are in units of the box's longest side.
-std::vector<VerticalLine> vertical_lines(const Mesh& mesh, const Box& box, const AreaLight& light,
+/// All coordinates are in units of the box's longest side. Box and light are turned so that Y is up; the mesh is not.
+std::vector<VerticalLine> vertical_lines(const Mesh& mesh, const Up& up, const Box& box, const AreaLight& light,
                                          const std::stop_token& stop) {
   const double unit = box.longest_side();
   const glm::dvec3 top{box.centre().x, box.high.y, box.centre().z};
@@ -63,9 +65,8 @@ std::vector<VerticalLine> vertical_lines(const Mesh& mesh, const Box& box, const
                      .depths = {}});
   StopCheck check(stop, "placing the light");
   for (const auto& [a, b, c] : mesh.triangles) {
-    for (VerticalLine& line : all)
-      add_intersection(line, (mesh.positions[a] - top) / unit, (mesh.positions[b] - top) / unit,
-                       (mesh.positions[c] - top) / unit);
+    const auto placed = [&](std::uint32_t corner) { return (up.to_y(mesh.positions[corner]) - top) / unit; };
+    for (VerticalLine& line : all) add_intersection(line, placed(a), placed(b), placed(c));
     check.after(all.size());
   }
   for (VerticalLine& line : all) std::sort(line.depths.begin(), line.depths.end());
@@ -73,9 +74,10 @@ std::vector<VerticalLine> vertical_lines(const Mesh& mesh, const Box& box, const
 }
 
 /// Depth of the light below the box's top, as a share of the box's height.
-double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light, const std::stop_token& stop) {
+double depth_of_light(const Mesh& mesh, const Up& up, const Box& box, const AreaLight& light,
+                      const std::stop_token& stop) {
   const double height = box.size().y / box.longest_side();
-  const std::vector<VerticalLine> all = vertical_lines(mesh, box, light, stop);
+  const std::vector<VerticalLine> all = vertical_lines(mesh, up, box, light, stop);
   for (int i = 1; i <= most_steps; ++i) {
     // The distance starts half a step higher, so that the light cannot lie in the ceiling.
     const auto is_far_above = [&](const VerticalLine& line) {
@@ -86,14 +88,46 @@ double depth_of_light(const Mesh& mesh, const Box& box, const AreaLight& light, 
   return step;
 }
 
+AreaLight area_light(const Mesh& mesh, const Box& box, const Up& up, const std::stop_token& stop) {
+  Box upright;
+  upright.include(up.to_y(box.low));
+  upright.include(up.to_y(box.high));
+  AreaLight light = level_light(upright);
+  const double height = upright.size().y;
+  const bool flat = height < 0.05 * upright.longest_side();
+  light.corner.y += flat ? 0.5 * upright.longest_side() : -depth_of_light(mesh, up, upright, light, stop) * height;
+  return {up.from_y(light.corner), up.from_y(light.edge_u), up.from_y(light.edge_v)};
+}
+
+glm::dvec3 middle(const AreaLight& light) { return light.corner + 0.5 * (light.edge_u + light.edge_v); }
+
 }  // namespace
 
-AreaLight light_for(const Mesh& mesh, const Box& box, const std::stop_token& stop) {
-  AreaLight light = level_light(box);
-  const double height = box.size().y;
-  const bool flat = height < 0.05 * box.longest_side();
-  light.corner.y += flat ? 0.5 * box.longest_side() : -depth_of_light(mesh, box, light, stop) * height;
-  return light;
+std::vector<Light> placed_lights(std::span<const LightKind> kinds, const Mesh& mesh, const Box& box, const Up& up,
+                                 const std::stop_token& stop) {
+  constexpr glm::dvec3 sunbeam{0.48, -0.8, 0.36};
+  const auto placed = static_cast<double>(std::ranges::count_if(kinds, [](auto k) { return k != LightKind::surface; }));
+  const auto light_of = [&](LightKind kind) -> Light {
+    switch (kind) {
+      case LightKind::area:
+        return {area_light(mesh, box, up, stop), 1 / placed};
+      case LightKind::point:
+        return {PointLight{middle(area_light(mesh, box, up, stop))}, 1 / placed};
+      case LightKind::spot:
+        return {SpotLight{middle(area_light(mesh, box, up, stop)), up.from_y({0, -1, 0}), std::numbers::pi / 6},
+                1 / placed};
+      case LightKind::directional:
+        return {DirectionalLight{up.from_y(sunbeam)}, 1 / placed};
+      case LightKind::environment:
+        return {EnvironmentLight{}, 1 / placed};
+      case LightKind::surface:
+        break;
+    }
+    return {SurfaceLight{}, emitted_flux(mesh)};
+  };
+  std::vector<Light> lights;
+  for (const LightKind kind : kinds) lights.push_back(light_of(kind));
+  return lights;
 }
 
 }  // namespace detp::sim

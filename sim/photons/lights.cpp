@@ -1,0 +1,51 @@
+#include "lights.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "detp/model/vocabulary/checks.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr double even_share = 0.1;  // of the photons, spread evenly over the lights
+
+std::uint64_t reversed(std::uint64_t bits) {
+  bits = ((bits >> 1) & 0x5555555555555555U) | ((bits & 0x5555555555555555U) << 1);
+  bits = ((bits >> 2) & 0x3333333333333333U) | ((bits & 0x3333333333333333U) << 2);
+  bits = ((bits >> 4) & 0x0F0F0F0F0F0F0F0FU) | ((bits & 0x0F0F0F0F0F0F0F0FU) << 4);
+  return __builtin_bswap64(bits);
+}
+
+/// Van der Corput's sequence in base 2, in [0, 1).
+double radical_inverse(std::uint64_t number) { return 0x1p-53 * static_cast<double>(reversed(number) >> 11); }
+
+}  // namespace
+
+Lights::Lights(const Scene& scene) {
+  if (scene.lights.empty())
+    throw std::invalid_argument("photon paths need a light; " + scene.name + " has none");
+  double flux = 0;
+  double shining = 0;
+  for (const Light& light : scene.lights) {
+    require_non_negative("flux of a light", light.flux);
+    flux += light.flux;
+    shining += light.flux > 0 ? 1 : 0;
+  }
+  require_positive("flux of all lights", flux);
+  double sum = 0;
+  for (const Light& light : scene.lights) {
+    Emitter emitter = emitter_of(light, scene);
+    if (light.flux == 0) continue;
+    const double probability = shining == 1 ? 1 : (1 - even_share) * light.flux / flux + even_share / shining;
+    shares_.push_back({std::move(emitter), sum += probability, light.flux / probability});
+  }
+}
+
+EmittedPhoton Lights::photon(std::uint64_t photon, const std::array<double, 4>& random) const {
+  const auto found = std::upper_bound(shares_.begin(), shares_.end() - 1, radical_inverse(photon),
+                                      [](double number, const Share& share) { return number < share.up_to; });
+  return {found->emitter(random), found->power};
+}
+
+}  // namespace detp::sim

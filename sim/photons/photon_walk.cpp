@@ -1,0 +1,60 @@
+#include "photon_walk.hpp"
+
+#include <stdexcept>
+
+#include "detp/model/vocabulary/checks.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr double gap_share = 1e-5;  // share of the box's diagonal
+
+/// Checks the scene first, so that no later code need handle scenes that cannot be traced.
+const Scene& checked(const Scene& scene) {
+  if (scene.lights.empty()) throw std::invalid_argument("photon paths need a light; " + scene.name + " has none");
+  if (scene.mesh.triangles.empty())
+    throw std::invalid_argument("photon paths need triangles; " + scene.name + " has none");
+  check(scene.mesh.materials, scene.mesh.triangles.size());
+  if (scene.box.empty())
+    throw std::invalid_argument("photon paths need the scene's box; that of " + scene.name + " is empty");
+  const glm::dvec3 size = scene.box.size();
+  require_positive("diagonal of the scene's box", std::hypot(size.x, size.y, size.z));
+  return scene;
+}
+
+}  // namespace
+
+PhotonWalk::PhotonWalk(const Scene& scene, std::uint64_t seed, const std::stop_token& stop)
+    : caster_(checked(scene).mesh, scene.box, stop),
+      lights_(scene),
+      materials_(scene.mesh.materials),
+      second_intersections_(scene.second_intersections),
+      seed_(seed) {
+  const glm::dvec3 size = scene.box.size() / caster_.scale();
+  reach_ = glm::length(size);
+  gap_ = gap_share * reach_;
+}
+
+/// Distance to where a photon leaves the scene; 0 if it starts outside.
+double PhotonWalk::distance_out(const PhotonStart& from) const {
+  const double along = glm::dot(from.origin, from.direction);
+  const double inside = reach_ * reach_ - glm::dot(from.origin, from.origin);
+  return inside > 0 ? std::sqrt(along * along + inside) - along : 0;
+}
+
+/// How far a piece goes on beyond the surface where it ends.
+double PhotonWalk::overshoot(const glm::dvec3& end, const glm::dvec3& direction, std::uint32_t triangle) const {
+  if (!second_intersections_) return gap_;
+  const auto next = caster_.first_intersection(end, direction, triangle);
+  return next ? next->distance + gap_ : std::max(gap_, distance_out({end, direction}));
+}
+
+Ray PhotonWalk::piece(const PhotonStart& from, double distance, double beyond, double power) const {
+  const double start = std::min(gap_, 0.5 * distance);
+  return {.origin = caster_.to_scene(from.origin + start * from.direction),
+          .direction = from.direction,
+          .length = caster_.scale() * (distance - start + beyond),
+          .power = power};
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "detp/sim/geometry/geometry.hpp"
+#include "detp/sim/scene/material.hpp"
+
+namespace detp::sim {
+
+/// The direction in which a photon leaves a surface, or nothing if the surface absorbs it: Russian roulette by the
+/// material's shares, so the photon's power stays the same. Determined by four uniform numbers in [0, 1). All
+/// distributions map uniform light from all directions to uniform light: they are reciprocal.
+///
+/// Diffuse    the cosine law, on the side from which the photon came.
+/// Specular   the projection of the direction on the surface, a point of the unit disc, moves from that of the mirror
+///            direction by normally distributed steps of standard deviation 1 / sqrt(shininess) along both axes; where
+///            it would leave the disc, the photon takes the mirror direction. So the lobe depends on the difference of
+///            direction cosines alone (as in J. E. Harvey, Light-Scattering Characteristics of Optical Surfaces, 1976);
+///            near the normal it is Phong's of that exponent.
+/// Glass      reflected with the probability of Fresnel's equations for unpolarised light, else refracted; totally
+///            reflected beyond the critical angle. The front is the side to which the normal points.
+///
+/// `normal` and `incoming` are unit vectors; `incoming` points to the surface.
+[[nodiscard]] std::optional<glm::dvec3> scattered(const Material& material, const glm::dvec3& normal,
+                                                  const glm::dvec3& incoming, const std::array<double, 4>& random);
+
+/// Fresnel's reflectance of unpolarised light at a boundary between two dielectrics; 1 beyond the critical angle.
+/// `cosine`: of the angle between incoming light and normal, in (0, 1]. `index`: behind the boundary over before it.
+[[nodiscard]] double fresnel_reflectance(double cosine, double index);
+
+}  // namespace detp::sim

@@ -1,0 +1,42 @@
+#include "material.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace detp::sim {
+
+void check(const Material& material) {
+  const auto require = [&](bool holds, const char* what, double value) {
+    if (!holds)
+      throw std::invalid_argument(fmt::format("{} of material '{}' (got {})", what, material.name, value));
+  };
+  const double shares = material.diffuse + material.specular + material.glass;
+  require(material.diffuse >= 0 && material.diffuse <= 1, "albedo must be in [0, 1], that", material.diffuse);
+  require(material.specular >= 0 && material.specular <= 1, "specular share must be in [0, 1], that",
+          material.specular);
+  require(material.glass >= 0 && material.glass <= 1, "share of glass must be in [0, 1], that", material.glass);
+  require(shares <= 1 + 1e-12, "diffuse, specular and glass shares must add up to at most 1, those", shares);
+  require(material.shininess >= 1, "shininess must be >= 1, that", material.shininess);
+  require(material.index > 0 && std::isfinite(material.index), "index of refraction must be > 0 and finite, that",
+          material.index);
+  require(material.emitted >= 0 && std::isfinite(material.emitted), "emitted radiance must be >= 0 and finite, that",
+          material.emitted);
+}
+
+void check(const Materials& materials, std::size_t triangles) {
+  for (const Material& material : materials.all) check(material);
+  const auto& numbers = materials.of_triangle;
+  if (numbers.empty()) return;
+  if (numbers.size() != triangles)
+    throw std::invalid_argument(
+        fmt::format("each triangle needs a material ({} for {} triangles)", numbers.size(), triangles));
+  const std::size_t largest = *std::max_element(numbers.begin(), numbers.end());
+  if (largest >= materials.all.size())
+    throw std::invalid_argument(
+        fmt::format("there is no material {} (counting from 0); there are {}", largest, materials.all.size()));
+}
+
+}  // namespace detp::sim
