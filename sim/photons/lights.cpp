@@ -42,10 +42,14 @@ Lights::Lights(const Scene& scene) {
   }
 }
 
+const Lights::Share& Lights::share_of(std::uint64_t photon) const {
+  return *std::upper_bound(shares_.begin(), shares_.end() - 1, radical_inverse(photon),
+                           [](double number, const Share& share) { return number < share.up_to; });
+}
+
 EmittedPhoton Lights::photon(std::uint64_t photon, const std::array<double, 4>& random) const {
-  const auto found = std::upper_bound(shares_.begin(), shares_.end() - 1, radical_inverse(photon),
-                                      [](double number, const Share& share) { return number < share.up_to; });
-  return {found->emitter(random), found->power};
+  const Share& share = share_of(photon);
+  return {share.emitter(random), share.power};
 }
 
 }  // namespace detp::sim

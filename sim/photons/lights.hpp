@@ -26,12 +26,16 @@ class Lights {
   /// Photon number `photon`, determined by four uniform numbers in [0, 1).
   [[nodiscard]] EmittedPhoton photon(std::uint64_t photon, const std::array<double, 4>& random) const;
 
+  [[nodiscard]] double power(std::uint64_t photon) const { return share_of(photon).power; }
+
  private:
   struct Share {
     Emitter emitter;
     double up_to;  ///< sum of the probabilities up to and including this light
     double power;
   };
+  [[nodiscard]] const Share& share_of(std::uint64_t photon) const;
+
   std::vector<Share> shares_;
 };
 

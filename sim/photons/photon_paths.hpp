@@ -21,7 +21,7 @@ namespace detp::sim {
 ///
 /// With Scene::second_intersections a piece goes straight on through the surface where it ends, and ends `gap` beyond
 /// the next one, or leaves the scene; not where the photon itself goes through (glass). So on a concave surface, or in
-/// a corner, the surface does not shadow the parts of its own discs that lie behind it (garcia2012 §2.1, §2.3). The price:
+/// a corner, the surface does not shadow the parts of its own discs that lie behind it (the paper, §2.1). The price:
 /// light reaches discs behind a sheet without thickness.
 ///
 /// The result depends on the seed alone, not on the number of threads. Throws std::invalid_argument for a scene without

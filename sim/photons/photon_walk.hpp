@@ -20,6 +20,9 @@ class PhotonWalk {
   /// and Stopped if a stop was requested.
   PhotonWalk(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
 
+  /// Power of photon number `photon`.
+  [[nodiscard]] double power(std::uint64_t photon) const { return lights_.power(photon); }
+
   /// Walks photon number `photon` and tells the recorder, in order, of
   ///   piece(ray): a straight piece of the path, as photon_paths describes, with the photon's power;
   ///   met(triangle, power, absorbed): the surface where the piece ends;
