@@ -63,7 +63,7 @@ class MtlReader {
     while (lines_.next()) {
       const std::string_view keyword = lines_.keyword();
       if (keyword == "newmtl")
-        all.push_back({.name = std::string(lines_.rest()), .model = {}});
+        all.push_back({.name = std::string(trimmed(lines_.rest())), .model = {}});
       else if (all.empty())
         lines_.fail("comes before the first newmtl");
       else

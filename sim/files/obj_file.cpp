@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -53,8 +54,8 @@ class ObjReader {
       if (lines_.keyword() == "v") add_position();
       if (lines_.keyword() == "vn") add_normal();
       if (lines_.keyword() == "f") add_face();
-      if (lines_.keyword() == "usemtl") use_material(lines_.rest());
-      if (lines_.keyword() == "mtllib") add_library(lines_.rest());
+      if (lines_.keyword() == "usemtl") use_material(trimmed(lines_.rest()));
+      if (lines_.keyword() == "mtllib") add_libraries(trimmed(lines_.rest()));
     }
     lines_.note_unknown(notices);
     add_materials(notices);
@@ -96,8 +97,13 @@ class ObjReader {
     memory_.push(runs_, {mesh_.triangles.size(), static_cast<std::uint16_t>(number)});
   }
 
-  void add_library(std::string_view name) {
-    if (std::find(libraries_.begin(), libraries_.end(), name) == libraries_.end()) libraries_.emplace_back(name);
+  /// One name, which may contain blanks; if there is no such file, the words are names.
+  void add_libraries(std::string_view names) {
+    std::error_code ignored;
+    const bool is_one = std::filesystem::exists(beside(path_, names), ignored);
+    for (std::string_view words = names, word = is_one ? names : cut_word(words); !word.empty();
+         word = is_one ? std::string_view{} : cut_word(words))
+      if (std::find(libraries_.begin(), libraries_.end(), word) == libraries_.end()) libraries_.emplace_back(word);
   }
 
   /// Reads the libraries, and gives each triangle its material. Without a library that can be found, all are matt.

@@ -1,0 +1,121 @@
+#include "detp/sim/files/mtl_file.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "detp/sim/files/file_error.hpp"
+#include "detp/sim/files/mesh_file.hpp"
+#include "detp/sim/photons/photon_paths.hpp"
+#include "detp/sim/scene/open/open_scene.hpp"
+#include "support/scratch_file.hpp"
+
+using namespace detp::sim;
+using detp::support::ScratchFolder;
+
+namespace {
+
+std::vector<Material> materials_in(const std::string& text, Notices* notices = nullptr) {
+  Notices ignored;
+  const ScratchFolder folder;
+  return read_mtl(folder.file("materials.mtl", text), notices != nullptr ? *notices : ignored);
+}
+
+Material material_in(const std::string& statements) {
+  const auto all = materials_in("newmtl one\n" + statements);
+  REQUIRE(all.size() == 1);
+  return all[0];
+}
+
+}  // namespace
+
+TEST_SUITE("known answer") {
+  TEST_CASE("colours become their luminance; one number is a grey") {
+    const Material one = material_in("Kd 1 0.5 0\nKe 2\nKs 0 0 0\n");
+    CHECK(one.name == "one");
+    CHECK(one.diffuse == doctest::Approx(0.2126 + 0.5 * 0.7152));
+    CHECK(one.emitted == doctest::Approx(2));
+    CHECK(one.specular == 0);
+    CHECK(one.glass == 0);
+  }
+
+  TEST_CASE("Ns makes gloss, from 1000 or with illum 3 or 5 a mirror; illum 0 and 1 have no gloss") {
+    CHECK(material_in("Kd 0.1\nKs 0.5\nNs 50\nillum 2\n").shininess == 50);
+    CHECK(material_in("Kd 0.1\nKs 0.5\nNs 50\nillum 2\n").specular == doctest::Approx(0.5));
+    CHECK(std::isinf(material_in("Ks 0.5\nNs 1000\n").shininess));
+    CHECK(std::isinf(material_in("Ks 0.5\nNs 10\nillum 3\n").shininess));
+    CHECK(material_in("Ks 0.5\nNs 50\nillum 1\n").specular == 0);
+    CHECK(material_in("Ks 0.5\nNs 0\n").specular == 0);
+  }
+
+  TEST_CASE("glass by illum or by opacity, with its index") {
+    const Material glass = material_in("Kd 0.2\nillum 7\nNi 1.33\n");
+    CHECK(glass.glass == 1);
+    CHECK(glass.diffuse == 0);
+    CHECK(glass.index == 1.33);
+    const Material tinted = material_in("Kd 0.4\nd -halo 0.25\nNi 1\n");
+    CHECK(tinted.glass == 0.75);
+    CHECK(tinted.diffuse == doctest::Approx(0.1));
+    CHECK(tinted.index == 1.5);
+    CHECK(material_in("Tr 0.75\n").glass == 0.75);
+  }
+
+  TEST_CASE("materials that reflect more than all light are scaled down, with a notice") {
+    Notices notices;
+    const auto all = materials_in("newmtl a\nKd 0.8\nKs 0.8\nNs 10\nmap_Kd wood.png\n", &notices);
+    CHECK(all.at(0).diffuse == doctest::Approx(0.5));
+    CHECK(all.at(0).specular == doctest::Approx(0.5));
+    REQUIRE(notices.size() == 2);
+    CHECK(notices[0].find("scaled down: 1") != std::string::npos);
+    CHECK(notices[1].find("textures, ignored: 1") != std::string::npos);
+  }
+
+  TEST_CASE("an OBJ file's faces have the materials of its library; the emitting ones are the scene's light") {
+    const ScratchFolder folder;
+    (void)folder.file("lamp.mtl", "newmtl lamp\nKd 0\nKe 3\nnewmtl wall paint\nKd 0.7 0.7 0.7\n");
+    (void)folder.file("more.mtl", "newmtl more\n");
+    const std::string file = folder.file("room.obj",
+                                         "mtllib lamp.mtl more.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nf 1 2 4\nusemtl lamp\n"
+                                         "f 1 2 3\nusemtl wall paint\nf 1 3 4\nf 2 3 4\nusemtl lost\nf 3 2 1\n");
+    Notices notices;
+    const Mesh mesh = read_mesh(file, notices);
+    CHECK(mesh.materials.of(0).diffuse == 0.5);
+    CHECK(mesh.materials.of(1).emitted == 3);
+    CHECK(mesh.materials.of(2).diffuse == doctest::Approx(0.7));
+    CHECK(mesh.materials.of(3).diffuse == doctest::Approx(0.7));
+    CHECK(mesh.materials.of(4).diffuse == 0.5);
+    REQUIRE(notices.size() == 1);
+    CHECK(notices[0] == "materials that no library defines, taken as matt: 1");
+    const Scene scene = open_scene({.name = file, .samples = {}});
+    REQUIRE(scene.lights.size() == 1);
+    CHECK(kind_of(scene.lights[0]) == LightKind::surface);
+    CHECK(scene.lights[0].flux == doctest::Approx(3 * 3.14159265358979 * 0.5));
+    CHECK(photon_paths(scene, 100, 1).size() == 100);
+    const Scene other = open_scene({.name = file, .samples = {}, .lights = {LightKind::point, LightKind::spot}});
+    REQUIRE(other.lights.size() == 2);
+    CHECK(other.lights[1].flux == 0.5);
+  }
+
+  TEST_CASE("a library that is not there leaves all surfaces matt, with a notice") {
+    const ScratchFolder folder;
+    const std::string file = folder.file("alone.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nusemtl a\nf 1 2 3\n");
+    Notices notices;
+    CHECK(read_mesh(file, notices).materials.all.empty());
+    REQUIRE(notices.size() == 1);
+    CHECK(notices[0].find("gone.mtl is not there") != std::string::npos);
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("numbers that cannot be read, negative or infinite ones, and early statements are refused with the line") {
+    const auto refuses = [](const std::string& text, const char* message) {
+      CHECK_THROWS_WITH_AS((void)materials_in(text), doctest::Contains(message), FileError);
+    };
+    refuses("newmtl a\nKd red\n", ":2: \"red\" is not a number");
+    refuses("newmtl a\nKd -1 0 0\n", ":2: must be >= 0 and finite");
+    refuses("newmtl a\nNs inf\n", ":2: ");
+    refuses("newmtl a\n\nKe\n", ":3: has too few numbers");
+    refuses("Kd 1 1 1\n", ":1: comes before the first newmtl");
+    refuses("newmtl a\nd 1.5\n", ":2: must be in [0, 1]");
+  }
+}
