@@ -67,7 +67,8 @@ std::string_view name(sim::Field field) { return field == sim::Field::isotropic 
 void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Values> axes) {
   using enum ValueLists::Kind;
   command.add_option("SCENE", request_.scene,
-                     "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell");
+                     "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell, @caustic, "
+                     "@interior");
   command.add_option("--discs", request_.disc_file,
                      "discs from a CSV or PLY file; default: one at each of the scene's samples");
   command.add_option("--ray-file", request_.ray_file, "rays from a CSV or PLY file; default: made, as --field says");

@@ -6,8 +6,8 @@
 
 #include "detp/sim/scene/scene.hpp"
 
-/// The built-in scenes. Each is the same on every call: its random parts have a fixed seed. Y points up; @tree and
-/// @courtyard are in metres.
+/// The built-in scenes. Each is the same on every call: its random parts have a fixed seed. Y points up; all
+/// but @cornell and @uniform are in metres.
 namespace detp::sim::built_in {
 
 /// A mesh and its lights.
@@ -30,6 +30,14 @@ struct LitMesh {
 
 /// A box of side 1, open in front (+Z), with two blocks in it. An area light just under the ceiling shines down.
 [[nodiscard]] LitMesh cornell();
+
+/// A glass ball and a brass ring on the floor before a wall: light is focused into caustics. Most of the light comes from
+/// an area light; the spot that shines on the ball has a twentieth of it.
+[[nodiscard]] LitMesh caustic();
+
+/// A furnished room, 6 m by 5 m, closed but for two windows: table, chairs, shelf, sofa, a mirror, a glass. Five lights: a
+/// lamp at the ceiling, one in a corner, a spot on the shelf, the sky and the sun outside of the windows.
+[[nodiscard]] LitMesh interior();
 
 /// `count` points uniform in the cube [-1, 1]³ with isotropic normals. Each sample is a function of the seed and of its
 /// number. Throws Stopped if a stop was requested.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <functional>
 #include <span>
 
@@ -27,6 +28,11 @@ void add_quad(Mesh& mesh, const std::array<glm::dvec3, 4>& corners, double cell)
 
 /// Adds a box with this corner and the right-handed edges that start there. All six faces look outwards.
 void add_box(Mesh& mesh, const glm::dvec3& corner, const std::array<glm::dvec3, 3>& edges, double cell);
+
+/// Gives the material to all triangles that have none yet.
+inline void paint(Mesh& mesh, std::uint16_t material) {
+  mesh.materials.of_triangle.resize(mesh.triangles.size(), material);
+}
 
 /// A tube around a path, with `sides` >= 3 vertices in each ring. Its ends are open, but a pointed tip closes the last
 /// one if `tip` is set.

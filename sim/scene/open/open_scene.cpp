@@ -25,7 +25,9 @@ const std::vector<BuiltIn>& built_ins() {
                                         {"@tree", built_in::tree},
                                         {"@tree-coarse", built_in::tree_coarse},
                                         {"@courtyard", built_in::courtyard},
-                                        {"@cornell", built_in::cornell}};
+                                        {"@cornell", built_in::cornell},
+                                        {"@caustic", built_in::caustic},
+                                        {"@interior", built_in::interior}};
   return all;
 }
 

@@ -44,7 +44,9 @@ struct Named {
 constexpr Named all[]{{"tree", built_in::tree},
                       {"tree_coarse", built_in::tree_coarse},
                       {"courtyard", built_in::courtyard},
-                      {"cornell", built_in::cornell}};
+                      {"cornell", built_in::cornell},
+                      {"caustic", built_in::caustic},
+                      {"interior", built_in::interior}};
 
 /// Twice the area, divided by the square of the longest edge.
 double relative_area(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
@@ -89,12 +91,49 @@ TEST_SUITE("known answer") {
     CHECK(light.corner.y > 0.99);
   }
 
+  TEST_CASE("materials are sound, and every triangle of @caustic and @interior has one") {
+    for (const auto& [bound_name, make] : all) {
+      const auto& name = bound_name;
+      CAPTURE(name);
+      const Mesh mesh = make().mesh;
+      CHECK_NOTHROW(check(mesh.materials, mesh.triangles.size()));
+      CHECK(mesh.materials.of_triangle.size() == (mesh.materials.all.empty() ? 0 : mesh.triangles.size()));
+    }
+  }
+
+  TEST_CASE("the glass ball of @caustic looks outwards, and so does the room of @interior inwards") {
+    const Mesh ball = built_in::caustic().mesh;
+    Mesh room = built_in::interior().mesh;
+    const glm::dvec3 centre{1.3, 0.9, 1.6};
+    std::size_t outwards = 0;
+    std::size_t glass = 0;
+    for (std::size_t i = 0; i < ball.triangles.size(); ++i) {
+      if (ball.materials.of(i).glass == 0) continue;
+      const auto& [a, b, c] = ball.triangles[i];
+      const glm::dvec3 normal =
+          glm::cross(ball.positions[b] - ball.positions[a], ball.positions[c] - ball.positions[a]);
+      ++glass;
+      if (glm::dot(normal, ball.positions[a] - centre) > 0) ++outwards;
+    }
+    CHECK(glass > 5000);
+    CHECK(outwards == glass);
+    Notices notices;
+    for (const Sample& sample : samples_at_vertices(room, notices)) {
+      const glm::dvec3& p = sample.position;
+      if (p.y == 2.8 && p.x > 0.01 && p.x < 5.99 && p.z > 0.01 && p.z < 4.99) CHECK(sample.normal.y == doctest::Approx(-1));
+      if (p.x == 0 && p.y > 0.01 && p.y < 2.79 && p.z > 0.01 && p.z < 4.99) CHECK(sample.normal.x == doctest::Approx(1));
+    }
+  }
+
   TEST_CASE("the lights shine down") {
     for (const auto& [bound_name, make] : all) {
       const auto& name = bound_name;
       CAPTURE(name);
-      const auto light = std::get<AreaLight>(make().lights.at(0).shape);
-      CHECK(glm::cross(light.edge_u, light.edge_v).y < 0);
+      bool shines_down = false;
+      for (const Light& light : make().lights)
+        if (const auto* area = std::get_if<AreaLight>(&light.shape))
+          shines_down = shines_down || glm::cross(area->edge_u, area->edge_v).y < 0;
+      CHECK(shines_down);
     }
   }
 

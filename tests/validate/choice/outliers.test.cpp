@@ -88,7 +88,8 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("built-in scenes give no warning") {
-    for (const std::string name : {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell"}) {
+    for (const std::string name : 
+         {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior"}) {
       CAPTURE(name);
       JobRequest request;
       request.scene = name;

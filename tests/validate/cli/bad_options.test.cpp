@@ -29,7 +29,7 @@ TEST_SUITE("bad input") {
     check_refused(
         {{uniform + "--frob 3", "--frob"},
          {uniform + "--technique quadtree", "brute-force, sphere-cache"},
-         {"run @moon", "@uniform, @tree, @tree-coarse, @courtyard, @cornell"},
+         {"run @moon", "@uniform, @tree, @tree-coarse, @courtyard, @cornell, @caustic, @interior"},
          {"scene moon", "must end in .obj or .ply"},
          {"run @uniform @tree", "@tree"},
          {model_numbers + "--format xml", "text,json,csv"},
