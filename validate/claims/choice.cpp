@@ -1,14 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
-#include <optional>
 
 #include "batches.hpp"
+#include "counted_search.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/technique/technique.hpp"
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "experiments.hpp"
@@ -24,18 +21,6 @@ constexpr double choice_tolerance = 0.25;
 /// is longer than this.
 constexpr double most_seconds = 3;
 
-std::size_t batches_of(std::size_t rays) { return std::min<std::size_t>(batch_count, rays); }
-
-/// Distributes all rays over the batches in short runs of neighbouring rays. So the segments of one photon's path
-/// mostly stay together, and each batch has rays from all parts of a sorted file.
-std::vector<std::vector<sim::Ray>> distribute_over_batches(const std::vector<sim::Ray>& rays) {
-  const std::size_t batches = batches_of(rays.size());
-  const std::size_t run = std::clamp<std::size_t>(rays.size() / batches, 1, 64);
-  std::vector<std::vector<sim::Ray>> parts(batches);
-  for (std::size_t i = 0; i < rays.size(); ++i) parts[i / run % batches].push_back(rays[i]);
-  return parts;
-}
-
 /// True if the technique processes each ray separately. A share of the rays then needs the same share of the tests.
 bool searches_ray_by_ray(Technique technique) {
   return technique == Technique::brute_force || record_of(technique).ray_by_ray;
@@ -45,53 +30,16 @@ double share_counted(const model::Ranked& ranked) {
   return searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
 }
 
-struct RayBatch {
-  double rays = 0;
-  Counts<double> counts;
-};
-
-struct Counted {
-  RayBatch all;
-  std::vector<RayBatch> batches = {};
-};
-
-std::optional<Counted> count(const Experiment& experiment, const model::Ranked& ranked) {
-  const ChoiceQuestion& question = *experiment.choice;
-  const auto taken =
-      static_cast<std::size_t>(std::ceil(share_counted(ranked) * static_cast<double>(question.rays.size())));
-  // An evenly spaced sample.
-  std::vector<sim::Ray> rays;
-  for (std::size_t i = 0; i < taken; ++i) rays.push_back(question.rays[(i + 1) * question.rays.size() / taken - 1]);
-  bool stopped = false;
-  const auto counts_of = [&](const std::vector<sim::Ray>& some) {
-    const sim::Problem problem = sim::make_problem(some, experiment.discs, question.workload.front_facing);
-    const sim::Outcome outcome = sim::run(problem, ranked.candidate, {.stop = experiment.stop});
-    if (outcome.stopped) stopped = true;
-    return RayBatch{static_cast<double>(some.size()), as_expected(outcome.counts)};
-  };
-  Counted counted{.all = counts_of(rays)};
-  for (const std::vector<sim::Ray>& batch : distribute_over_batches(rays)) counted.batches.push_back(counts_of(batch));
-  if (stopped) return std::nullopt;
-  return counted;
-}
-
 bool adds_up_over_rays(std::string_view term) {
   return term != "culls" && term != "visits" && term != "placements" && term != "made";
 }
 
-/// The count for all the question's rays, scaled from the sampled rays. The standard error is that between the batches,
-/// but at least that of independent events whose expected number is `predicted`; infinite if there is a single ray; 0
-/// for a count that does not add up over rays.
-Estimate observed(const Counted& counted, const CountTerm<double>& term, double predicted, double question_rays) {
-  const double all = counted.all.counts.*term.term;
-  if (!adds_up_over_rays(term.name)) return {all, 0};
-  const double scale = question_rays / counted.all.rays;
-  Estimate estimate{scale * all, std::numeric_limits<double>::infinity()};
-  if (counted.batches.size() < 2) return estimate;
-  std::vector<double> parts;
-  for (const RayBatch& batch : counted.batches) parts.push_back(question_rays / batch.rays * batch.counts.*term.term);
-  estimate.standard_error = std::max(batch_means(parts).standard_error, std::sqrt(scale * predicted));
-  return estimate;
+/// The count for all the question's rays, scaled from the sampled rays. The standard error is 0 for a count that does
+/// not add up over rays.
+Estimate observed(const CountedSearch& counted, const CountTerm<double>& term, double predicted, double rays) {
+  if (!adds_up_over_rays(term.name)) return {counted.all.counts.*term.term, 0};
+  return observed_in(
+      counted, [&](const Counts<double>& counts) { return counts.*term.term; }, predicted, rays);
 }
 
 /// True if the count is a claim: it is `hits`, or has a unit cost > 0 for this technique.
@@ -112,7 +60,7 @@ std::string with_dashes(std::string_view text) {
 
 std::vector<Finding> candidate_findings(const Experiment& experiment, const model::Ranked& ranked) {
   const sim::Stopwatch clock;
-  const auto counted = count(experiment, ranked);
+  const auto counted = count_search(experiment, ranked.candidate, share_counted(ranked));
   if (!counted) return {};
   const std::string_view technique = name(ranked.candidate.technique);
   const std::string parameters = describe(ranked.candidate);
@@ -131,7 +79,7 @@ std::vector<Finding> candidate_findings(const Experiment& experiment, const mode
                         .parameters = parameters,
                         .predictions = {{Form::corrected, "the closed form that choose prices", predicted}},
                         .observed = found,
-                        .batches = adds_up_over_rays(term) ? std::max(2, static_cast<int>(counted->batches.size())) : 0,
+                        .batches = adds_up_over_rays(term) ? batches_in(*counted) : 0,
                         .tolerance = choice_tolerance,
                         .lines = static_cast<std::uint64_t>(counted->all.rays)});
   }

@@ -60,6 +60,7 @@ struct Claim {
 struct ChoiceQuestion {
   Workload workload;           ///< as `choose` measures it
   std::vector<sim::Ray> rays;  ///< at least one
+  std::string effects = {};    ///< that the workload takes into account: "finite paths, surface samples"
 };
 
 struct Experiment {

@@ -33,6 +33,7 @@ std::vector<Finding> all_findings(const Experiment& experiment, const sim::Repor
     double unit_time;  ///< measured time of a unit of the step's work, relative to that of "sphere cache"
   };
   constexpr std::array steps{Step{"predictions of the choice", choice_findings, choice_work, 3},
+                             Step{"effects", effect_findings, effect_work, 3},
                              Step{"lines against spheres and discs", line_hit_findings, line_hit_work, 1},
                              Step{"sphere cache", sphere_cache_findings, sphere_cache_work, 1},
                              Step{"hierarchies of spheres and boxes", hierarchy_findings, hierarchy_work, 2.2},

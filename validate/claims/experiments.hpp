@@ -29,12 +29,18 @@ namespace detp::validate {
 /// nothing if experiment.choice is not set.
 [[nodiscard]] std::vector<Finding> choice_findings(const Experiment& experiment);
 
+/// The tests and hits of a box tree of fan-out 8 with 16 discs in a leaf. They are predicted from experiment.choice's
+/// workload, with the effects that it has, and counted on experiment.choice's rays. Refuted if an effect that matters is
+/// missing. Returns nothing if experiment.choice is not set.
+[[nodiscard]] std::vector<Finding> effect_findings(const Experiment& experiment);
+
 /// Predicted work of each experiment, in units of sim::StopCheck, for a display of progress.
 [[nodiscard]] double line_hit_work(const Experiment& experiment);
 [[nodiscard]] double sphere_cache_work(const Experiment& experiment);
 [[nodiscard]] double hierarchy_work(const Experiment& experiment);
 [[nodiscard]] double disc_index_work(const Experiment& experiment);
 [[nodiscard]] double choice_work(const Experiment& experiment);
+[[nodiscard]] double effect_work(const Experiment& experiment);
 
 /// The findings of all experiments, or of the experiments that were finished before a stop request. Sets `done`, if not
 /// null, to the number of finished experiments.

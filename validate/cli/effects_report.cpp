@@ -70,12 +70,21 @@ Json effect_cells(const Json& effects) {
   return cells;
 }
 
+std::string effects_on(const std::vector<sim::EffectReport>& effects) {
+  std::string on;
+  for (const sim::EffectReport& report : effects)
+    if (report.on) on += (on.empty() ? "" : ", ") + std::string(report.effect->name);
+  return on;
+}
+
 std::string effects_line(const std::vector<sim::EffectReport>& effects) {
   std::string on;
   std::string off;
   for (const sim::EffectReport& report : effects) {
     std::string& list = report.on ? on : off;
-    list += (list.empty() ? "" : ", ") + std::string(report.effect->name);
+    const bool say_why = report.on || report.is_close();
+    const std::string why = say_why ? fmt::format(" ({})", report.reason) : "";
+    list += fmt::format("{}{}{}", list.empty() ? "" : ", ", report.effect->name, why);
   }
   return fmt::format("effects   on: {}; off: {}", on.empty() ? "none" : on, off.empty() ? "none" : off);
 }

@@ -21,7 +21,11 @@ namespace detp::cli {
 /// The effects of to_json as cells of a table.
 [[nodiscard]] Json effect_cells(const Json& effects);
 
-/// "effects   on: finite paths; off: far samples".
+/// "finite paths, surface samples"; empty if none is on.
+[[nodiscard]] std::string effects_on(const std::vector<sim::EffectReport>& effects);
+
+/// "effects   on: finite paths (0.3 is apart from 1 by more than 0.05); off: far samples". Those that are off have a
+/// reason only if they are close to their threshold.
 [[nodiscard]] std::string effects_line(const std::vector<sim::EffectReport>& effects);
 
 /// What switching an effect by hand changes: predicted tests of a tree of boxes with the effect switched, over those as

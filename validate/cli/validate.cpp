@@ -8,6 +8,7 @@
 
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/claims/experiments.hpp"
+#include "effects_report.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"
 #include "sweep_report.hpp"
@@ -31,7 +32,12 @@ struct ValidateOptions {
   std::optional<std::string> sweep_rows;
 };
 
-validate::Experiment uniform_experiment(validate::JobRequest request, const std::stop_token& stop, Json& inputs) {
+void add_effects(const std::vector<sim::EffectReport>& effects, Result& result) {
+  result.json["effects"] = to_json(effects);
+  result.text = effects_line(effects);
+}
+
+validate::Experiment uniform_experiment(validate::JobRequest request, const std::stop_token& stop, Result& result) {
   if (request.front_facing || request.field == sim::Field::photons)
     throw std::invalid_argument("--front-facing and --field photons take a scene or --discs; numbers alone mean lines");
   if (!request.rays) request.rays = default_lines;
@@ -41,9 +47,24 @@ validate::Experiment uniform_experiment(validate::JobRequest request, const std:
   validate::Experiment experiment{.workload = validate::workload_of_numbers(request), .discs = {}, .stop = stop};
   if (experiment.workload.samples > 1e7)
     throw std::length_error("validate draws 32 sets of samples; at most 1e7 samples are allowed");
-  inputs = numbers_json(experiment.workload);
-  inputs["samples_are"] = "uniform";
+  result.inputs = numbers_json(experiment.workload);
+  result.inputs["samples_are"] = "uniform";
+  add_effects(sim::effects_of_numbers(experiment.workload), result);
   return experiment;
+}
+
+/// The workload with isotropic lines instead of its rays.
+Workload with_lines(Workload workload, double lines) {
+  workload.rays = lines;
+  workload.rays_end = workload.front_facing = false;
+  workload.path_length = 0;
+  workload.ray_density = workload.hit_ratio = 1;
+  if (workload.central) {
+    const double share = workload.central->sphere_radius / workload.sphere_radius;
+    workload.central->ray_share = share * share;
+    workload.central->path_length = 0;
+  }
+  return workload;
 }
 
 /// `choice` has the workload and rays of `choose` with the same options. The other claims are about isotropic lines: as
@@ -54,11 +75,10 @@ validate::Experiment scene_experiment(const validate::JobRequest& request, const
   note_all(common, job);
   result.json["warnings"] = job.warnings;
   result.inputs = to_json(job, request);
-  validate::Experiment experiment{.workload = job.workload, .discs = {}, .stop = stop};
-  experiment.workload.path_length = 0;
-  experiment.workload.front_facing = false;
-  experiment.workload.rays = request.rays.value_or(default_lines);
-  experiment.choice = {job.workload, std::move(job.rays)};
+  add_effects(job.observed.effects, result);
+  validate::Experiment experiment{
+      .workload = with_lines(job.workload, request.rays.value_or(default_lines)), .discs = {}, .stop = stop};
+  experiment.choice = {job.workload, std::move(job.rays), effects_on(job.observed.effects)};
   experiment.discs = std::move(job.discs);
   result.inputs["lines"] = whole(experiment.workload.rays);
   return experiment;
@@ -66,7 +86,7 @@ validate::Experiment scene_experiment(const validate::JobRequest& request, const
 
 validate::Experiment make_experiment(const validate::JobRequest& request, const CommonOptions& common,
                                      const std::stop_token& stop, Result& result) {
-  validate::Experiment experiment = request.numbers_alone() ? uniform_experiment(request, stop, result.inputs)
+  validate::Experiment experiment = request.numbers_alone() ? uniform_experiment(request, stop, result)
                                                             : scene_experiment(request, common, stop, result);
   experiment.seed = request.seed;
   result.inputs["seed"] = request.seed;
@@ -176,14 +196,15 @@ std::string summary(const std::vector<Claim>& claims, const Screen& screen) {
                         screen.text_width(), 2);
 }
 
-Table table_of(const std::vector<Claim>& claims, const Json& inputs) {
+Table table_of(const std::vector<Claim>& claims, const Result& result) {
   Table table(workload_columns() +
               Columns{"id", "quantity", "form", "source", "predicted", "observed", "standard_error",
                       "relative_difference", "tolerance", "detectable", "verdict", "control_offset",
                       "control_predicted", "control_verdict", "lines", "seconds"} +
-              sweep_columns());
+              effect_columns() + sweep_columns());
   for (const Claim& claim : claims) {
-    Json row = workload_cells(inputs);
+    Json row = workload_cells(result.inputs);
+    row.update(effect_cells(result.json["effects"]));
     row.update(claim_json(claim));
     row["control_offset"] = known(claim.control_offset);
     row["control_predicted"] = known(claim.control);
@@ -257,9 +278,10 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   for (const Claim& claim : claims) result.json["claims"].push_back(claim_json(claim));
   if (done.done < done.of) result.stopped = done;
   const Screen screen = common.screen();
-  result.text = claims.empty() ? "no claim was judged\n"
-                               : to_text(claims, screen) + quantities(claims, screen) + summary(claims, screen);
-  Table table = table_of(claims, result.inputs);
+  result.text = wrapped(result.text, screen.text_width(), 10) + "\n" +
+                (claims.empty() ? "no claim was judged\n"
+                                : to_text(claims, screen) + quantities(claims, screen) + summary(claims, screen));
+  Table table = table_of(claims, result);
   if (options.thorough && !result.stopped) sweep(options, common, stop, progress, table, result);
   result.csv = table.csv();
   result.code = code_of(claims);

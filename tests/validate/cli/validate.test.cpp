@@ -1,8 +1,10 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "support/command.hpp"
+#include "support/csv_answer.hpp"
 
 namespace detp::support {
 
@@ -23,6 +25,13 @@ TEST_SUITE("end to end") {
         CHECK(claim.contains(key));
     }
     CHECK(finished.json().at("warnings").empty());
+    for (const char* id : {"effects.tests.corrected", "effects.hits.corrected"}) {
+      const std::string quantity = by_id.at(id).at("quantity");
+      for (const Json& effect : finished.json().at("effects")) {
+        CHECK_FALSE(effect.at("reason").get<std::string>().empty());
+        CHECK((quantity.find(effect.at("name").get<std::string>()) != std::string::npos) == effect.at("on"));
+      }
+    }
     CHECK(finished.code == (refuted ? 1 : 0));
     CHECK(refuted);
     const Json choice = result_of("choose --rigor estimate" + scene);
@@ -56,6 +65,23 @@ TEST_SUITE("end to end") {
     CHECK(some_unknown);
     for (const std::string format : {"csv", "text"})
       CHECK_FALSE(has_no_number(detp(sparse + " --format " + format).out));
+  }
+
+  TEST_CASE("JSON, CSV and text say which effects the predictions have, and why") {
+    const std::string sparse = "validate @cornell --samples 20 --rays 100 --effects far-samples";
+    const Json json = detp(sparse + " --format json").json();
+    const std::vector<CsvRow> rows = csv_rows(detp(sparse + " --format csv").out);
+    REQUIRE_FALSE(rows.empty());
+    for (const Json& effect : json.at("effects")) {
+      std::string column = effect.at("name");
+      std::replace(column.begin(), column.end(), ' ', '_');
+      CHECK(rows.front().at(column) == effect.at("on").dump());
+      if (column == "far_samples") CHECK(effect.at("on") == true);
+      if (column == "finite_paths") CHECK(effect.at("reason") == "switched off by --effects far-samples");
+    }
+    const std::string text = detp(sparse).out;
+    CHECK(text.starts_with("effects   on: far samples (switched on by --effects far-samples); off: facing, "));
+    CHECK(detp("validate --samples 1 --rays 1 --format json").json().at("effects").size() == json.at("effects").size());
   }
 
   TEST_CASE("the sweep's options are refused without a sweep") {
