@@ -79,9 +79,9 @@ class Plan::Planner {
     const Rigor rigor = can_pilot ? Rigor::pilot : Rigor::estimate;
     if (options_.memory != nullptr) {
       const sim::Stopwatch watch;
-      basis_->workload =
-          with_all_rays_checked([&] { return sampled_workload(basis_->problem, rays_, basis_->rays, options_.stop); });
-      class_ = class_of(*basis_->workload);
+      const Workload evidence = sampled({});
+      class_ = class_of(evidence);
+      basis_->workload = options_.effects.text() == "auto" ? evidence : sampled(options_.effects);
       const auto found = options_.remembered_only ? std::optional(options_.memory->require(*class_, rigor))
                                                   : options_.memory->find(*class_, rigor);
       seconds_ = watch.seconds();
@@ -95,6 +95,11 @@ class Plan::Planner {
   void report(const char* what, double from, double to) const {
     if (options_.progress) options_.progress({what, from, to});
     sim::StopCheck(options_.stop, "planning").now();
+  }
+
+  [[nodiscard]] Workload sampled(const sim::EffectSelection& effects) const {
+    return with_all_rays_checked(
+        [&] { return sampled_workload(basis_->problem, rays_, basis_->rays, effects, options_.stop); });
   }
 
   /// Returns look(), which sees some of the rays. If one of these is malformed, throws with its number among all rays.
@@ -124,7 +129,7 @@ class Plan::Planner {
   Plan by_closed_forms() {
     report("measuring discs and rays", 0.1, 0.4);
     const sim::Stopwatch watch;
-    basis_->workload = sim::observe(problem_with_rays(), {}, {}, options_.stop).workload;
+    basis_->workload = sim::observe(problem_with_rays(), {}, options_.effects, options_.stop).workload;
     basis_->workload->rays = basis_->rays;
     const int threads = sim::useful_threads(options_.threads);
     for (const model::Ranked& one :

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "detp/sim/base/phase.hpp"
+#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 
@@ -22,6 +23,8 @@ struct PlanOptions {
   std::optional<double> rays = {};          ///< number of rays in each search; default: as many as are shown to `plan`
   std::optional<double> farthest = {};      ///< as for sim::Searcher
   bool front_facing = false;
+  /// that closed forms take into account, in plans and replans; the class of a memory is always that of the evidence
+  sim::EffectSelection effects = {};
   /// most threads, for building and for each search; 0: all threads of the caller's oneTBB arena, outside of one all
   /// cores. With as many threads as the caller's arena has, the work runs in that arena.
   int threads = 1;

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <vector>
 
-#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/geometry/random.hpp"
 
 namespace detp::validate {
@@ -46,11 +45,11 @@ std::string describe(const WorkloadClass& workload) {
 }
 
 Workload sampled_workload(const sim::Problem& problem, std::span<const sim::Ray> like, double rays,
-                          const std::stop_token& stop) {
+                          const sim::EffectSelection& effects, const std::stop_token& stop) {
   const std::vector<sim::Disc> discs = part_of(problem.discs(), 8192);
   const std::vector<sim::Ray> some = part_of(like, 1024);
   Workload workload =
-      sim::observe(sim::make_problem(some, discs, problem.front_facing(), 1, stop), {}, {}, stop).workload;
+      sim::observe(sim::make_problem(some, discs, problem.front_facing(), 1, stop), {}, effects, stop).workload;
   workload.rays = rays;
   workload.samples = static_cast<double>(problem.discs().size());
   workload.sphere_radius = problem.enclosing().radius;

@@ -7,6 +7,7 @@
 
 #include "detp/model/vocabulary/valid.hpp"
 #include "detp/model/vocabulary/workload.hpp"
+#include "detp/sim/effects/observe.hpp"
 
 namespace detp::sim {
 class Problem;
@@ -35,9 +36,9 @@ struct WorkloadClass {
 [[nodiscard]] std::string describe(const WorkloadClass& workload);
 
 /// The workload of `rays` rays like the given ones, and the problem's discs. Cheap: measured on at most 8192 of the discs
-/// and 1024 of the rays, so less accurate than `measure`. Throws std::invalid_argument for a ray that is malformed,
+/// and 1024 of the rays, so less accurate than `measure`. It has the selected effects. Throws std::invalid_argument for a ray that is malformed,
 /// sim::Stopped on a stop request.
 [[nodiscard]] Workload sampled_workload(const sim::Problem& problem, std::span<const sim::Ray> like, double rays,
-                                        const std::stop_token& stop = {});
+                                        const sim::EffectSelection& effects = {}, const std::stop_token& stop = {});
 
 }  // namespace detp::validate

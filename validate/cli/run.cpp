@@ -142,8 +142,9 @@ void choose_and_run(RunAnswer& answer, const validate::Job& job, sim::RunOptions
   const sim::Problem problem = job.problem(options.threads, options.stop);
   answer.run.prepare_seconds = watch.seconds();
   answer.run.rays_in_memory = job.rays.size();
-  answer.pilot = validate::choose_by_pilot(problem, answer.costs,
-                                           {.threads = options.threads, .only_choice = true, .stop = options.stop});
+  answer.pilot = validate::choose_by_pilot(
+      problem, answer.costs,
+      {.threads = options.threads, .workload = job.workload, .only_choice = true, .stop = options.stop});
   answer.candidate = answer.pilot->choice().candidate;
   answer.threads = options.threads = answer.pilot->choice().threads;
   if (progress)

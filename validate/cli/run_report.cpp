@@ -8,6 +8,7 @@
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "effects_report.hpp"
 #include "measured_report.hpp"
 #include "sphere_stops.hpp"
 #include "text_table.hpp"
@@ -112,6 +113,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
                {"read_seconds", job.read_seconds + answer.run.read_seconds},
                {"rays_in_memory", answer.run.rays_in_memory},
+               {"effects", to_json(job.observed.effects)},
                {"warnings", job.warnings},
                {"stopped", outcome.stopped}});
   return json;
@@ -122,6 +124,7 @@ Json cells_of(const Json& inputs, const Candidate& candidate, const Json& json) 
   cells.update(candidate_cells(candidate));
   for (const auto& [name, value] : json.items())
     if (!value.is_structured()) cells[name] = value;
+  cells.update(effect_cells(json["effects"]));
   cells.update(count_cells(json["counts"]));
   cells["hits"] = json["hits"];
   if (json.contains("hits_estimate") && !json["hits_estimate"].is_null()) {
@@ -204,7 +207,8 @@ Columns run_columns() {
          count_columns("predicted_") +
          Columns{"predicted_seconds", "choosing_seconds", "seconds",       "prepare_seconds",    "order_seconds",
                  "build_seconds",     "search_seconds",   "timed_runs",    "read_seconds",       "rays_in_memory",
-                 "stopped",           "hits_so_far",      "hits_estimate", "hits_estimate_error"};
+                 "stopped",           "hits_so_far",      "hits_estimate", "hits_estimate_error"} +
+         effect_columns();
 }
 
 TextColumns run_text_columns(const Screen& screen) {
@@ -225,6 +229,7 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
        : answer.pilot->predicted ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays",
                                                1e3 * answer.pilot->pilot_seconds, answer.pilot->sampled_rays)
                                  : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
+  add(effects_line(job.observed.effects));
   add("hits      " + hits_text(answer));
   add(fmt::format(
       "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before{}",

@@ -5,11 +5,14 @@
 #include <stdexcept>
 #include <vector>
 
+#include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/choice/allowed_ranking.hpp"
+#include "detp/validate/choice/plan_memory.hpp"
 
 using namespace detp;
 using doctest::Approx;
@@ -81,6 +84,41 @@ TEST_SUITE("known answer") {
     sim::SearchScratch scratch;
     const auto all = sim::run(sim::make_problem(rays, discs), {Technique::brute_force, BruteForceParameters{}});
     CHECK(validate::execute(made, rays, scratch).hits == all.hits);
+  }
+
+  TEST_CASE("plans by closed forms, and their replans, have the selected effects") {
+    const auto discs = some_discs();  // on surfaces
+    const auto rays = some_rays(discs, 1, 2000);
+    std::vector<double> seconds;
+    for (const char* effects : {"auto", "none"}) {
+      const validate::PlanOptions options{.farthest = 2e12, .effects = sim::EffectSelection(effects)};
+      Workload workload = sim::observe(sim::make_problem(rays, discs), {}, options.effects).workload;
+      const auto made = validate::plan(discs, rays, options);
+      CHECK(made.predicted_seconds() == validate::allowed_ranking(workload, options.costs, {}).front().time.total());
+      const auto again = replan(made, 0.06);
+      workload = with_disc_radius(workload, 0.06);
+      CHECK(again.predicted_seconds() ==
+            Approx(model::assess(workload, again.candidate(), options.costs).time.total()));
+      seconds.push_back(made.predicted_seconds());
+    }
+    CHECK(seconds[0] != seconds[1]);
+  }
+
+  TEST_CASE("a memory serves plans with any selection of effects; replans of what it serves have their own") {
+    const auto discs = some_discs();
+    const auto rays = some_rays(discs, 1, 2000);
+    validate::PlanMemory memory;
+    const auto first = validate::plan(discs, rays, {.farthest = 2e12, .memory = &memory});
+    const auto served = [&](const char* effects) {
+      return validate::plan(discs, rays,
+                            {.farthest = 2e12, .effects = sim::EffectSelection(effects), .memory = &memory});
+    };
+    const auto automatic = served("auto");
+    const auto none = served("none");
+    CHECK(automatic.remembered());
+    CHECK(none.remembered());
+    CHECK(none.predicted_seconds() == first.predicted_seconds());
+    CHECK(replan(none, 0.06).predicted_seconds() != replan(automatic, 0.06).predicted_seconds());
   }
 }
 

@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -180,6 +181,13 @@ TEST_SUITE("end to end") {
       CHECK(number(row, "predicted_" + term) == count.get<double>());
     CHECK(number(row, "mean_irradiance") == json.at("mean_irradiance").get<double>());
     CHECK(number(row, "seconds") > 0);
+    for (const Json& effect : json.at("effects")) {
+      std::string column = effect.at("name");
+      std::replace(column.begin(), column.end(), ' ', '_');
+      CHECK(row.at(column) == effect.at("on").dump());
+      CHECK_FALSE(effect.at("reason").get<std::string>().empty());
+    }
+    CHECK(detp(run).out.find("effects   on: ") != std::string::npos);
     CHECK(detp(run).out.find(fmt::format("hits      {},", json.at("hits").get<int>())) != std::string::npos);
   }
 

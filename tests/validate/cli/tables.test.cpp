@@ -97,6 +97,13 @@ TEST_SUITE("end to end") {
             CHECK(number(row, column + "_value") == effect.at("value").get<double>());
           }
           if (command == "scene") continue;
+          const std::string text = detp(Arguments{command} + workload).out;
+          for (const Json& effect : json.at("effects"))
+            if (effect.at("on") == true) {
+              const std::string first = effect.at("name").get<std::string>() + " (";
+              CHECK(text.find("effects   on: " + first) != std::string::npos);
+              break;
+            }
           CHECK(row.at("extrapolated_because").empty() == (row.at("extrapolated") == "false"));
         }
       }
