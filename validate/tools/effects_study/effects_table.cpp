@@ -1,0 +1,65 @@
+#include "effects_table.hpp"
+
+#include <fmt/format.h>
+
+#include "detp/model/rank/predict.hpp"
+
+namespace detp::study {
+namespace {
+
+/// Empty if the divisor is 0.
+std::string ratio_text(double value, double divisor) {
+  return divisor > 0 ? fmt::format("{:.4g}", value / divisor) : "";
+}
+
+}  // namespace
+
+void EffectsTable::add(const StudyWorkload& workload) {
+  const sim::Observed& automatic = workload.automatic();
+  const Counts<double> predicted = model::predict(automatic.workload, usual_tree());
+  const Counts<double> without = model::predict(workload.observe(sim::EffectSelection("none")).workload, usual_tree());
+  const Counts<double> counted = workload.count(usual_tree());
+  Half& half = workload.workload().held_out ? held_out_ : tuned_;
+  const int field = workload.workload().field == sim::Field::photons ? 1 : 0;
+  half.tests[field].add(tests_of(predicted), tests_of(counted));
+  half.tests_without[field].add(tests_of(without), tests_of(counted));
+  if (counted.hits >= 100) {
+    half.hits[field].add(predicted.hits, counted.hits);
+    half.hits_without[field].add(without.hits, counted.hits);
+  }
+  const std::string choice = cell_of(chosen_for(automatic.workload));
+  for (const sim::EffectReport& report : automatic.effects) {
+    const sim::Effect& effect = *report.effect;
+    std::string switched = ",";
+    std::string other;
+    if (!effect.is_input) {
+      const Workload changed = workload.observe_switched(effect).workload;
+      const Counts<double> counts = model::predict(changed, usual_tree());
+      switched = ratio_text(tests_of(counts), tests_of(predicted)) + "," + ratio_text(counts.hits, predicted.hits);
+      other = cell_of(chosen_for(changed));
+    }
+    csv_ += fmt::format("{},{},{:.4g},{:.2g},{:.4g},{:.4g},{},{},{:.3g},{},{},{},{},{}\n", workload.row(), effect.name,
+                        report.value, report.standard_error, effect.threshold.at, effect.threshold.tolerance, report.on,
+                        report.is_close(), report.seconds, switched, ratio_text(tests_of(predicted), tests_of(counted)),
+                        ratio_text(predicted.hits, counted.hits), choice, other);
+  }
+}
+
+std::string EffectsTable::summary() const {
+  std::string text =
+      "| | workloads | median | worst | within 25 % | within a factor of 2 |\n|---|---|---|---|---|---|\n";
+  for (const bool tuned : {true, false}) {
+    const Half& half = tuned ? tuned_ : held_out_;
+    for (const int field : {0, 1}) {
+      const std::string where =
+          fmt::format("{}, {}", field == 1 ? "photon paths" : "isotropic lines", tuned ? "tuned" : "held out");
+      text += half.tests_without[field].row(fmt::format("tests, {}, no effects", where));
+      text += half.tests[field].row(fmt::format("tests, {}, auto", where));
+      text += half.hits_without[field].row(fmt::format("hits, {}, no effects", where));
+      text += half.hits[field].row(fmt::format("hits, {}, auto", where));
+    }
+  }
+  return text;
+}
+
+}  // namespace detp::study

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <string>
+
+#include "study_summary.hpp"
+#include "study_workload.hpp"
+
+namespace detp::study {
+
+/// Rows of effects.csv: for each workload one for each effect.
+class EffectsTable {
+ public:
+  void add(const StudyWorkload& workload);
+  [[nodiscard]] const std::string& csv() const { return csv_; }
+  /// Predicted over counted tests and hits, with all effects that evidence calls for and with none, as Markdown.
+  [[nodiscard]] std::string summary() const;
+
+ private:
+  /// Of the scenes on which thresholds were selected, or of the others.
+  struct Half {
+    Ratios tests[2];  ///< of isotropic lines, of photon paths
+    Ratios hits[2];
+    Ratios tests_without[2];
+    Ratios hits_without[2];
+  };
+  Half tuned_, held_out_;
+  std::string csv_ = std::string(workload_head) +
+                     ",effect,value,standard_error,threshold,tolerance,on,close,evidence_seconds,"
+                     "tests_if_switched,hits_if_switched,predicted_over_counted_tests,predicted_over_counted_hits,"
+                     "choice,choice_if_switched\n";
+};
+
+}  // namespace detp::study

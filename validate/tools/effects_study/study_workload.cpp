@@ -1,0 +1,53 @@
+#include "study_workload.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/choice/allowed_ranking.hpp"
+
+namespace detp::study {
+
+StudyWorkload::StudyWorkload(const validate::RegretWorkload& workload)
+    : workload_(workload), job_(validate::make_regret_job(workload, 1, {})), problem_(job_.problem()) {
+  constexpr std::size_t fewest = 50;
+  if (job_.discs.size() < fewest)
+    throw std::invalid_argument(fmt::format("fewer than {} samples ({})", fewest, job_.discs.size()));
+}
+
+sim::Observed StudyWorkload::observe(const sim::EffectSelection& selection) const {
+  return sim::observe(problem_, job_.surface, selection);
+}
+
+sim::Observed StudyWorkload::observe_switched(const sim::Effect& effect) const {
+  std::string names;
+  for (const sim::EffectReport& report : automatic().effects)
+    if (!report.effect->is_input && report.on != (report.effect == &effect))
+      names += fmt::format("{}{}", names.empty() ? "" : ",", sim::option_name(*report.effect));
+  return observe(sim::EffectSelection(names.empty() ? "none" : names));
+}
+
+Counts<double> StudyWorkload::count(const Candidate& candidate) const {
+  return as_expected(sim::run(problem_, candidate).counts);
+}
+
+std::string StudyWorkload::row() const {
+  return fmt::format("{},{},{},{:.5g},{:.0f},{:.0f}", workload_.scene, !workload_.held_out,
+                     workload_.field == sim::Field::photons ? "photons" : "isotropic", job_.workload.disc_radius,
+                     job_.workload.rays, job_.workload.samples);
+}
+
+Candidate chosen_for(const Workload& workload) {
+  return validate::allowed_ranking(workload, validate::built_in_unit_costs(), {}).front().candidate;
+}
+
+std::string cell_of(const Candidate& candidate) {
+  std::string text = fmt::format("{} {}", name(candidate.technique), describe(candidate));
+  std::replace(text.begin(), text.end(), ',', ';');
+  while (text.ends_with(' ')) text.pop_back();
+  return text;
+}
+
+}  // namespace detp::study
