@@ -8,21 +8,15 @@ namespace detp::sim {
 namespace {
 
 constexpr std::size_t most_rays = 1U << 11;
-constexpr std::size_t most_discs = 1U << 13;
-
-std::vector<std::size_t> sample_of(std::size_t size, std::size_t most) {
-  return stratified_sample(size, most, 1, Stream::evidence);
-}
 
 }  // namespace
 
 const std::vector<std::size_t>& EffectSample::rays() const {
-  return once(rays_, [&] { return sample_of(problem.rays().size(), most_rays); });
+  return once(rays_, [&] { return stratified_sample(problem.rays().size(), most_rays, 1, Stream::evidence); });
 }
 
 const std::vector<KeyedIndex>& EffectSample::places() const {
-  return once(places_,
-              [&] { return sample_places(problem.discs(), sample_of(problem.discs().size(), most_discs), stop); });
+  return once(places_, [&] { return sampled_places(problem.discs(), stop); });
 }
 
 const SampleDimension& EffectSample::dimension() const {

@@ -18,4 +18,7 @@ inline constexpr int levels_of_cells = 16;
 [[nodiscard]] std::vector<KeyedIndex> sample_places(std::span<const Disc> discs, std::span<const std::size_t> sample,
                                                     const std::stop_token& stop = {});
 
+/// The same of at most 8192 discs, stratified.
+[[nodiscard]] std::vector<KeyedIndex> sampled_places(std::span<const Disc> discs, const std::stop_token& stop = {});
+
 }  // namespace detp::sim

@@ -181,10 +181,11 @@ TEST_SUITE("effects") {
     for (const char* text : {"auto", "none", "all", "finite-paths", "far-samples,surface-samples"})
       CHECK(sim::EffectSelection(text).text() == text);
     CHECK(sim::EffectSelection("finite paths").text() == "finite-paths");
-    CHECK_THROWS_WITH_AS(sim::EffectSelection("fog"),
-                         "there is no effect \"fog\"; there are auto, none, all, or a list of surface-samples, "
-                         "clustered-samples, finite-paths, uneven-rays, directional-bias, far-samples",
-                         std::invalid_argument);
+    CHECK_THROWS_WITH_AS(
+        sim::EffectSelection("fog"),
+        "there is no effect \"fog\"; there are auto, none, all, or a list of surface-samples, "
+        "clustered-samples, concave-surfaces, finite-paths, uneven-rays, directional-bias, far-samples",
+        std::invalid_argument);
     for (const char* bad : {"", ",", "finite-paths,", "all,none", "Auto"})
       CHECK_THROWS_AS(sim::EffectSelection{bad}, std::invalid_argument);
     CHECK_THROWS_WITH_AS(sim::EffectSelection("facing"),
