@@ -59,8 +59,7 @@ bool is_decided(const Finding& finding) {
 }
 
 Finding find_concave_surfaces(const EffectSample& sample) {
-  if (!sample.problem.segments()) return {};  // lines do not end on surfaces
-  return concavity(sample.problem.discs(), sample.places(), sample.stop);
+  return sample.surface.self_shadow.value_or(Finding{});  // rays that are given are taken as they are
 }
 
 double concavity_of_numbers(const Workload&) { return 0; }
@@ -90,10 +89,11 @@ Finding concavity(std::span<const Disc> discs, const std::stop_token& stop) {
   return concavity(discs, sampled_places(discs, stop), stop);
 }
 
-constinit const Effect concave_surfaces{.name = "concave surfaces",
-                                        .evidence = "share of discs with a neighbour in front of their plane",
-                                        .threshold = {Threshold::Side::above, 0.01, 0},
-                                        .find = find_concave_surfaces,
-                                        .of_numbers = concavity_of_numbers};
+constinit const Effect concave_surfaces{
+    .name = "concave surfaces",
+    .evidence = "hits gained if paths go on by 2d, less light through sheets, over hits",
+    .threshold = {Threshold::Side::above, 0.01, 0},
+    .find = find_concave_surfaces,
+    .of_numbers = concavity_of_numbers};
 
 }  // namespace detp::sim

@@ -16,10 +16,19 @@
 
 namespace detp::sim {
 
-/// Properties of the mesh from which the samples come; zeros without a mesh.
+/// Measured evidence.
+struct Finding {
+  double value = 0;
+  double standard_error = 0;  ///< of the value; 0 if it is computed from all rays and discs
+  /// Sets what predictions take from the effect. Called only if the effect is on.
+  std::function<void(Workload&)> apply = [](Workload&) {};
+};
+
+/// Properties of the scene from which discs and rays come; zeros without one.
 struct SurfaceFacts {
-  double area = 0;         ///< of all triangles
-  double edge_length = 0;  ///< mean
+  double area = 0;                          ///< of all triangles
+  double edge_length = 0;                   ///< mean
+  std::optional<Finding> self_shadow = {};  ///< self_shadow.hpp; only if photon paths are made
 };
 
 /// What effects are looked for in, and what they share of it. Everything is measured on first use; not for use from
@@ -75,14 +84,6 @@ struct Threshold {
   [[nodiscard]] bool passed(double value) const;
   /// Distance from the value to the nearest value at which the effect would be switched.
   [[nodiscard]] double distance(double value) const;
-};
-
-/// Measured evidence.
-struct Finding {
-  double value = 0;
-  double standard_error = 0;  ///< of the value; 0 if it is computed from all rays and discs
-  /// Sets what predictions take from the effect. Called only if the effect is on.
-  std::function<void(Workload&)> apply = [](Workload&) {};
 };
 
 /// A way in which rays and discs deviate from the assumptions of the models.

@@ -55,8 +55,7 @@ Material material_of(const Statement& from, std::size_t& scaled) {
 
 class MtlReader {
  public:
-  MtlReader(const std::string& path, std::stop_token stop)
-      : path_(path), lines_(path, mtl_format, std::move(stop)) {}
+  MtlReader(const std::string& path, std::stop_token stop) : path_(path), lines_(path, mtl_format, std::move(stop)) {}
 
   std::vector<Material> read(Notices& notices) {
     std::vector<Statement> all;

@@ -11,8 +11,8 @@
 #include "detp/sim/base/kept_memory.hpp"
 #include "detp/sim/geometry/unit_vector.hpp"
 #include "file_error.hpp"
-#include "number_text.hpp"
 #include "mtl_file.hpp"
+#include "number_text.hpp"
 #include "statements.hpp"
 
 namespace detp::sim {
@@ -47,7 +47,8 @@ struct Corner {
 
 class ObjReader {
  public:
-  ObjReader(const std::string& path, std::stop_token stop) : path_(path), stop_(stop), lines_(path, obj_format, std::move(stop)), memory_(path) {}
+  ObjReader(const std::string& path, std::stop_token stop)
+      : path_(path), stop_(stop), lines_(path, obj_format, std::move(stop)), memory_(path) {}
 
   Mesh read(Notices& notices) {
     while (lines_.next()) {
@@ -116,14 +117,14 @@ class ObjReader {
     mesh_.materials.all.resize(names_.size());
     std::size_t unknown = 0;
     for (std::size_t i = 1; i < names_.size(); ++i) {
-      const auto found = std::find_if(known.begin(), known.end(), [&](const Material& m) { return m.name == names_[i]; });
+      const auto found =
+          std::find_if(known.begin(), known.end(), [&](const Material& m) { return m.name == names_[i]; });
       if (found != known.end())
         mesh_.materials.all[i] = *found;
       else
         ++unknown;
     }
-    if (unknown > 0)
-      notices.push_back("materials that no library defines, taken as matt: " + std::to_string(unknown));
+    if (unknown > 0) notices.push_back("materials that no library defines, taken as matt: " + std::to_string(unknown));
     std::vector<std::uint16_t>& numbers = mesh_.materials.of_triangle;
     memory_.reserve(numbers, mesh_.triangles.size());
     for (std::size_t i = 0; i < runs_.size(); ++i)
@@ -191,7 +192,7 @@ class ObjReader {
   std::vector<CornerNormals> at_positions_;
   std::vector<std::uint32_t> polygon_;
   std::vector<std::string> libraries_;
-  std::vector<std::string> names_{""};                           ///< of materials
+  std::vector<std::string> names_{""};                       ///< of materials
   std::vector<std::pair<std::size_t, std::uint16_t>> runs_;  ///< first triangle and material, in rising order
 };
 

@@ -22,10 +22,10 @@ constexpr std::array<std::string_view, 44> obj_keywords{
 
 /// All keywords of MTL, with those of the physically based extension.
 constexpr std::array<std::string_view, 37> mtl_keywords{
-    "newmtl", "Ka",       "Kd",      "Ks",     "Ke",     "Ns",     "Ni",     "d",      "Tr",   "Tf",
-    "illum",  "sharpness", "map_Ka", "map_Kd", "map_Ks", "map_Ke", "map_Ns", "map_d",  "bump", "map_bump",
-    "map_Bump", "disp",   "decal",   "refl",   "map_aat", "Pr",    "Pm",     "Ps",     "Pc",   "Pcr",
-    "aniso",  "anisor",   "norm",    "map_Pr", "map_Pm", "map_Ps", "map_Tr"};
+    "newmtl",   "Ka",        "Kd",     "Ks",     "Ke",      "Ns",     "Ni",     "d",     "Tr",   "Tf",
+    "illum",    "sharpness", "map_Ka", "map_Kd", "map_Ks",  "map_Ke", "map_Ns", "map_d", "bump", "map_bump",
+    "map_Bump", "disp",      "decal",  "refl",   "map_aat", "Pr",     "Pm",     "Ps",    "Pc",   "Pcr",
+    "aniso",    "anisor",    "norm",   "map_Pr", "map_Pm",  "map_Ps", "map_Tr"};
 
 /// Number of statements with unknown keywords that are accepted in any file.
 constexpr std::uint64_t unknown_allowed = 100;

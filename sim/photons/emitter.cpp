@@ -76,9 +76,9 @@ Emitter emitter(const DirectionalLight& light, const Scene& scene) {
     const double radius = sphere.radius * std::sqrt(random[0]);
     const double turn = 2 * std::numbers::pi * random[1];
     const auto [first, second] = basis_around(direction);
-    return PhotonStart{sphere.centre - sphere.radius * direction + radius * std::cos(turn) * first +
-                           radius * std::sin(turn) * second,
-                       direction};
+    return PhotonStart{
+        sphere.centre - sphere.radius * direction + radius * std::cos(turn) * first + radius * std::sin(turn) * second,
+        direction};
   };
 }
 
@@ -128,9 +128,9 @@ Emitter emitter(const SurfaceLight&, const Scene& scene) {
       u = 1 - u;
       v = 1 - v;
     }
-    return PhotonStart{
-        found->corner + u * found->first + v * found->second,
-        cosine_direction(unit_or_zero(glm::cross(found->first, found->second)), random[2], random[3]), found->number};
+    return PhotonStart{found->corner + u * found->first + v * found->second,
+                       cosine_direction(unit_or_zero(glm::cross(found->first, found->second)), random[2], random[3]),
+                       found->number};
   };
 }
 

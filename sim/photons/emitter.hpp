@@ -12,7 +12,7 @@ namespace detp::sim {
 /// Origin and direction of a photon.
 struct PhotonStart {
   glm::dvec3 origin{0.0};
-  glm::dvec3 direction{0.0, 0.0, 1.0};        ///< unit length
+  glm::dvec3 direction{0.0, 0.0, 1.0};         ///< unit length
   std::optional<std::uint32_t> triangle = {};  ///< on which the origin lies
 };
 

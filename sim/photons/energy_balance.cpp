@@ -12,7 +12,7 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::uint64_t group_size = 4096;      // photons whose powers are summed at a time, whatever the threads
+constexpr std::uint64_t group_size = 4096;       // photons whose powers are summed at a time, whatever the threads
 constexpr std::uint64_t work_of_a_photon = 128;  // for StopCheck
 
 /// Sums powers. `surfaces` has an entry for each material.
@@ -95,8 +95,7 @@ EnergyBalance energy_balance(const Scene& scene, std::uint64_t photons, std::uin
   const auto count = static_cast<double>(photons);
   balance.photons = photons;
   for (const Light& light : scene.lights) balance.flux += light.flux;
-  balance.standard_error =
-      std::sqrt(std::max(0.0, sum.squares / count - std::pow(balance.escaped / count, 2)) / count);
+  balance.standard_error = std::sqrt(std::max(0.0, sum.squares / count - std::pow(balance.escaped / count, 2)) / count);
   for (double* value : {&balance.emitted, &balance.escaped, &balance.cut_off}) *value /= count;
   for (std::size_t i = 0; i < balance.surfaces.size(); ++i) {
     SurfaceEnergy& surface = balance.surfaces[i];

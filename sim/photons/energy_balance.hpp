@@ -12,7 +12,7 @@ namespace detp::sim {
 /// Power that reaches the surfaces of one material.
 struct SurfaceEnergy {
   std::string material;
-  double arriving = 0;        ///< sum of the powers of photons, once for each time that one meets such a surface
+  double arriving = 0;  ///< sum of the powers of photons, once for each time that one meets such a surface
   double absorbed = 0;
   double expected = 0;        ///< absorbed, as the material says: arriving, times the share that it absorbs
   double standard_error = 0;  ///< of `absorbed`, about `expected`

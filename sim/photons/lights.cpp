@@ -23,8 +23,7 @@ double radical_inverse(std::uint64_t number) { return 0x1p-53 * static_cast<doub
 }  // namespace
 
 Lights::Lights(const Scene& scene) {
-  if (scene.lights.empty())
-    throw std::invalid_argument("photon paths need a light; " + scene.name + " has none");
+  if (scene.lights.empty()) throw std::invalid_argument("photon paths need a light; " + scene.name + " has none");
   double flux = 0;
   double shining = 0;
   for (const Light& light : scene.lights) {

@@ -3,6 +3,7 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "detp/sim/base/stop_check.hpp"
 #include "photon_rounds.hpp"
@@ -26,7 +27,12 @@ std::vector<PhotonPieces> trace_round(const PhotonTracer& tracer, std::uint64_t 
 }  // namespace
 
 std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed, const std::stop_token& stop) {
-  const PhotonTracer tracer(scene, seed, stop);
+  return photon_paths(scene, count, seed, caster_for(scene, stop), stop);
+}
+
+std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
+                              std::shared_ptr<const RayCaster> caster, const std::stop_token& stop) {
+  const PhotonTracer tracer(scene, seed, std::move(caster));
   PhotonRounds rounds(scene.name, count);
   std::vector<Ray> rays;
   std::uint64_t traced = 0;

@@ -1,12 +1,15 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <stop_token>
 #include <vector>
 
 #include "detp/sim/scene/scene.hpp"
 
 namespace detp::sim {
+
+class RayCaster;
 
 /// Photon paths. A photon leaves a light (lights.hpp) and flies to the first surface. There its material absorbs or
 /// scatters it by Russian roulette (scatter.hpp), so it keeps its power.
@@ -19,15 +22,19 @@ namespace detp::sim {
 /// around the box's centre whose radius is the box's diagonal; it is dropped if it starts outside this sphere. A photon
 /// has at most 1000 pieces, so that paths without absorption terminate.
 ///
-/// With Scene::second_intersections a piece goes straight on through the surface where it ends, and ends `gap` beyond
-/// the next one, or leaves the scene; not where the photon itself goes through (glass). So on a concave surface, or in
-/// a corner, the surface does not shadow the parts of its own discs that lie behind it (the paper, §2.1). The price:
-/// light reaches discs behind a sheet without thickness.
+/// A piece goes straight on through the surface where it ends, by Scene::overshoot at most: up to `gap` beyond the next
+/// surface, or until it leaves the scene; not where the photon itself goes through (glass). So on a concave surface, or
+/// in a corner, the surface does not shadow the parts of its own discs that lie behind it. The paper follows each path
+/// to its second intersection (§2.1), which is an unbounded overshoot. The price: light reaches discs behind a sheet
+/// without thickness.
 ///
 /// The result depends on the seed alone, not on the number of threads. Throws std::invalid_argument for a scene without
 /// light, triangles or box, for a light or material out of range, and if 1000 + 100 · `count` photons gave too few
 /// pieces. Throws std::runtime_error if Embree fails, and Stopped if a stop was requested.
 [[nodiscard]] std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
                                             const std::stop_token& stop = {});
+/// The same, with a caster of the scene's mesh that was made before (photon_walk.hpp).
+[[nodiscard]] std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
+                                            std::shared_ptr<const RayCaster> caster, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

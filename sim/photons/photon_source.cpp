@@ -3,6 +3,7 @@
 #include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "photon_rounds.hpp"
 
@@ -13,8 +14,9 @@ constexpr std::uint64_t group_size = 1024;  // photons in a group
 
 }  // namespace
 
-PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed, const std::stop_token& stop)
-    : tracer_(scene, seed, stop), count_(count), limit_(0), starts_{0} {
+PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed,
+                           std::shared_ptr<const RayCaster> caster, const std::stop_token& stop)
+    : tracer_(scene, seed, std::move(caster)), count_(count), limit_(0), starts_{0} {
   PhotonRounds rounds(scene.name, count);
   limit_ = rounds.limit();
   try {

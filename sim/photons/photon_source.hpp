@@ -15,7 +15,10 @@ namespace detp::sim {
 class PhotonSource final : public RaySource {
  public:
   /// Throws as photon_paths does.
-  PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed, const std::stop_token& stop = {});
+  PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed, const std::stop_token& stop = {})
+      : PhotonSource(scene, count, seed, caster_for(scene, stop), stop) {}
+  PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed, std::shared_ptr<const RayCaster> caster,
+               const std::stop_token& stop = {});
 
   [[nodiscard]] std::uint64_t size() const override { return count_; }
   void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;

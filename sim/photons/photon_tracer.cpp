@@ -1,5 +1,7 @@
 #include "photon_tracer.hpp"
 
+#include <utility>
+
 #include "detp/sim/base/stop_check.hpp"
 
 namespace detp::sim {
@@ -21,6 +23,9 @@ struct Pieces {
 
 PhotonTracer::PhotonTracer(const Scene& scene, std::uint64_t seed, const std::stop_token& stop)
     : walk_(scene, seed, stop) {}
+
+PhotonTracer::PhotonTracer(const Scene& scene, std::uint64_t seed, std::shared_ptr<const RayCaster> caster)
+    : walk_(scene, seed, std::move(caster)) {}
 
 PhotonPieces PhotonTracer::trace(std::uint64_t first, std::uint64_t last, const std::stop_token& stop) const {
   StopCheck check(stop, "tracing photons");

@@ -21,6 +21,7 @@ class PhotonTracer {
   /// Throws std::invalid_argument for a scene in which photon paths cannot be traced, std::runtime_error if Embree
   /// fails, and Stopped if a stop was requested.
   PhotonTracer(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
+  PhotonTracer(const Scene& scene, std::uint64_t seed, std::shared_ptr<const RayCaster> caster);
 
   /// Pieces of photons first … last - 1, each with its photon's power (EmittedPhoton). Throws Stopped if a stop was requested.
   [[nodiscard]] PhotonPieces trace(std::uint64_t first, std::uint64_t last, const std::stop_token& stop = {}) const;

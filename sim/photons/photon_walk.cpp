@@ -1,6 +1,7 @@
 #include "photon_walk.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "detp/model/vocabulary/checks.hpp"
 
@@ -17,6 +18,8 @@ const Scene& checked(const Scene& scene) {
   check(scene.mesh.materials, scene.mesh.triangles.size());
   if (scene.box.empty())
     throw std::invalid_argument("photon paths need the scene's box; that of " + scene.name + " is empty");
+  if (!(scene.overshoot >= 0))
+    throw std::invalid_argument("photon paths cannot go on beyond surfaces by " + std::to_string(scene.overshoot));
   const glm::dvec3 size = scene.box.size();
   require_positive("diagonal of the scene's box", std::hypot(size.x, size.y, size.z));
   return scene;
@@ -24,13 +27,20 @@ const Scene& checked(const Scene& scene) {
 
 }  // namespace
 
+std::shared_ptr<const RayCaster> caster_for(const Scene& scene, const std::stop_token& stop) {
+  return std::make_shared<const RayCaster>(checked(scene).mesh, scene.box, stop);
+}
+
 PhotonWalk::PhotonWalk(const Scene& scene, std::uint64_t seed, const std::stop_token& stop)
-    : caster_(checked(scene).mesh, scene.box, stop),
-      lights_(scene),
+    : PhotonWalk(scene, seed, caster_for(scene, stop)) {}
+
+PhotonWalk::PhotonWalk(const Scene& scene, std::uint64_t seed, std::shared_ptr<const RayCaster> caster)
+    : caster_(std::move(caster)),
+      lights_(checked(scene)),
       materials_(scene.mesh.materials),
-      second_intersections_(scene.second_intersections),
-      seed_(seed) {
-  const glm::dvec3 size = scene.box.size() / caster_.scale();
+      seed_(seed),
+      overshoot_(scene.overshoot / caster_->scale()) {
+  const glm::dvec3 size = scene.box.size() / caster_->scale();
   reach_ = glm::length(size);
   gap_ = gap_share * reach_;
 }
@@ -44,16 +54,16 @@ double PhotonWalk::distance_out(const PhotonStart& from) const {
 
 /// How far a piece goes on beyond the surface where it ends.
 double PhotonWalk::overshoot(const glm::dvec3& end, const glm::dvec3& direction, std::uint32_t triangle) const {
-  if (!second_intersections_) return gap_;
-  const auto next = caster_.first_intersection(end, direction, triangle);
-  return next ? next->distance + gap_ : std::max(gap_, distance_out({end, direction}));
+  if (overshoot_ <= gap_) return gap_;
+  const auto next = caster_->first_intersection(end, direction, triangle);
+  return std::max(gap_, std::min(overshoot_, next ? next->distance + gap_ : distance_out({end, direction})));
 }
 
 Ray PhotonWalk::piece(const PhotonStart& from, double distance, double beyond, double power) const {
   const double start = std::min(gap_, 0.5 * distance);
-  return {.origin = caster_.to_scene(from.origin + start * from.direction),
+  return {.origin = caster_->to_scene(from.origin + start * from.direction),
           .direction = from.direction,
-          .length = caster_.scale() * (distance - start + beyond),
+          .length = caster_->scale() * (distance - start + beyond),
           .power = power};
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "detp/sim/geometry/random.hpp"
 #include "lights.hpp"
@@ -9,6 +10,9 @@
 #include "scatter.hpp"
 
 namespace detp::sim {
+
+/// A caster for photons in this scene. Throws as PhotonWalk.
+[[nodiscard]] std::shared_ptr<const RayCaster> caster_for(const Scene& scene, const std::stop_token& stop = {});
 
 /// Walks photons through a scene. Each photon is a function of the seed and its number alone. Several threads may use
 /// one walk.
@@ -19,6 +23,11 @@ class PhotonWalk {
   /// Throws std::invalid_argument for a scene in which photons cannot be traced, std::runtime_error if Embree fails,
   /// and Stopped if a stop was requested.
   PhotonWalk(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
+  /// The same, with a caster of the scene's mesh that was made before.
+  PhotonWalk(const Scene& scene, std::uint64_t seed, std::shared_ptr<const RayCaster> caster);
+
+  /// In scene units, in place of the scene's.
+  void set_overshoot(double length) { overshoot_ = length / caster_->scale(); }
 
   /// Power of photon number `photon`.
   [[nodiscard]] double power(std::uint64_t photon) const { return lights_.power(photon); }
@@ -30,9 +39,9 @@ class PhotonWalk {
   template <class Recorder>
   void follow(std::uint64_t photon, Recorder& recorder) const {
     auto [from, power] = lights_.photon(photon, uniform4(seed_, Stream::photons, photon));
-    from.origin = caster_.to_caster(from.origin);
+    from.origin = caster_->to_caster(from.origin);
     for (std::uint64_t bounce = 1; bounce <= most_pieces; ++bounce) {
-      const auto hit = caster_.first_intersection(from.origin, from.direction, from.triangle);
+      const auto hit = caster_->first_intersection(from.origin, from.direction, from.triangle);
       if (!hit) {
         if (const double distance = distance_out(from); distance > 0) recorder.piece(piece(from, distance, 0, power));
         return recorder.escaped(power);
@@ -54,13 +63,13 @@ class PhotonWalk {
   [[nodiscard]] double distance_out(const PhotonStart& from) const;
   [[nodiscard]] double overshoot(const glm::dvec3& end, const glm::dvec3& direction, std::uint32_t triangle) const;
 
-  RayCaster caster_;
+  std::shared_ptr<const RayCaster> caster_;
   Lights lights_;
   Materials materials_;
-  bool second_intersections_;
   std::uint64_t seed_;
   double reach_ = 0;  ///< radius of the sphere around the box at which photons leave, in the caster's own units
   double gap_ = 0;    ///< in the caster's own units
+  double overshoot_;  ///< in the caster's own units
 };
 
 }  // namespace detp::sim

@@ -24,8 +24,8 @@ glm::dvec3 glossy(double shininess, const glm::dvec3& side, const glm::dvec3& in
   const double step = std::sqrt(-2 * std::log1p(-u) / shininess);
   const double turn = 2 * std::numbers::pi * v;
   const auto [first, second] = basis_around(side);
-  const glm::dvec3 flat = mirror - glm::dot(mirror, side) * side + step * std::cos(turn) * first +
-                          step * std::sin(turn) * second;
+  const glm::dvec3 flat =
+      mirror - glm::dot(mirror, side) * side + step * std::cos(turn) * first + step * std::sin(turn) * second;
   const double height = 1 - glm::dot(flat, flat);
   return height > 0 ? glm::normalize(flat + std::sqrt(height) * side) : mirror;
 }

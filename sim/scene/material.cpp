@@ -10,8 +10,7 @@ namespace detp::sim {
 
 void check(const Material& material) {
   const auto require = [&](bool holds, const char* what, double value) {
-    if (!holds)
-      throw std::invalid_argument(fmt::format("{} of material '{}' (got {})", what, material.name, value));
+    if (!holds) throw std::invalid_argument(fmt::format("{} of material '{}' (got {})", what, material.name, value));
   };
   const double shares = material.diffuse + material.specular + material.glass;
   require(material.diffuse >= 0 && material.diffuse <= 1, "albedo must be in [0, 1], that", material.diffuse);

@@ -25,9 +25,9 @@ struct Scene {
   std::vector<Light> lights;    ///< none in @uniform
   Field field = Field::photons;
   Up up;  ///< by which lights were placed
-  /// Photon paths are recorded up to the second surface that they meet, so that no surface shadows its own discs
-  /// (photon_paths.hpp).
-  bool second_intersections = false;
+  /// How far pieces of photon paths go on through the surface where they end, at most up to the next surface, so that no
+  /// surface shadows its own discs (photon_paths.hpp). Unbounded: always up to the second intersection.
+  double overshoot = 0;
   Notices notices;
 };
 

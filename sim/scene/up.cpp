@@ -9,14 +9,14 @@
 namespace detp::sim {
 namespace {
 
-constexpr int columns = 32;           // along each side of the box
-constexpr double margin = 0.15;       // of the box, in which floors and ceilings lie
-constexpr double horizontal = 0.8;    // least |cos| between a horizontal surface's normal and the vertical
-constexpr double lead_of_y = 0.15;    // in coverage, over the other axes
-constexpr double lead_of_z = 0.05;    // over X
+constexpr int columns = 32;         // along each side of the box
+constexpr double margin = 0.15;     // of the box, in which floors and ceilings lie
+constexpr double horizontal = 0.8;  // least |cos| between a horizontal surface's normal and the vertical
+constexpr double lead_of_y = 0.15;  // in coverage, over the other axes
+constexpr double lead_of_z = 0.05;  // over X
 constexpr double least_downwards = 0.2;
-constexpr double ground = 0.75;       // least coverage of a scene that has ground or a floor
-constexpr int most_pieces = 64;       // along an edge of a triangle
+constexpr double ground = 0.75;  // least coverage of a scene that has ground or a floor
+constexpr int most_pieces = 64;  // along an edge of a triangle
 
 using Grid = std::bitset<columns * columns>;
 
@@ -38,8 +38,7 @@ struct View {
 /// Marks a point, in [0, 1]³ of the box.
 void mark(View& view, int axis, const glm::dvec3& point) {
   const auto cell = [](double share) { return std::clamp(static_cast<int>(columns * share), 0, columns - 1); };
-  const auto column =
-      static_cast<std::size_t>(columns * cell(point[(axis + 1) % 3]) + cell(point[(axis + 2) % 3]));
+  const auto column = static_cast<std::size_t>(columns * cell(point[(axis + 1) % 3]) + cell(point[(axis + 2) % 3]));
   view.any.set(column);
   if (point[axis] < margin) view.low.set(column);
   if (point[axis] > 1 - margin) view.high.set(column);

@@ -12,10 +12,12 @@
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/effects/self_shadow.hpp"
 #include "detp/sim/files/disc_file.hpp"
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_source.hpp"
+#include "detp/sim/photons/photon_walk.hpp"
 #include "detp/sim/scene/open/open_scene.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/streamed.hpp"
@@ -150,7 +152,8 @@ class JobMaker {
       make_lines(count);
       return;
     }
-    job_.rays = sim::photon_paths(scene_for_photons(), count, request_.seed, stop_);
+    const sim::Scene& scene = scene_for_photons();
+    job_.rays = sim::photon_paths(scene, count, request_.seed, caster_, stop_);
   }
 
   void make_lines(std::size_t count) {
@@ -163,16 +166,25 @@ class JobMaker {
     }
   }
 
-  const sim::Scene& scene_for_photons() const {
+  /// The scene, whose photon paths go on through surfaces if the effect of concave surfaces is on.
+  const sim::Scene& scene_for_photons() {
     if (!scene_) throw std::invalid_argument("photon paths need a scene; name one, or choose the isotropic field");
+    caster_ = sim::caster_for(*scene_, stop_);
+    const sim::Finding shadow =
+        sim::self_shadow(*scene_, caster_, job_.discs, request_.front_facing, request_.seed, stop_);
+    if (request_.effects.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error))
+      scene_->overshoot = sim::overshoot_for(job_.discs);
+    job_.surface.self_shadow = shadow;
     return *scene_;
   }
 
   void make_stream(std::uint64_t count) {
-    if (job_.field == sim::Field::isotropic)
+    if (job_.field == sim::Field::isotropic) {
       job_.stream = std::make_unique<sim::LinesOfField>(sim::enclosing_sphere(job_.discs, stop_), request_.seed, count);
-    else
-      job_.stream = std::make_unique<sim::PhotonSource>(scene_for_photons(), count, request_.seed, stop_);
+      return;
+    }
+    const sim::Scene& scene = scene_for_photons();
+    job_.stream = std::make_unique<sim::PhotonSource>(scene, count, request_.seed, caster_, stop_);
   }
 
   /// Measures a stream on its first block of rays.
@@ -210,6 +222,7 @@ class JobMaker {
   std::stop_token stop_;
   JobProgress progress_;
   std::optional<sim::Scene> scene_;
+  std::shared_ptr<const sim::RayCaster> caster_;
   Job job_;
 };
 

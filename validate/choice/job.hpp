@@ -41,8 +41,8 @@ struct JobRequest {
   std::optional<double> dimension;       ///< default: measured; without a scene: 3
   std::optional<double> sample_extent;
   std::optional<sim::Field> field;
-  std::vector<sim::LightKind> lights;    ///< default: the scene's own; in a mesh file without lights an area light
-  std::optional<sim::Up> up;             ///< default: y in built-in scenes, found from the shape in mesh files
+  std::vector<sim::LightKind> lights;  ///< default: the scene's own; in a mesh file without lights an area light
+  std::optional<sim::Up> up;           ///< default: y in built-in scenes, found from the shape in mesh files
   bool front_facing = false;
   sim::EffectSelection effects;  ///< that the workload has
   std::uint64_t seed = 1;
@@ -71,9 +71,9 @@ struct Job {
   std::size_t triangles = 0;
   std::vector<sim::Light> lights;  ///< of the scene
   sim::Up up;                      ///< by which lights were placed
-  Workload workload;          ///< measured on discs and rays (the path length of a stream on its first block)
-  sim::Observed observed;     ///< the effects, and what finding them cost; its workload is that of the first block
-  sim::SurfaceFacts surface;  ///< of the scene's mesh
+  Workload workload;               ///< measured on discs and rays (the path length of a stream on its first block)
+  sim::Observed observed;          ///< the effects, and what finding them cost; its workload is that of the first block
+  sim::SurfaceFacts surface;       ///< of the scene's mesh
   sim::Notices notices;
   /// warnings about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;

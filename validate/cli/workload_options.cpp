@@ -95,13 +95,11 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
       },
       "isotropic (lines) or photons (paths from the scene's light); default: photons where there is a light");
   lists.add(
-      command, "--light", Values::one, words,
-      [this](const std::string& text) { request_.lights = parse_lights(text); },
+      command, "--light", Values::one, words, [this](const std::string& text) { request_.lights = parse_lights(text); },
       "lights placed in the scene, a list of area, point, spot, directional, environment, surface (materials that "
       "emit); default: the scene's own lights, or an area light");
   lists.add(
-      command, "--up", Values::one, words,
-      [this](const std::string& text) { request_.up = parse_up(text); },
+      command, "--up", Values::one, words, [this](const std::string& text) { request_.up = parse_up(text); },
       "which way is up, for lights that are placed: x, y, z, -x, -y, -z, auto; default: auto (by the mesh's shape)");
   command.add_flag("--front-facing", request_.front_facing, "count only rays that arrive at a disc's front");
   lists.add(
@@ -254,8 +252,7 @@ Json origin_json(const validate::JobRequest& request, const std::string& scene, 
 
 Json lights_json(const std::vector<sim::Light>& lights) {
   Json json = Json::array();
-  for (const sim::Light& light : lights)
-    json.push_back({{"kind", name(sim::kind_of(light))}, {"flux", light.flux}});
+  for (const sim::Light& light : lights) json.push_back({{"kind", name(sim::kind_of(light))}, {"flux", light.flux}});
   return json;
 }
 

@@ -5,8 +5,8 @@
 namespace detp::sim::built_in {
 namespace {
 
-constexpr double width = 6;   // along X
-constexpr double depth = 5;   // along Z
+constexpr double width = 6;  // along X
+constexpr double depth = 5;  // along Z
 constexpr double height = 2.8;
 constexpr double thickness = 0.2;  // of the wall with windows
 constexpr double coarse = 0.12;    // cells of floor, walls and ceiling

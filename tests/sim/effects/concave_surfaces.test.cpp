@@ -103,19 +103,6 @@ TEST_SUITE("effects") {
     for (int i = 0; i < 1000; ++i) storeys.push_back({.centre = {0, 0, 2.0 * i}});
     CHECK(sim::concavity(storeys).value == 0);
   }
-
-  TEST_CASE("lines end on no surface, so concave surfaces make no difference to them") {
-    const auto discs = globe(-1, 0.06);
-    auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 100);
-    const auto report = [&] {
-      const sim::Observed found = sim::observe(sim::make_problem(rays, discs));
-      return *std::find_if(found.effects.begin(), found.effects.end(),
-                           [](const sim::EffectReport& one) { return one.effect == &sim::concave_surfaces; });
-    };
-    CHECK_FALSE(report().on);
-    for (sim::Ray& ray : rays) ray.length = 1;
-    CHECK(report().on);
-  }
 }
 
 TEST_SUITE("bad input") {

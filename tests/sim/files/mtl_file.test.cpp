@@ -74,9 +74,10 @@ TEST_SUITE("known answer") {
     const ScratchFolder folder;
     (void)folder.file("lamp.mtl", "newmtl lamp\nKd 0\nKe 3\nnewmtl wall paint\nKd 0.7 0.7 0.7\n");
     (void)folder.file("more.mtl", "newmtl more\n");
-    const std::string file = folder.file("room.obj",
-                                         "mtllib lamp.mtl more.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nf 1 2 4\nusemtl lamp\n"
-                                         "f 1 2 3\nusemtl wall paint\nf 1 3 4\nf 2 3 4\nusemtl lost\nf 3 2 1\n");
+    const std::string file =
+        folder.file("room.obj",
+                    "mtllib lamp.mtl more.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nf 1 2 4\nusemtl lamp\n"
+                    "f 1 2 3\nusemtl wall paint\nf 1 3 4\nf 2 3 4\nusemtl lost\nf 3 2 1\n");
     Notices notices;
     const Mesh mesh = read_mesh(file, notices);
     CHECK(mesh.materials.of(0).diffuse == 0.5);
@@ -98,7 +99,8 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("a library that is not there leaves all surfaces matt, with a notice") {
     const ScratchFolder folder;
-    const std::string file = folder.file("alone.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nusemtl a\nf 1 2 3\n");
+    const std::string file =
+        folder.file("alone.obj", "mtllib gone.mtl\nv 0 0 0\nv 1 0 0\nv 0 0 1\nusemtl a\nf 1 2 3\n");
     Notices notices;
     CHECK(read_mesh(file, notices).materials.all.empty());
     REQUIRE(notices.size() == 1);

@@ -22,7 +22,7 @@ using std::numbers::pi;
 namespace {
 
 constexpr double least_chance = 1e-6;
-constexpr double side = 2;            // of the closed box, which is centred at the origin
+constexpr double side = 2;  // of the closed box, which is centred at the origin
 constexpr double faces = 6 * side * side;
 
 /// The closed box; its walls look inwards, scatter like the material, and emit with radiance 1.
@@ -173,9 +173,9 @@ TEST_SUITE("statistical") {
   }
 
   TEST_CASE("mirrors, gloss and a mixture of both give the same furnace") {
-    for (const Material& material : {Material{.diffuse = 0, .specular = 0.5},
-                                     Material{.diffuse = 0, .specular = 0.5, .shininess = 5},
-                                     Material{.diffuse = 0.2, .specular = 0.3, .shininess = 50}}) {
+    for (const Material& material :
+         {Material{.diffuse = 0, .specular = 0.5}, Material{.diffuse = 0, .specular = 0.5, .shininess = 5},
+          Material{.diffuse = 0.2, .specular = 0.3, .shininess = 50}}) {
       const std::vector<Ray> rays = photon_paths(furnace(material), pieces, 2);
       CHECK(hits_agree(rays, discs_inside(60, radius), 2 * landing));
       CHECK(irradiance_agrees(rays, discs_on_walls(60, radius), 2 * pi));
@@ -215,7 +215,7 @@ TEST_SUITE("statistical") {
     for (int i = 0; i < 20; ++i) near.push_back({{0.02 * i, 0, -1.5 + 0.15 * i}, {0, 1, 0}, 0.4});
     const double irradiance = std::sqrt(0.5) / beam(scene);
     CHECK_FALSE(irradiance_agrees(photon_paths(scene, 400'000, 6), near, irradiance));
-    scene.second_intersections = true;
+    scene.overshoot = unbounded;
     const std::vector<Ray> rays = photon_paths(scene, 400'000, 6);
     CHECK(irradiance_agrees(rays, near, irradiance));
     CHECK_FALSE(irradiance_agrees(rays, near, 1.02 * irradiance));
@@ -236,7 +236,7 @@ TEST_SUITE("statistical") {
       };
       CHECK(sees_the_sky(white));
       CHECK_FALSE(sees_the_sky({.diffuse = 0.9}));
-      scene.second_intersections = true;  // light from behind comes through sheets without thickness
+      scene.overshoot = unbounded;  // light from behind comes through sheets without thickness
       CHECK_FALSE(sees_the_sky(white));
     }
   }
@@ -262,8 +262,9 @@ TEST_SUITE("statistical") {
 TEST_SUITE("known answer") {
   TEST_CASE("emitted = absorbed + escaped + cut off, and each material absorbs its share") {
     Scene scene = corner({-1, -1, 0});
-    scene.mesh.materials = {.all = {{.name = "floor", .diffuse = 0.7}, {.name = "wall", .diffuse = 0.2, .specular = 0.2}},
-                            .of_triangle = {0, 0, 1, 1}};
+    scene.mesh.materials = {
+        .all = {{.name = "floor", .diffuse = 0.7}, {.name = "wall", .diffuse = 0.2, .specular = 0.2}},
+        .of_triangle = {0, 0, 1, 1}};
     scene.lights = {{DirectionalLight{{-1, -1, 0}}, 5}, {PointLight{{1, 1, 0}}, 2}};
     const EnergyBalance balance = energy_balance(scene, 100'000, 1);
     CHECK(balance.flux == 7);

@@ -94,7 +94,8 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("photons go by power; a dim light gets at least a tenth of an even share, with weaker photons") {
-    const std::vector<Light> lights{{PointLight{{0, 0, 1}}, 98}, {PointLight{{0, 0, 2}}, 2}, {PointLight{{0, 0, 3}}, 0}};
+    const std::vector<Light> lights{
+        {PointLight{{0, 0, 1}}, 98}, {PointLight{{0, 0, 2}}, 2}, {PointLight{{0, 0, 3}}, 0}};
     const Scene scene = two_squares(lights);
     const Lights all(scene);
     constexpr std::uint64_t count = 1 << 16;
@@ -121,7 +122,8 @@ TEST_SUITE("known answer") {
 }
 
 TEST_SUITE("bad input") {
-  TEST_CASE("lights without direction, without finite numbers, without flux or without emitting triangles are refused") {
+  TEST_CASE(
+      "lights without direction, without finite numbers, without flux or without emitting triangles are refused") {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const auto refuses = [](const Light& light, const char* message) {
       const Scene scene = two_squares({light});

@@ -89,7 +89,8 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("a dim lamp among bright ones gets its share of photons and more: 0.9 of its power + a tenth of an even one") {
+  TEST_CASE(
+      "a dim lamp among bright ones gets its share of photons and more: 0.9 of its power + a tenth of an even one") {
     Scene scene = open_scene({.name = "@caustic", .samples = {}});
     scene.mesh.materials = {.all = {{.diffuse = 0}}};
     const auto& spot = std::get<SpotLight>(scene.lights.at(0).shape);

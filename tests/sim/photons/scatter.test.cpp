@@ -83,7 +83,9 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("each share is drawn as often as the material says; the rest is absorbed") {
     const Material mixed{.diffuse = 0.3, .specular = 0.2, .glass = 0.1};
-    const auto direction = [&](double random) { return scattered(mixed, up, towards(0.7), {random, 0.5, 0.5, 0.9999}); };
+    const auto direction = [&](double random) {
+      return scattered(mixed, up, towards(0.7), {random, 0.5, 0.5, 0.9999});
+    };
     CHECK(direction(0.299)->z != doctest::Approx(std::cos(0.7)));
     CHECK(direction(0.301)->z == doctest::Approx(std::cos(0.7)));
     CHECK(direction(0.499)->z == doctest::Approx(std::cos(0.7)));
@@ -102,7 +104,8 @@ TEST_SUITE("statistical") {
       for (std::uint64_t i = 0; i < count; ++i) {
         const auto start = uniform4(1, Stream::tests, i, 1);
         const glm::dvec3 in = -cosine_direction(up, start[0], start[1]);
-        if (const auto direction = scattered(material, up, in, uniform4(1, Stream::tests, i, 2))) out.push_back(*direction);
+        if (const auto direction = scattered(material, up, in, uniform4(1, Stream::tests, i, 2)))
+          out.push_back(*direction);
       }
       return out;
     };
@@ -143,8 +146,7 @@ TEST_SUITE("statistical") {
     const Material glossy{.diffuse = 0, .specular = 1, .shininess = 400};
     double sum = 0;
     constexpr std::uint64_t count = 100'000;
-    for (std::uint64_t i = 0; i < count; ++i)
-      sum += 1 - scattered(glossy, up, -up, uniform4(3, Stream::tests, i))->z;
+    for (std::uint64_t i = 0; i < count; ++i) sum += 1 - scattered(glossy, up, -up, uniform4(3, Stream::tests, i))->z;
     CHECK(sum / count == doctest::Approx(1.0 / 400).epsilon(0.015));
   }
 }

@@ -41,12 +41,9 @@ struct Named {
   built_in::LitMesh (*make)();
 };
 
-constexpr Named all[]{{"tree", built_in::tree},
-                      {"tree_coarse", built_in::tree_coarse},
-                      {"courtyard", built_in::courtyard},
-                      {"cornell", built_in::cornell},
-                      {"caustic", built_in::caustic},
-                      {"interior", built_in::interior}};
+constexpr Named all[]{{"tree", built_in::tree},           {"tree_coarse", built_in::tree_coarse},
+                      {"courtyard", built_in::courtyard}, {"cornell", built_in::cornell},
+                      {"caustic", built_in::caustic},     {"interior", built_in::interior}};
 
 /// Twice the area, divided by the square of the longest edge.
 double relative_area(const Mesh& mesh, const std::array<std::uint32_t, 3>& triangle) {
@@ -120,8 +117,10 @@ TEST_SUITE("known answer") {
     Notices notices;
     for (const Sample& sample : samples_at_vertices(room, notices)) {
       const glm::dvec3& p = sample.position;
-      if (p.y == 2.8 && p.x > 0.01 && p.x < 5.99 && p.z > 0.01 && p.z < 4.99) CHECK(sample.normal.y == doctest::Approx(-1));
-      if (p.x == 0 && p.y > 0.01 && p.y < 2.79 && p.z > 0.01 && p.z < 4.99) CHECK(sample.normal.x == doctest::Approx(1));
+      if (p.y == 2.8 && p.x > 0.01 && p.x < 5.99 && p.z > 0.01 && p.z < 4.99)
+        CHECK(sample.normal.y == doctest::Approx(-1));
+      if (p.x == 0 && p.y > 0.01 && p.y < 2.79 && p.z > 0.01 && p.z < 4.99)
+        CHECK(sample.normal.x == doctest::Approx(1));
     }
   }
 

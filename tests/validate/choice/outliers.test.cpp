@@ -88,7 +88,7 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("built-in scenes give no warning") {
-    for (const std::string name : 
+    for (const std::string name :
          {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior"}) {
       CAPTURE(name);
       JobRequest request;

@@ -34,7 +34,7 @@ bool in_order_among(const std::vector<Sample>& some, const std::vector<Sample>& 
 
 TEST_SUITE("known answer") {
   TEST_CASE("every built-in scene opens, with samples in its box, and a light where its rays are photons") {
-    for (const std::string name : 
+    for (const std::string name :
          {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});

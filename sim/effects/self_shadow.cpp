@@ -1,0 +1,115 @@
+#include "self_shadow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "all_effects.hpp"
+#include "concave_surfaces.hpp"
+#include "detp/sim/base/stop_check.hpp"
+#include "detp/sim/photons/photon_walk.hpp"
+#include "detp/sim/technique/technique.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr std::size_t enough_pieces = 2048;
+constexpr std::uint64_t most_photons = 2048;
+constexpr double still_in_plane = 0.05;  // below the surface's plane, in disc radii
+
+/// A piece of a path that goes on through the surface where it ends.
+struct Landing {
+  double distance;    ///< from the piece's start to the surface
+  glm::dvec3 normal;  ///< of the surface, on the side from which the photon came
+};
+
+/// Keeps pieces that end on a surface. PhotonWalk tells of each piece before it tells of its surface.
+struct Landings {
+  const Mesh& mesh;
+  std::vector<Ray> rays = {};
+  std::vector<Landing> landings = {};
+
+  void piece(const Ray& ray) { last = ray; }
+  void met(std::uint32_t triangle, double, bool) {
+    const auto& [a, b, c] = mesh.triangles[triangle];
+    const glm::dvec3 corner = mesh.positions[a];
+    const glm::dvec3 normal = glm::normalize(glm::cross(mesh.positions[b] - corner, mesh.positions[c] - corner));
+    const double cosine = glm::dot(normal, last.direction);
+    rays.push_back(last);
+    landings.push_back({glm::dot(corner - last.origin, normal) / cosine, cosine < 0 ? normal : -normal});
+  }
+  void escaped(double) {}
+  void cut_off(double) {}
+
+  Ray last = {};
+};
+
+Landings traced(const PhotonWalk& walk, const Mesh& mesh, const std::stop_token& stop) {
+  Landings all{mesh};
+  StopCheck check(stop, "tracing photons");
+  for (std::uint64_t photon = 0; photon < most_photons && all.rays.size() < enough_pieces; ++photon) {
+    walk.follow(photon, all);
+    check.after(1024);
+  }
+  return all;
+}
+
+/// Power of the hits of one piece.
+struct Power {
+  double before = 0;  ///< the surface
+  double gained = 0;  ///< beyond it, less what comes through sheets
+};
+
+std::vector<Power> hits_of(const Landings& all, std::span<const Disc> discs, bool front_facing,
+                           const std::stop_token& stop) {
+  const Problem problem = make_problem(all.rays, discs, front_facing, 1, stop);
+  RunOptions options{.count = false, .pairs = true, .stop = stop};
+  const Outcome outcome = run(problem, Candidate{Technique::box_tree, BoxTreeParameters{}}, options);
+  std::vector<Power> power(all.rays.size());
+  for (const Pair& pair : outcome.pairs) {
+    const Ray& ray = all.rays[pair.ray];
+    const Disc& disc = discs[pair.disc];
+    const auto& [distance, normal] = all.landings[pair.ray];
+    const double crossing = glm::dot(disc.centre - ray.origin, disc.normal) / glm::dot(ray.direction, disc.normal);
+    if (crossing <= distance + 1e-6 * disc.radius) {
+      power[pair.ray].before += ray.power;
+      continue;
+    }
+    const glm::dvec3 landing = ray.origin + distance * ray.direction;
+    const bool in_front = glm::dot(disc.centre - landing, normal) > -still_in_plane * disc.radius;
+    power[pair.ray].gained += in_front ? ray.power : -ray.power;
+  }
+  return power;
+}
+
+}  // namespace
+
+double overshoot_for(std::span<const Disc> discs) {
+  double largest = 0;
+  for (const Disc& disc : discs) largest = std::max(largest, disc.radius);
+  return overshoot_over_radius * largest;
+}
+
+Finding self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster, std::span<const Disc> discs,
+                    bool front_facing, std::uint64_t seed, const std::stop_token& stop) {
+  const Finding neighbours = concavity(discs, stop);
+  if (!concave_surfaces.threshold.passed(neighbours.value)) return {};
+  PhotonWalk walk(scene, seed, std::move(caster));
+  walk.set_overshoot(overshoot_for(discs));
+  const Landings all = traced(walk, scene.mesh, stop);
+  double before = 0;
+  double gained = 0;
+  const std::vector<Power> power = hits_of(all, discs, front_facing, stop);
+  for (const Power& one : power) {
+    before += one.before;
+    gained += one.gained;
+  }
+  if (!(before > 0)) return {.value = gained > 0 ? 1.0 : 0.0, .standard_error = 1};
+  const double value = gained / before;
+  double squares = 0;
+  for (const Power& one : power) squares += std::pow(one.gained - value * one.before, 2);
+  return {.value = value, .standard_error = std::sqrt(squares) / before};
+}
+
+}  // namespace detp::sim
