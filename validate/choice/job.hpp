@@ -44,7 +44,7 @@ struct JobRequest {
   std::vector<sim::LightKind> lights;  ///< default: the scene's own; in a mesh file without lights an area light
   std::optional<sim::Up> up;           ///< default: y in built-in scenes, found from the shape in mesh files
   bool front_facing = false;
-  sim::EffectSelection effects;  ///< that the workload has
+  sim::EffectSelection effects;  ///< that the workload has, and that photon paths are made with
   std::uint64_t seed = 1;
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
   /// block of rays is made, and the workload is measured on this block. Has no effect on rays from a file.

@@ -87,6 +87,7 @@ Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const st
     request.disc_radius = Length{workload.radius, true};
     request.rays = workload.rays;
     request.seed = seed;
+    request.effects = workload.effects;
     return make_job(request, stop);
   }
   Job job;
@@ -95,7 +96,7 @@ Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const st
                             workload.radius, seed);
   job.rays = sim::LineField(sim::enclosing_sphere(job.discs, stop), seed)
                  .lines(0, static_cast<std::size_t>(workload.rays), stop);
-  job.observed = sim::observe(job.problem(1, stop), {}, {}, stop);
+  job.observed = sim::observe(job.problem(1, stop), {}, workload.effects, stop);
   job.workload = job.observed.workload;
   return job;
 }

@@ -19,6 +19,7 @@ struct RegretWorkload {
   double radius = 0;   ///< of the discs, share of the longest side
   double rays = 0;
   bool held_out = false;  ///< its scene was not used to set any number of a chooser
+  sim::EffectSelection effects = {};
 };
 
 enum class RegretEffort {

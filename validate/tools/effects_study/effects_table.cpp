@@ -12,6 +12,28 @@ std::string ratio_text(double value, double divisor) {
   return divisor > 0 ? fmt::format("{:.4g}", value / divisor) : "";
 }
 
+/// What switching an effect by hand changes.
+struct Switched {
+  std::string ratios = ",,,";  ///< of predicted tests and hits, and of counted tests and hits if the rays change
+  std::string choice = {};
+};
+
+Switched with_switched(const StudyWorkload& workload, const sim::Effect& effect, const Counts<double>& predicted,
+                       const Counts<double>& counted) {
+  const auto text = [&](const Workload& changed, const std::string& counts) {
+    const Counts<double> now = model::predict(changed, usual_tree());
+    return Switched{fmt::format("{},{},{}", ratio_text(tests_of(now), tests_of(predicted)),
+                                ratio_text(now.hits, predicted.hits), counts),
+                    cell_of(chosen_for(changed))};
+  };
+  const bool changes_rays = &effect == &sim::concave_surfaces && workload.workload().field == sim::Field::photons;
+  if (!changes_rays) return text(workload.observe_switched(effect).workload, ",");
+  const StudyWorkload made(workload.made_switched(effect));
+  const Counts<double> now = made.count(usual_tree());
+  return text(made.automatic().workload,
+              ratio_text(tests_of(now), tests_of(counted)) + "," + ratio_text(now.hits, counted.hits));
+}
+
 }  // namespace
 
 void EffectsTable::add(const StudyWorkload& workload) {
@@ -30,18 +52,12 @@ void EffectsTable::add(const StudyWorkload& workload) {
   const std::string choice = cell_of(chosen_for(automatic.workload));
   for (const sim::EffectReport& report : automatic.effects) {
     const sim::Effect& effect = *report.effect;
-    std::string switched = ",";
-    std::string other;
-    if (!effect.is_input) {
-      const Workload changed = workload.observe_switched(effect).workload;
-      const Counts<double> counts = model::predict(changed, usual_tree());
-      switched = ratio_text(tests_of(counts), tests_of(predicted)) + "," + ratio_text(counts.hits, predicted.hits);
-      other = cell_of(chosen_for(changed));
-    }
+    const Switched switched = effect.is_input ? Switched{} : with_switched(workload, effect, predicted, counted);
     csv_ += fmt::format("{},{},{:.4g},{:.2g},{:.4g},{:.4g},{},{},{:.3g},{},{},{},{},{}\n", workload.row(), effect.name,
                         report.value, report.standard_error, effect.threshold.at, effect.threshold.tolerance, report.on,
-                        report.is_close(), report.seconds, switched, ratio_text(tests_of(predicted), tests_of(counted)),
-                        ratio_text(predicted.hits, counted.hits), choice, other);
+                        report.is_close(), report.seconds, switched.ratios,
+                        ratio_text(tests_of(predicted), tests_of(counted)), ratio_text(predicted.hits, counted.hits),
+                        choice, switched.choice);
   }
 }
 

@@ -26,7 +26,8 @@ class EffectsTable {
   Half tuned_, held_out_;
   std::string csv_ = std::string(workload_head) +
                      ",effect,value,standard_error,threshold,tolerance,on,close,evidence_seconds,"
-                     "tests_if_switched,hits_if_switched,predicted_over_counted_tests,predicted_over_counted_hits,"
+                     "tests_if_switched,hits_if_switched,counted_tests_if_switched,counted_hits_if_switched,predicted_"
+                     "over_counted_tests,predicted_over_counted_hits,"
                      "choice,choice_if_switched\n";
 };
 

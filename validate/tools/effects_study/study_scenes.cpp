@@ -36,7 +36,7 @@ std::vector<StudyScene> meshes_in(const std::string& folder) {
 
 std::vector<StudyScene> study_scenes(const std::string& folder) {
   std::vector<StudyScene> scenes;
-  for (const char* name : {"@tree", "@courtyard", "@cornell", "@tree-coarse"})
+  for (const char* name : {"@tree", "@courtyard", "@cornell", "@tree-coarse", "@caustic", "@interior"})
     scenes.push_back({name, name, true, is_tuned(name)});
   scenes.push_back({"@uniform", "@uniform"});
   for (const AwkwardScene scene : {AwkwardScene::clusters, AwkwardScene::tiny_object, AwkwardScene::thin_sheet,

@@ -21,12 +21,20 @@ sim::Observed StudyWorkload::observe(const sim::EffectSelection& selection) cons
   return sim::observe(problem_, job_.surface, selection);
 }
 
-sim::Observed StudyWorkload::observe_switched(const sim::Effect& effect) const {
+sim::EffectSelection StudyWorkload::switched(const sim::Effect& effect) const {
   std::string names;
   for (const sim::EffectReport& report : automatic().effects)
     if (!report.effect->is_input && report.on != (report.effect == &effect))
       names += fmt::format("{}{}", names.empty() ? "" : ",", sim::option_name(*report.effect));
-  return observe(sim::EffectSelection(names.empty() ? "none" : names));
+  return sim::EffectSelection(names.empty() ? "none" : names);
+}
+
+sim::Observed StudyWorkload::observe_switched(const sim::Effect& effect) const { return observe(switched(effect)); }
+
+validate::RegretWorkload StudyWorkload::made_switched(const sim::Effect& effect) const {
+  validate::RegretWorkload made = workload_;
+  made.effects = switched(effect);
+  return made;
 }
 
 Counts<double> StudyWorkload::count(const Candidate& candidate) const {

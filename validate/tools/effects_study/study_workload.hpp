@@ -22,13 +22,17 @@ class StudyWorkload {
   /// The effects that evidence calls for.
   [[nodiscard]] const sim::Observed& automatic() const { return job_.observed; }
   [[nodiscard]] sim::Observed observe(const sim::EffectSelection& selection) const;
-  /// With this effect the other way round than evidence says, and all others as they are.
+  /// With this effect the other way round than evidence says, and all others as they are; with the same rays.
   [[nodiscard]] sim::Observed observe_switched(const sim::Effect& effect) const;
+  /// The workload with rays that are made like this.
+  [[nodiscard]] validate::RegretWorkload made_switched(const sim::Effect& effect) const;
   [[nodiscard]] Counts<double> count(const Candidate& candidate) const;
   /// The values of workload_head.
   [[nodiscard]] std::string row() const;
 
  private:
+  [[nodiscard]] sim::EffectSelection switched(const sim::Effect& effect) const;
+
   validate::RegretWorkload workload_;
   validate::Job job_;
   sim::Problem problem_;
