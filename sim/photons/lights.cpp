@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "detp/model/vocabulary/checks.hpp"
 
@@ -26,18 +28,20 @@ Lights::Lights(const Scene& scene) {
   if (scene.lights.empty()) throw std::invalid_argument("photon paths need a light; " + scene.name + " has none");
   double flux = 0;
   double shining = 0;
+  std::vector<Emitter> emitters;
   for (const Light& light : scene.lights) {
     require_non_negative("flux of a light", light.flux);
+    emitters.push_back(emitter_of(light, scene));
     flux += light.flux;
     shining += light.flux > 0 ? 1 : 0;
   }
   require_positive("flux of all lights", flux);
   double sum = 0;
-  for (const Light& light : scene.lights) {
-    Emitter emitter = emitter_of(light, scene);
-    if (light.flux == 0) continue;
-    const double probability = shining == 1 ? 1 : (1 - even_share) * light.flux / flux + even_share / shining;
-    shares_.push_back({std::move(emitter), sum += probability, light.flux / probability});
+  for (std::size_t i = 0; i < emitters.size(); ++i) {
+    const double own = scene.lights[i].flux;
+    if (own == 0) continue;
+    const double probability = shining == 1 ? 1 : (1 - even_share) * own / flux + even_share / shining;
+    shares_.push_back({std::move(emitters[i]), sum += probability, own / probability});
   }
 }
 

@@ -132,6 +132,7 @@ class JobMaker {
 
   void make_rays() {
     if (request_.ray_file) {
+      refuse_lights("rays from a file");
       progress_.read_rays(*request_.ray_file, job_.discs.size());
       if (request_.rays)
         throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
@@ -142,6 +143,7 @@ class JobMaker {
     const double rays = request_.rays.value_or(rays_by_default);
     require_count("number of rays", rays, 1, 1e18);
     job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
+    if (job_.field != sim::Field::photons) refuse_lights("isotropic lines");
     const auto block = static_cast<double>(sim::default_block(job_.discs.size()));
     const bool stream = request_.stream && rays > block && rays < UINT32_MAX;
     const double made = request_.workload_only ? std::min(rays, block) : rays;
@@ -154,6 +156,11 @@ class JobMaker {
     }
     const sim::Scene& scene = scene_for_photons();
     job_.rays = sim::photon_paths(scene, count, request_.seed, caster_, stop_);
+  }
+
+  void refuse_lights(std::string_view rays) const {
+    if (!request_.lights.empty() || request_.up)
+      throw std::invalid_argument(fmt::format("--light and --up are for photon paths; these are {}", rays));
   }
 
   void make_lines(std::size_t count) {

@@ -271,6 +271,18 @@ void note_all(const CommonOptions& common, const validate::Job& job) {
   for (const std::string& warning : job.warnings) note(common, "warning: " + warning);
 }
 
+namespace {
+
+/// "; lights: area, spot (up: y)"; empty if the job has none.
+std::string lights_of(const validate::Job& job) {
+  if (job.lights.empty()) return "";
+  std::vector<std::string_view> kinds;
+  for (const sim::Light& light : job.lights) kinds.push_back(name(sim::kind_of(light)));
+  return fmt::format("; light{}: {} (up: {})", kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "), sim::name(job.up));
+}
+
+}  // namespace
+
 std::string describe(const validate::Job& job) {
   const Workload& w = job.workload;
   const double x = sample_distance(w) / w.disc_radius;
@@ -280,8 +292,8 @@ std::string describe(const validate::Job& job) {
                       spaced(w.samples), w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
   text += fmt::format("rays      {} ", spaced(w.rays));
   if (w.path_length > 0)
-    text += fmt::format("photon paths or segments, mean length {:.2f} of the scene's side\n",
-                        w.path_length / scene_side(w));
+    text += fmt::format("photon paths or segments, mean length {:.2f} of the scene's side{}\n",
+                        w.path_length / scene_side(w), lights_of(job));
   else
     text += "isotropic lines\n";
   return text;
