@@ -1,40 +1,19 @@
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
 
 #include "all_effects.hpp"
 
 namespace detp::sim {
 namespace {
 
-constexpr std::size_t least_sampled = 8;  // sampled discs in a node that counts
 constexpr int classes_an_octave = 2;
+constexpr std::size_t most_small = 16;  // small nodes have fewer sampled discs
 
 double surface_of(const glm::dvec3& side) { return 2 * (side.x * side.y + side.y * side.z + side.z * side.x); }
-
-/// Half the extents of a disc of radius 1 along the axes.
-glm::dvec3 extents_of(const Disc& disc) {
-  return glm::sqrt(glm::max(glm::dvec3(0.0), 1.0 - disc.normal * disc.normal));
-}
-
-/// The box around the centres of some discs, and the largest half extents of such discs of radius 1 along each axis.
-struct Extent {
-  Box centres;
-  glm::dvec3 discs{0.0};
-
-  void include(const Disc& disc) {
-    centres.include(disc.centre);
-    discs = glm::max(discs, extents_of(disc));
-  }
-  void include(const Extent& other) {
-    centres.include(other.centres.low);
-    centres.include(other.centres.high);
-    discs = glm::max(discs, other.discs);
-  }
-};
 
 /// Adds the box of sides `side` + 2d `half`.
 void add(NodeBoxes& sums, double samples, const glm::dvec3& side, const glm::dvec3& half) {
@@ -76,114 +55,100 @@ double uniform_surface(double share, double dimension) {
   return std::pow(share, 2 * weight / 3) * std::pow(2 * share, 1 - weight);
 }
 
-/// The tree that the builder of box trees makes of the sampled discs: it splits them where the curve leaves a cell.
-class SampledNodes {
+/// Sides of the box around all samples of a node. m uniform points fill (m - 1)/(m + 1) of a side, so the box is larger
+/// than that of the sampled ones.
+class NodeSides {
  public:
-  explicit SampledNodes(const EffectSample& sample) : sample_(sample) {
-    discs_a_place_ = static_cast<double>(sample.problem.discs().size()) / static_cast<double>(sample.places().size());
-    whole_ = surface_of(sample.problem.centres().size());
-    add_nodes(0, sample.places().size());
-    const Class single = single_discs();
-    if (single.nodes > 0) single_ = mean_of(single.sums, single.nodes);
-  }
+  explicit NodeSides(const EffectSample& sample)
+      : unit_(sample.discs().unit),
+        discs_a_place_(static_cast<double>(sample.problem.discs().size()) /
+                       static_cast<double>(sample.discs().discs.size())) {}
 
-  /// Mean of the surfaces of the boxes around 8 to 15 sampled discs, over that of uniform samples; 1 if there are too few
-  /// of them.
-  [[nodiscard]] Finding ratio() const {
-    constexpr double fewest = 8;
-    if (counted_ < fewest) return {.value = 1};
-    const double mean = sum_ / counted_;
-    const double variance = std::max(0.0, squares_ / counted_ - mean * mean) * counted_ / (counted_ - 1);
-    return {.value = mean, .standard_error = std::sqrt(variance / counted_)};
-  }
+  /// The number of samples for each sampled one.
+  [[nodiscard]] double discs_a_place() const { return discs_a_place_; }
 
-  /// Means over the nodes with about the same number of samples, the largest first, single discs last.
-  [[nodiscard]] std::vector<NodeBoxes> table() const {
-    std::vector<NodeBoxes> all;
-    for (auto one = classes_.rbegin(); one != classes_.rend(); ++one)
-      if (one->nodes > 0) all.push_back(mean_of(one->sums, one->nodes));
-    if (!all.empty()) all.push_back(single_);
-    return all;
+  [[nodiscard]] glm::dvec3 of(const SampledNode& node) const {
+    const double sampled = node.size();
+    const double samples = sampled * discs_a_place_;
+    const double grown = (samples - 1) / (samples + 1) * (sampled + 1) / (sampled - 1);
+    return glm::dvec3(node.high - node.low) * (grown * unit_);
   }
 
  private:
+  double unit_;
+  double discs_a_place_;
+};
+
+/// Half extents of the box around discs of radius 1.
+glm::dvec3 half_extents(const SampledNode& node) {
+  const glm::dvec3 flattest(node.flattest);
+  return glm::sqrt(glm::max(glm::dvec3(0.0), 1.0 - flattest * flattest));
+}
+
+/// Mean of the surfaces of the boxes around 8 to 15 sampled discs, over that of uniform samples; 1 if there are too few
+/// of them.
+Finding ratio_of_surfaces(const EffectSample& sample) {
+  constexpr double fewest = 8;
+  const NodeSides sides(sample);
+  const auto& nodes = sample.tree();
+  const double whole = surface_of(sample.problem.centres().size());
+  const auto places = static_cast<double>(sample.discs().discs.size());
+  std::array<double, most_small> uniform{};  // by the number of sampled discs
+  for (std::size_t sampled = least_split; sampled < uniform.size(); ++sampled) {
+    const double samples = static_cast<double>(sampled) * sides.discs_a_place();
+    const double filled = (samples - 1) / (samples + 1);
+    uniform[sampled] =
+        filled * filled * whole * uniform_surface(static_cast<double>(sampled) / places, sample.dimension().value);
+  }
+  double counted = 0;
+  double sum = 0;
+  double squares = 0;
+  for (const SampledNode& node : nodes) {
+    if (node.size() < least_split || node.size() >= most_small) continue;
+    const double ratio = surface_of(sides.of(node)) / uniform[node.size()];
+    counted += 1;
+    sum += ratio;
+    squares += ratio * ratio;
+  }
+  if (counted < fewest || !(whole > 0)) return {.value = 1};
+  const double mean = sum / counted;
+  const double variance = std::max(0.0, squares / counted - mean * mean) * counted / (counted - 1);
+  return {.value = mean, .standard_error = std::sqrt(variance / counted)};
+}
+
+/// Means over the nodes with about the same number of samples, the largest first, single discs last. None if there are
+/// too few sampled discs.
+std::vector<NodeBoxes> mean_boxes(const EffectSample& sample) {
   struct Class {
     double nodes = 0;
     NodeBoxes sums;
   };
-
-  /// Adds the nodes of the places from `first` up to `end`, and returns their extent.
-  Extent add_nodes(std::size_t first, std::size_t end) {
-    Extent extent;
-    if (end - first < least_sampled) {
-      for (std::size_t i = first; i < end; ++i) extent.include(disc(i));
-      return extent;
-    }
-    const std::size_t middle = first_of_second_half(first, end);
-    extent = add_nodes(first, middle);
-    extent.include(add_nodes(middle, end));
-    count(extent, static_cast<double>(end - first));
-    return extent;
-  }
-
-  [[nodiscard]] const Disc& disc(std::size_t place) const {
-    return sample_.problem.discs()[sample_.places()[place].index];
-  }
-
-  [[nodiscard]] Class single_discs() const {
-    Class single;
-    for (std::size_t i = 0; i < sample_.places().size(); i += 8) {
-      single.nodes += 1;
-      add(single.sums, 1, glm::dvec3(0.0), extents_of(disc(i)));
-    }
-    return single;
-  }
-
-  [[nodiscard]] std::size_t first_of_second_half(std::size_t first, std::size_t end) const {
-    const auto& places = sample_.places();
-    const std::uint64_t last = places[end - 1].key;
-    const std::uint64_t differ = places[first].key ^ last;
-    if (differ == 0) return first + (end - first) / 2;
-    const std::uint64_t start = last & ~(std::bit_floor(differ) - 1);
-    const auto from = places.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto to = places.begin() + static_cast<std::ptrdiff_t>(end);
-    const auto found = std::partition_point(from, to, [start](const KeyedIndex& place) { return place.key < start; });
-    return static_cast<std::size_t>(found - places.begin());
-  }
-
-  /// m uniform points fill (m - 1)/(m + 1) of a side. The box of all samples is larger than that of the sampled ones by
-  /// the ratio of these.
-  void count(const Extent& extent, double sampled) {
-    const double samples = sampled * discs_a_place_;
-    const double grown = (samples - 1) / (samples + 1) * (sampled + 1) / (sampled - 1);
-    const glm::dvec3 side = extent.centres.size() * grown;
-    Class& one = classes_[static_cast<std::size_t>(classes_an_octave * std::log2(samples))];
+  const NodeSides sides(sample);
+  std::array<Class, 33 * classes_an_octave> classes;
+  for (const SampledNode& node : sample.tree()) {
+    if (node.size() < least_split) continue;
+    const double samples = node.size() * sides.discs_a_place();
+    Class& one = classes[static_cast<std::size_t>(classes_an_octave * std::log2(samples))];
     one.nodes += 1;
-    add(one.sums, samples, side, extent.discs);
-    if (sampled >= 2 * least_sampled || !(whole_ > 0)) return;
-    const double share = sampled / static_cast<double>(sample_.places().size());
-    const double filled = (samples - 1) / (samples + 1);
-    const double uniform = filled * filled * uniform_surface(share, sample_.dimension().value);
-    const double ratio = surface_of(side) / whole_ / uniform;
-    counted_ += 1;
-    sum_ += ratio;
-    squares_ += ratio * ratio;
+    add(one.sums, samples, sides.of(node), half_extents(node));
   }
-
-  const EffectSample& sample_;
-  double discs_a_place_;
-  double whole_;
-  std::array<Class, 33 * classes_an_octave> classes_;
-  NodeBoxes single_;  ///< around one disc
-  double counted_ = 0;
-  double sum_ = 0;
-  double squares_ = 0;
-};
+  std::vector<NodeBoxes> all;
+  for (auto one = classes.rbegin(); one != classes.rend(); ++one)
+    if (one->nodes > 0) all.push_back(mean_of(one->sums, one->nodes));
+  if (all.empty()) return all;
+  Class single;
+  for (std::size_t i = 0; i < sample.discs().discs.size(); i += 8) {
+    const glm::dvec3 normal(sample.discs().discs[i].steepness);
+    single.nodes += 1;
+    add(single.sums, 1, glm::dvec3(0.0), glm::sqrt(glm::max(glm::dvec3(0.0), 1.0 - normal * normal)));
+  }
+  all.push_back(mean_of(single.sums, single.nodes));
+  return all;
+}
 
 Finding find_clusters(const EffectSample& sample) {
-  const SampledNodes nodes(sample);
-  Finding finding = nodes.ratio();
-  finding.apply = [table = nodes.table()](Workload& workload) { workload.nodes = table; };
+  Finding finding = ratio_of_surfaces(sample);
+  finding.apply = [&sample](Workload& workload) { workload.nodes = mean_boxes(sample); };
   return finding;
 }
 

@@ -25,16 +25,16 @@ bool is_in_front(const Disc& disc, const glm::dvec3& neighbour) {
 
 class Neighbours {
  public:
-  Neighbours(std::span<const Disc> discs, std::span<const KeyedIndex> places) : discs_(discs), places_(places) {}
+  Neighbours(std::span<const Disc> discs, std::span<const SampledDisc> sampled) : discs_(discs), sampled_(sampled) {}
 
   /// Whether a neighbour of the disc with this place is in front of it.
   [[nodiscard]] bool any_in_front(std::size_t place) const {
-    const std::size_t number = places_[place].index;
+    const std::size_t number = sampled_[place].number;
     const Disc& disc = discs_[number];
     for (std::size_t i = from(number, in_array); i < end(number, in_array, discs_.size()); ++i)
       if (is_in_front(disc, discs_[i].centre)) return true;
-    for (std::size_t i = from(place, on_curve); i < end(place, on_curve, places_.size()); ++i)
-      if (is_in_front(disc, discs_[places_[i].index].centre)) return true;
+    for (std::size_t i = from(place, on_curve); i < end(place, on_curve, sampled_.size()); ++i)
+      if (is_in_front(disc, discs_[sampled_[i].number].centre)) return true;
     return false;
   }
 
@@ -45,7 +45,7 @@ class Neighbours {
   }
 
   std::span<const Disc> discs_;
-  std::span<const KeyedIndex> places_;
+  std::span<const SampledDisc> sampled_;
 };
 
 /// The share, with the standard error of a binomial share of (found + ½)/(tried + 1): never 0.
@@ -66,18 +66,18 @@ double concavity_of_numbers(const Workload&) { return 0; }
 
 }  // namespace
 
-Finding concavity(std::span<const Disc> discs, std::span<const KeyedIndex> places, const std::stop_token& stop) {
+Finding concavity(std::span<const Disc> discs, const CurveSample& sample, const std::stop_token& stop) {
   StopCheck check(stop, "looking for concave surfaces");
   check.now();
-  const Neighbours neighbours(discs, places);
-  const std::size_t centres = std::min(most_centres, places.size());
+  const Neighbours neighbours(discs, sample.discs);
+  const std::size_t centres = std::min(most_centres, sample.discs.size());
   double found = 0;
   double tried = 0;
   // four passes along the curve, each between the places of those before
   for (const std::size_t first : {0, 2, 1, 3}) {
     for (std::size_t i = first; i < centres; i += 4) {
       check.after(2 * (in_array + on_curve));
-      found += neighbours.any_in_front(i * places.size() / centres) ? 1 : 0;
+      found += neighbours.any_in_front(i * sample.discs.size() / centres) ? 1 : 0;
       tried += 1;
     }
     if (tried > 0 && is_decided(share_of(found, tried))) break;
@@ -86,7 +86,7 @@ Finding concavity(std::span<const Disc> discs, std::span<const KeyedIndex> place
 }
 
 Finding concavity(std::span<const Disc> discs, const std::stop_token& stop) {
-  return concavity(discs, sampled_places(discs, stop), stop);
+  return concavity(discs, curve_sample(discs, enclosing_sphere(discs, stop), stop), stop);
 }
 
 constinit const Effect concave_surfaces{

@@ -28,8 +28,8 @@ namespace detp::sim {
 /// Needs no rays, so that it can be known before photon paths are made. Throws Stopped if a stop was requested.
 [[nodiscard]] Finding concavity(std::span<const Disc> discs, const std::stop_token& stop = {});
 
-/// The same, with the discs' places already sampled.
-[[nodiscard]] Finding concavity(std::span<const Disc> discs, std::span<const KeyedIndex> places,
+/// The same, with the discs already sampled.
+[[nodiscard]] Finding concavity(std::span<const Disc> discs, const CurveSample& sample,
                                 const std::stop_token& stop = {});
 
 }  // namespace detp::sim

@@ -1,57 +1,21 @@
 #include "crossings.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <vector>
 
+#include "all_effects.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/random.hpp"
+#include "sample_groups.hpp"
 
 namespace detp::sim {
 namespace {
 
-constexpr std::size_t most_spheres = 512;
-constexpr std::size_t most_tested = 512;  // rays
-constexpr double crossed_by = 0.01;       // share of uniform rays that cross a sphere
-
-/// The centres of some discs, relative to the centre of S₀ and in units of the spheres' radius. In floats, so that the
-/// compiler tests several at once: a sphere that a ray just touches may be decided either way.
-class Centres {
- public:
-  Centres(const Problem& problem, const std::vector<std::size_t>& discs, double radius)
-      : centre_(problem.enclosing().centre), radius_(radius), squares_(discs.size()) {
-    for (int axis = 0; axis < 3; ++axis)
-      for (const std::size_t disc : discs)
-        along_[axis].push_back(static_cast<float>((problem.discs()[disc].centre[axis] - centre_[axis]) / radius_));
-  }
-
-  /// Squared distances of the centres from the ray.
-  const std::vector<float>& squared_distances(const Ray& ray) {
-    const glm::vec3 origin((ray.origin - centre_) / radius_);
-    const glm::vec3 heading(ray.direction);
-    const auto length = static_cast<float>(ray.length / radius_);
-    const float from = ray.is_line() ? -length : 0;
-    for (std::size_t j = 0; j < squares_.size(); ++j) {
-      const float x = along_[0][j] - origin.x;
-      const float y = along_[1][j] - origin.y;
-      const float z = along_[2][j] - origin.z;
-      const float place = x * heading.x + y * heading.y + z * heading.z;
-      const float nearest = std::min(std::max(place, from), length);
-      const float a = x - nearest * heading.x;
-      const float b = y - nearest * heading.y;
-      const float c = z - nearest * heading.z;
-      squares_[j] = a * a + b * b + c * c;
-    }
-    return squares_;
-  }
-
- private:
-  glm::dvec3 centre_;
-  double radius_;
-  std::array<std::vector<float>, 3> along_;
-  std::vector<float> squares_;
-};
+constexpr std::size_t most_crossing = 512;  // rays
+constexpr double crossed_around = 0.003;    // share of uniform rays that cross a sphere
+constexpr double crossed_near = 0.0003;
+constexpr double crossed_by_lines = 0.001;
 
 /// Whether the ray crosses the disc enlarged to the radius.
 bool crosses(const Ray& ray, const Disc& disc, double radius, bool front_facing) {
@@ -64,41 +28,81 @@ bool crosses(const Ray& ray, const Disc& disc, double radius, bool front_facing)
   return glm::dot(off, off) <= radius * radius;
 }
 
-Crossings counted(const Problem& problem, double radius, const std::stop_token& stop) {
-  StopCheck check(stop, "looking for uneven rays");
-  const auto rays = stratified_sample(problem.rays().size(), most_tested, 2, Stream::evidence);
-  const auto discs = stratified_sample(problem.discs().size(), most_spheres, 2, Stream::evidence);
-  Centres centres(problem, discs, radius);
-  std::vector<double> of_disc(discs.size());
-  std::vector<double> of_ray(rays.size());
-  double in_disc = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    check.after(discs.size());
-    const Ray& ray = problem.rays()[rays[i]];
-    const std::vector<float>& squares = centres.squared_distances(ray);
-    for (std::size_t j = 0; j < discs.size(); ++j) {
-      if (!(squares[j] <= 1)) continue;
-      of_ray[i] += 1;
-      of_disc[j] += 1;
-      if (crosses(ray, problem.discs()[discs[j]], radius, problem.front_facing())) in_disc += 1;
-    }
+/// What one ray crosses.
+struct OfRay {
+  double around = 0;
+  double near = 0;
+  double discs = 0;
+};
+
+/// Σ a / Σ b over the rays, in units of `uniform`; the error is that of a quotient of sums (Cochran, Sampling
+/// Techniques).
+template <class A, class B>
+CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a, const B& b) {
+  double above = 0;
+  double below = 0;
+  for (const OfRay& one : rays) {
+    above += a(one);
+    below += b(one);
   }
-  const double pairs = static_cast<double>(rays.size()) * static_cast<double>(discs.size());
-  double sum = 0;
-  for (const double one : of_ray) sum += one;
-  const auto relative_variance = [sum](const std::vector<double>& counts) {
-    const double mean = sum / static_cast<double>(counts.size());
-    double variance = 0;
-    for (const double one : counts) variance += (one - mean) * (one - mean);
-    return variance / (mean * mean) / static_cast<double>(counts.size()) / static_cast<double>(counts.size());
-  };
-  if (!(sum > 0)) return {.radius = radius};
-  const double hits = std::max(1.0, in_disc);
-  return {.radius = radius,
-          .spheres = sum / pairs,
-          .discs = in_disc / pairs,
-          .spheres_error = std::sqrt(relative_variance(of_ray) + relative_variance(of_disc)),
-          .ratio_error = std::sqrt(std::max(0.0, 1 / hits - 1 / sum))};
+  if (!(above > 0 && below > 0)) return {};
+  const double ratio = above / below;
+  double squares = 0;
+  for (const OfRay& one : rays) {
+    const double residual = a(one) - ratio * b(one);
+    squares += residual * residual;
+  }
+  const auto count = static_cast<double>(rays.size());
+  const double error = count > 1 ? std::sqrt(squares * count / (count - 1)) / below : ratio;
+  return {ratio / uniform, error / uniform};
+}
+
+class CrossingCounter {
+ public:
+  explicit CrossingCounter(const EffectSample& sample)
+      : sample_(sample),
+        uniform_(sample.uniform()),
+        around_(uniform_.radius_for(crossed_around)),
+        near_(std::max(sample.problem.radii().rms,
+                       uniform_.radius_for(sample.problem.segments() ? crossed_near : crossed_by_lines))),
+        groups_(sample.discs(), sample.tree(), around_, near_) {}
+
+  void count(const Ray& ray) {
+    const Problem& problem = sample_.problem;
+    OfRay one;
+    one.around = groups_.visit_near(ray, [&](std::uint32_t place) {
+      one.near += 1;
+      const Disc& disc = problem.discs()[sample_.discs().discs[place].number];
+      if (crosses(ray, disc, near_, problem.front_facing())) one.discs += 1;
+    });
+    rays_.push_back(one);
+  }
+
+  [[nodiscard]] Crossings crossings() const {
+    const auto around = [](const OfRay& ray) { return ray.around; };
+    const auto near = [](const OfRay& ray) { return ray.near; };
+    const auto discs = [](const OfRay& ray) { return ray.discs; };
+    const auto samples = static_cast<double>(sample_.discs().discs.size());
+    const double sphere = uniform_.sphere(near_);
+    Crossings found;
+    found.radius = around_;
+    found.around = ratio_of(rays_, samples * uniform_.sphere(around_), around, [](const OfRay&) { return 1.0; });
+    if (sample_.problem.segments()) found.near = ratio_of(rays_, sphere / uniform_.sphere(around_), near, around);
+    found.discs = ratio_of(rays_, uniform_.disc(near_, sample_.problem.front_facing()) / sphere, discs, near);
+    return found;
+  }
+
+ private:
+  const EffectSample& sample_;
+  const UniformRays& uniform_;
+  double around_;
+  double near_;
+  SampleGroups groups_;
+  std::vector<OfRay> rays_;
+};
+
+bool is_clear(const CountedRatio& ratio, const Threshold& threshold) {
+  return threshold.distance(ratio.value) > 2 * ratio.standard_error;
 }
 
 }  // namespace
@@ -110,8 +114,21 @@ UniformRays uniform_rays(const Workload& workload) {
   return {workload.sphere_radius, workload.path_length, space};
 }
 
-Crossings count_crossings(const Problem& problem, const UniformRays& uniform, const std::stop_token& stop) {
-  return counted(problem, uniform.radius_for(crossed_by), stop);
+Crossings count_crossings(const EffectSample& sample) {
+  StopCheck check(sample.stop, "looking for uneven rays");
+  const auto rays = stratified_sample(sample.problem.rays().size(), most_crossing, 2, Stream::evidence);
+  CrossingCounter counter(sample);
+  for (const std::size_t first : {0, 1}) {  // every second ray, then the others
+    for (std::size_t i = first; i < rays.size(); i += 2) {
+      check.after(sample.discs().discs.size() / 16);
+      counter.count(sample.problem.rays()[rays[i]]);
+    }
+    const Crossings found = counter.crossings();
+    if (is_clear(found.around, uneven_rays.threshold) && is_clear(found.near, occlusion.threshold) &&
+        is_clear(found.discs, directional_bias.threshold))
+      return found;
+  }
+  return counter.crossings();
 }
 
 }  // namespace detp::sim

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <numbers>
-#include <stop_token>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
-#include "detp/sim/search/problem.hpp"
 
 namespace detp::sim {
+
+class EffectSample;
 
 /// The share of uniform isotropic rays that cross a convex body: lines of μ_ℓ through S₀, or segments whose origins are
 /// uniform in the samples' box (Santaló, Integral Geometry).
@@ -42,17 +42,23 @@ struct UniformRays {
 /// The uniform rays of the workload.
 [[nodiscard]] UniformRays uniform_rays(const Workload& workload);
 
-/// Pairs of some rays and spheres of one radius around samples.
-struct Crossings {
-  double radius = 0;         ///< of the spheres: a hundredth of uniform rays cross one
-  double spheres = 0;        ///< share of the pairs in which the ray crosses the sphere
-  double discs = 0;          ///< share in which it also crosses the sphere's disc in the sample's tangent plane
-  double spheres_error = 0;  ///< standard error, relative
-  double ratio_error = 0;    ///< of discs / spheres, relative
+/// A quotient of two counts.
+struct CountedRatio {
+  double value = 1;
+  double standard_error = 0;
 };
 
-/// Counts the pairs of 512 rays and 512 samples. Throws Stopped if a stop was requested.
-[[nodiscard]] Crossings count_crossings(const Problem& problem, const UniformRays& uniform,
-                                        const std::stop_token& stop = {});
+/// How many rays cross spheres around samples. Each value is over that of uniform rays; 1 if nothing was counted.
+struct Crossings {
+  double radius = 0;    ///< of spheres that 3 in 1000 uniform rays cross
+  CountedRatio around;  ///< rays that cross these
+  CountedRatio near;    ///< rays that cross small spheres, over those; 1 for lines, which nothing stops
+  CountedRatio discs;   ///< share of the rays through a small sphere that cross its disc in the tangent plane
+};
+
+/// Counts 512 of the rays, or 256 if they show for each value whether it passes its threshold, to two standard errors.
+/// The small spheres are crossed by 3 in 10 000 uniform segments or 10 in 10 000 lines, but are not smaller than discs.
+/// Throws Stopped if a stop was requested.
+[[nodiscard]] Crossings count_crossings(const EffectSample& sample);
 
 }  // namespace detp::sim

@@ -15,12 +15,16 @@ const std::vector<std::size_t>& EffectSample::rays() const {
   return once(rays_, [&] { return stratified_sample(problem.rays().size(), most_rays, 1, Stream::evidence); });
 }
 
-const std::vector<KeyedIndex>& EffectSample::places() const {
-  return once(places_, [&] { return sampled_places(problem.discs(), stop); });
+const CurveSample& EffectSample::discs() const {
+  return once(discs_, [&] { return curve_sample(problem.discs(), problem.enclosing(), stop); });
 }
 
 const SampleDimension& EffectSample::dimension() const {
-  return once(dimension_, [&] { return sample_dimension(places()); });
+  return once(dimension_, [&] { return sample_dimension(discs().keys); });
+}
+
+const std::vector<SampledNode>& EffectSample::tree() const {
+  return once(tree_, [&] { return sampled_tree(discs()); });
 }
 
 const PathsInside& EffectSample::paths() const {
@@ -41,7 +45,7 @@ const UniformRays& EffectSample::uniform() const {
 }
 
 const Crossings& EffectSample::crossings() const {
-  return once(crossings_, [&] { return count_crossings(problem, uniform(), stop); });
+  return once(crossings_, [&] { return count_crossings(*this); });
 }
 
 bool Threshold::passed(double value) const {

@@ -13,6 +13,7 @@
 #include "detp/sim/search/problem.hpp"
 #include "paths_inside.hpp"
 #include "sample_dimension.hpp"
+#include "sampled_tree.hpp"
 
 namespace detp::sim {
 
@@ -45,10 +46,11 @@ class EffectSample {
 
   /// Stratified, at most 2048.
   [[nodiscard]] const std::vector<std::size_t>& rays() const;
-  /// Of at most 8192 discs, stratified.
-  [[nodiscard]] const std::vector<KeyedIndex>& places() const;
+  /// At most 8192, stratified. The unit is r₀, the origin the centre of S₀.
+  [[nodiscard]] const CurveSample& discs() const;
   /// Of these discs.
   [[nodiscard]] const SampleDimension& dimension() const;
+  [[nodiscard]] const std::vector<SampledNode>& tree() const;
   /// Of the rays; zeros if all are lines.
   [[nodiscard]] const PathsInside& paths() const;
   /// Uniform rays with the mean length of the rays.
@@ -63,8 +65,9 @@ class EffectSample {
   }
 
   mutable std::optional<std::vector<std::size_t>> rays_;
-  mutable std::optional<std::vector<KeyedIndex>> places_;
+  mutable std::optional<CurveSample> discs_;
   mutable std::optional<SampleDimension> dimension_;
+  mutable std::optional<std::vector<SampledNode>> tree_;
   mutable std::optional<PathsInside> paths_;
   mutable std::optional<UniformRays> uniform_;
   mutable std::optional<Crossings> crossings_;

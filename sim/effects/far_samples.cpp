@@ -24,8 +24,9 @@ CentralSamples samples_near(const FarDiscs& found, const EffectSample& sample) {
   });
   const DiscRadii& radii = sample.problem.radii();
   const glm::dvec3 size = box.size();
-  const auto counted = stratified_sample(near.size(), sample.places().size(), 1, Stream::evidence);
-  const double dimension = sample_dimension(sample_places(near, counted, sample.stop)).value;
+  const auto counted = stratified_sample(near.size(), sample.discs().discs.size(), 1, Stream::evidence);
+  const double dimension =
+      sample_dimension(curve_sample(near, counted, sample.problem.enclosing(), sample.stop).keys).value;
   CentralSamples central{.samples = static_cast<double>(near.size()),
                          .sphere_radius = glm::length(size) / 2 + radii.largest,
                          .box = {size.x, size.y, size.z},

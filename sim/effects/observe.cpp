@@ -113,7 +113,7 @@ Observed observe(const Problem& problem, const SurfaceFacts& surface, const Effe
   const Stopwatch watch;
   const EffectSample sample(problem, surface, stop);
   Observed observed{
-      .workload = without_effects(problem), .rays = sample.rays().size(), .discs = sample.places().size()};
+      .workload = without_effects(problem), .rays = sample.rays().size(), .discs = sample.discs().discs.size()};
   for (const Effect* effect : all_effects) {
     const Stopwatch one;
     const Finding finding = effect->find(sample);

@@ -29,11 +29,11 @@ struct Occupancy {
 using Levels = std::array<Occupancy, levels_of_cells + 1>;
 
 /// Counts cells by the level from which on neighbours in the order are in different cells.
-Levels occupied_cells(const std::vector<KeyedIndex>& places) {
+Levels occupied_cells(const std::vector<std::uint64_t>& keys) {
   constexpr int never = 0;  // neighbours beyond both ends are apart on all levels
   std::vector<int> apart{never, never};
-  for (std::size_t i = 1; i < places.size(); ++i)
-    apart.push_back((std::countl_zero(places[i].key ^ places[i - 1].key) - (64 - 3 * levels_of_cells)) / 3 + 1);
+  for (std::size_t i = 1; i < keys.size(); ++i)
+    apart.push_back((std::countl_zero(keys[i] ^ keys[i - 1]) - (64 - 3 * levels_of_cells)) / 3 + 1);
   apart.insert(apart.end(), {never, never});
   Levels levels;  // first the changes from level to level
   for (std::size_t i = 1; i + 2 < apart.size(); ++i) {
@@ -55,15 +55,14 @@ Levels occupied_cells(const std::vector<KeyedIndex>& places) {
 
 }  // namespace
 
-SampleDimension sample_dimension(std::vector<KeyedIndex> places) {
+SampleDimension sample_dimension(std::vector<std::uint64_t> keys) {
   constexpr std::size_t least_points = 1024;
   constexpr double least_covered = 0.25;
   constexpr int last_level = levels_of_cells - 3;  // on finer ones, points that share a place would be missed
-  const auto equal = [](const KeyedIndex& a, const KeyedIndex& b) { return a.key == b.key; };
-  places.erase(std::unique(places.begin(), places.end(), equal), places.end());
-  if (places.size() < least_points) return {};
-  const Levels levels = occupied_cells(places);
-  const auto covered = [&](std::size_t level) { return 1 - levels[level].once / static_cast<double>(places.size()); };
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
+  if (keys.size() < least_points) return {};
+  const Levels levels = occupied_cells(keys);
+  const auto covered = [&](std::size_t level) { return 1 - levels[level].once / static_cast<double>(keys.size()); };
   std::size_t last = 3;
   while (last < last_level && covered(last + 1) >= least_covered) ++last;
   // the slope of a least-squares line through three levels does not depend on the middle one

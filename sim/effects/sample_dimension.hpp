@@ -1,8 +1,9 @@
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
-#include "sample_places.hpp"
+#include "curve_sample.hpp"
 
 namespace detp::sim {
 
@@ -12,13 +13,13 @@ struct SampleDimension {
 };
 
 /// Dimension of a set of points by box counting: the slope of log₂(number of occupied cells) against the number of
-/// halvings of the cells, over three levels, clamped to [1, 3]. Counts sampled points, given by their sorted places.
+/// halvings of the cells, over three levels, clamped to [1, 3]. Counts sampled points, given by their keys on the curve.
 /// Estimates the occupied cells without sampled points from those with one or two (Chao 1984). The finest level is the
 /// last at which at least a quarter of further points would come to lie in cells that have sampled points (Good 1953:
 /// one minus the share of points that are alone in their cells). Coarser levels are not used, because a body's corners
 /// and edges distort the slope there. Returns 3 for fewer than 1024 different places.
 ///
 /// Accuracy   0.1 for 8192 of 10⁵ points uniform in a cube or on its faces.
-[[nodiscard]] SampleDimension sample_dimension(std::vector<KeyedIndex> places);
+[[nodiscard]] SampleDimension sample_dimension(std::vector<std::uint64_t> keys);
 
 }  // namespace detp::sim

@@ -6,12 +6,12 @@ namespace {
 
 Finding find_density(const EffectSample& sample) {
   const Crossings& crossings = sample.crossings();
-  if (!(crossings.spheres > 0)) return {.value = 1};
-  const double density = crossings.spheres / sample.uniform().sphere(crossings.radius);
-  return {
-      .value = density, .standard_error = density * crossings.spheres_error, .apply = [crossings](Workload& workload) {
-        workload.ray_density = crossings.spheres / uniform_rays(workload).sphere(crossings.radius);
-      }};
+  const double crossed = crossings.around.value * sample.uniform().sphere(crossings.radius);
+  return {.value = crossings.around.value,
+          .standard_error = crossings.around.standard_error,
+          .apply = [crossed, radius = crossings.radius](Workload& workload) {
+            workload.ray_density = crossed / uniform_rays(workload).sphere(radius);
+          }};
 }
 
 double density_of_numbers(const Workload& workload) { return workload.ray_density; }

@@ -43,6 +43,14 @@ std::vector<SharedParameter> shared_parameters() {
   return all;
 }
 
+/// The effects that --effects switches.
+std::string switched_effects() {
+  std::vector<std::string> names;
+  for (const sim::Effect* effect : sim::all_effects)
+    if (!effect->is_input) names.push_back(sim::option_name(*effect));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
 /// 100000 as "100 000".
 std::string spaced(double count) {
   std::string digits = fmt::format("{:.0f}", count);
@@ -105,10 +113,10 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
   lists.add(
       command, "--effects", Values::one, words,
       [this](const std::string& text) { request_.effects = sim::EffectSelection(text); },
-      "deviations from uniform lines and samples that predictions take into account: auto (where the evidence calls "
-      "for them), none, all, or a list of surface-samples, clustered-samples, finite-paths, uneven-rays, "
-      "directional-bias, far-samples; "
-      "default: auto");
+      fmt::format(
+          "deviations from uniform lines and samples that are taken into account: auto (where the evidence calls "
+          "for them), none, all, or a list of {}; default: auto",
+          switched_effects()));
 }
 
 std::vector<sim::LightKind> parse_lights(std::string_view text) {

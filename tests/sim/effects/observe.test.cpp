@@ -184,7 +184,7 @@ TEST_SUITE("effects") {
     CHECK_THROWS_WITH_AS(
         sim::EffectSelection("fog"),
         "there is no effect \"fog\"; there are auto, none, all, or a list of surface-samples, "
-        "clustered-samples, concave-surfaces, finite-paths, uneven-rays, directional-bias, far-samples",
+        "clustered-samples, concave-surfaces, finite-paths, uneven-rays, occlusion, directional-bias, far-samples",
         std::invalid_argument);
     for (const char* bad : {"", ",", "finite-paths,", "all,none", "Auto"})
       CHECK_THROWS_AS(sim::EffectSelection{bad}, std::invalid_argument);
@@ -258,5 +258,29 @@ TEST_SUITE("effects") {
     CHECK(report.on);
     CHECK(report.value < 0.5);
     CHECK(found.workload.ray_density == report.value);
+  }
+
+  TEST_CASE("samples in the shade make fewer hits than the rays around them; lines are not stopped") {
+    // light from above falls on a roof; half of the samples are close below it
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 1);
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      discs[i].normal = {0, 0, 1};
+      discs[i].centre.z = i % 2 == 0 ? 0.0 : -0.04;
+    }
+    discs[0].centre.z = 1;
+    discs[1].centre.z = -1;
+    std::vector<sim::Ray> rays;
+    for (const sim::Disc& disc : sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 2))
+      rays.push_back({.origin = {disc.centre.x, disc.centre.y, 1}, .direction = {0, 0, -1}, .length = 1.001});
+    const sim::Observed found = sim::observe(sim::make_problem(rays, discs));
+    const sim::EffectReport& shade = report_of(found, sim::occlusion);
+    CHECK(shade.on);
+    CHECK(shade.value < 0.8);
+    CHECK(found.workload.hit_ratio ==
+          doctest::Approx(shade.value * report_of(found, sim::directional_bias).value).epsilon(1e-12));
+    for (sim::Ray& ray : rays) ray.length = sim::unbounded;
+    const sim::Observed lines = sim::observe(sim::make_problem(rays, discs));
+    CHECK_FALSE(report_of(lines, sim::occlusion).on);
+    CHECK(report_of(lines, sim::occlusion).value == 1);
   }
 }

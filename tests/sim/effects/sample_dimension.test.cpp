@@ -14,7 +14,8 @@ using namespace detp::sim;
 namespace {
 
 SampleDimension dimension_of(std::span<const Disc> discs, std::uint64_t seed = 1) {
-  return sample_dimension(sample_places(discs, stratified_sample(discs.size(), 8192, seed, Stream::evidence)));
+  return sample_dimension(
+      curve_sample(discs, stratified_sample(discs.size(), 8192, seed, Stream::evidence), {.radius = 2}).keys);
 }
 
 }  // namespace
