@@ -36,7 +36,7 @@ struct OfRay {
 };
 
 /// Σ a / Σ b over the rays, in units of `uniform`; the error is that of a quotient of sums (Cochran, Sampling
-/// Techniques).
+/// Techniques). If Σ a is 0, it is taken as a half, with an error as large.
 template <class A, class B>
 CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a, const B& b) {
   double above = 0;
@@ -45,7 +45,8 @@ CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a
     above += a(one);
     below += b(one);
   }
-  if (!(above > 0 && below > 0)) return {};
+  if (!(below > 0) || rays.size() < 2) return {};
+  if (!(above > 0)) return {0.5 / below / uniform, 0.5 / below / uniform};
   const double ratio = above / below;
   double squares = 0;
   for (const OfRay& one : rays) {
@@ -53,8 +54,7 @@ CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a
     squares += residual * residual;
   }
   const auto count = static_cast<double>(rays.size());
-  const double error = count > 1 ? std::sqrt(squares * count / (count - 1)) / below : ratio;
-  return {ratio / uniform, error / uniform};
+  return {ratio / uniform, std::sqrt(squares * count / (count - 1)) / below / uniform};
 }
 
 class CrossingCounter {

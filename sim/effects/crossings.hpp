@@ -48,7 +48,8 @@ struct CountedRatio {
   double standard_error = 0;
 };
 
-/// How many rays cross spheres around samples. Each value is over that of uniform rays; 1 if nothing was counted.
+/// How many rays cross spheres around samples. Each value is over that of uniform rays; 1 for a single ray,
+/// and if nothing was counted to compare with.
 struct Crossings {
   double radius = 0;    ///< of spheres that 3 in 1000 uniform rays cross
   CountedRatio around;  ///< rays that cross these

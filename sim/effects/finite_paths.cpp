@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <numbers>
 
 #include "all_effects.hpp"
@@ -15,7 +16,10 @@ Finding find_paths(const EffectSample& sample) {
   const double lines = length_of_lines(sample.uniform());
   return {.value = paths.length / lines,
           .standard_error = paths.length_error / lines,
-          .apply = [length = paths.length](Workload& workload) { workload.path_length = length; }};
+          .apply = [length = paths.length](Workload& workload) {
+            constexpr double shortest = 1e-9;  // over r₀; 0 would mean lines, but no ray may reach the box
+            workload.path_length = std::max(length, shortest * workload.sphere_radius);
+          }};
 }
 
 double paths_of_numbers(const Workload& workload) {
