@@ -13,9 +13,16 @@ namespace detp::sim {
 namespace {
 
 constexpr std::size_t most_crossing = 512;  // rays
-constexpr double crossed_around = 0.003;    // share of uniform rays that cross a sphere
-constexpr double crossed_near = 0.0003;
-constexpr double crossed_by_lines = 0.001;
+
+/// The discs that are looked at, and the shares of uniform rays that cross the spheres around them. Lines have one size
+/// of spheres and need fewer discs.
+struct Effort {
+  std::size_t discs;
+  double crossed_around;
+  double crossed_near;
+};
+constexpr Effort for_lines{512, 0.01, 0.01};
+constexpr Effort for_segments{4096, 0.003, 0.0003};
 
 /// Whether the ray crosses the disc enlarged to the radius.
 bool crosses(const Ray& ray, const Disc& disc, double radius, bool front_facing) {
@@ -36,7 +43,7 @@ struct OfRay {
 };
 
 /// Σ a / Σ b over the rays, in units of `uniform`; the error is that of a quotient of sums (Cochran, Sampling
-/// Techniques). If Σ a is 0, it is taken as a half, with an error as large.
+/// Techniques). 1 if nothing was counted: all discs may lie where a single ray would cross them all.
 template <class A, class B>
 CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a, const B& b) {
   double above = 0;
@@ -45,8 +52,7 @@ CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a
     above += a(one);
     below += b(one);
   }
-  if (!(below > 0) || rays.size() < 2) return {};
-  if (!(above > 0)) return {0.5 / below / uniform, 0.5 / below / uniform};
+  if (!(above > 0 && below > 0) || rays.size() < 2) return {};
   const double ratio = above / below;
   double squares = 0;
   for (const OfRay& one : rays) {
@@ -59,13 +65,13 @@ CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a
 
 class CrossingCounter {
  public:
-  explicit CrossingCounter(const EffectSample& sample)
+  CrossingCounter(const EffectSample& sample, const Effort& effort)
       : sample_(sample),
         uniform_(sample.uniform()),
-        around_(uniform_.radius_for(crossed_around)),
-        near_(std::max(sample.problem.radii().rms,
-                       uniform_.radius_for(sample.problem.segments() ? crossed_near : crossed_by_lines))),
-        groups_(sample.discs(), sample.tree(), around_, near_) {}
+        step_(static_cast<std::uint32_t>((sample.discs().discs.size() + effort.discs - 1) / effort.discs)),
+        around_(uniform_.radius_for(effort.crossed_around)),
+        near_(std::max(sample.problem.radii().rms, uniform_.radius_for(effort.crossed_near))),
+        groups_(sample.discs(), sample.tree(), step_, around_, near_) {}
 
   void count(const Ray& ray) {
     const Problem& problem = sample_.problem;
@@ -82,7 +88,7 @@ class CrossingCounter {
     const auto around = [](const OfRay& ray) { return ray.around; };
     const auto near = [](const OfRay& ray) { return ray.near; };
     const auto discs = [](const OfRay& ray) { return ray.discs; };
-    const auto samples = static_cast<double>(sample_.discs().discs.size());
+    const auto samples = static_cast<double>((sample_.discs().discs.size() + step_ - 1) / step_);
     const double sphere = uniform_.sphere(near_);
     Crossings found;
     found.radius = around_;
@@ -95,6 +101,7 @@ class CrossingCounter {
  private:
   const EffectSample& sample_;
   const UniformRays& uniform_;
+  std::uint32_t step_;
   double around_;
   double near_;
   SampleGroups groups_;
@@ -117,7 +124,7 @@ UniformRays uniform_rays(const Workload& workload) {
 Crossings count_crossings(const EffectSample& sample) {
   StopCheck check(sample.stop, "looking for uneven rays");
   const auto rays = stratified_sample(sample.problem.rays().size(), most_crossing, 2, Stream::evidence);
-  CrossingCounter counter(sample);
+  CrossingCounter counter(sample, sample.problem.segments() ? for_segments : for_lines);
   for (const std::size_t first : {0, 1}) {  // every second ray, then the others
     for (std::size_t i = first; i < rays.size(); i += 2) {
       check.after(sample.discs().discs.size() / 16);

@@ -48,18 +48,18 @@ struct CountedRatio {
   double standard_error = 0;
 };
 
-/// How many rays cross spheres around samples. Each value is over that of uniform rays; 1 for a single ray,
-/// and if nothing was counted to compare with.
+/// How many rays cross spheres around samples. Each value is over that of uniform rays; 1 if nothing was
+/// counted, and for a single ray.
 struct Crossings {
-  double radius = 0;    ///< of spheres that 3 in 1000 uniform rays cross
+  double radius = 0;    ///< of spheres that 3 in 1000 uniform segments cross, or a hundredth of uniform lines
   CountedRatio around;  ///< rays that cross these
   CountedRatio near;    ///< rays that cross small spheres, over those; 1 for lines, which nothing stops
   CountedRatio discs;   ///< share of the rays through a small sphere that cross its disc in the tangent plane
 };
 
 /// Counts 512 of the rays, or 256 if they show for each value whether it passes its threshold, to two standard errors.
-/// The small spheres are crossed by 3 in 10 000 uniform segments or 10 in 10 000 lines, but are not smaller than discs.
-/// Throws Stopped if a stop was requested.
+/// Looks at 4096 discs, or at 512 if the rays are lines. The small spheres are crossed by 3 in 10 000 uniform segments;
+/// for lines they are as large as the others. They are not smaller than discs. Throws Stopped if a stop was requested.
 [[nodiscard]] Crossings count_crossings(const EffectSample& sample);
 
 }  // namespace detp::sim

@@ -31,19 +31,21 @@ LocalRay::LocalRay(const Ray& ray, const glm::dvec3& centre, double unit) {
   to = static_cast<float>((ray.length - start) / unit);
 }
 
-SampleGroups::SampleGroups(const CurveSample& sample, const std::vector<SampledNode>& tree, double around, double near)
-    : centre_(sample.origin), unit_(sample.unit) {
+SampleGroups::SampleGroups(const CurveSample& sample, const std::vector<SampledNode>& tree, std::uint32_t step,
+                           double around, double near)
+    : centre_(sample.origin), unit_(sample.unit), step_(step) {
   const auto local_around = static_cast<float>(around / unit_);
   const auto local_near = static_cast<float>(near / unit_);
   squared_around_ = squared(local_around);
   squared_near_ = squared(local_near);
-  for (const SampledDisc& disc : sample.discs) centres_.add(disc.centre);
+  for (std::size_t i = 0; i < sample.discs.size(); i += step) centres_.add(sample.discs[i].centre);
   for (std::size_t i = 0; i < size; ++i) centres_.add(glm::vec3(0));
   std::vector<SampledNode> groups;
   for (std::uint32_t i = 0; i < tree.size();) {
-    const SampledNode& node = tree[i];
-    if (node.size() <= most_in_group) groups.push_back(node);
-    i = node.size() <= most_in_group ? node.next : i + 1;
+    const std::uint32_t kept = kept_before(tree[i].end) - kept_before(tree[i].first);
+    const bool is_group = kept <= most_in_group;
+    if (is_group && kept > 0) groups.push_back(tree[i]);
+    i = is_group ? tree[i].next : i + 1;
   }
   for (const SampledNode& group : groups) add(group, local_around, local_near);
   add_blocks(groups, std::max(local_around, local_near));
@@ -52,9 +54,11 @@ SampleGroups::SampleGroups(const CurveSample& sample, const std::vector<SampledN
 void SampleGroups::add(const SampledNode& node, float around, float near) {
   const float radius = radius_of(node);
   const bool whole = radius <= small * around;
-  groups_.push_back({node.first, node.size()});
+  const std::uint32_t first = kept_before(node.first);
+  const std::uint32_t kept = kept_before(node.end) - first;
+  groups_.push_back({first, kept});
   group_middles_.add(middle_of(node));
-  whole_.push_back(whole ? node.size() : 0);
+  whole_.push_back(whole ? kept : 0);
   limit_.push_back(squared(radius + (whole ? near : std::max(near, around))));
 }
 

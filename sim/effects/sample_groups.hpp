@@ -57,11 +57,12 @@ class PointBlocks {
   std::array<std::vector<float>, 3> along_;
 };
 
-/// The sampled discs in groups of at most 32 neighbours on the curve, and these in blocks of 16, to find those near a
-/// ray. In floats: a disc just as far from the ray as the reach may be counted or not.
+/// Every `step`-th of the sampled discs, in groups of at most 32 neighbours on the curve, and these in blocks of 16, to
+/// find those near a ray. In floats: a disc just as far from the ray as the reach may be counted or not.
 class SampleGroups {
  public:
-  SampleGroups(const CurveSample& sample, const std::vector<SampledNode>& tree, double around, double near);
+  SampleGroups(const CurveSample& sample, const std::vector<SampledNode>& tree, std::uint32_t step, double around,
+               double near);
 
   /// Calls visit(place) for the discs whose centres lie at most `near` from the ray, with their places on the curve.
   /// Returns how many lie at most `around` from it. A group that is small against this reach counts as a whole.
@@ -115,18 +116,21 @@ class SampleGroups {
       const auto squared = centres_.squared_distances(ray, group.first + first);
       const std::uint32_t count = std::min<std::uint32_t>(size, group.size - first);
       for (std::uint32_t i = 0; i < count; ++i) {
-        if (squared[i] <= squared_near_) visit(group.first + first + i);
+        if (squared[i] <= squared_near_) visit((group.first + first + i) * step_);
         if (counts_each && squared[i] <= squared_around_) around += 1;
       }
     }
     return around;
   }
 
+  /// The number of every `step`-th discs before this place.
+  [[nodiscard]] std::uint32_t kept_before(std::uint32_t place) const { return (place + step_ - 1) / step_; }
   void add(const SampledNode& node, float around, float near);
   void add_blocks(const std::vector<SampledNode>& groups, float reach);
 
   glm::dvec3 centre_;
   double unit_;
+  std::uint32_t step_;
   float squared_around_;
   float squared_near_;
   PointBlocks centres_;  ///< of the discs

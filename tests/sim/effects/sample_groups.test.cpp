@@ -54,7 +54,7 @@ TEST_SUITE("known answer") {
       const Setup setup(std::move(discs));
       const Sphere sphere = enclosing_sphere(setup.discs);
       const double near = 0.05;
-      const SampleGroups groups(setup.sample, setup.tree, 0.2, near);
+      const SampleGroups groups(setup.sample, setup.tree, 1, 0.2, near);
       std::size_t wrong = 0;
       for (const Ray& ray : some_rays(sphere)) {
         std::vector<bool> found(setup.discs.size());
@@ -76,7 +76,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("groups that are large against the reach are counted disc by disc") {
     const Setup setup(uniform_discs(Body::cube, 2, 3000, 0.01, 1));
-    const SampleGroups groups(setup.sample, setup.tree, 0.1, 0.1);
+    const SampleGroups groups(setup.sample, setup.tree, 1, 0.1, 0.1);
     for (const Ray& ray : some_rays(enclosing_sphere(setup.discs))) {
       std::uint32_t visited = 0;
       const std::uint32_t around = groups.visit_near(ray, [&](std::uint32_t) { ++visited; });
@@ -86,7 +86,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("the mean count around rays is not biased by counting groups as a whole") {
     const Setup setup(uniform_discs(Body::cube_faces, 2, 8000, 0.01, 1));
-    const SampleGroups groups(setup.sample, setup.tree, 0.3, 0.01);
+    const SampleGroups groups(setup.sample, setup.tree, 1, 0.3, 0.01);
     double found = 0;
     double exact = 0;
     for (const Ray& ray : some_rays(enclosing_sphere(setup.discs))) {
@@ -94,5 +94,23 @@ TEST_SUITE("known answer") {
       for (const Disc& disc : setup.discs) exact += distance(ray, disc.centre) < 0.3 ? 1 : 0;
     }
     CHECK(found == doctest::Approx(exact).epsilon(0.02));
+  }
+
+  TEST_CASE("with a step, every so many of the discs are found") {
+    const Setup setup(uniform_discs(Body::cube_faces, 2, 4001, 0.01, 1));
+    constexpr std::uint32_t step = 7;
+    const SampleGroups all(setup.sample, setup.tree, 1, 0.2, 0.2);
+    const SampleGroups some(setup.sample, setup.tree, step, 0.2, 0.2);
+    for (const Ray& ray : some_rays(enclosing_sphere(setup.discs))) {
+      std::vector<std::uint32_t> expected;
+      std::vector<std::uint32_t> found;
+      all.visit_near(ray, [&](std::uint32_t place) {
+        if (place % step == 0) expected.push_back(place);
+      });
+      some.visit_near(ray, [&](std::uint32_t place) { found.push_back(place); });
+      std::sort(expected.begin(), expected.end());
+      std::sort(found.begin(), found.end());
+      CHECK(found == expected);
+    }
   }
 }
