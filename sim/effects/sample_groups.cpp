@@ -38,6 +38,7 @@ SampleGroups::SampleGroups(const CurveSample& sample, const std::vector<SampledN
   const auto local_near = static_cast<float>(near / unit_);
   squared_around_ = squared(local_around);
   squared_near_ = squared(local_near);
+  near_limits_.fill(squared_near_);
   for (std::size_t i = 0; i < sample.discs.size(); i += step) centres_.add(sample.discs[i].centre);
   for (std::size_t i = 0; i < size; ++i) centres_.add(glm::vec3(0));
   std::vector<SampledNode> groups;

@@ -40,17 +40,33 @@ class PointBlocks {
   static constexpr std::size_t size = 16;
   using Distances = std::array<float, size>;
 
+  struct Tested {
+    Distances squared;         ///< distances of the points from the ray
+    std::uint32_t weight = 0;  ///< sum of the weights of the points at most `reach` away
+    std::uint32_t open = 0;    ///< not 0 if a point is within its limit
+  };
+
   void add(const glm::vec3& point) {
     for (int axis = 0; axis < 3; ++axis) along_[static_cast<std::size_t>(axis)].push_back(point[axis]);
   }
-  /// Squared distances of `size` points from the ray. There must be as many after the first.
-  [[nodiscard]] Distances squared_distances(const LocalRay& ray, std::size_t first) const {
+  /// Tests `size` points; `reach` and the limits are squared. Without branches, so that the compiler tests four at once.
+  [[nodiscard]] Tested test(const LocalRay& ray, std::size_t first, float reach, const std::uint32_t* weights,
+                            const float* limits) const {
     const float* const x = &along_[0][first];
     const float* const y = &along_[1][first];
     const float* const z = &along_[2][first];
-    Distances squared;
-    for (std::size_t i = 0; i < size; ++i) squared[i] = ray.squared_distance(x[i], y[i], z[i]);
-    return squared;
+    Tested tested;
+    std::uint32_t weight = 0;
+    std::uint32_t open = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+      const float squared = ray.squared_distance(x[i], y[i], z[i]);
+      tested.squared[i] = squared;
+      weight += weights[i] & (squared <= reach ? ~0U : 0U);
+      open |= squared <= limits[i] ? ~0U : 0U;
+    }
+    tested.weight = weight;
+    tested.open = open;
+    return tested;
   }
 
  private:
@@ -71,9 +87,10 @@ class SampleGroups {
     const LocalRay local(ray, centre_, unit_);
     std::uint32_t around = 0;
     for (std::size_t first = 0; first < blocks_.size(); first += size) {
-      const auto squared = block_middles_.squared_distances(local, first);
+      const auto tested = block_middles_.test(local, first, 0, no_weights.data(), &blocks_[first]);
+      if (tested.open == 0) continue;
       for (std::size_t i = 0; i < size; ++i)
-        if (squared[i] <= blocks_[first + i]) around += visit_block(local, first + i, visit);
+        if (tested.squared[i] <= blocks_[first + i]) around += visit_block(local, first + i, visit);
     }
     return around;
   }
@@ -81,26 +98,25 @@ class SampleGroups {
  private:
   static constexpr std::size_t size = PointBlocks::size;
   static constexpr std::uint32_t most_in_group = 2 * size;
+  using Weights = std::array<std::uint32_t, size>;
+  static constexpr Weights no_weights{};
+  /// first_ones[n]: 1 for the first n points, else 0.
+  static constexpr std::array<Weights, size + 1> first_ones = [] {
+    std::array<Weights, size + 1> all{};
+    for (std::size_t n = 0; n <= size; ++n)
+      for (std::size_t i = 0; i < n; ++i) all[n][i] = 1;
+    return all;
+  }();
 
   template <class Visit>
   std::uint32_t visit_block(const LocalRay& ray, std::size_t block, const Visit& visit) const {
     const std::size_t first = block * size;
-    const auto squared = group_middles_.squared_distances(ray, first);
-    const std::uint32_t* const whole = &whole_[first];
-    const float* const limit = &limit_[first];
-    const float reach = squared_around_;
-    std::array<std::uint32_t, size> is_open;
-    std::uint32_t around = 0;
-    std::uint32_t any_open = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const std::uint32_t is_around = squared[i] <= reach ? ~0U : 0U;
-      is_open[i] = squared[i] <= limit[i] ? ~0U : 0U;
-      around += whole[i] & is_around;
-      any_open |= is_open[i];
-    }
-    if (any_open == 0) return around;
+    const auto tested = group_middles_.test(ray, first, squared_around_, &whole_[first], &limit_[first]);
+    std::uint32_t around = tested.weight;
+    if (tested.open == 0) return around;
     for (std::size_t i = 0; i < size; ++i)
-      if (is_open[i] != 0) around += visit_discs(ray, groups_[first + i], whole[i] == 0, visit);
+      if (tested.squared[i] <= limit_[first + i])
+        around += visit_discs(ray, groups_[first + i], whole_[first + i] == 0, visit);
     return around;
   }
 
@@ -113,12 +129,13 @@ class SampleGroups {
   std::uint32_t visit_discs(const LocalRay& ray, const Group& group, bool counts_each, const Visit& visit) const {
     std::uint32_t around = 0;
     for (std::uint32_t first = 0; first < group.size; first += size) {
-      const auto squared = centres_.squared_distances(ray, group.first + first);
       const std::uint32_t count = std::min<std::uint32_t>(size, group.size - first);
-      for (std::uint32_t i = 0; i < count; ++i) {
-        if (squared[i] <= squared_near_) visit((group.first + first + i) * step_);
-        if (counts_each && squared[i] <= squared_around_) around += 1;
-      }
+      const auto tested =
+          centres_.test(ray, group.first + first, squared_around_, first_ones[count].data(), near_limits_.data());
+      if (counts_each) around += tested.weight;
+      if (tested.open == 0) continue;
+      for (std::uint32_t i = 0; i < count; ++i)
+        if (tested.squared[i] <= squared_near_) visit((group.first + first + i) * step_);
     }
     return around;
   }
@@ -133,6 +150,7 @@ class SampleGroups {
   std::uint32_t step_;
   float squared_around_;
   float squared_near_;
+  PointBlocks::Distances near_limits_;
   PointBlocks centres_;  ///< of the discs
   std::vector<Group> groups_;
   PointBlocks group_middles_;
