@@ -16,6 +16,8 @@ std::string ratio_text(double value, double divisor) {
 struct Switched {
   std::string ratios = ",,,";  ///< of predicted tests and hits, and of counted tests and hits if the rays change
   std::string choice = {};
+  double tests = 1;
+  double hits = 1;
 };
 
 Switched with_switched(const StudyWorkload& workload, const sim::Effect& effect, const Counts<double>& predicted,
@@ -24,7 +26,7 @@ Switched with_switched(const StudyWorkload& workload, const sim::Effect& effect,
     const Counts<double> now = model::predict(changed, usual_tree());
     return Switched{fmt::format("{},{},{}", ratio_text(tests_of(now), tests_of(predicted)),
                                 ratio_text(now.hits, predicted.hits), counts),
-                    cell_of(chosen_for(changed))};
+                    cell_of(chosen_for(changed)), tests_of(now) / tests_of(predicted), now.hits / predicted.hits};
   };
   const bool changes_rays = &effect == &sim::concave_surfaces && workload.workload().field == sim::Field::photons;
   if (!changes_rays) return text(workload.observe_switched(effect).workload, ",");
@@ -53,6 +55,7 @@ void EffectsTable::add(const StudyWorkload& workload) {
   for (const sim::EffectReport& report : automatic.effects) {
     const sim::Effect& effect = *report.effect;
     const Switched switched = effect.is_input ? Switched{} : with_switched(workload, effect, predicted, counted);
+    if (!effect.is_input) changes_.add(report, switched.tests, switched.hits, switched.choice != choice);
     csv_ += fmt::format("{},{},{:.4g},{:.2g},{:.4g},{:.4g},{},{},{:.3g},{},{},{},{},{}\n", workload.row(), effect.name,
                         report.value, report.standard_error, effect.threshold.at, effect.threshold.tolerance, report.on,
                         report.is_close(), report.seconds, switched.ratios,
@@ -63,7 +66,8 @@ void EffectsTable::add(const StudyWorkload& workload) {
 
 std::string EffectsTable::summary() const {
   std::string text =
-      "| | workloads | median | worst | within 25 % | within a factor of 2 |\n|---|---|---|---|---|---|\n";
+      changes_.table() +
+      "\n| | workloads | median | worst | within 25 % | within a factor of 2 |\n|---|---|---|---|---|---|\n";
   for (const bool tuned : {true, false}) {
     const Half& half = tuned ? tuned_ : held_out_;
     for (const int field : {0, 1}) {

@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "effect_changes.hpp"
 #include "study_summary.hpp"
 #include "study_workload.hpp"
 
@@ -12,7 +13,8 @@ class EffectsTable {
  public:
   void add(const StudyWorkload& workload);
   [[nodiscard]] const std::string& csv() const { return csv_; }
-  /// Predicted over counted tests and hits, with all effects that evidence calls for and with none, as Markdown.
+  /// What switching an effect changes; predicted over counted tests and hits, with the effects that evidence calls for and
+  /// with none; as Markdown.
   [[nodiscard]] std::string summary() const;
 
  private:
@@ -24,6 +26,7 @@ class EffectsTable {
     Ratios hits_without[2];
   };
   Half tuned_, held_out_;
+  EffectChanges changes_;
   std::string csv_ = std::string(workload_head) +
                      ",effect,value,standard_error,threshold,tolerance,on,close,evidence_seconds,"
                      "tests_if_switched,hits_if_switched,counted_tests_if_switched,counted_hits_if_switched,predicted_"
