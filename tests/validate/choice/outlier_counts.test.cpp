@@ -29,6 +29,7 @@ Compared compare(AwkwardScene scene, double radius, std::size_t lines, const Box
   alike.radii.clear();
   alike.central.reset();
   alike.nodes.clear();
+  alike.ray_density = 1;
   return {model::predict(workload, tree), model::predict(alike, tree), sim::run(problem, tree, {}).counts};
 }
 
