@@ -37,8 +37,6 @@ void uncounted_scene(const Valid<Workload>& workload, Reasons& reasons) {
   if (!workload.radii.empty())
     reasons.add(fmt::format("disc radii up to {:.4g}, {:.3g} times the root mean square: only equal discs were counted",
                             largest_radius(workload), largest_radius(workload) / workload.disc_radius));
-  if (workload.central)
-    reasons.add(fmt::format("{} samples far from the others", workload.samples - workload.central->samples));
   const double around = enclosing_radius(side, largest_radius(workload));
   if (differ(workload.sphere_radius, around))
     reasons.add(fmt::format("r0 {:.4g}, not {:.4g} around the cube of the samples", workload.sphere_radius, around));

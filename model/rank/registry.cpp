@@ -18,7 +18,6 @@
 #include "detp/model/sphere_cache/sphere_cache.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
-#include "far_samples.hpp"
 #include "fastest.hpp"
 #include "index_best.hpp"
 
@@ -68,9 +67,7 @@ Counts<double> in_blocks(const Valid<Workload>& workload, const Valid<Candidate>
 
 Counts<double> counts_of_box_tree(const Valid<Workload>& workload, const Valid<Candidate>& candidate, Engine engine) {
   const auto& tree = checked_parameters<BoxTreeParameters>(candidate);
-  if (!workload.central) return box_tree_counts(workload, tree, engine);
-  return with_far_samples(workload, box_tree_counts(central_workload(workload), tree, engine),
-                          box_tree_counts(far_workload(workload, tree.fan_out), {tree.fan_out, 1}, engine));
+  return box_tree_counts(workload, tree, engine);
 }
 
 /// Plain density estimation on the tangent plane: each disc against each ray.
@@ -204,8 +201,7 @@ void search_leaves(const Valid<Workload>& workload, const Valid<UnitCosts>& cost
   walk(-more_likely);
 }
 
-/// Tries fan-outs of 4, 8 and 16 with each leaf of the search. They share the binary tree of the leaf. If a few samples
-/// lie far from the others, the leaf is the best one for the others.
+/// Tries fan-outs of 4, 8 and 16 with each leaf of the search. They share the binary tree of the leaf.
 std::optional<FoundParameters> best_box_tree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
                                              const FixedParameters& fixed, const SearchLimits& limits) {
   SearchLimits any_size = limits;  // a box tree holds each disc once
@@ -213,16 +209,6 @@ std::optional<FoundParameters> best_box_tree(const Valid<Workload>& workload, co
   Fastest<BoxTreeParameters> fastest(costs, Technique::box_tree, any_size);
   std::vector<int> fan_outs{8, 4, 16};
   if (const auto fan_out = fixed.value<std::int64_t>("fan-out")) fan_outs = {static_cast<int>(*fan_out)};
-  if (workload.central) {
-    auto found = best_box_tree(central_workload(workload), costs, fixed, limits);
-    if (!found) return found;
-    const int leaf = std::get<BoxTreeParameters>(found->parameters).leaf;
-    for (const int fan_out : fan_outs) {
-      const BoxTreeParameters tree{fan_out, leaf};
-      fastest.consider(tree, counts_of_box_tree(workload, Candidate{Technique::box_tree, tree}, limits.engine));
-    }
-    return FoundParameters{*fastest.best()};
-  }
   Counts<double> best_counts;
   /// Returns the least time with this leaf.
   const auto consider = [&](int leaf) {

@@ -55,19 +55,6 @@ void check_lengths(double sphere_radius, double side) {
           "sphere radius and sample box must lie between 1e-90 and 1e90, or their volumes overflow (got {})", length));
 }
 
-void check_central(const Workload& workload) {
-  if (!workload.central) return;
-  const CentralSamples& central = *workload.central;
-  require_count("number of central samples", central.samples, 1, workload.samples - 1);
-  require_positive("radius of the sphere around the central samples", central.sphere_radius);
-  check_box(central.box, central.dimension, central.sample_extent);
-  check_lengths(central.sphere_radius, longest(central.box));
-  if (!(central.ray_share >= 0 && central.ray_share <= 1))
-    throw std::invalid_argument(
-        fmt::format("share of the rays near the central samples must be from 0 to 1 (got {})", central.ray_share));
-  require_non_negative("path length near the central samples", central.path_length);
-}
-
 void check_nodes(const Workload& workload) {
   if (workload.nodes.empty()) return;
   double before = std::numeric_limits<double>::infinity();
@@ -100,7 +87,6 @@ void check(const Workload& workload) {
   require_positive("ratio of the hits", workload.hit_ratio);
   check_lengths(workload.sphere_radius, scene_side(workload));
   check_nodes(workload);
-  check_central(workload);
 }
 
 double sample_extent(const Workload& workload) {
@@ -143,7 +129,6 @@ Workload with_disc_radius(Workload workload, double disc_radius) {
   const double ratio = disc_radius / workload.disc_radius;
   const double growth = (ratio - 1) * largest_radius(workload);
   workload.sphere_radius += growth;
-  if (workload.central) workload.central->sphere_radius += growth;
   workload.disc_radius = disc_radius;
   for (RadiusClass& one : workload.radii) one.radius *= ratio;
   return workload;

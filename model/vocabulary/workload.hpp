@@ -1,7 +1,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <vector>
 
 namespace detp {
@@ -10,17 +9,6 @@ namespace detp {
 struct RadiusClass {
   double radius = 0;  ///< root mean square of their radii, length > 0
   double share = 0;   ///< of all discs, > 0
-};
-
-/// All samples but a few that lie far from the others.
-struct CentralSamples {
-  double samples = 0;                     ///< their number, 1 … n_P - 1
-  double sphere_radius = 0;               ///< of a sphere that contains every disc of theirs, length > 0
-  std::array<double, 3> box = {0, 0, 0};  ///< as in Workload; dimension, extent and path length likewise
-  double dimension = 3;
-  double sample_extent = 0;
-  double ray_share = 1;    ///< share of the rays that cross the sphere, 0 … 1
-  double path_length = 0;  ///< of those rays
 };
 
 /// Boxes around the discs of samples that follow each other on the Lebesgue curve, in cells of the curve. Means over the
@@ -57,8 +45,6 @@ struct Workload {
   /// empty: samples are uniform over their extent. Otherwise the boxes around them, at least two: those with the most
   /// samples first, those with one sample last
   std::vector<NodeBoxes> nodes = {};
-  /// set if a few samples lie far from the others; box, dimension, extent and path length above are those of all
-  std::optional<CentralSamples> central = {};
 };
 
 /// Throws std::invalid_argument if a number is out of its range, if r₀ or the longest side is not in 1e-90 … 1e90, or

@@ -14,13 +14,12 @@ extern const Effect concave_surfaces;
 extern const Effect uneven_rays;
 extern const Effect occlusion;
 extern const Effect directional_bias;
-extern const Effect far_samples;
 extern const Effect mixed_radii;
 extern const Effect one_face;
 
 /// In the order in which they are applied: uneven rays are those that finite paths and facing do not explain.
-inline constexpr std::array all_effects{&one_face,     &surface_samples, &clustered_samples, &concave_surfaces,
-                                        &finite_paths, &uneven_rays,     &occlusion,         &directional_bias,
-                                        &far_samples,  &mixed_radii};
+inline constexpr std::array all_effects{&one_face,         &surface_samples,  &clustered_samples,
+                                        &concave_surfaces, &finite_paths,     &uneven_rays,
+                                        &occlusion,        &directional_bias, &mixed_radii};
 
 }  // namespace detp::sim

@@ -45,6 +45,9 @@ std::string reason_for(const EffectReport& report, const EffectSelection& select
       reason = text("apart from", "near") +
                fmt::format(" by {} than {:.4g}", report.on ? "more" : "not more", threshold.tolerance);
   }
+  if (!report.on && threshold.passed(report.value))
+    reason = fmt::format("{:.4g} is {}, but by less than its standard error {:.2g}", report.value, condition(threshold),
+                         report.standard_error);
   return report.is_close() ? reason + "; close to its threshold" : reason;
 }
 
@@ -53,6 +56,7 @@ EffectReport judged(const Effect& effect, double value, double standard_error, c
                       .on = selection.is_on(effect, value, standard_error),
                       .value = value,
                       .standard_error = standard_error};
+  report.decided_by_evidence = selection.is_decided_by_evidence(effect);
   report.reason = reason_for(report, selection);
   return report;
 }

@@ -38,6 +38,7 @@ struct EffectReport {
   double standard_error = 0;
   double seconds = 0;       ///< for its evidence, and if it is on, for what predictions take from it
   std::string reason = {};  ///< why it is on or off, in words
+  bool decided_by_evidence = true;
 
   /// The evidence decides, and the value is within two standard errors of switching, or within 2 % of
   /// the threshold (a fifth of its tolerance).

@@ -12,8 +12,8 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::uint64_t group_size = 4096;       // photons whose powers are summed at a time, whatever the threads
-constexpr std::uint64_t work_of_a_photon = 128;  // for StopCheck
+constexpr std::uint64_t photons_in_a_sum = 4096;  // photons whose powers are summed at a time, whatever the threads
+constexpr std::uint64_t work_of_a_photon = 128;   // for StopCheck
 
 /// Sums powers. `surfaces` has an entry for each material.
 struct Account {
@@ -78,12 +78,12 @@ EnergyBalance energy_balance(const Scene& scene, std::uint64_t photons, std::uin
                              const std::stop_token& stop) {
   if (photons == 0) throw std::invalid_argument("an energy balance needs at least 1 photon (got 0)");
   const PhotonWalk walk(scene, seed, stop);
-  std::vector<Account> groups((photons + group_size - 1) / group_size, empty_account(scene));
+  std::vector<Account> groups((photons + photons_in_a_sum - 1) / photons_in_a_sum, empty_account(scene));
   oneapi::tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t group) {
     StopCheck check(stop, "tracing photons");
     check.now();
-    const std::uint64_t first = group * group_size;
-    for (std::uint64_t photon = first; photon < std::min(first + group_size, photons); ++photon) {
+    const std::uint64_t first = group * photons_in_a_sum;
+    for (std::uint64_t photon = first; photon < std::min(first + photons_in_a_sum, photons); ++photon) {
       groups[group].balance.emitted += walk.power(photon);
       walk.follow(photon, groups[group]);
       check.after(work_of_a_photon);

@@ -27,7 +27,7 @@ void warn_of_far_discs(const sim::Problem& problem, const std::stop_token& stop,
   const double all = problem.centres().longest_side();
   warnings.push_back(fmt::format(
       "{} far from the others: the box of all is {:.3g} long, {:.3g} times that of the central 90 % ({:.3g}); S0 and "
-      "percentages take the box of all; predictions of box trees price the far discs apart, those of other techniques "
+      "percentages take the box of all; predictions of box trees know where discs are, those of other techniques "
       "spread all discs over the box of all",
       count_text(found->far, problem.discs().size(), "discs", "lies", "lie"), all, all / found->reach, found->reach));
 }

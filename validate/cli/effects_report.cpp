@@ -82,8 +82,15 @@ std::string effects_line(const std::vector<sim::EffectReport>& effects) {
   std::string off;
   for (const sim::EffectReport& report : effects) {
     std::string& list = report.on ? on : off;
-    const bool say_why = report.on || report.is_close();
-    const std::string why = say_why ? fmt::format(" ({})", report.reason) : "";
+    std::string why;
+    if (!report.decided_by_evidence)
+      why = " (by hand)";
+    else if (report.on && !report.effect->is_input)
+      why = fmt::format(" ({:.3g}{} {})", report.value,
+                        report.effect->threshold.side == sim::Threshold::Side::apart ? "," : "",
+                        sim::condition(report.effect->threshold));
+    else if (report.is_close())
+      why = " (close)";
     list += fmt::format("{}{}{}", list.empty() ? "" : ", ", report.effect->name, why);
   }
   return fmt::format("effects   on: {}; off: {}", on.empty() ? "none" : on, off.empty() ? "none" : off);

@@ -24,8 +24,8 @@ namespace detp::cli {
 /// "finite paths, surface samples"; empty if none is on.
 [[nodiscard]] std::string effects_on(const std::vector<sim::EffectReport>& effects);
 
-/// "effects   on: finite paths (0.3 is apart from 1 by more than 0.05); off: far samples". Those that are off have a
-/// reason only if they are close to their threshold.
+/// "effects   on: finite paths (0.3, not 1 ± 0.05); off: facing, uneven rays (close)": value and threshold of those that
+/// are on; whether those that are off are close to their threshold; whether one was switched by hand.
 [[nodiscard]] std::string effects_line(const std::vector<sim::EffectReport>& effects);
 
 /// What switching an effect by hand changes: predicted tests of a tree of boxes with the effect switched, over those as

@@ -59,11 +59,6 @@ Workload with_lines(Workload workload, double lines) {
   workload.rays_end = workload.front_facing = false;
   workload.path_length = 0;
   workload.ray_density = workload.hit_ratio = 1;
-  if (workload.central) {
-    const double share = workload.central->sphere_radius / workload.sphere_radius;
-    workload.central->ray_share = share * share;
-    workload.central->path_length = 0;
-  }
   return workload;
 }
 

@@ -11,14 +11,14 @@ namespace {
 using std::numbers::pi;
 
 constexpr double floor_side = 4;
-constexpr double cell = 0.05;
+constexpr double floor_cell = 0.05;
 constexpr glm::dvec3 ball{1.3, 0.9, 1.6};
 constexpr double ball_radius = 0.45;
 constexpr glm::dvec3 ring{2.8, 0, 2.4};
 constexpr double ring_radius = 0.6;
 constexpr double ring_height = 0.25;
 
-enum Paint : std::uint16_t { plaster, glass, brass };
+enum CausticPaint : std::uint16_t { plaster, glass, brass };
 
 /// The six faces of a cube, blown up to a sphere.
 void add_ball(Mesh& mesh) {
@@ -49,8 +49,8 @@ LitMesh caustic() {
   mesh.materials.all = {{.name = "plaster", .diffuse = 0.6},
                         {.name = "glass", .diffuse = 0, .glass = 1, .index = 1.5},
                         {.name = "brass", .diffuse = 0.1, .specular = 0.8, .shininess = 3000}};
-  add_quad(mesh, {{{0, 0, 0}, {0, 0, floor_side}, {floor_side, 0, floor_side}, {floor_side, 0, 0}}}, cell);
-  add_quad(mesh, {{{0, 0, 0}, {floor_side, 0, 0}, {floor_side, 2.5, 0}, {0, 2.5, 0}}}, 2 * cell);
+  add_quad(mesh, {{{0, 0, 0}, {0, 0, floor_side}, {floor_side, 0, floor_side}, {floor_side, 0, 0}}}, floor_cell);
+  add_quad(mesh, {{{0, 0, 0}, {floor_side, 0, 0}, {floor_side, 2.5, 0}, {0, 2.5, 0}}}, 2 * floor_cell);
   paint(mesh, plaster);
   add_ball(mesh);
   paint(mesh, glass);

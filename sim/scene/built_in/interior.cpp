@@ -12,7 +12,7 @@ constexpr double thickness = 0.2;  // of the wall with windows
 constexpr double coarse = 0.12;    // cells of floor, walls and ceiling
 constexpr double fine = 0.05;      // cells of furniture
 
-enum Paint : std::uint16_t { plaster, parquet, wood, fabric, mirror, water_glass };
+enum InteriorPaint : std::uint16_t { plaster, parquet, wood, fabric, mirror, water_glass };
 
 /// A box that stands upright, with edges along the axes.
 struct Upright {
@@ -24,7 +24,7 @@ void add(Mesh& mesh, const Upright& box) {
   add_box(mesh, box.corner, {{{box.size.x, 0, 0}, {0, box.size.y, 0}, {0, 0, box.size.z}}}, fine);
 }
 
-void add_room(Mesh& mesh) {
+void add_walls(Mesh& mesh) {
   add_quad(mesh, {{{0, 0, 0}, {0, 0, depth}, {width, 0, depth}, {width, 0, 0}}}, coarse);
   paint(mesh, parquet);
   add_quad(mesh, {{{0, height, 0}, {width, height, 0}, {width, height, depth}, {0, height, depth}}}, coarse);
@@ -82,7 +82,7 @@ LitMesh interior() {
                         {.name = "fabric", .diffuse = 0.3},
                         {.name = "mirror", .diffuse = 0, .specular = 0.92},
                         {.name = "glass", .diffuse = 0, .glass = 1, .index = 1.5}};
-  add_room(mesh);
+  add_walls(mesh);
   add_table(mesh, {{2.2, 0, 1.2}, {1.8, 0.74, 0.9}});
   for (const double x : {2.4, 3.3}) add_chair(mesh, {x, 0, 0.7}, false);
   for (const double x : {2.4, 3.3}) add_chair(mesh, {x, 0, 2.15}, true);

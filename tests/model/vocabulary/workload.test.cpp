@@ -39,13 +39,11 @@ TEST_SUITE("known answer") {
   TEST_CASE("another radius scales all radii; the spheres grow with the largest disc") {
     Workload w = cube_workload(1000, 100, std::sqrt(2.5), 20);
     w.radii = {{2, 0.5}, {1, 0.5}};
-    w.central = CentralSamples{.samples = 90, .sphere_radius = 5, .box = {2, 2, 2}};
     const Workload changed = with_disc_radius(w, 3 * w.disc_radius);
     CHECK(changed.disc_radius == 3 * w.disc_radius);
     CHECK(changed.radii[0].radius == Approx(6));
     CHECK(changed.radii[1].radius == Approx(3));
     CHECK(changed.sphere_radius == Approx(w.sphere_radius + 4));
-    CHECK(changed.central->sphere_radius == Approx(9));
     CHECK_NOTHROW(check(changed));
   }
 
@@ -108,25 +106,6 @@ TEST_SUITE("bad input") {
     refused({{3, 0.5}, {1, 0.5}}, "root mean square of the classes of radii (got 1.58");
     refused({{2, 0.5}, {-1, 0.5}}, "radius of a class of discs must be > 0");
     refused({{2, 1.5}, {1, -0.5}}, "share of a class of discs must be > 0");
-  }
-
-  TEST_CASE("central samples out of range are refused") {
-    const auto refused = [](const CentralSamples& central, const char* why) {
-      Workload w = good;
-      w.central = central;
-      CHECK_THROWS_WITH_AS(check(w), Contains(why), std::invalid_argument);
-    };
-    const CentralSamples right{.samples = 90, .sphere_radius = 5, .box = {2, 2, 2}};
-    const auto changed = [&](auto member, auto value) {
-      CentralSamples central = right;
-      central.*member = value;
-      return central;
-    };
-    refused(changed(&CentralSamples::samples, 100), "number of central samples");
-    refused(changed(&CentralSamples::sphere_radius, 0), "sphere around the central samples must be > 0");
-    refused(changed(&CentralSamples::box, std::array<double, 3>{0, 0, 0}), "longest side");
-    refused(changed(&CentralSamples::ray_share, 1.1), "must be from 0 to 1 (got 1.1)");
-    refused(changed(&CentralSamples::path_length, -1), "path length near the central samples");
   }
 
   TEST_CASE("each number out of its range is refused by name") {

@@ -41,27 +41,6 @@ TEST_SUITE("known answer") {
     CHECK_NOTHROW(check(w));
   }
 
-  TEST_CASE("a few discs far away do not count among the central samples") {
-    auto discs = sim::uniform_discs(sim::Body::cube, 2, 10'000, 0.02, 1);
-    for (std::size_t i = 0; i < 3; ++i) discs[i].centre *= 1000;
-    const std::vector<sim::Ray> lines = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 10);
-    const Workload w = sim::observe(sim::make_problem(lines, discs)).workload;
-    REQUIRE(w.central);
-    CHECK_NOTHROW(check(w));
-    CHECK(w.samples == 10'000);
-    CHECK(w.central->samples == 9997);
-    for (const double side : w.central->box) CHECK(side == doctest::Approx(2).epsilon(0.001));
-    CHECK(w.central->sample_extent == doctest::Approx(8).epsilon(0.01));
-    CHECK(w.central->ray_share == doctest::Approx(std::pow(w.central->sphere_radius / w.sphere_radius, 2)));
-    CHECK(w.central->path_length == 0);
-    const std::vector<sim::Ray> segments{{.origin = {0, 0, 0}, .direction = {1, 0, 0}, .length = 0.5},
-                                         {.origin = {100, 100, 100}, .direction = {1, 0, 0}, .length = 0.5}};
-    const auto central = sim::observe(sim::make_problem(segments, discs)).workload.central;
-    REQUIRE(central);
-    CHECK(central->ray_share == 0.5);
-    CHECK(central->path_length == doctest::Approx(0.5));
-  }
-
   TEST_CASE("a workload records whether only fronts count") {
     const std::vector<sim::Disc> discs{{}};
     const std::vector<sim::Ray> rays{{}};
@@ -171,21 +150,18 @@ TEST_SUITE("effects") {
     CHECK(one.workload.front_facing);
     CHECK(report_of(one, sim::finite_paths).reason == "switched off by --effects surface-samples");
     const sim::Observed all = sim::observe(problem, {}, sim::EffectSelection("all"));
-    CHECK(report_of(all, sim::far_samples).on);
-    CHECK_FALSE(all.workload.central);  // there are none
     CHECK_FALSE(report_of(all, sim::mixed_radii).on);
     CHECK_NOTHROW(check(all.workload));
   }
 
   TEST_CASE("a selection reads what it writes; unknown names and meanings of the input are refused") {
-    for (const char* text : {"auto", "none", "all", "finite-paths", "far-samples,surface-samples"})
+    for (const char* text : {"auto", "none", "all", "finite-paths", "uneven-rays,surface-samples"})
       CHECK(sim::EffectSelection(text).text() == text);
     CHECK(sim::EffectSelection("finite paths").text() == "finite-paths");
-    CHECK_THROWS_WITH_AS(
-        sim::EffectSelection("fog"),
-        "there is no effect \"fog\"; there are auto, none, all, or a list of surface-samples, "
-        "clustered-samples, concave-surfaces, finite-paths, uneven-rays, occlusion, directional-bias, far-samples",
-        std::invalid_argument);
+    CHECK_THROWS_WITH_AS(sim::EffectSelection("fog"),
+                         "there is no effect \"fog\"; there are auto, none, all, or a list of surface-samples, "
+                         "clustered-samples, concave-surfaces, finite-paths, uneven-rays, occlusion, directional-bias",
+                         std::invalid_argument);
     for (const char* bad : {"", ",", "finite-paths,", "all,none", "Auto"})
       CHECK_THROWS_AS(sim::EffectSelection{bad}, std::invalid_argument);
     CHECK_THROWS_WITH_AS(sim::EffectSelection("facing"),
@@ -204,7 +180,6 @@ TEST_SUITE("effects") {
     const sim::EffectReport& paths = report_of(found, sim::finite_paths);  // its standard error is near the tolerance
     CHECK(paths.is_close());
     CHECK(paths.reason.ends_with("; close to its threshold"));
-    CHECK(report_of(found, sim::far_samples).reason.find("is not above 4") != std::string::npos);
   }
 
   TEST_CASE("samples in small clusters have small boxes around them; uniform ones the boxes of uniform samples") {

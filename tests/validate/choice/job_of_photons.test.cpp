@@ -6,7 +6,6 @@
 #include "detp/sim/scene/open/open_scene.hpp"
 
 using namespace detp;
-using namespace detp::sim;
 
 TEST_SUITE("known answer") {
   TEST_CASE("paths go on through surfaces where the evidence calls for it, and where they are told to") {
@@ -14,10 +13,10 @@ TEST_SUITE("known answer") {
       validate::JobRequest request;
       request.scene = scene;
       request.rays = 5000;
-      request.effects = EffectSelection(effects);
+      request.effects = sim::EffectSelection(effects);
       const validate::Job job = validate::make_job(request);
       double sum = 0;
-      for (const Ray& ray : job.rays) sum += ray.length;
+      for (const sim::Ray& ray : job.rays) sum += ray.length;
       return sum;
     };
     CHECK(length("auto", "@cornell") == length("concave-surfaces", "@cornell"));
@@ -27,16 +26,16 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("the evidence is reported for photon paths, and is 0 for lines and for rays that are given") {
-    for (const Field field : {Field::isotropic, Field::photons}) {
+    for (const sim::Field field : {sim::Field::isotropic, sim::Field::photons}) {
       validate::JobRequest request;
       request.scene = "@cornell";
       request.rays = 1000;
       request.field = field;
       const validate::Job job = validate::make_job(request);
-      for (const EffectReport& report : job.observed.effects) {
-        if (report.effect != &concave_surfaces) continue;
-        CHECK(report.on == (field == Field::photons));
-        CHECK((report.value > 0.01) == (field == Field::photons));
+      for (const sim::EffectReport& report : job.observed.effects) {
+        if (report.effect != &sim::concave_surfaces) continue;
+        CHECK(report.on == (field == sim::Field::photons));
+        CHECK((report.value > 0.01) == (field == sim::Field::photons));
       }
     }
   }
@@ -47,10 +46,10 @@ TEST_SUITE("identity") {
     validate::JobRequest request;
     request.scene = "@cornell";
     request.rays = 3000;
-    request.effects = EffectSelection("none");
+    request.effects = sim::EffectSelection("none");
     const validate::Job job = validate::make_job(request);
-    const Scene scene = open_scene({.name = "@cornell", .samples = {}});
-    const std::vector<Ray> expected = photon_paths(scene, 3000, 1);
+    const sim::Scene scene = sim::open_scene({.name = "@cornell", .samples = {}});
+    const std::vector<sim::Ray> expected = sim::photon_paths(scene, 3000, 1);
     REQUIRE(job.rays.size() == expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
       CHECK(job.rays[i].origin == expected[i].origin);

@@ -27,7 +27,6 @@ Compared compare(AwkwardScene scene, double radius, std::size_t lines, const Box
   const Workload workload = sim::observe(problem).workload;
   Workload alike = workload;
   alike.radii.clear();
-  alike.central.reset();
   alike.nodes.clear();
   alike.ray_density = 1;
   return {model::predict(workload, tree), model::predict(alike, tree), sim::run(problem, tree, {}).counts};

@@ -68,7 +68,7 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("JSON, CSV and text say which effects the predictions have, and why") {
-    const std::string sparse = "validate @cornell --samples 20 --rays 100 --effects far-samples";
+    const std::string sparse = "validate @cornell --samples 20 --rays 100 --effects uneven-rays";
     const Json json = detp(sparse + " --format json").json();
     const std::vector<CsvRow> rows = csv_rows(detp(sparse + " --format csv").out);
     REQUIRE_FALSE(rows.empty());
@@ -76,11 +76,11 @@ TEST_SUITE("end to end") {
       std::string column = effect.at("name");
       std::replace(column.begin(), column.end(), ' ', '_');
       CHECK(rows.front().at(column) == effect.at("on").dump());
-      if (column == "far_samples") CHECK(effect.at("on") == true);
-      if (column == "finite_paths") CHECK(effect.at("reason") == "switched off by --effects far-samples");
+      if (column == "uneven_rays") CHECK(effect.at("on") == true);
+      if (column == "finite_paths") CHECK(effect.at("reason") == "switched off by --effects uneven-rays");
     }
     const std::string text = detp(sparse).out;
-    CHECK(text.starts_with("effects   on: far samples (switched on by --effects far-samples); off: facing, "));
+    CHECK(text.starts_with("effects   on: uneven rays (by hand); off: facing, "));
     CHECK(detp("validate --samples 1 --rays 1 --format json").json().at("effects").size() == json.at("effects").size());
   }
 
