@@ -37,4 +37,12 @@ std::vector<std::size_t> stratified_sample(std::size_t size, std::size_t count, 
   return sample;
 }
 
+double van_der_corput(std::uint64_t number) {
+  std::uint64_t bits = number;
+  bits = ((bits >> 1) & 0x5555555555555555U) | ((bits & 0x5555555555555555U) << 1);
+  bits = ((bits >> 2) & 0x3333333333333333U) | ((bits & 0x3333333333333333U) << 2);
+  bits = ((bits >> 4) & 0x0F0F0F0F0F0F0F0FU) | ((bits & 0x0F0F0F0F0F0F0F0FU) << 4);
+  return 0x1p-53 * static_cast<double>(__builtin_bswap64(bits) >> 11);
+}
+
 }  // namespace detp::sim

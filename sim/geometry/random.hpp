@@ -30,6 +30,10 @@ enum class Stream : std::uint64_t {
 [[nodiscard]] std::array<std::uint64_t, 4> bits4(std::uint64_t seed, Stream stream, std::uint64_t index,
                                                  std::uint64_t sub_index = 0);
 
+/// Van der Corput's sequence in base 2, in [0, 1): among any 2^k consecutive numbers, one lies in each interval of length
+/// 2^-k that starts at a multiple of it.
+[[nodiscard]] double van_der_corput(std::uint64_t number);
+
 /// A stratified sample of 0 … size - 1: one number at random of each of `count` equally long runs, in rising order. All
 /// numbers if there are not more than `count`.
 [[nodiscard]] std::vector<std::size_t> stratified_sample(std::size_t size, std::size_t count, std::uint64_t seed,

@@ -6,21 +6,12 @@
 #include <vector>
 
 #include "detp/model/vocabulary/checks.hpp"
+#include "detp/sim/geometry/random.hpp"
 
 namespace detp::sim {
 namespace {
 
 constexpr double even_share = 0.1;  // of the photons, spread evenly over the lights
-
-std::uint64_t reversed(std::uint64_t bits) {
-  bits = ((bits >> 1) & 0x5555555555555555U) | ((bits & 0x5555555555555555U) << 1);
-  bits = ((bits >> 2) & 0x3333333333333333U) | ((bits & 0x3333333333333333U) << 2);
-  bits = ((bits >> 4) & 0x0F0F0F0F0F0F0F0FU) | ((bits & 0x0F0F0F0F0F0F0F0FU) << 4);
-  return __builtin_bswap64(bits);
-}
-
-/// Van der Corput's sequence in base 2, in [0, 1).
-double radical_inverse(std::uint64_t number) { return 0x1p-53 * static_cast<double>(reversed(number) >> 11); }
 
 }  // namespace
 
@@ -46,7 +37,7 @@ Lights::Lights(const Scene& scene) {
 }
 
 const Lights::Share& Lights::share_of(std::uint64_t photon) const {
-  return *std::upper_bound(shares_.begin(), shares_.end() - 1, radical_inverse(photon),
+  return *std::upper_bound(shares_.begin(), shares_.end() - 1, van_der_corput(photon),
                            [](double number, const Share& share) { return number < share.up_to; });
 }
 

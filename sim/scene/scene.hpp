@@ -13,7 +13,8 @@ namespace detp::sim {
 /// The default rays of a scene.
 enum class Field {
   isotropic,  ///< uniform isotropic lines through S₀
-  photons     ///< photon paths from the lights
+  photons,    ///< photon paths from the lights
+  mixed       ///< a mixture of isotropic lines, parallel lines and segments from a point (mixed_field.hpp)
 };
 
 /// A scene: the samples at which irradiance is wanted, the surfaces and the lights.

@@ -143,15 +143,16 @@ class JobMaker {
     const double rays = request_.rays.value_or(rays_by_default);
     require_count("number of rays", rays, 1, 1e18);
     job_.field = request_.field.value_or(scene_ ? scene_->field : sim::Field::isotropic);
-    if (job_.field != sim::Field::photons) refuse_lights("isotropic lines");
+    if (job_.field != sim::Field::photons)
+      refuse_lights(job_.field == sim::Field::mixed ? "a mixed field" : "isotropic lines");
     const auto block = static_cast<double>(sim::default_block(job_.discs.size()));
     const bool stream = request_.stream && rays > block && rays < UINT32_MAX;
     const double made = request_.workload_only ? std::min(rays, block) : rays;
     progress_.make_rays(job_.field, made, stream, job_.discs.size());
     if (stream) return make_stream(static_cast<std::uint64_t>(rays));
     const std::size_t count = count_in_memory("rays", made, sizeof(sim::Ray));
-    if (job_.field == sim::Field::isotropic) {
-      make_lines(count);
+    if (job_.field != sim::Field::photons) {
+      read_rays(*field_of_rays(count));
       return;
     }
     const sim::Scene& scene = scene_for_photons();
@@ -163,13 +164,27 @@ class JobMaker {
       throw std::invalid_argument(fmt::format("--light and --up are for photon paths; these are {}", rays));
   }
 
-  void make_lines(std::size_t count) {
+  /// The rays of a field that needs no scene.
+  [[nodiscard]] std::unique_ptr<const sim::RaySource> field_of_rays(std::uint64_t count) const {
+    const sim::Sphere sphere = sim::enclosing_sphere(job_.discs, stop_);
+    if (job_.field == sim::Field::isotropic) return std::make_unique<sim::LinesOfField>(sphere, request_.seed, count);
+    glm::dvec3 down{0.0};
+    down[job_.up.axis] = -job_.up.sign;
+    sim::Box box;
+    for (const sim::Disc& disc : job_.discs) box.include(disc.centre);
+    glm::dvec3 point = box.centre();
+    point[job_.up.axis] = job_.up.sign > 0 ? box.high[job_.up.axis] : box.low[job_.up.axis];
+    return std::make_unique<sim::MixedField>(sim::FieldMixture{sphere, request_.shares, down, point}, request_.seed,
+                                             count);
+  }
+
+  void read_rays(const sim::RaySource& source) {
     constexpr std::size_t at_once = std::size_t{1} << 18;
-    const sim::LinesOfField lines(sim::enclosing_sphere(job_.discs, stop_), request_.seed, count);
+    const std::size_t count = source.size();
     job_.rays.reserve(count);
     for (std::size_t made = 0; made < count; made = job_.rays.size()) {
       job_.rays.resize(std::min(count, made + at_once));
-      lines.read(made, std::span(job_.rays).subspan(made), stop_);
+      source.read(made, std::span(job_.rays).subspan(made), stop_);
     }
   }
 
@@ -186,8 +201,8 @@ class JobMaker {
   }
 
   void make_stream(std::uint64_t count) {
-    if (job_.field == sim::Field::isotropic) {
-      job_.stream = std::make_unique<sim::LinesOfField>(sim::enclosing_sphere(job_.discs, stop_), request_.seed, count);
+    if (job_.field != sim::Field::photons) {
+      job_.stream = field_of_rays(count);
       return;
     }
     const sim::Scene& scene = scene_for_photons();

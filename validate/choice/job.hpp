@@ -11,6 +11,7 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/effects/observe.hpp"
+#include "detp/sim/rays/mixed_field.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -41,6 +42,7 @@ struct JobRequest {
   std::optional<double> dimension;       ///< default: measured; without a scene: 3
   std::optional<double> sample_extent;
   std::optional<sim::Field> field;
+  sim::FieldShares shares = {1.0 / 3, 1.0 / 3, 1.0 / 3};  ///< of a mixed field
   std::vector<sim::LightKind> lights;  ///< default: the scene's own; in a mesh file without lights an area light
   std::optional<sim::Up> up;           ///< default: y in built-in scenes, found from the shape in mesh files
   bool front_facing = false;

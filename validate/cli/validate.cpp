@@ -38,7 +38,7 @@ void add_effects(const std::vector<sim::EffectReport>& effects, Result& result) 
 }
 
 validate::Experiment uniform_experiment(validate::JobRequest request, const std::stop_token& stop, Result& result) {
-  if (request.front_facing || request.field == sim::Field::photons)
+  if (request.front_facing || request.field.value_or(sim::Field::isotropic) != sim::Field::isotropic)
     throw std::invalid_argument("--front-facing and --field photons take a scene or --discs; numbers alone mean lines");
   if (!request.rays) request.rays = default_lines;
   if (!request.samples) request.samples = 20'000;

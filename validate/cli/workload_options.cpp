@@ -70,7 +70,34 @@ void require_numbers(const validate::JobRequest& request) {
   need(request.sphere_radius || request.scene_side, "its size", "--sphere-radius r0 or --scene-side s");
 }
 
-std::string_view name(sim::Field field) { return field == sim::Field::isotropic ? "isotropic" : "photons"; }
+std::string_view name(sim::Field field) {
+  if (field == sim::Field::mixed) return "mixed";
+  return field == sim::Field::isotropic ? "isotropic" : "photons";
+}
+
+std::pair<sim::Field, sim::FieldShares> parse_field(const std::string& text) {
+  if (!text.starts_with("mixed")) {
+    const bool lines = one_of("--field", text, {"isotropic", "photons", "mixed"}) == "isotropic";
+    return {lines ? sim::Field::isotropic : sim::Field::photons, {}};
+  }
+  sim::FieldShares shares{1.0 / 3, 1.0 / 3, 1.0 / 3};
+  if (text != "mixed") {
+    std::vector<double> numbers;
+    std::size_t from = std::string_view("mixed").size();
+    while (from < text.size() && text[from] == ':') {
+      const std::size_t end = std::min(text.find(':', from + 1), text.size());
+      numbers.push_back(parse_number("--field", text.substr(from + 1, end - from - 1)));
+      from = end;
+    }
+    if (numbers.size() != 3 || from != text.size())
+      throw std::invalid_argument(
+          fmt::format("--field {}: a mixture is mixed, or mixed:ISOTROPIC:DIRECTIONAL:POINT with three shares",
+                      detp::quoted(text)));
+    shares = {numbers[0], numbers[1], numbers[2]};
+  }
+  sim::check(shares);
+  return {sim::Field::mixed, shares};
+}
 
 void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Values> axes) {
   using enum ValueLists::Kind;
@@ -98,10 +125,12 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
   lists.add(
       command, "--field", values, words,
       [this](const std::string& text) {
-        const bool lines = one_of("--field", text, {"isotropic", "photons"}) == "isotropic";
-        request_.field = lines ? sim::Field::isotropic : sim::Field::photons;
+        const auto [field, shares] = parse_field(text);
+        request_.field = field;
+        request_.shares = shares;
       },
-      "isotropic (lines) or photons (paths from the scene's light); default: photons where there is a light");
+      "isotropic (lines), photons (paths from the scene's lights), or mixed: lines, parallel lines straight down and "
+      "segments from the top, a third each, or as mixed:0.5:0.25:0.25 says; default: photons where there is a light");
   lists.add(
       command, "--light", Values::one, words, [this](const std::string& text) { request_.lights = parse_lights(text); },
       "lights placed in the scene, a list of area, point, spot, directional, environment, surface (materials that "
@@ -266,6 +295,10 @@ Json lights_json(const std::vector<sim::Light>& lights) {
 
 Json to_json(const validate::Job& job, const validate::JobRequest& request) {
   Json json = origin_json(request, job.name, job.field);
+  if (job.field == sim::Field::mixed && !request.ray_file)
+    json["shares"] = {{"isotropic", request.shares.isotropic},
+                      {"directional", request.shares.directional},
+                      {"point", request.shares.point}};
   if (!job.lights.empty() && job.field == sim::Field::photons && !request.ray_file) {
     json["light"] = lights_json(job.lights);
     json["up"] = sim::name(job.up);
@@ -283,7 +316,7 @@ namespace {
 
 /// "; lights: area, spot (up: y)"; empty if the job has none.
 std::string lights_of(const validate::Job& job) {
-  if (job.lights.empty()) return "";
+  if (job.lights.empty() || job.field != sim::Field::photons) return "";
   std::vector<std::string_view> kinds;
   for (const sim::Light& light : job.lights) kinds.push_back(name(sim::kind_of(light)));
   return fmt::format("; light{}: {} (up: {})", kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "), sim::name(job.up));
@@ -299,7 +332,9 @@ std::string describe(const validate::Job& job) {
   text += fmt::format("{} discs of radius d = {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n",
                       spaced(w.samples), w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
   text += fmt::format("rays      {} ", spaced(w.rays));
-  if (w.path_length > 0)
+  if (job.field == sim::Field::mixed)
+    text += "of a mixed field: isotropic lines, parallel lines, segments from a point\n";
+  else if (w.path_length > 0)
     text += fmt::format("photon paths or segments, mean length {:.2f} of the scene's side{}\n",
                         w.path_length / scene_side(w), lights_of(job));
   else

@@ -42,6 +42,10 @@ enum class SphereStop {
   best  ///< SphereStops::best
 };
 
+/// "isotropic", "photons", "mixed" or "mixed:0.5:0.25:0.25". Throws std::invalid_argument for other text, and unless shares
+/// add up to 1.
+[[nodiscard]] std::pair<sim::Field, sim::FieldShares> parse_field(const std::string& text);
+
 /// "area,spot". Throws std::invalid_argument for an unknown kind.
 [[nodiscard]] std::vector<sim::LightKind> parse_lights(std::string_view text);
 

@@ -35,6 +35,22 @@ TEST_SUITE("end to end") {
   }
 }
 
+TEST_SUITE("end to end") {
+  TEST_CASE("a mixed field: two techniques find the same hits, and its shares are in the answer") {
+    Json hits;
+    for (const std::string technique : {"box-tree", "octree"}) {
+      const Json json =
+          detp(words("run @cornell --field mixed:0.5:0.25:0.25 --rays 5000 --format json --technique " + technique))
+              .json();
+      CHECK(json.at("inputs").at("field") == "mixed");
+      CHECK(json.at("inputs").at("shares").at("point") == 0.25);
+      CHECK((hits.is_null() || hits == json.at("hits")));
+      hits = json.at("hits");
+      CHECK(hits > 1000);
+    }
+  }
+}
+
 TEST_SUITE("bad input") {
   TEST_CASE("unknown lights and directions, and lights for lines or for rays from a file, are refused") {
     const auto refuses = [](const std::string& line, const std::string& message) {
@@ -47,6 +63,9 @@ TEST_SUITE("bad input") {
     refuses("run @cornell --light area,", "--light must be one of");
     refuses("run @cornell --up w", "--up must be one of");
     refuses("run @cornell --light surface", "no triangle of @cornell emits light");
+    refuses("run @cornell --field mixed:1:2", "three shares");
+    refuses("run @cornell --field mixed:0.5:0.2:0.2", "must add up to 1");
+    refuses("run @cornell --field mixed --light spot", "these are a mixed field");
     refuses("run @uniform --light area", "--light and --up are for photon paths; these are isotropic lines");
     refuses("run @cornell --field isotropic --up z", "--light and --up are for photon paths");
     const ScratchFolder folder;
