@@ -18,7 +18,7 @@ constexpr glm::dvec3 ring{2.8, 0, 2.4};
 constexpr double ring_radius = 0.6;
 constexpr double ring_height = 0.25;
 
-enum CausticPaint : std::uint16_t { plaster, glass, brass };
+enum CausticPaint : std::uint16_t { floor_plaster, ball_glass, ring_brass };
 
 /// The six faces of a cube, blown up to a sphere.
 void add_ball(Mesh& mesh) {
@@ -51,11 +51,11 @@ LitMesh caustic() {
                         {.name = "brass", .diffuse = 0.1, .specular = 0.8, .shininess = 3000}};
   add_quad(mesh, {{{0, 0, 0}, {0, 0, floor_side}, {floor_side, 0, floor_side}, {floor_side, 0, 0}}}, floor_cell);
   add_quad(mesh, {{{0, 0, 0}, {floor_side, 0, 0}, {floor_side, 2.5, 0}, {0, 2.5, 0}}}, 2 * floor_cell);
-  paint(mesh, plaster);
+  paint(mesh, floor_plaster);
   add_ball(mesh);
-  paint(mesh, glass);
+  paint(mesh, ball_glass);
   add_ring(mesh);
-  paint(mesh, brass);
+  paint(mesh, ring_brass);
   const glm::dvec3 spot{0.6, 3.2, 1.2};
   lit_mesh.lights = {{SpotLight{spot, ball - spot, std::atan(1.1 * ball_radius / glm::distance(spot, ball))}, 0.05},
                      {PointLight{{3.9, 1.1, 3.4}}, 0.25},

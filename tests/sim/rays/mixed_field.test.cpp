@@ -18,7 +18,7 @@ using namespace detp::sim;
 
 namespace {
 
-constexpr Sphere sphere{{1, 2, 3}, 2};
+constexpr Sphere the_ball{{1, 2, 3}, 2};
 
 std::vector<Ray> rays_of(const FieldMixture& mixture, std::uint64_t count, std::uint64_t seed = 1) {
   std::vector<Ray> rays(count);
@@ -26,15 +26,15 @@ std::vector<Ray> rays_of(const FieldMixture& mixture, std::uint64_t count, std::
   return rays;
 }
 
-/// At random places inside the sphere.
+/// At random places inside the the_ball.
 std::vector<Disc> discs_inside(std::size_t count, double radius) {
   std::vector<Disc> discs;
   for (std::uint64_t i = 0; discs.size() < count; ++i) {
     const auto place = uniform4(7, Stream::tests, i);
     const auto turn = uniform4(8, Stream::tests, i);
     const glm::dvec3 centre = 2.0 * glm::dvec3{place[0], place[1], place[2]} - 1.0;
-    if (glm::length(centre) * sphere.radius + radius < sphere.radius)
-      discs.push_back({sphere.centre + sphere.radius * centre, uniform_direction(turn[0], turn[1]), radius});
+    if (glm::length(centre) * the_ball.radius + radius < the_ball.radius)
+      discs.push_back({the_ball.centre + the_ball.radius * centre, uniform_direction(turn[0], turn[1]), radius});
   }
   return discs;
 }
@@ -71,11 +71,11 @@ bool hits_agree(const FieldMixture& mixture, double scale = 1) {
 
 TEST_SUITE("statistical") {
   TEST_CASE("each disc of each mixture is hit as often as the closed forms say") {
-    const glm::dvec3 inside = sphere.centre + glm::dvec3{0.3, 1.2, -0.5};
-    const glm::dvec3 outside = sphere.centre + glm::dvec3{0, 9, 2};
+    const glm::dvec3 inside = the_ball.centre + glm::dvec3{0.3, 1.2, -0.5};
+    const glm::dvec3 outside = the_ball.centre + glm::dvec3{0, 9, 2};
     for (const glm::dvec3& point : {inside, outside})
       for (const FieldShares& shares : {FieldShares{0, 1, 0}, FieldShares{0, 0, 1}, FieldShares{0.5, 0.3, 0.2}}) {
-        const FieldMixture mixture{sphere, shares, {1, -3, 0.5}, point};
+        const FieldMixture mixture{the_ball, shares, {1, -3, 0.5}, point};
         CHECK(hits_agree(mixture));
         CHECK_FALSE(hits_agree(mixture, 1.02));
       }
@@ -84,7 +84,7 @@ TEST_SUITE("statistical") {
 
 TEST_SUITE("known answer") {
   TEST_CASE("every stretch of rays has its share of each kind; segments start at the point and end on the sphere") {
-    const FieldMixture mixture{sphere, {0.5, 0.25, 0.25}, {0, -1, 0}, {1, 3, 3}};
+    const FieldMixture mixture{the_ball, {0.5, 0.25, 0.25}, {0, -1, 0}, {1, 3, 3}};
     const std::vector<Ray> rays = rays_of(mixture, 4096);
     for (std::size_t first = 0; first < rays.size(); first += 256) {
       int parallel = 0;
@@ -94,7 +94,7 @@ TEST_SUITE("known answer") {
           ++segments;
           CHECK(rays[i].origin == mixture.point);
           const glm::dvec3 end = rays[i].origin + rays[i].length * rays[i].direction;
-          CHECK(glm::distance(end, sphere.centre) == doctest::Approx(sphere.radius).epsilon(1e-12));
+          CHECK(glm::distance(end, the_ball.centre) == doctest::Approx(the_ball.radius).epsilon(1e-12));
         } else if (rays[i].direction == glm::dvec3{0, -1, 0}) {
           ++parallel;
         }
@@ -107,17 +107,18 @@ TEST_SUITE("known answer") {
 
 TEST_SUITE("identity") {
   TEST_CASE("lines alone have the bytes of LineField; blocks and one read give the same bytes") {
-    const FieldMixture lines{sphere, {1, 0, 0}, {0, -1, 0}, {1, 3, 3}};
+    const FieldMixture lines{the_ball, {1, 0, 0}, {0, -1, 0}, {1, 3, 3}};
     const std::vector<Ray> mixed = rays_of(lines, 1000, 5);
-    const std::vector<Ray> plain = LineField(sphere, 5).lines(0, 1000);
+    const std::vector<Ray> plain = LineField(the_ball, 5).lines(0, 1000);
     CHECK(std::memcmp(mixed.data(), plain.data(), mixed.size() * sizeof(Ray)) == 0);
-    const MixedField source({sphere, {0.4, 0.3, 0.3}, {0, -1, 0}, {1, 3, 3}}, 5, 1000);
+    const MixedField source({the_ball, {0.4, 0.3, 0.3}, {0, -1, 0}, {1, 3, 3}}, 5, 1000);
     std::vector<Ray> whole(1000), parts(1000);
     source.read(0, whole);
     for (std::size_t first = 0; first < 1000; first += 300)
       source.read(first, std::span(parts).subspan(first, std::min<std::size_t>(300, 1000 - first)));
     CHECK(std::memcmp(whole.data(), parts.data(), whole.size() * sizeof(Ray)) == 0);
-    for (const Ray& ray : whole) CHECK(glm::distance(ray.origin, sphere.centre) <= source.farthest_from(sphere.centre));
+    for (const Ray& ray : whole)
+      CHECK(glm::distance(ray.origin, the_ball.centre) <= source.farthest_from(the_ball.centre));
   }
 }
 
@@ -126,11 +127,11 @@ TEST_SUITE("bad input") {
     const auto refuses = [](const FieldMixture& mixture, const char* message) {
       CHECK_THROWS_WITH_AS(MixedField(mixture, 1, 1), doctest::Contains(message), std::invalid_argument);
     };
-    refuses({sphere, {0.5, 0.4, 0}, {0, 1, 0}, {1, 2, 3}}, "must add up to 1");
-    refuses({sphere, {1.5, -0.5, 0}, {0, 1, 0}, {1, 2, 3}}, "share of a kind of rays");
-    refuses({sphere, {1, 0, 0}, {0, 0, 0}, {1, 2, 3}}, "must not be zero");
-    refuses({sphere, {1, 0, 0}, {0, 1, 0}, {1, 4, 3}}, "must not lie on the sphere");
-    refuses({sphere, {1, 0, 0}, {0, 1, 0}, {std::numeric_limits<double>::quiet_NaN(), 4, 3}}, "must be finite");
+    refuses({the_ball, {0.5, 0.4, 0}, {0, 1, 0}, {1, 2, 3}}, "must add up to 1");
+    refuses({the_ball, {1.5, -0.5, 0}, {0, 1, 0}, {1, 2, 3}}, "share of a kind of rays");
+    refuses({the_ball, {1, 0, 0}, {0, 0, 0}, {1, 2, 3}}, "must not be zero");
+    refuses({the_ball, {1, 0, 0}, {0, 1, 0}, {1, 4, 3}}, "must not lie on the sphere");
+    refuses({the_ball, {1, 0, 0}, {0, 1, 0}, {std::numeric_limits<double>::quiet_NaN(), 4, 3}}, "must be finite");
     refuses({{{0, 0, 0}, 0}, {1, 0, 0}, {0, 1, 0}, {1, 4, 3}}, "sphere radius");
   }
 }
