@@ -64,7 +64,7 @@ TEST_SUITE("known answer") {
     for (const char* name : {"@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});
-      for (const std::size_t count : {0U, 1U, 2U, 1000U, 5000U}) {
+      for (const std::size_t count : {0U, 1U, 1000U}) {
         const std::vector<Ray> rays = photon_paths(scene, count, 1);
         REQUIRE(rays.size() == count);
         if (count == 0) continue;
