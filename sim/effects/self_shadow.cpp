@@ -30,7 +30,7 @@ struct Landings {
   std::vector<Ray> rays = {};
   std::vector<Landing> landings = {};
 
-  void piece(const Ray& ray) { last = ray; }
+  void piece(const Ray& ray, double) { last = ray; }
   void met(std::uint32_t triangle, double, bool) {
     const auto& [a, b, c] = mesh.triangles[triangle];
     const glm::dvec3 corner = mesh.positions[a];

@@ -22,7 +22,7 @@ class CsvReader {
     if (!next_line()) throw FileError(file_.path(), "is empty; expected a header " + known_names());
     read_header();
     for (std::size_t i = 0; i < row_.columns().size(); ++i)
-      if (!is_given(i)) row_.set(i, *row_.columns()[i].absent);
+      if (!is_given(i)) row_.set_absent(i);
     std::size_t rows = 0;
     for (; next_line(); ++rows) {
       read_row();

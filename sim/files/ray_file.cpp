@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <unordered_map>
 #include <utility>
 
 #include "detp/sim/base/kept_memory.hpp"
@@ -14,7 +19,9 @@
 namespace detp::sim {
 namespace {
 
-enum Column : std::size_t { ox, oy, oz, dx, dy, dz, length, power };
+enum Column : std::size_t { ox, oy, oz, dx, dy, dz, length, power, photon, landing };
+
+constexpr double at_end = std::numeric_limits<double>::lowest();  ///< landing at the ray's end
 
 Ray ray_in(const TableRow& row) {
   const Ray ray{.origin = row.finite_vector(ox),
@@ -27,10 +34,56 @@ Ray ray_in(const TableRow& row) {
   return ray;
 }
 
+std::uint64_t photon_in(const TableRow& row) {
+  constexpr double most = 0x1p53;
+  const double number = row.finite(photon);
+  if (number < 0 || number > most || number != std::floor(number))
+    row.fail(fmt::format("photon must be a whole number from 0 to 2^53 (got {})", number));
+  return static_cast<std::uint64_t>(number);
+}
+
+double landing_in(const TableRow& row, const Ray& ray) {
+  const double at = row[landing];
+  if (at == at_end) return ray.length;
+  if (!(at >= 0)) row.fail(fmt::format("landing must be >= 0, or inf for none (got {})", at));
+  return at;
+}
+
+/// Brings the rays of each photon together.
+void sort_by_photon(RayFile& file) {
+  Paths& paths = file.paths;
+  std::unordered_map<std::uint64_t, std::uint64_t> numbers;  // in the order of first rays
+  for (std::uint64_t& photon : paths.photons) photon = numbers.try_emplace(photon, numbers.size()).first->second;
+  if (std::ranges::is_sorted(paths.photons)) return;
+  file.order.resize(paths.rays.size());
+  std::iota(file.order.begin(), file.order.end(), 0U);
+  std::ranges::stable_sort(file.order, {}, [&](std::uint32_t ray) { return paths.photons[ray]; });
+  const auto sort = [&](auto& column) {
+    auto sorted = column;
+    for (std::size_t i = 0; i < column.size(); ++i) sorted[i] = column[file.order[i]];
+    column = std::move(sorted);
+  };
+  sort(paths.rays);
+  sort(paths.landings);
+  sort(paths.photons);
+}
+
+/// Numbers the photons 0, 1, 2, … in the order of the rays.
+void number_photons(RayFile& file) {
+  std::vector<std::uint64_t>& photons = file.paths.photons;
+  if (!std::ranges::is_sorted(photons)) return sort_by_photon(file);
+  std::uint64_t number = 0;
+  for (std::size_t i = 0; i < photons.size(); ++i) {
+    const bool is_new = i + 1 < photons.size() && photons[i + 1] != photons[i];
+    photons[i] = number;
+    number += is_new ? 1 : 0;
+  }
+}
+
 }  // namespace
 
-std::vector<Ray> read_rays(const std::string& path, std::stop_token stop) {
-  std::vector<Ray> rays;
+RayFile read_rays(const std::string& path, std::stop_token stop) {
+  RayFile file;
   KeptMemory memory(path);
   read_table(
       path,
@@ -41,20 +94,33 @@ std::vector<Ray> read_rays(const std::string& path, std::stop_token stop) {
        {"dy", {}, {}},
        {"dz", {}, {}},
        {"length", unbounded, unbounded},
-       {"power", 1.0, {}}},
-      [&](const TableRow& row) { memory.push(rays, ray_in(row)); }, std::move(stop));
-  if (rays.empty()) throw FileError(path, "has no ray; at least one is needed");
-  return rays;
+       {"power", 1.0, {}},
+       {"photon", 0.0, {}},
+       {"landing", at_end, at_end}},
+      [&](const TableRow& row) {
+        const Ray ray = ray_in(row);
+        memory.push(file.paths.rays, ray);
+        if (row.given(photon)) memory.push(file.paths.photons, photon_in(row));
+        if (row.given(landing)) memory.push(file.paths.landings, landing_in(row, ray));
+      },
+      std::move(stop));
+  if (file.paths.rays.empty()) throw FileError(path, "has no ray; at least one is needed");
+  number_photons(file);
+  return file;
 }
 
-void write_rays(const std::string& path, const std::vector<Ray>& rays, const std::stop_token& stop) {
-  WritingCheck check(path, rays.size(), "rays", stop);
+void write_rays(const std::string& path, const PathRays& paths, const std::stop_token& stop) {
+  WritingCheck check(path, paths.rays.size(), "rays", stop);
   OutputFile file(path);
-  file.write("ox,oy,oz,dx,dy,dz,length,power\n");
-  for (const auto& [origin, direction, ray_length, ray_power] : rays) {
+  const bool photons = !paths.photons.empty();
+  const bool landings = !paths.landings.empty();
+  file.write(fmt::format("ox,oy,oz,dx,dy,dz,length,power{}{}\n", photons ? ",photon" : "", landings ? ",landing" : ""));
+  for (std::size_t i = 0; i < paths.rays.size(); ++i) {
+    const auto& [origin, direction, ray_length, ray_power] = paths.rays[i];
     check.next();
-    file.write(fmt::format("{},{},{},{},{},{},{},{}\n", origin.x, origin.y, origin.z, direction.x, direction.y,
-                           direction.z, ray_length, ray_power));
+    file.write(fmt::format("{},{},{},{},{},{},{},{}{}{}\n", origin.x, origin.y, origin.z, direction.x, direction.y,
+                           direction.z, ray_length, ray_power, photons ? fmt::format(",{}", paths.photons[i]) : "",
+                           landings ? fmt::format(",{}", paths.landings[i]) : ""));
   }
   file.commit();
 }

@@ -26,7 +26,7 @@ std::size_t read_ply_table(const std::string& path, const std::vector<TableColum
       request.properties.push_back(*property);
       given.push_back(i);
     } else if (columns[i].absent) {
-      row.set(i, *columns[i].absent);
+      row.set_absent(i);
     } else {
       throw FileError(path, fmt::format("its element vertex has no property {}{}", columns[i].name, columns[i].remedy));
     }

@@ -24,12 +24,20 @@ struct TableColumn {
 class TableRow {
  public:
   TableRow(const std::string& path, const std::vector<TableColumn>& columns)
-      : path_(path), columns_(columns), values_(columns.size()) {}
+      : path_(path), columns_(columns), values_(columns.size()), given_(columns.size(), true) {}
 
   [[nodiscard]] const std::vector<TableColumn>& columns() const { return columns_; }
   [[nodiscard]] double operator[](std::size_t column) const { return values_[column]; }
 
   void set(std::size_t column, double value) { values_[column] = value; }
+
+  /// The file has no such column: every row has its `absent` value.
+  void set_absent(std::size_t column) {
+    values_[column] = *columns_[column].absent;
+    given_[column] = false;
+  }
+  /// True if the file has the column.
+  [[nodiscard]] bool given(std::size_t column) const { return given_[column]; }
 
   /// Sets the row's place: its line in a CSV file, or its number, from 1, among the `rows` vertices of a PLY file.
   void place(std::size_t number, std::size_t rows = 0) {
@@ -50,6 +58,7 @@ class TableRow {
   const std::string& path_;
   const std::vector<TableColumn>& columns_;
   std::vector<double> values_;
+  std::vector<bool> given_;
   std::size_t number_ = 0;
   std::size_t rows_ = 0;  ///< 0: number_ is a line number
 };

@@ -22,7 +22,7 @@ struct Account {
   double squares = 0;  ///< of the powers that escaped
   std::vector<double> variances = {};
 
-  void piece(const Ray&) {}
+  void piece(const Ray&, double) {}
 
   void met(std::uint32_t triangle, double power, bool absorbed) {
     const auto& numbers = scene.mesh.materials.of_triangle;

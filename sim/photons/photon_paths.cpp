@@ -24,37 +24,54 @@ std::vector<PhotonPieces> trace_round(const PhotonTracer& tracer, std::uint64_t 
   return blocks;
 }
 
+/// Number of the pieces that reach `missing` pieces and the end of a photon's path; all if there are fewer.
+std::size_t whole_photons(const PhotonPieces& pieces, std::size_t missing) {
+  if (missing == 0) return 0;
+  if (missing >= pieces.rays.size()) return pieces.rays.size();
+  const auto end = std::ranges::upper_bound(pieces.photons, pieces.photons[missing - 1]);
+  return static_cast<std::size_t>(end - pieces.photons.begin());
+}
+
+void append(const PhotonPieces& pieces, std::size_t count, Paths& paths) {
+  const auto add = [count](const auto& from, auto& to) {
+    to.insert(to.end(), from.begin(), from.begin() + static_cast<std::ptrdiff_t>(count));
+  };
+  add(pieces.rays, paths.rays);
+  add(pieces.photons, paths.photons);
+  add(pieces.landings, paths.landings);
+}
+
 }  // namespace
 
-std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed, const std::stop_token& stop) {
+Paths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed, const std::stop_token& stop) {
   return photon_paths(scene, count, seed, caster_for(scene, stop), stop);
 }
 
-std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
-                              std::shared_ptr<const RayCaster> caster, const std::stop_token& stop) {
+Paths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed, std::shared_ptr<const RayCaster> caster,
+                   const std::stop_token& stop) {
   const PhotonTracer tracer(scene, seed, std::move(caster));
   PhotonRounds rounds(scene.name, count);
-  std::vector<Ray> rays;
+  Paths paths;
   std::uint64_t traced = 0;
-  std::uint64_t emitted = 1;
   StopCheck check(stop, "copying photon paths");
   try {
-    while (rays.size() < count) {
-      const std::uint64_t photons = rounds.next(rays.size());
+    while (paths.rays.size() < count) {
+      const std::uint64_t photons = rounds.next(paths.rays.size());
       for (const PhotonPieces& block : trace_round(tracer, traced, photons, stop)) {
-        const std::size_t taken = std::min(block.rays.size(), count - rays.size());
-        if (taken == 0) continue;
-        rays.insert(rays.end(), block.rays.begin(), block.rays.begin() + static_cast<std::ptrdiff_t>(taken));
-        emitted = block.photons[taken - 1] + 1;
+        const std::size_t missing = count - std::min(count, paths.rays.size());
+        const std::size_t taken = whole_photons(block, missing);
+        append(block, taken, paths);
         check.after(taken);
       }
       traced += photons;
     }
-    for_each_checked(std::span(rays), check, [&](Ray& ray) { ray.power /= static_cast<double>(emitted); });
+    if (count > 0) paths.photon_count = paths.photons.back() + 1;
+    for_each_checked(std::span(paths.rays), check,
+                     [&](Ray& ray) { ray.power /= static_cast<double>(paths.photon_count); });
   } catch (const Stopped&) {
-    stopped_tracing(rays.size(), count);
+    stopped_tracing(paths.rays.size(), count);
   }
-  return rays;
+  return paths;
 }
 
 }  // namespace detp::sim

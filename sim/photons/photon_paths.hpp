@@ -5,6 +5,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "detp/sim/geometry/paths.hpp"
 #include "detp/sim/scene/scene.hpp"
 
 namespace detp::sim {
@@ -14,8 +15,9 @@ class RayCaster;
 /// Photon paths. A photon leaves a light (lights.hpp) and flies to the first surface. There its material absorbs or
 /// scatters it by Russian roulette (scatter.hpp), so it keeps its power.
 ///
-/// Returns exactly `count` rays, one for each straight piece of a path, photon by photon; a photon's pieces keep their
-/// order. Each ray has its photon's power: a light's flux, divided by the number of its photons expected among all that
+/// Returns at least `count` rays, one for each straight piece of a path, photon by photon, up to the end of the last photon's
+/// path; a photon's pieces keep their order. With the rays come the numbers of their photons, the distances at which these
+/// met a surface, and the number of photons emitted. Each ray has its photon's power: a light's flux, divided by the number of its photons expected among all that
 /// were emitted. Let gap be 1e-5 of the box's diagonal. A piece starts `gap` beyond the point where the photon was
 /// (halfway to the surface, if that is nearer than 2 gap), and ends `gap` beyond the surface. So it crosses the discs in
 /// the tangent plane where it ends, but not the discs where it starts. A piece that leaves the scene ends on the sphere
@@ -31,10 +33,10 @@ class RayCaster;
 /// The result depends on the seed alone, not on the number of threads. Throws std::invalid_argument for a scene without
 /// light, triangles or box, for a light or material out of range, and if 1000 + 100 · `count` photons gave too few
 /// pieces. Throws std::runtime_error if Embree fails, and Stopped if a stop was requested.
-[[nodiscard]] std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
-                                            const std::stop_token& stop = {});
+[[nodiscard]] Paths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
+                                 const std::stop_token& stop = {});
 /// The same, with a caster of the scene's mesh that was made before (photon_walk.hpp).
-[[nodiscard]] std::vector<Ray> photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
-                                            std::shared_ptr<const RayCaster> caster, const std::stop_token& stop = {});
+[[nodiscard]] Paths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed,
+                                 std::shared_ptr<const RayCaster> caster, const std::stop_token& stop = {});
 
 }  // namespace detp::sim

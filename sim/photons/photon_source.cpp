@@ -24,7 +24,7 @@ PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_
       photons += rounds.next(starts_.back());
       count_rays((photons + group_size - 1) / group_size, stop);
     }
-    emitted_ = static_cast<double>(emitted(stop));
+    if (count > 0) end_with_last_photon(stop);
   } catch (const Stopped&) {
     stopped_tracing(std::min(starts_.back(), count), count);
   }
@@ -54,23 +54,48 @@ void PhotonSource::count_rays(std::uint64_t groups, const std::stop_token& stop)
   }
 }
 
-std::uint64_t PhotonSource::emitted(const std::stop_token& stop) const {
-  if (count_ == 0) return 1;
-  const auto group = static_cast<std::uint64_t>(std::ranges::lower_bound(starts_, count_) - starts_.begin()) - 1;
-  return trace_group(group, stop).photons[count_ - 1 - starts_[group]] + 1;
+std::uint64_t PhotonSource::group_of(std::uint64_t ray) const {
+  return static_cast<std::uint64_t>(std::ranges::upper_bound(starts_, ray) - starts_.begin()) - 1;
+}
+
+void PhotonSource::end_with_last_photon(const std::stop_token& stop) {
+  const std::uint64_t group = group_of(count_ - 1);
+  const std::vector<std::uint64_t> photons = trace_group(group, stop).photons;
+  const std::uint64_t last = photons[count_ - 1 - starts_[group]];
+  count_ = starts_[group] + static_cast<std::uint64_t>(std::ranges::upper_bound(photons, last) - photons.begin());
+  emitted_ = last + 1;
+}
+
+std::uint64_t PhotonSource::block_end(std::uint64_t first, std::uint64_t most) const {
+  if (most >= count_ - first) return count_;
+  const std::uint64_t next = first + most;  // the first ray that may be in the next block
+  const std::uint64_t group = group_of(next);
+  const std::vector<std::uint64_t> photons = trace_group(group, {}).photons;
+  const std::uint64_t cut = photons[next - starts_[group]];
+  const auto begin = std::ranges::lower_bound(photons, cut) - photons.begin();
+  const std::uint64_t end = starts_[group] + static_cast<std::uint64_t>(begin);
+  if (end > first) return end;
+  return starts_[group] + static_cast<std::uint64_t>(std::ranges::upper_bound(photons, cut) - photons.begin());
 }
 
 void PhotonSource::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
+  std::vector<std::uint64_t> photons;
+  read_numbered(first, block, photons, stop);
+}
+
+void PhotonSource::read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
+                                 const std::stop_token& stop) const {
+  photons.resize(block.size());
+  if (block.empty()) return;
   const std::uint64_t last = first + block.size();
-  const auto begin = static_cast<std::uint64_t>(std::ranges::upper_bound(starts_, first) - starts_.begin()) - 1;
-  const auto end = static_cast<std::uint64_t>(std::ranges::lower_bound(starts_, last) - starts_.begin());
-  oneapi::tbb::parallel_for(begin, end, [&](std::uint64_t group) {
-    const std::vector<Ray> rays = trace_group(group, stop).rays;
+  oneapi::tbb::parallel_for(group_of(first), group_of(last - 1) + 1, [&](std::uint64_t group) {
+    const PhotonPieces pieces = trace_group(group, stop);
     const std::uint64_t from = std::max(first, starts_[group]);
-    const std::uint64_t to = std::min(last, starts_[group] + rays.size());
+    const std::uint64_t to = std::min(last, starts_[group] + pieces.rays.size());
     for (std::uint64_t number = from; number < to; ++number) {
-      Ray& ray = block[number - first] = rays[number - starts_[group]];
-      ray.power /= emitted_;
+      photons[number - first] = pieces.photons[number - starts_[group]];
+      Ray& ray = block[number - first] = pieces.rays[number - starts_[group]];
+      ray.power /= static_cast<double>(emitted_);
     }
   });
 }

@@ -20,22 +20,30 @@ class PhotonSource final : public RaySource {
   PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed, std::shared_ptr<const RayCaster> caster,
                const std::stop_token& stop = {});
 
+  /// The number of rays: at least `count`, to the end of the last photon's path.
   [[nodiscard]] std::uint64_t size() const override { return count_; }
   void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const override;
+  [[nodiscard]] bool numbered() const override { return true; }
+  [[nodiscard]] std::uint64_t photons() const override { return emitted_; }
+  [[nodiscard]] std::uint64_t block_end(std::uint64_t first, std::uint64_t most) const override;
+  void read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
+                     const std::stop_token& stop = {}) const override;
   [[nodiscard]] double farthest_from(const glm::dvec3& point) const override;
 
  private:
   [[nodiscard]] PhotonPieces trace_group(std::uint64_t group, const std::stop_token& stop) const;
   void count_rays(std::uint64_t groups, const std::stop_token& stop);
-  /// Number of photons up to and including the one that yields the last ray.
-  [[nodiscard]] std::uint64_t emitted(const std::stop_token& stop) const;
+  /// Number of the group that has the ray.
+  [[nodiscard]] std::uint64_t group_of(std::uint64_t ray) const;
+  /// Ends at the end of the photon that has ray count_ - 1.
+  void end_with_last_photon(const std::stop_token& stop);
 
   PhotonTracer tracer_;
   std::uint64_t count_;
   std::uint64_t limit_;                ///< in photons
   std::vector<std::uint64_t> starts_;  ///< number of each group's first ray; at the end, the number of all rays found
   Box origins_;
-  double emitted_ = 1;  ///< number of photons that yield the rays
+  std::uint64_t emitted_ = 1;  ///< number of photons that yield the rays
 };
 
 }  // namespace detp::sim

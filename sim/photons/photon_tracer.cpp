@@ -11,9 +11,12 @@ constexpr std::uint64_t work_of_a_bounce = 64;  // for StopCheck: a bounce takes
 
 /// Keeps the pieces.
 struct Pieces {
-  std::vector<Ray>& rays;
+  PhotonPieces& kept;
 
-  void piece(const Ray& ray) { rays.push_back(ray); }
+  void piece(const Ray& ray, double landing) {
+    kept.rays.push_back(ray);
+    kept.landings.push_back(landing);
+  }
   void met(std::uint32_t, double, bool) {}
   void escaped(double) {}
   void cut_off(double) {}
@@ -31,13 +34,14 @@ PhotonPieces PhotonTracer::trace(std::uint64_t first, std::uint64_t last, const 
   StopCheck check(stop, "tracing photons");
   check.now();
   PhotonPieces pieces;
-  Pieces recorder{pieces.rays};
+  Pieces recorder{pieces};
   for (std::uint64_t photon = first; photon < last; ++photon) {
     walk_.follow(photon, recorder);
     const std::size_t bounces = pieces.rays.size() - pieces.photons.size() + 1;
     pieces.photons.resize(pieces.rays.size(), photon);
     check.after(work_of_a_bounce * bounces);
   }
+  pieces.photon_count = last;
   return pieces;
 }
 

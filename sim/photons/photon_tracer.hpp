@@ -3,16 +3,14 @@
 #include <cstdint>
 #include <vector>
 
+#include "detp/sim/geometry/paths.hpp"
 #include "detp/sim/scene/scene.hpp"
 #include "photon_walk.hpp"
 
 namespace detp::sim {
 
-/// The straight pieces of some photons' paths, in order, and for each piece the number of its photon.
-struct PhotonPieces {
-  std::vector<Ray> rays;
-  std::vector<std::uint64_t> photons;
-};
+/// The straight pieces of some photons' paths, in order.
+using PhotonPieces = Paths;
 
 /// Traces photons through a scene as photon_paths (photon_paths.hpp) describes. Each photon is a function of the seed
 /// and its number alone. Several threads may use one tracer.

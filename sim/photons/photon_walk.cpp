@@ -60,10 +60,9 @@ double PhotonWalk::overshoot(const glm::dvec3& end, const glm::dvec3& direction,
 }
 
 Ray PhotonWalk::piece(const PhotonStart& from, double distance, double beyond, double power) const {
-  const double start = std::min(gap_, 0.5 * distance);
-  return {.origin = caster_->to_scene(from.origin + start * from.direction),
+  return {.origin = caster_->to_scene(from.origin + start(distance) * from.direction),
           .direction = from.direction,
-          .length = caster_->scale() * (distance - start + beyond),
+          .length = caster_->scale() * (distance - start(distance) + beyond),
           .power = power};
 }
 

@@ -33,7 +33,8 @@ class PhotonWalk {
   [[nodiscard]] double power(std::uint64_t photon) const { return lights_.power(photon); }
 
   /// Walks photon number `photon` and tells the recorder, in order, of
-  ///   piece(ray): a straight piece of the path, as photon_paths describes, with the photon's power;
+  ///   piece(ray, landing): a straight piece of the path, as photon_paths describes, with the photon's power; `landing` is
+  ///     the distance from the ray's origin to the surface that the photon met, `unbounded` if it met none;
   ///   met(triangle, power, absorbed): the surface where the piece ends;
   /// and at last, unless a surface absorbed it, of escaped(power) or cut_off(power).
   template <class Recorder>
@@ -43,14 +44,16 @@ class PhotonWalk {
     for (std::uint64_t bounce = 1; bounce <= most_pieces; ++bounce) {
       const auto hit = caster_->first_intersection(from.origin, from.direction, from.triangle);
       if (!hit) {
-        if (const double distance = distance_out(from); distance > 0) recorder.piece(piece(from, distance, 0, power));
+        if (const double distance = distance_out(from); distance > 0)
+          recorder.piece(piece(from, distance, 0, power), unbounded);
         return recorder.escaped(power);
       }
       const auto next = scattered(materials_.of(hit->triangle), hit->normal, from.direction,
                                   uniform4(seed_, Stream::photons, photon, bounce));
       const bool passes = next && glm::dot(*next, hit->normal) * glm::dot(from.direction, hit->normal) > 0;
       const glm::dvec3 end = from.origin + hit->distance * from.direction;
-      recorder.piece(piece(from, hit->distance, passes ? gap_ : overshoot(end, from.direction, hit->triangle), power));
+      const double beyond = passes ? gap_ : overshoot(end, from.direction, hit->triangle);
+      recorder.piece(piece(from, hit->distance, beyond, power), landing(hit->distance));
       recorder.met(hit->triangle, power, !next);
       if (!next) return;
       from = {end, *next, hit->triangle};
@@ -60,6 +63,8 @@ class PhotonWalk {
 
  private:
   [[nodiscard]] Ray piece(const PhotonStart& from, double distance, double beyond, double power) const;
+  [[nodiscard]] double start(double distance) const { return std::min(gap_, 0.5 * distance); }
+  [[nodiscard]] double landing(double distance) const { return caster_->scale() * (distance - start(distance)); }
   [[nodiscard]] double distance_out(const PhotonStart& from) const;
   [[nodiscard]] double overshoot(const glm::dvec3& end, const glm::dvec3& direction, std::uint32_t triangle) const;
 

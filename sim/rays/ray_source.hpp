@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <stop_token>
+#include <vector>
 
 #include "detp/sim/geometry/geometry.hpp"
 #include "line_field.hpp"
@@ -21,6 +23,22 @@ class RaySource {
   /// Fills the block with the rays first, first + 1, …. Callers must not read beyond the last ray. May use oneTBB's
   /// threads. Throws Stopped if a stop was requested; the block's contents are then unspecified.
   virtual void read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop = {}) const = 0;
+
+  /// True if rays are pieces of photon paths, and have the numbers of their photons. If not, each ray is a photon.
+  [[nodiscard]] virtual bool numbered() const { return false; }
+  /// Number of photons emitted: those of all rays, and those that gave none.
+  [[nodiscard]] virtual std::uint64_t photons() const { return size(); }
+  /// The largest end of a block that begins at ray `first`, has at most `most` rays, and does not split a photon; if the
+  /// first photon alone has more rays, the end of that photon.
+  [[nodiscard]] virtual std::uint64_t block_end(std::uint64_t first, std::uint64_t most) const {
+    return std::min(size(), first + most);
+  }
+  /// Reads rays with their photons' numbers, which `photons` gets if the source has them. Throws as `read`.
+  virtual void read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
+                             const std::stop_token& stop = {}) const {
+    photons.clear();
+    read(first, block, stop);
+  }
 
   /// An upper bound on the distance of any ray's origin from the point.
   [[nodiscard]] virtual double farthest_from(const glm::dvec3& point) const = 0;

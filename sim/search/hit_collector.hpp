@@ -4,8 +4,9 @@
 
 #include "detp/sim/geometry/dominant_axis.hpp"
 #include "detp/sim/geometry/predicates.hpp"
-#include "outcome.hpp"
+#include "irradiance.hpp"
 #include "problem.hpp"
+#include "run_memory.hpp"
 #include "sort_pairs.hpp"
 
 namespace detp::sim {
@@ -30,22 +31,36 @@ class Tally {
 
 /// Decides by the canonical predicate, and collects the hits.
 ///
-/// For each disc and each dominant axis, a technique must add the hits in rising order of the rays' numbers. Then all
-/// techniques add powers in the same order, and irradiance is the same to the last bit.
+/// For each disc, a technique must add the hits in rising order of the rays' numbers. Then all techniques add powers in the
+/// same order, and irradiance is the same to the last bit.
 class HitCollector {
  public:
   /// Keeps references to all three. Adds to options.totals, unless it is null. Stores pairs in the outcome.
   HitCollector(const Problem& problem, const RunOptions& options, Outcome& outcome)
-      : problem_(problem), options_(options), outcome_(outcome), own_(options.memory) {
+      : problem_(problem),
+        options_(options),
+        outcome_(outcome),
+        first_photon_(sim::first_photon(options)),
+        last_block_(last_block(problem, options)),
+        own_(0, options.memory),
+        blocks_(options.memory) {
+    if (options.standard_error) own_.keep_errors();
     if (totals().empty()) totals().resize(problem.discs().size());
+    if (last_block_ == totals().block()) return;
+    totals().make_levels(problem.discs().size(), last_block_);
+    blocks_.assign(problem.discs().size(), totals().block());
   }
 
   [[nodiscard]] bool is_hit(const Ray& ray, const Disc& disc) const { return counts_as_hit(problem_, ray, disc); }
 
   void add_hit(std::uint32_t ray, std::uint32_t disc) {
     const Ray& kept = problem_.rays()[ray];
-    DiscTotals& sums = totals()[disc];
+    Totals& all = totals();
+    if (!blocks_.empty()) fold(disc, block_of_photon(problem_.photon(ray, first_photon_)));
+    DiscTotals& sums = all[disc];
     ++sums.hits;
+    if (all.keeps_errors())
+      all.photon_sums(disc).add(problem_.photon(ray, first_photon_), dominant_axis(kept.direction), kept.power);
     sums.power[dominant_axis(kept.direction)] += kept.power;
     ++kept_;
     if (options_.pairs) add_pair(outcome_.pairs, {ray, disc});
@@ -62,8 +77,11 @@ class HitCollector {
     if (outcome_.stopped) outcome_.pairs.clear();
     outcome_.total_hits = kept_;
     outcome_.counts.hits = kept_;
+    end_totals();
     if (outcome_.batches.count == 0 && rays > 0) outcome_.batches.add(rays, kept_);
     if (options_.totals == nullptr) finish(own_, problem_.discs(), outcome_);
+    if (outcome_.stopped) outcome_.standard_error.clear();
+    if (outcome_.stopped) outcome_.upper_bound.clear();
   }
 
   /// Saves the caller's totals. To be called first by a search that may call store_partial_results.
@@ -82,6 +100,7 @@ class HitCollector {
       outcome_.progress = {0, problem_.rays().size()};
       return;
     }
+    end_totals();
     finish(own_, problem_.discs(), outcome_);
     outcome_.done_discs.assign(problem_.discs().size(), false);
     for (const std::uint32_t disc : done) outcome_.done_discs[disc] = true;
@@ -91,11 +110,30 @@ class HitCollector {
  private:
   [[nodiscard]] Totals& totals() { return options_.totals == nullptr ? own_ : *options_.totals; }
 
+  /// Moves a disc's sums on to a later block of photons.
+  void fold(std::uint32_t disc, std::uint64_t block) {
+    Totals& all = totals();
+    all.fold(disc, blocks_[disc], block, all[disc], all.keeps_errors() ? &all.photon_sums(disc) : nullptr);
+    blocks_[disc] = block;
+  }
+
+  /// Moves all discs on to the last block, and ends their photons.
+  void end_totals() {
+    Totals& all = totals();
+    for (std::uint32_t disc = 0; disc < blocks_.size(); ++disc) fold(disc, last_block_);
+    all.begin_block(last_block_);
+    for (std::size_t disc = 0; all.keeps_errors() && disc < all.size(); ++disc) all.photon_sums(disc).close();
+    all.add_rays(problem_);
+  }
+
   const Problem& problem_;
   const RunOptions& options_;
   Outcome& outcome_;
+  std::uint64_t first_photon_;
+  std::uint64_t last_block_;
   std::optional<Totals> before_;  ///< the caller's totals before the search
   Totals own_;
+  std::pmr::vector<std::uint64_t> blocks_;  ///< block under way of each disc; empty if all photons are in one
   std::uint64_t kept_ = 0;
 };
 

@@ -7,38 +7,19 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "power_squares.hpp"
-#include "run_memory.hpp"
+#include "irradiance.hpp"
 
 namespace detp::sim {
 
 void check_options(const RunOptions& options, const Problem& problem) {
   require_count("number of threads", options.threads, 0, most_threads);
   if (options.standard_error && options.totals != nullptr)
-    throw std::invalid_argument("a standard error is not known of some of the rays; ask for it without totals");
+    throw std::invalid_argument("with totals of the caller, standard errors are asked for by Totals::keep_errors");
   if (options.totals != nullptr && !options.totals->empty() && options.totals->size() != problem.discs().size())
     throw std::invalid_argument(
         fmt::format("totals of {} discs cannot be continued with {} discs; they must be of the same discs",
                     options.totals->size(), problem.discs().size()));
 }
-
-namespace {
-
-void search_with_error(const Index& index, const Problem& problem, RunOptions options, Outcome& outcome) {
-  const double bytes = error_bytes * static_cast<double>(problem.discs().size());
-  require_memory_for("the standard errors", bytes, problem);
-  PowerSquares squares;
-  const bool pairs = options.pairs;
-  options.pairs = squares.needs_pairs(problem, {}) || pairs;
-  index.search(problem, options, outcome);
-  if (outcome.stopped) return;
-  squares.add(problem, outcome.pairs);
-  squares.finish(problem.discs(), problem.rays().size(), outcome);
-  outcome.bytes += bytes;
-  if (!pairs) outcome.pairs.clear();
-}
-
-}  // namespace
 
 Outcome unsearched_outcome(const Problem& problem, const RunOptions& options) {
   Outcome outcome;
@@ -60,8 +41,7 @@ void search(const Index& index, const Problem& problem, const RunOptions& option
   Stopwatch watch;
   try {
     StopCheck(options.stop, "beginning").now();
-    options.standard_error ? search_with_error(index, problem, options, outcome)
-                           : index.search(problem, options, outcome);
+    index.search(problem, options, outcome);
     if (options.count) {
       outcome.counts.loaded = problem.rays().size();
       if (problem.segments()) outcome.counts.segments = outcome.counts.loaded;

@@ -13,21 +13,15 @@ void clear(Outcome& outcome) {
   keep(&Outcome::hits);
   keep(&Outcome::irradiance);
   keep(&Outcome::standard_error);
+  keep(&Outcome::upper_bound);
   keep(&Outcome::spheres);
   keep(&Outcome::pairs);
   outcome = std::move(empty);
 }
 
-void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome) {
-  outcome.hits.resize(discs.size());
-  outcome.irradiance.resize(discs.size());
-  for (std::size_t disc = 0; disc < discs.size(); ++disc) {
-    outcome.hits[disc] = totals[disc].hits;
-    outcome.irradiance[disc] = irradiance(totals[disc], discs[disc]);
-  }
-}
-
 void keep_done_discs(Outcome& outcome) {
+  outcome.standard_error.clear();
+  outcome.upper_bound.clear();
   outcome.progress = {0, outcome.done_discs.size(), "discs"};
   outcome.total_hits = 0;
   for (std::size_t disc = 0; disc < outcome.done_discs.size(); ++disc) {

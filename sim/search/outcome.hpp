@@ -10,6 +10,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/progress.hpp"
+#include "detp/sim/geometry/geometry.hpp"
 #include "hit_batches.hpp"
 #include "totals.hpp"
 
@@ -36,15 +37,16 @@ struct Phases {
 struct RunOptions {
   bool count = true;            ///< fill in Outcome::counts; turned off for timing, so that counting costs nothing
   bool pairs = false;           ///< fill in Outcome::pairs
-  bool standard_error = false;  ///< fill in Outcome::standard_error
+  bool standard_error = false;  ///< fill in Outcome::standard_error and Outcome::upper_bound
   Engine engine = Engine::simd;
   std::stop_token stop = {};  ///< checked in every phase, after fewer than 2 StopCheck::most_work units of work
   /// 0: all threads of the caller's oneTBB arena, outside of one all cores; at most 4096. Results and counts do not
   /// depend on the number. Techniques that trace rays one by one use all threads, plain techniques that cull lists of
   /// rays use one.
   int threads = 1;
-  /// Unless null: sums over earlier rays (empty: none), to which the run adds. The caller gets hits and irradiance by
-  /// `finish`. Runs over successive blocks of rays give the same bits as one run over all rays.
+  /// Unless null: sums over earlier rays (empty: none), to which the run adds; standard errors if the totals keep them. The
+  /// caller gets the results by `finish` (irradiance.hpp). Runs over successive rays, none of which begins within a photon's
+  /// path, give the same bits as one run over all rays.
   Totals* totals = nullptr;
   /// Memory for a search's arrays, except those that it returns. A Scratch keeps the memory for the next search.
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
@@ -81,13 +83,13 @@ struct SphereCounts {
 /// The results of a technique, per disc in the order of the problem's discs.
 struct Outcome {
   std::vector<std::uint64_t> hits;  ///< rays that cross the disc
-  /// Power of the rays that cross the disc, divided by the disc's area π d²: ((x + y) + z) / π d². Here x is the sum of
-  /// powers, in ray order, over the rays whose dominant_axis is x; y and z likewise. All exact techniques give the same
-  /// bits.
+  /// Power of the rays that cross the disc, divided by the disc's area π d². Powers are added in the order of Totals, so
+  /// all exact techniques give the same bits.
   std::vector<double> irradiance;
-  /// Standard error of the irradiance, for independent rays (PowerSquares::finish). Empty if not requested, or if the
-  /// run was stopped.
+  /// Standard error of the irradiance, for independent photons (irradiance.hpp); infinite if fewer than 10 photons hit the
+  /// disc. Empty if not requested, or if the run was stopped.
   std::vector<double> standard_error;
+  std::vector<double> upper_bound;  ///< one-sided bound of the irradiance, 95 %; empty like standard_error
   std::uint64_t total_hits = 0;
   Counts<std::uint64_t> counts;       ///< all zero unless requested (`hits` always holds total_hits)
   Vectors vectors;                    ///< of the simd engine
@@ -108,9 +110,6 @@ struct Outcome {
 
 /// Empties an outcome, and keeps the memory of its arrays.
 void clear(Outcome& outcome);
-
-/// Fills in the outcome's hits and irradiance from the totals, one for each disc.
-void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
 
 /// For a stopped outcome whose finished discs are marked in done_discs. Sets hits and irradiance of the other discs to
 /// 0, sets progress to the number of marked discs, and recomputes total_hits.

@@ -11,6 +11,7 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "soundness.hpp"
+#include "totals.hpp"
 
 namespace detp::sim {
 namespace {
@@ -91,17 +92,31 @@ Problem::Problem(std::span<const Disc> discs, bool front_facing, const std::stop
   most_power_ = most_power_for(radii_.smallest);
 }
 
-double Problem::store_rays(std::span<const Ray> rays, int threads, std::uint64_t first, const std::stop_token& stop) {
+double Problem::store_rays(const PathRays& paths, int threads, std::uint64_t first, const std::stop_token& stop) {
+  const std::span<const Ray> rays = paths.rays;
   require_number("ray", rays.size());
   require_count("number of threads", threads, 0, most_threads);
   CheckedRays checked;
   on_threads(thread_count(threads),
              [&] { checked = check_rays(rays, enclosing_.centre, most_power_, first, StopCheck(stop, checking)); });
+  StopCheck check(stop, checking);
+  check_paths(paths, first, check);
+  paths_ = paths;
   one_power_ = checked.one_power;
+  largest_power_ = checked.largest_power;
   segments_ = checked.segments;
   own_rays_ = std::move(checked.unit);
   rays_ = own_rays_ ? std::span<const Ray>(*own_rays_) : rays;
   return checked.farthest;
+}
+
+std::size_t Problem::end_of_block(std::size_t first, std::size_t end, std::uint64_t first_photon) const {
+  const std::uint64_t next = (block_of_photon(photon(first, first_photon)) + 1) << log2_photons_in_block;
+  if (!numbered()) return static_cast<std::size_t>(std::min<std::uint64_t>(end, next - first_photon));
+  const auto begin = paths_.photons.begin();
+  return static_cast<std::size_t>(
+      std::lower_bound(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(end), next) -
+      begin);
 }
 
 void Problem::set_farthest(double farthest) {
@@ -111,7 +126,7 @@ void Problem::set_farthest(double farthest) {
   slack_ = cull_slack(enclosing_, farthest, radii_.largest);
 }
 
-Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing, int threads,
+Problem make_problem(const PathRays& rays, std::span<const Disc> discs, bool front_facing, int threads,
                      const std::stop_token& stop) {
   Problem problem(discs, front_facing, stop);
   problem.set_farthest(problem.store_rays(rays, threads, 0, stop));
@@ -126,7 +141,7 @@ Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, 
   return problem;
 }
 
-void set_rays(Problem& problem, std::span<const Ray> rays, int threads, std::uint64_t first) {
+void set_rays(Problem& problem, const PathRays& rays, int threads, std::uint64_t first) {
   Problem changed = problem;
   const double farthest = changed.store_rays(rays, threads, first, {});
   if (farthest > problem.farthest())

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -7,7 +8,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
-#include "detp/sim/geometry/geometry.hpp"
+#include "detp/sim/geometry/paths.hpp"
 
 namespace detp::sim {
 
@@ -23,6 +24,24 @@ struct DiscRadii {
 class Problem {
  public:
   [[nodiscard]] std::span<const Ray> rays() const { return rays_; }
+  /// Rays have the numbers of their photons. If not, each ray is a photon of its own.
+  [[nodiscard]] bool numbered() const { return !paths_.photons.empty(); }
+  [[nodiscard]] std::span<const std::uint64_t> photons() const { return paths_.photons; }
+  /// Number of a ray's photon. Without numbers, the photon of ray 0 has the number `first`.
+  [[nodiscard]] std::uint64_t photon(std::size_t ray, std::uint64_t first = 0) const {
+    return numbered() ? paths_.photons[ray] : first + ray;
+  }
+  /// One more than the largest photon number, also of photons without rays.
+  [[nodiscard]] std::uint64_t photons_to() const {
+    return numbered() ? std::max(paths_.photon_count, paths_.photons.back() + 1) : rays_.size();
+  }
+  /// The end of the rays from ray `first` on, at most `end`, whose photons are in the same block (totals.hpp). Does not split a
+  /// photon; if the first photon alone has more rays, it is the end of that photon.
+  [[nodiscard]] std::size_t end_of_block(std::size_t first, std::size_t end, std::uint64_t first_photon) const;
+  /// Place where the ray's photon met a surface, as a distance from its origin; not finite if it met none.
+  [[nodiscard]] double landing(std::size_t ray) const {
+    return paths_.landings.empty() ? rays_[ray].length : paths_.landings[ray];
+  }
   [[nodiscard]] std::span<const Disc> discs() const { return discs_; }
   /// S₀: contains every disc completely; rays may start or pass outside it.
   [[nodiscard]] const Sphere& enclosing() const { return enclosing_; }
@@ -37,24 +56,27 @@ class Problem {
   [[nodiscard]] double farthest() const { return farthest_; }
   /// Upper bound on a ray's power, so that no sum and no irradiance overflows.
   [[nodiscard]] double most_power() const { return most_power_; }
+  /// Largest power of a ray.
+  [[nodiscard]] double largest_power() const { return largest_power_; }
   /// All rays carry the same power.
   [[nodiscard]] bool one_power() const { return one_power_; }
   /// At least one ray is a segment.
   [[nodiscard]] bool segments() const { return segments_; }
 
  private:
-  friend Problem make_problem(std::span<const Ray>, std::span<const Disc>, bool, int, const std::stop_token&);
+  friend Problem make_problem(const PathRays&, std::span<const Disc>, bool, int, const std::stop_token&);
   friend Problem make_problem_without_rays(std::span<const Disc>, double, bool, const std::stop_token&);
-  friend void set_rays(Problem&, std::span<const Ray>, int, std::uint64_t);
+  friend void set_rays(Problem&, const PathRays&, int, std::uint64_t);
 
   /// Checks and stores the discs. Leaves the rays empty.
   Problem(std::span<const Disc> discs, bool front_facing, const std::stop_token& stop);
   /// Checks and stores the rays. Returns the distance of the farthest origin from the centre of S₀.
-  double store_rays(std::span<const Ray> rays, int threads, std::uint64_t first, const std::stop_token& stop);
+  double store_rays(const PathRays& rays, int threads, std::uint64_t first, const std::stop_token& stop);
   /// Sets the distance of the farthest origin, and computes the slack from it.
   void set_farthest(double farthest);
 
   std::span<const Ray> rays_;
+  PathRays paths_;  ///< the rays as they were given
   std::span<const Disc> discs_;
   Sphere enclosing_{};
   Box centres_;
@@ -63,6 +85,7 @@ class Problem {
   double slack_ = 0;
   double farthest_ = 0;
   double most_power_ = 0;
+  double largest_power_ = 0;
   bool one_power_ = false;
   bool segments_ = false;
   /// The data to which rays_ or discs_ refer if directions or normals had to be normalised; otherwise null.
@@ -86,7 +109,8 @@ class Problem {
 /// 1e100 from the discs, or if a ray or disc is malformed; the message has its number, as in "ray 17: direction must be
 /// non-zero (got 0 0 0)". Malformed are: a number that is not finite (except a length of +infinity: the whole line), a
 /// coordinate or radius above 1e100, a radius below 1e-100, a direction or normal of length 0, a length <= 0, a power
-/// < 0 or above most_power (9.6e288 for radii of at least 1; larger powers could overflow). Throws std::length_error
+/// < 0 or above most_power (9.6e288 for radii of at least 1; larger powers could overflow), a photon number below the
+/// one before it, a landing < 0, and arrays of other lengths than that of the rays. Throws std::length_error
 /// for more than 2³² - 2 rays or discs, and Stopped on a stop request.
 ///
 /// The slack is 16e-12 E + ∛(2d κ²) + 1e-15 M. In spite of rounding, a ray that counts as a hit comes nearer to the
@@ -95,7 +119,7 @@ class Problem {
 /// of a predicate, M the largest coordinate of the centre of S₀. The first term covers directions and normals that have
 /// unit length only to within 1e-12. The second term covers rays that graze a disc near its rim, where rounding moves
 /// the crossing farthest. The third term covers cells far from the origin.
-[[nodiscard]] Problem make_problem(std::span<const Ray> rays, std::span<const Disc> discs, bool front_facing = false,
+[[nodiscard]] Problem make_problem(const PathRays& rays, std::span<const Disc> discs, bool front_facing = false,
                                    int threads = 1, const std::stop_token& stop = {});
 
 /// Makes a problem whose rays come later, in blocks (set_rays). Their origins may be at most `farthest` from the centre
@@ -106,6 +130,6 @@ class Problem {
 /// Replaces a problem's rays; copies them only to normalise them. Throws as make_problem does, and
 /// std::invalid_argument if a ray starts farther than Problem::farthest from the centre of S₀. The first ray is number
 /// `first` in messages. If this throws, the problem is unchanged.
-void set_rays(Problem& problem, std::span<const Ray> rays, int threads = 1, std::uint64_t first = 0);
+void set_rays(Problem& problem, const PathRays& rays, int threads = 1, std::uint64_t first = 0);
 
 }  // namespace detp::sim

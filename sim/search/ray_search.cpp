@@ -21,27 +21,33 @@ struct Chunk {
   FoundPairs* hits = nullptr;
 };
 
-/// Cuts the rays into chunks. Chunks in flight use the buffers for their hits in turn.
+/// Cuts the rays into chunks of whole photons. Chunks in flight use the buffers for their hits in turn.
 class Chunks {
  public:
-  Chunks(std::size_t rays, std::size_t under_way, const RunOptions& options)
-      : rays_(rays), buffers_(under_way, options.memory), stop_(options.stop), progress_(options.progress) {}
+  Chunks(const Problem& problem, std::size_t under_way, const RunOptions& options)
+      : problem_(problem),
+        rays_(problem.rays().size()),
+        buffers_(under_way, options.memory),
+        stop_(options.stop),
+        progress_(options.progress) {}
 
   /// Returns false after the last chunk, or after a stop request.
   bool next(Chunk& chunk) {
     if (begun_ >= rays_ || stop_.stop_requested()) return false;
     if (progress_) progress_(static_cast<double>(begun_) / static_cast<double>(rays_));
-    const std::size_t end = std::min(begun_ + rays_in_chunk, rays_);
-    chunk = {static_cast<std::uint32_t>(begun_), static_cast<std::uint32_t>(end),
-             &buffers_[begun_ / rays_in_chunk % buffers_.size()]};
+    std::size_t end = std::min(begun_ + rays_in_chunk, rays_);
+    while (problem_.numbered() && end < rays_ && problem_.photon(end) == problem_.photon(end - 1)) ++end;
+    chunk = {static_cast<std::uint32_t>(begun_), static_cast<std::uint32_t>(end), &buffers_[made_++ % buffers_.size()]};
     chunk.hits->clear();
     begun_ = end;
     return true;
   }
 
  private:
+  const Problem& problem_;
   std::size_t rays_;
   std::size_t begun_ = 0;
+  std::size_t made_ = 0;
   std::pmr::vector<FoundPairs> buffers_;
   const std::stop_token& stop_;
   const std::function<void(double)>& progress_;
@@ -106,7 +112,7 @@ void search_rays(const Problem& problem, const RunOptions& options, MakeRaySearc
   const int threads = thread_count(options.threads);
   const std::size_t under_way = threads == 1 ? 1 : chunks_a_thread * static_cast<std::size_t>(threads);
   HitCollector collector(problem, options, outcome);
-  Chunks chunks(problem.rays().size(), under_way, options);
+  Chunks chunks(problem, under_way, options);
   HitSum sum(collector);
   if (threads == 1)
     outcome.counts = search_alone(chunks, make, sum);

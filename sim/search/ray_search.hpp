@@ -25,7 +25,7 @@ using MakeRaySearch = FunctionRef<OwnedIn<RaySearch>()>;
 /// Searches all rays of the problem and fills in the outcome. Checks for a stop request between chunks of rays. A
 /// stopped run keeps the hits of all chunks before the first unfinished one.
 ///
-/// options.threads threads search chunks of 64 rays in parallel, each with its own search object. Meanwhile the hits of
+/// options.threads threads search chunks of 64 rays or a little more, whole photons, in parallel, each with its own search object. Meanwhile the hits of
 /// finished chunks are added to the totals, chunk by chunk, so powers are always summed in ray order. At most four
 /// chunks per thread are in flight, which limits the hits in memory.
 ///

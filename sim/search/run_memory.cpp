@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <bit>
 
 #include "detp/sim/base/memory.hpp"
+#include "irradiance.hpp"
 
 namespace detp::sim {
 namespace {
@@ -37,9 +39,25 @@ void add_checked_bytes(std::string_view what, double bytes, const Problem& probl
   outcome.bytes = std::max(outcome.bytes, checked_bytes(what, bytes, problem));
 }
 
+double sums_bytes(const Problem& problem, const RunOptions& options) {
+  const bool own = options.totals == nullptr;
+  const auto discs = static_cast<double>(problem.discs().size());
+  const bool errors = own ? options.standard_error : options.totals->keeps_errors();
+  const std::uint64_t last = last_block(problem, options);
+  const double levels = static_cast<double>(std::bit_width(last)) * sizeof(double) * (errors ? 2.0 : 1.0) * discs;
+  return levels + (errors ? (own ? error_bytes : sizeof(PhotonSums)) * discs : 0);
+}
+
 double found_bytes(const Problem& problem, const RunOptions& options) {
   constexpr double a_disc = sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double);
-  return options.totals != nullptr ? 0 : a_disc * static_cast<double>(problem.discs().size());
+  const double found = options.totals != nullptr ? 0 : a_disc * static_cast<double>(problem.discs().size());
+  return found + sums_bytes(problem, options);
+}
+
+std::uint64_t first_photon(const RunOptions& options) { return options.totals == nullptr ? 0 : options.totals->rays(); }
+
+std::uint64_t last_block(const Problem& problem, const RunOptions& options) {
+  return block_of_photon(problem.photon(problem.rays().size() - 1, first_photon(options)));
 }
 
 }  // namespace detp::sim

@@ -20,7 +20,16 @@ double checked_bytes(std::string_view what, double bytes, const Problem& problem
 /// Checks the memory as checked_bytes does. Outcome::bytes becomes the checked sum, unless it is larger already.
 void add_checked_bytes(std::string_view what, double bytes, const Problem& problem, Outcome& outcome);
 
-/// Bytes of a run's own totals, hits and irradiance; 0 if the totals are the caller's.
+/// Bytes of the sums over earlier blocks of photons, and, if the totals are the run's own, of those for standard errors.
+[[nodiscard]] double sums_bytes(const Problem& problem, const RunOptions& options);
+
+/// Bytes of a run's own totals, hits and irradiance (none if the totals are the caller's), and sums_bytes.
 [[nodiscard]] double found_bytes(const Problem& problem, const RunOptions& options);
+
+/// The number of ray 0's photon, if rays have no photon numbers.
+[[nodiscard]] std::uint64_t first_photon(const RunOptions& options);
+
+/// The block of photons of the problem's last ray.
+[[nodiscard]] std::uint64_t last_block(const Problem& problem, const RunOptions& options);
 
 }  // namespace detp::sim

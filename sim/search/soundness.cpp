@@ -157,10 +157,36 @@ std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Di
 CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, std::uint64_t first,
                        const StopCheck& check) {
   const RaySummary summary = summarise_rays(rays, centre, most_power, check);
-  CheckedRays checked{std::sqrt(summary.farthest2), summary.least_power == summary.most_power,
-                      summary.least_length < unbounded};
+  CheckedRays checked{.farthest = std::sqrt(summary.farthest2),
+                      .one_power = summary.least_power == summary.most_power,
+                      .largest_power = summary.most_power,
+                      .segments = summary.least_length < unbounded};
   if (!summary.sound) checked.unit = normalised_if_needed(rays, most_power, first, check);
   return checked;
+}
+
+void check_paths(const PathRays& paths, std::uint64_t first, StopCheck& check) {
+  const auto require_size = [&](const char* what, std::size_t size) {
+    if (size != 0 && size != paths.rays.size())
+      throw std::invalid_argument(
+          fmt::format("there are {} {} for {} rays; each ray needs one", size, what, paths.rays.size()));
+  };
+  require_size("photon numbers", paths.photons.size());
+  require_size("landings", paths.landings.size());
+  std::uint64_t before = 0;
+  for_each_checked(0, paths.photons.size(), check, [&](std::size_t i) {
+    if (paths.photons[i] < before)
+      throw std::invalid_argument(fmt::format("ray {}: its photon has the number {}, after {}; numbers must not fall",
+                                              first + i, paths.photons[i], before));
+    before = paths.photons[i];
+  });
+  constexpr std::uint64_t most = std::uint64_t{1} << 62;
+  if (before >= most) throw std::invalid_argument(fmt::format("photon numbers must be below 2^62 (got {})", before));
+  for_each_checked(0, paths.landings.size(), check, [&](std::size_t i) {
+    if (!(paths.landings[i] >= 0))
+      throw std::invalid_argument(
+          fmt::format("ray {}: landing must be >= 0, or inf for none (got {})", first + i, paths.landings[i]));
+  });
 }
 
 }  // namespace detp::sim

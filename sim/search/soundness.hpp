@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/sim/geometry/geometry.hpp"
+#include "detp/sim/geometry/paths.hpp"
 
 /// The checks of make_problem, and its normalisation of directions and normals. All throw Stopped, except normalised().
 namespace detp::sim {
@@ -30,7 +30,8 @@ void require_sound(std::span<const Disc> discs, StopCheck& check);
 struct CheckedRays {
   double farthest = 0;     ///< distance of the farthest origin from the centre
   bool one_power = false;  ///< all rays carry the same power
-  bool segments = false;   ///< at least one ray is a segment
+  double largest_power = 0;
+  bool segments = false;  ///< at least one ray is a segment
   /// copies with unit directions; null if all directions have unit length to within 1e-12
   std::shared_ptr<const std::vector<Ray>> unit = {};
 };
@@ -40,5 +41,9 @@ struct CheckedRays {
 /// coordinate beyond 1e100, a direction of length 0, a length <= 0, and a power that is negative or above most_power.
 [[nodiscard]] CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power,
                                      std::uint64_t first, const StopCheck& check);
+
+/// Throws std::invalid_argument, with the ray's number, for a photon number below the one before it, for a landing that is
+/// < 0 or NaN, and for arrays of other lengths than that of the rays.
+void check_paths(const PathRays& paths, std::uint64_t first, StopCheck& check);
 
 }  // namespace detp::sim

@@ -3,28 +3,101 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 #include <memory_resource>
-#include <numbers>
+#include <span>
 #include <vector>
 
-#include "detp/sim/geometry/geometry.hpp"
+#include "photon_sums.hpp"
 
 /// Sums over rays, in the order that all techniques use.
 namespace detp::sim {
 
+class Problem;
+
+/// Photons are summed in blocks of so many: block b has the photons b · 2¹⁸ … (b + 1) · 2¹⁸ - 1.
+inline constexpr int log2_photons_in_block = 18;
+
+[[nodiscard]] constexpr std::uint64_t block_of_photon(std::uint64_t photon) { return photon >> log2_photons_in_block; }
+
 /// The sums over the rays that hit one disc.
 struct DiscTotals {
-  std::uint64_t hits = 0;
-  glm::dvec3 power{0.0};  ///< by the rays' dominant_axis: three sums, each in ray order
+  std::uint64_t hits = 0;  ///< of all rays
+  glm::dvec3 power{0.0};   ///< of the block under way, by the rays' dominant_axis: three sums, each in ray order
 };
 
-/// The totals of each disc, in the order of the discs. (32 bytes per disc: in an
-/// aligned array, as in a Scratch, a hit touches one cache line.)
-using Totals = std::pmr::vector<DiscTotals>;
+/// The sums over rays for each disc, in the order of the discs.
+///
+/// Floating-point sums depend on their order, so the order is fixed: it depends on the photons' numbers alone, and not on
+/// techniques, threads, or how rays are cut into searches. Within a block of 2¹⁸ photons, powers are added in ray order,
+/// in three sums by dominant axis; the block's power is (x + y) + z. Squares of photons' powers likewise (PhotonSums).
+/// Blocks are added pairwise, as the leaves of a binary tree: T(0, b) is block b, T(l + 1, i) = T(l, 2i) + T(l, 2i + 1), and
+/// a block without photons counts as 0. So any aligned range of blocks can be summed apart, for instance by another process.
+///
+/// A complete block goes into `levels`, which work like the digits of a binary counter: level l holds the latest T(l, ·)
+/// that is not part of a larger subtree yet. There are none as long as all photons are in the first block.
+class Totals {
+ public:
+  using Memory = std::pmr::memory_resource;
 
-/// Power divided by the disc's area.
-[[nodiscard]] inline double irradiance(const DiscTotals& totals, const Disc& disc) {
-  const glm::dvec3& power = totals.power;
-  return ((power.x + power.y) + power.z) / (std::numbers::pi * disc.radius * disc.radius);
-}
+  explicit Totals(std::size_t discs = 0, Memory* memory = std::pmr::new_delete_resource());
+  Totals(const Totals& other, Memory* memory);
+
+  [[nodiscard]] bool empty() const { return discs_.empty(); }
+  [[nodiscard]] std::size_t size() const { return discs_.size(); }
+  void resize(std::size_t discs);
+
+  DiscTotals& operator[](std::size_t disc) { return discs_[disc]; }
+  const DiscTotals& operator[](std::size_t disc) const { return discs_[disc]; }
+
+  /// Also sums what standard errors need. To be called before the first ray.
+  void keep_errors();
+  [[nodiscard]] bool keeps_errors() const { return keeps_errors_; }
+  PhotonSums& photon_sums(std::size_t disc) { return photon_sums_[disc]; }
+  const PhotonSums& photon_sums(std::size_t disc) const { return photon_sums_[disc]; }
+
+  /// Number of the block under way.
+  [[nodiscard]] std::uint64_t block() const { return block_; }
+  /// Makes room for the levels that blocks up to this one need, for so many discs. To be called before `fold`.
+  void make_levels(std::size_t discs, std::uint64_t last_block);
+  /// For one disc: block number `from` is complete, and blocks between it and `to` are empty. Moves its sums into the
+  /// levels, and empties them. `photons` may be null.
+  void fold(std::size_t disc, std::uint64_t from, std::uint64_t to, DiscTotals& sums, PhotonSums* photons);
+  /// All discs have been folded up to this block.
+  void begin_block(std::uint64_t block) { block_ = block; }
+
+  /// Power of all rays that hit the disc, `sums` being those of the block under way.
+  [[nodiscard]] double power(std::size_t disc, const DiscTotals& sums) const;
+  /// Sum of the squared powers of the photons that hit the disc; `sums` as above. No photon may be under way.
+  [[nodiscard]] double squares(std::size_t disc, const PhotonSums& sums) const;
+
+  /// To be called after each search: its rays, photons and largest power.
+  void add_rays(const Problem& problem);
+  /// So many photons were emitted, some perhaps after the last that gave a ray.
+  void emitted(std::uint64_t photons) { photons_ = std::max(photons_, photons); }
+  [[nodiscard]] std::uint64_t rays() const { return rays_; }
+  [[nodiscard]] std::uint64_t photons() const { return photons_; }
+  [[nodiscard]] double largest_power() const { return largest_power_; }
+
+ private:
+  /// T(l, ·) of each disc.
+  struct Level {
+    std::pmr::vector<double> power;
+    std::pmr::vector<double> squares;  ///< empty unless errors are kept
+  };
+  using Sums = std::pmr::vector<double> Level::*;
+
+  void add_subtree(Sums sums, std::size_t disc, std::uint64_t number, std::size_t level, double sum);
+  void add_blocks(Sums sums, std::size_t disc, std::uint64_t from, std::uint64_t to, double sum_of_first);
+  [[nodiscard]] double total(Sums sums, std::size_t disc, double block_under_way) const;
+
+  std::pmr::vector<DiscTotals>
+      discs_;  // 32 bytes each: in an aligned array, as in a Scratch, a hit touches one cache line
+  std::pmr::vector<PhotonSums> photon_sums_;
+  std::pmr::vector<Level> levels_;
+  bool keeps_errors_ = false;
+  std::uint64_t block_ = 0;
+  std::uint64_t rays_ = 0;
+  std::uint64_t photons_ = 0;
+  double largest_power_ = 0;
+};
 
 }  // namespace detp::sim

@@ -18,17 +18,19 @@
 namespace detp::sim {
 namespace {
 
-/// The end point of a ray.
+/// Where a photon met a surface, at the end of a ray.
 struct Photon {
   glm::dvec3 place;
   std::uint32_t ray;
 };
 
-std::vector<Photon> photons_of(std::span<const Ray> rays, StopCheck& check) {
+std::vector<Photon> photons_of(const Problem& problem, StopCheck& check) {
   std::vector<Photon> photons;
-  photons.reserve(rays.size());
-  for (std::uint32_t ray = 0; ray < rays.size(); ++ray) {
-    if (!rays[ray].is_line()) photons.push_back({rays[ray].origin + rays[ray].length * rays[ray].direction, ray});
+  photons.reserve(problem.rays().size());
+  for (std::uint32_t number = 0; number < problem.rays().size(); ++number) {
+    const Ray& ray = problem.rays()[number];
+    if (const double landing = problem.landing(number); landing < unbounded)
+      photons.push_back({ray.origin + landing * ray.direction, number});
     check.after(1);
   }
   return photons;
@@ -99,12 +101,12 @@ class PhotonMap {
   PhotonMap(const Problem& problem, int nearest, const std::stop_token& stop)
       : problem_(problem),
         check_(stop, "building the photon map"),
-        cloud_{photons_of(problem.rays(), check_), &check_},
+        cloud_{photons_of(problem, check_), &check_},
         wanted_(static_cast<std::size_t>(nearest)) {
     cloud_.building = nullptr;
     if (cloud_.photons.empty())
       throw std::invalid_argument(
-          "photon-map needs photons, the end points of rays, but all rays are lines: give rays with a finite length");
+          "photon-map needs photons, where rays met a surface, but no ray met one: give rays with a finite length");
     if (cloud_.photons.size() < wanted_)
       throw std::invalid_argument(fmt::format("photon-map needs the {} nearest photons, but the rays have only {}",
                                               wanted_, cloud_.photons.size()));
@@ -174,14 +176,14 @@ class PhotonMap {
 double map_bytes(const Problem& problem) {
   constexpr double in_a_leaf = 5.5;
   constexpr double node = sizeof(PhotonTree::Node);
-  const auto photons = static_cast<double>(
-      std::count_if(problem.rays().begin(), problem.rays().end(), [](const Ray& ray) { return !ray.is_line(); }));
+  double photons = 0;
+  for (std::size_t ray = 0; ray < problem.rays().size(); ++ray) photons += problem.landing(ray) < unbounded ? 1 : 0;
   return photons * (sizeof(Photon) + sizeof(std::uint32_t) + 2 * node / in_a_leaf) +
          static_cast<double>(problem.discs().size()) * (sizeof(std::uint64_t) + sizeof(double));
 }
 
-/// Another estimator, for comparison: the irradiance at a disc's centre from the k nearest photons. A photon is the end
-/// of a ray of finite length; lines have none.
+/// Another estimator, for comparison: the irradiance at a disc's centre from the k nearest photons. A photon is where a ray
+/// met a surface (Problem::landing): without landings, the end of a ray of finite length; lines have none.
 ///
 ///     E = (power of the k - 1 nearest) / (π r_k²)        r_k: distance of the k-th nearest
 ///

@@ -29,7 +29,7 @@ Searcher::Searcher(std::vector<Disc> copies, std::span<const Disc> borrowed, con
   index_ = prepare(problem_, candidate, options);
 }
 
-const Outcome& Searcher::search(std::span<const Ray> rays, SearchScratch& scratch, RunOptions options) const {
+const Outcome& Searcher::search(const PathRays& rays, SearchScratch& scratch, RunOptions options) const {
   Problem problem = problem_;
   set_rays(problem, rays, options.threads);
   scratch.memory.begin();

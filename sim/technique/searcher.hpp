@@ -48,7 +48,7 @@ class Searcher {
   /// Finds the hits of the rays, as run does. Returns scratch.outcome, which is valid until the scratch's next search.
   /// Counts and seconds are those of the search alone. Throws as run does, and std::invalid_argument if a ray starts
   /// too far away.
-  const Outcome& search(std::span<const Ray> rays, SearchScratch& scratch, RunOptions options = {}) const;
+  const Outcome& search(const PathRays& rays, SearchScratch& scratch, RunOptions options = {}) const;
   const Outcome& search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options = {}) const;
 
   /// Counts, time and memory of building the index.

@@ -12,7 +12,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/index.hpp"
-#include "detp/sim/search/power_squares.hpp"
+#include "detp/sim/search/irradiance.hpp"
 #include "registry.hpp"
 
 namespace detp::sim {
@@ -35,8 +35,8 @@ class StreamedSearch {
     } catch (const Stopped&) {
       streamed_.outcome.stopped = true;
     }
+    if (run_.standard_error) totals_.keep_errors();
     totals_.resize(discs.size());
-    block_.resize(streamed_.block);
     run_.totals = &totals_;
     run_.memory = &scratch_;
     run_.standard_error = false;  // of a block
@@ -55,8 +55,10 @@ class StreamedSearch {
       outcome.stopped = true;
     }
     if (outcome.stopped) outcome.pairs.clear();
+    totals_.emitted(source_.photons());
     finish(totals_, problem_.discs(), outcome);
-    if (options_.run.standard_error && !outcome.stopped) squares_.finish(problem_.discs(), source_.size(), outcome);
+    if (outcome.stopped) outcome.standard_error.clear();
+    if (outcome.stopped) outcome.upper_bound.clear();
     return std::move(streamed_);
   }
 
@@ -83,24 +85,22 @@ class StreamedSearch {
     const double for_a_disc = sizeof(Disc) + sizeof(DiscTotals) + sizeof(std::uint64_t) + sizeof(double) +
                               (options_.run.standard_error ? error_bytes : 0);
     own_bytes_ =
-        static_cast<double>(problem_.discs().size()) * for_a_disc + static_cast<double>(streamed_.block) * sizeof(Ray);
+        static_cast<double>(problem_.discs().size()) * for_a_disc +
+        static_cast<double>(streamed_.block) * (sizeof(Ray) + (source_.numbered() ? sizeof(std::uint64_t) : 0));
     streamed_.bytes = std::max(streamed_.bytes, own_bytes_);
     require_memory(fmt::format("{} discs and blocks of {} rays", problem_.discs().size(), streamed_.block), own_bytes_);
   }
 
   void search(std::uint64_t first) {
     Stopwatch watch;
-    const std::size_t count = static_cast<std::size_t>(std::min<std::uint64_t>(block_.size(), source_.size() - first));
-    const std::span<Ray> rays = std::span(block_).first(count);
-    on_threads(thread_count(run_.threads), [&] { source_.read(first, rays, run_.stop); });
+    const std::size_t count = static_cast<std::size_t>(source_.block_end(first, streamed_.block) - first);
+    block_.resize(count);
+    on_threads(thread_count(run_.threads), [&] { source_.read_numbered(first, block_, photons_, run_.stop); });
     streamed_.read_seconds += watch.lap();
-    set_rays(problem_, rays, options_.run.threads, first);
+    set_rays(problem_, {block_, photons_, {}}, options_.run.threads, first);
     streamed_.check_seconds += watch.lap();
-    if (options_.run.standard_error) run_.pairs = squares_.needs_pairs(problem_, totals_) || options_.run.pairs;
     scratch_.begin();
     sim::search(*index_, problem_, run_, part_);
-    if (options_.run.standard_error) squares_.add(problem_, part_.pairs);
-    if (!options_.run.pairs) part_.pairs.clear();
     const std::size_t pairs = streamed_.outcome.pairs.size() + part_.pairs.size();
     const double bytes = own_bytes_ + part_.bytes + grown_bytes(pairs, sizeof(Pair));
     if (pairs > 0) require_memory("the pairs", bytes);
@@ -140,8 +140,8 @@ class StreamedSearch {
   Problem problem_;
   std::unique_ptr<Index> index_;
   Totals totals_;
-  PowerSquares squares_;
   std::vector<Ray> block_;
+  std::vector<std::uint64_t> photons_;  ///< their numbers; empty if rays have none
   Scratch scratch_;
   Outcome part_;  ///< of one block
   double own_bytes_ = 0;

@@ -36,7 +36,7 @@ void read_as_discs(const std::string& path) {
 }
 
 void read_as_rays(const std::string& path) {
-  for (const Ray& ray : read_rays(path)) {
+  for (const Ray& ray : read_rays(path).paths.rays) {
     require(finite(ray.origin) && unit(ray.direction));
     require(ray.length > 0 && ray.power >= 0 && std::isfinite(ray.power));
   }

@@ -96,12 +96,12 @@ const std::vector<Door>& doors() {
        [](double x) {
          Scene scene = lit_scene();
          scene.mesh.materials.all = {{.diffuse = x}};
-         return all_finite(photon_paths(scene, 9, 1));
+         return all_finite(photon_paths(scene, 9, 1).rays);
        }},
       {"photon paths, light", "light", [](double x) {
          Scene scene = lit_scene();
          scene.lights = {{PointLight{{0.2, x, 1}}}};
-         return all_finite(photon_paths(scene, 9, 1));
+         return all_finite(photon_paths(scene, 9, 1).rays);
        }}};
   return list;
 }

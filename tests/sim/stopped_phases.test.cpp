@@ -85,7 +85,7 @@ TEST_SUITE("identity") {
         {"lines", [&](const auto& stop) { use(LineField(sphere, 1).lines(0, room.size(), stop)); }, room.size()});
     check_phase({"lines of a stream",
                  [&](const auto& stop) { LinesOfField(sphere, 1, room.size()).read(0, room, stop); }, room.size()});
-    check_phase({"photon paths", [](const auto& stop) { use(photon_paths(tree(), 30'000, 1, stop)); }, 30'000});
+    check_phase({"photon paths", [](const auto& stop) { use(photon_paths(tree(), 30'000, 1, stop).rays); }, 30'000});
     check_phase(
         {"counting photon paths", [](const auto& stop) { use(PhotonSource(tree(), 30'000, 1, stop).size()); }, 30'000});
     const PhotonSource source(tree(), 30'000, 1);
@@ -193,7 +193,7 @@ TEST_SUITE("known answer") {
       if (done > 100 * block) source.request_stop();
     });
     try {
-      use(photon_paths(tree(), 200'000, 1, source.get_token()));
+      use(photon_paths(tree(), 200'000, 1, source.get_token()).rays);
       FAIL("it went on");
     } catch (const Stopped& stopped) {
       CHECK(stopped.progress().of == 200'000);

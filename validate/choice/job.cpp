@@ -136,7 +136,9 @@ class JobMaker {
       progress_.read_rays(*request_.ray_file, job_.discs.size());
       if (request_.rays)
         throw std::invalid_argument("the number of rays is for fields of rays; a ray file is taken whole");
-      job_.rays = sim::read_rays(*request_.ray_file, stop_);
+      sim::RayFile file = sim::read_rays(*request_.ray_file, stop_);
+      keep(std::move(file.paths));
+      job_.file_order = std::move(file.order);
       job_.field = sim::Field::photons;
       return;
     }
@@ -150,13 +152,22 @@ class JobMaker {
     const double made = request_.workload_only ? std::min(rays, block) : rays;
     progress_.make_rays(job_.field, made, stream, job_.discs.size());
     if (stream) return make_stream(static_cast<std::uint64_t>(rays));
-    const std::size_t count = count_in_memory("rays", made, sizeof(sim::Ray));
+    const bool paths = job_.field == sim::Field::photons;
+    const std::size_t count =
+        count_in_memory("rays", made, sizeof(sim::Ray) + (paths ? sizeof(std::uint64_t) + sizeof(double) : 0));
     if (job_.field != sim::Field::photons) {
       read_rays(*field_of_rays(count));
       return;
     }
     const sim::Scene& scene = scene_for_photons();
-    job_.rays = sim::photon_paths(scene, count, request_.seed, caster_, stop_);
+    keep(sim::photon_paths(scene, count, request_.seed, caster_, stop_));
+  }
+
+  void keep(sim::Paths paths) {
+    job_.rays = std::move(paths.rays);
+    job_.photons = std::move(paths.photons);
+    job_.landings = std::move(paths.landings);
+    job_.photon_count = paths.photon_count;
   }
 
   void refuse_lights(std::string_view rays) const {
@@ -217,7 +228,7 @@ class JobMaker {
       job_.stream->read(0, block, stop_);
     }
     const sim::Problem problem =
-        sim::make_problem(job_.stream ? block : job_.rays, job_.discs, job_.front_facing, 1, stop_);
+        job_.stream ? sim::make_problem(block, job_.discs, job_.front_facing, 1, stop_) : job_.problem(1, stop_);
     job_.warnings = outlier_warnings(problem, stop_);
     job_.observed = sim::observe(problem, job_.surface, request_.effects, stop_);
     Workload workload = job_.observed.workload;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -34,12 +35,13 @@ struct JobRequest {
   std::optional<std::string> scene;      ///< built-in name or mesh file
   std::optional<std::string> disc_file;  ///< instead of a scene's samples
   std::optional<std::string> ray_file;   ///< instead of photon paths or isotropic lines
-  std::optional<double> rays;            ///< default 100 000
-  std::optional<double> samples;         ///< default: one for each vertex of the scene; required without a scene
-  std::optional<Length> disc_radius;     ///< default: half the distance between samples; required without a scene
-  std::optional<double> sphere_radius;   ///< r₀, without a scene; either this or scene_side is required
-  std::optional<double> scene_side;      ///< s, without a scene
-  std::optional<double> dimension;       ///< default: measured; without a scene: 3
+  /// default 100 000; of photon paths at least so many, to the end of the last photon's path
+  std::optional<double> rays;
+  std::optional<double> samples;        ///< default: one for each vertex of the scene; required without a scene
+  std::optional<Length> disc_radius;    ///< default: half the distance between samples; required without a scene
+  std::optional<double> sphere_radius;  ///< r₀, without a scene; either this or scene_side is required
+  std::optional<double> scene_side;     ///< s, without a scene
+  std::optional<double> dimension;      ///< default: measured; without a scene: 3
   std::optional<double> sample_extent;
   std::optional<sim::Field> field;
   sim::FieldShares shares = {1.0 / 3, 1.0 / 3, 1.0 / 3};  ///< of a mixed field
@@ -68,6 +70,10 @@ struct Job {
   std::string name;  ///< "@tree", a file, or "uniform samples in a cube"
   std::vector<sim::Disc> discs;
   std::vector<sim::Ray> rays;                    ///< all rays; empty if they are a stream; see workload_only
+  std::vector<std::uint64_t> photons;            ///< numbers of the rays' photons, as in sim::PathRays
+  std::vector<double> landings;                  ///< where the photons met a surface, as in sim::PathRays
+  std::uint64_t photon_count = 0;                ///< photons emitted; 0: one for each ray
+  std::vector<std::uint32_t> file_order;         ///< as sim::RayFile::order
   std::unique_ptr<const sim::RaySource> stream;  ///< makes ray number i for any i; null if all rays are in memory
   sim::Field field = sim::Field::isotropic;
   std::size_t triangles = 0;
@@ -84,7 +90,14 @@ struct Job {
 
   /// The problem. It refers to this job's rays and discs. Throws std::invalid_argument if the rays are a stream.
   [[nodiscard]] sim::Problem problem(int threads = 1, const std::stop_token& stop = {}) const {
-    return sim::make_problem(rays, discs, front_facing, threads, stop);
+    return sim::make_problem(paths(), discs, front_facing, threads, stop);
+  }
+  [[nodiscard]] sim::PathRays paths() const { return {rays, photons, landings, photon_count}; }
+  /// Rays have the numbers of their photons. If not, each is taken for a photon of its own.
+  [[nodiscard]] bool numbered() const { return stream ? stream->numbered() : !photons.empty(); }
+  /// Photons of all rays, independent of one another.
+  [[nodiscard]] std::uint64_t independent_photons() const {
+    return stream ? stream->photons() : numbered() ? std::max(photon_count, photons.back() + 1) : rays.size();
   }
 };
 

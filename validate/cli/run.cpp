@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "command.hpp"
@@ -67,7 +68,14 @@ Choice complete(const CandidateOptions& options, const Workload& workload, const
           options.technique ? sim::thread_count(threads) : chosen_threads(*candidate, workload, costs, most)};
 }
 
-void write_pairs(const std::string& path, const std::vector<sim::Pair>& pairs, const std::stop_token& stop) {
+/// `order`: numbers of the rays in their file; empty if they have the file's order.
+void write_pairs(const std::string& path, const std::vector<sim::Pair>& found, const std::vector<std::uint32_t>& order,
+                 const std::stop_token& stop) {
+  std::vector<sim::Pair> pairs = found;
+  if (!order.empty()) {
+    for (sim::Pair& pair : pairs) pair.ray = order[pair.ray];
+    std::ranges::sort(pairs);
+  }
   sim::WritingCheck check(path, pairs.size(), "pairs", stop);
   sim::OutputFile file(path);
   file.write("ray,disc\n");
@@ -82,10 +90,13 @@ void write_per_disc(const std::string& path, const sim::Outcome& outcome, const 
   sim::WritingCheck check(path, outcome.hits.size(), "discs", stop);
   sim::OutputFile file(path);
   const bool errors = !outcome.standard_error.empty();
-  file.write(errors ? "disc,hits,irradiance,standard_error\n" : "disc,hits,irradiance\n");
+  file.write(errors ? "disc,hits,irradiance,standard_error,upper_bound\n" : "disc,hits,irradiance\n");
   for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc) {
     check.next();
-    const std::string error = errors ? fmt::format(",{}", outcome.standard_error[disc]) : "";
+    const std::string error = !errors ? ""
+                              : std::isfinite(outcome.standard_error[disc])
+                                  ? fmt::format(",{},", outcome.standard_error[disc])
+                                  : fmt::format(",,{}", outcome.upper_bound[disc]);
     file.write(fmt::format("{},{},{}{}\n", disc, outcome.hits[disc], outcome.irradiance[disc], error));
   }
   file.commit();
@@ -100,15 +111,15 @@ void check_files(const RunOptions& options, const CommonOptions& common, std::si
 }
 
 /// Returns the progress if a stop request ended the run, the writing or the timed runs; else nothing.
-std::optional<sim::Progress> write_hits(const RunOptions& options, const RunAnswer& answer, const CommonOptions& common,
-                                        const std::stop_token& stop) {
+std::optional<sim::Progress> write_hits(const RunOptions& options, const validate::Job& job, const RunAnswer& answer,
+                                        const CommonOptions& common, const std::stop_token& stop) {
   const sim::Outcome& outcome = answer.run.outcome;
   if (outcome.stopped && (options.per_disc || options.pairs))
     note(common, "stopped before the end: --per-disc and --pairs are not written, because they would be partial");
   if (outcome.stopped) return outcome.progress;
   try {
     if (options.per_disc) write_per_disc(*options.per_disc, outcome, stop);
-    if (options.pairs) write_pairs(*options.pairs, outcome.pairs, stop);
+    if (options.pairs) write_pairs(*options.pairs, outcome.pairs, job.file_order, stop);
   } catch (const sim::Stopped& stopped) {
     note(common, fmt::format("{}; the file is not kept", stopped.what()));
     return stopped.progress();
@@ -243,7 +254,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   const auto answer = [&](const validate::Job& job) {
     const RunAnswer found =
         run_one(options, job, costs.of(options.candidate.engine), common, stop, rows.next(progress.report()));
-    stopped = write_hits(options, found, common, stop);
+    stopped = write_hits(options, job, found, common, stop);
     inputs["engine"] = name(options.candidate.engine);
     inputs["threads"] = sim::thread_count(common.threads);  // a cap if the command chooses
     inputs["repeat"] = options.repeat;
@@ -274,7 +285,8 @@ Command run_command(CLI::App& program) {
              "time that many further runs, which do not count; the median is shown; default: 0");
   app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");
   app->add_flag("--standard-error", options->standard_error,
-                "add the standard error of each irradiance to --per-disc, for independent rays");
+                "add to --per-disc the standard error of each irradiance, for independent photons; where fewer than 10 "
+                "photons hit a disc, an upper bound (95 %) instead");
   app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_run(*options, common, stop);

@@ -103,6 +103,8 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                               : Json{{"hits", outcome.total_hits},
                                      {"hits_per_disc", hits_per_disc(outcome)},
                                      {"mean_irradiance", mean_irradiance(outcome)}});
+  json["rays"] = whole(job.workload.rays);
+  json["photons"] = job.independent_photons();
   json["counts"] = to_json(outcome.counts);
   if (answer.pilot) json["choosing_seconds"] = answer.pilot->pilot_seconds;
   if (const auto predicted = prediction(job.workload, answer)) {
@@ -203,7 +205,7 @@ AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer
 
 Columns run_columns() {
   return workload_columns() + Columns{"engine", "threads"} + candidate_columns() +
-         Columns{"k", "k_max", "k_best", "hits_per_disc", "mean_irradiance"} + count_columns() +
+         Columns{"k", "k_max", "k_best", "photons", "hits_per_disc", "mean_irradiance"} + count_columns() +
          count_columns("predicted_") +
          Columns{"predicted_seconds", "choosing_seconds", "seconds",       "prepare_seconds",    "order_seconds",
                  "build_seconds",     "search_seconds",   "timed_runs",    "read_seconds",       "rays_in_memory",

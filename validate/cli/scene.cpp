@@ -82,7 +82,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
     const std::size_t written = (options.disc_file ? job.discs.size() : 0) + (options.ray_file ? job.rays.size() : 0);
     progress.show({"writing", 0.5, 1, 8 * static_cast<double>(written)});
     if (options.disc_file) sim::write_discs(*options.disc_file, job.discs, stop);
-    if (options.ray_file) sim::write_rays(*options.ray_file, job.rays, stop);
+    if (options.ray_file) sim::write_rays(*options.ray_file, job.paths(), stop);
   } catch (const sim::Stopped& stopped) {
     note(common, fmt::format("{}; the file is not kept", stopped.what()));
     result.stopped = stopped.progress();
@@ -94,6 +94,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
                  {"triangles", job.triangles},
                  {"samples", job.discs.size()},
                  {"rays", job.rays.size()},
+                 {"photons", job.independent_photons()},
                  {"box", w.box},
                  {"sphere_radius", w.sphere_radius},
                  {"sample_distance", sample_distance(w)},

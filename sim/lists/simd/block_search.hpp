@@ -23,7 +23,16 @@ struct BlockSearch {
   bool vectors;             ///< count vectors
   ClassCounts* hits;        ///< by place in the tree's order; only one thread writes the element of one disc and class
   DiscTotals* totals;       ///< sums of power, indexed and written like hits; null if hits are only counted
+  /// Sums over photons, by place; null unless standard errors are requested and do not follow from numbers of hits.
+  PhotonSums* photons = nullptr;
+  const double* powers = nullptr;  ///< of the block's rays; null if hits are only counted
 };
+
+/// Whether a disc must be tested with the rays of all classes at once (test_all_classes): for sums over photons that have
+/// several rays.
+[[nodiscard]] inline bool needs_all_classes(const BlockSearch& block) {
+  return block.photons != nullptr && block.problem.numbered();
+}
 
 /// Number of tests (ray against box, sphere or disc) in a unit of work of StopCheck: about one vector of rays.
 inline constexpr std::size_t tests_a_unit = 16;
@@ -38,7 +47,7 @@ struct Worker {
   /// `floats` is the expected number of floats in the thread's lists.
   explicit Worker(std::pmr::memory_resource* memory = std::pmr::new_delete_resource(), std::stop_token stop = {},
                   std::size_t floats = 0)
-      : lists(memory, floats), pairs(memory), check(std::move(stop), "searching"), skipped(memory) {}
+      : lists(memory, floats), pairs(memory), check(std::move(stop), "searching"), skipped(memory), found(memory) {}
 
   ListArena lists;
   FoundPairs pairs;
@@ -47,6 +56,7 @@ struct Worker {
   StopCheck check;
   std::pmr::vector<DiscRun>
       skipped;  ///< discs that were not completely searched in the last block, because of a stop request
+  std::pmr::vector<std::uint32_t> found;  ///< rays that hit a disc, class by class; only while it is tested
 };
 
 }  // namespace detp::sim::stream

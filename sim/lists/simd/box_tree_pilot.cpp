@@ -81,6 +81,7 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
   const auto hits = std::make_unique_for_overwrite<ClassCounts[]>(discs.tree.discs.size());
   const auto totals =
       problem.front_facing() ? std::make_unique_for_overwrite<DiscTotals[]>(discs.tree.discs.size()) : nullptr;
+  const std::vector<double> powers(totals ? sample.size() : 0, 1.0);
   const BlockSearch block{.problem = of_sample,
                           .frame = frame,
                           .tree = discs.tree,
@@ -89,7 +90,8 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
                           .pairs = false,
                           .vectors = false,
                           .hits = hits.get(),
-                          .totals = totals.get()};
+                          .totals = totals.get(),
+                          .powers = powers.data()};
   const std::size_t nodes = 4 * discs.tree.discs.size() / coarse_leaf + subtrees * most_in_a_subtree;
   nodes_.reserve(nodes);
   area_.reserve(nodes);

@@ -20,6 +20,18 @@ constexpr std::size_t chunk = discs_in_chunk;
 /// Number of rays tested against a chunk between two checks for a stop request.
 constexpr std::size_t rays_at_once = StopCheck::most_work * tests_a_unit / chunk;
 
+/// For photon sums: tests disc after disc. Returns false if a stop request ended the tests.
+bool test_one_by_one(const BlockSearch& block, const RayLists& lists, const DiscRun& discs, Worker& worker) {
+  for (std::uint32_t place = discs.first; place < discs.first + discs.count; ++place) {
+    if (worker.check.requested_after(test_work(size(lists)))) {
+      worker.skipped.push_back({place, discs.first + discs.count - place});
+      return false;
+    }
+    test_all_classes(block, place, 1, lists, worker);
+  }
+  return true;
+}
+
 /// Returns false if a stop request ended the tests.
 bool test_chunk(const BlockSearch& block, const RayLists& lists, const DiscRun& discs, Worker& worker) {
   for (int k = 0; k < classes; ++k) {
@@ -53,7 +65,7 @@ class FloatBruteForce final : public Index {
       tbb::enumerable_thread_specific<Worker> workers([&] { return Worker(options.memory, options.stop); });
       DiscResults results(problem, discs_, options, outcome);
       for_each_block(problem, frame_, options, [&](const Block& rays) {
-        test_block(results.begin(frame_, rays.first(), rays.traits()), rays, workers);
+        test_block(results.begin(frame_, rays), rays, workers);
         results.end(rays, workers);
       });
       results.store_results(workers);
@@ -69,6 +81,11 @@ class FloatBruteForce final : public Index {
       const std::size_t count = std::min(chunk, discs_.discs.size() - i * chunk);
       Worker& worker = workers.local();
       const DiscRun run{static_cast<std::uint32_t>(i * chunk), static_cast<std::uint32_t>(count)};
+      if (needs_all_classes(block)) {
+        const bool done = test_one_by_one(block, rays.lists(), run, worker);
+        if (done) worker.counts.disc_tests += count * (rays.size() - size(rays.lists()));
+        return;
+      }
       if (!test_chunk(block, rays.lists(), run, worker)) return;
       worker.counts.visits += count;
       worker.counts.disc_tests += count * rays.size();

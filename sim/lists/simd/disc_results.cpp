@@ -4,7 +4,9 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <atomic>
+#include <numbers>
 #include <utility>
 
 #include "detp/sim/search/sort_pairs.hpp"
@@ -46,47 +48,87 @@ DiscResults::DiscResults(const Problem& problem, const DiscTree& tree, const Run
       tree_(tree),
       options_(options),
       outcome_(outcome),
-      totals_(options.memory),
+      own_(0, options.memory),
+      sums_(options.memory),
+      photons_(options.memory),
       hits_(tree.discs.size(), options.memory),
+      first_photon_(first_photon(options)),
+      last_block_(last_block(problem, options)),
       snapshot_(options.memory) {
-  if (options.totals != nullptr) ensure_totals();
+  if (options.standard_error) own_.keep_errors();
+  if (options.totals != nullptr) ensure_sums();
+  if (totals().block() == last_block_) return;
+  ensure_sums();
+  totals().make_levels(tree_.discs.size(), last_block_);
+  snapshot_.earlier.emplace(totals(), options.memory);
 }
 
-void DiscResults::ensure_totals() {
-  if (!totals_.empty()) return;
-  totals_.resize(tree_.discs.size());
-  if (options_.totals == nullptr || options_.totals->empty()) return;
-  for (std::size_t place = 0; place < totals_.size(); ++place) totals_[place] = (*options_.totals)[tree_.order[place]];
+void DiscResults::ensure_sums() {
+  if (!sums_.empty()) return;
+  sums_.resize(tree_.discs.size());
+  if (totals().keeps_errors()) photons_.resize(tree_.discs.size());
+  if (options_.totals == nullptr) return;
+  if (totals().empty()) totals().resize(tree_.discs.size());
+  for (std::size_t place = 0; place < sums_.size(); ++place) sums_[place] = totals()[tree_.order[place]];
+  for (std::size_t place = 0; place < photons_.size(); ++place)
+    photons_[place] = totals().photon_sums(tree_.order[place]);
 }
 
-BlockSearch DiscResults::begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits) {
-  const bool only_count = traits.power && !options_.pairs && !problem_.front_facing();
-  const std::optional<double> power = only_count ? traits.power : std::nullopt;
+/// Moves the sums of earlier blocks of photons into the totals.
+void DiscResults::begin_photons(std::size_t first_ray) {
+  const std::uint64_t before = totals().block();
+  const std::uint64_t block = block_of_photon(problem_.photon(first_ray, first_photon_));
+  if (block == before) return;
+  add_counted_hits();
+  for (std::size_t place = 0; place < sums_.size(); ++place)
+    totals().fold(tree_.order[place], before, block, sums_[place], photons_.empty() ? nullptr : &photons_[place]);
+  totals().begin_block(block);
+}
+
+BlockSearch DiscResults::begin(const Frame& frame, const Block& rays) {
+  const std::size_t first_ray = rays.first();
+  begin_photons(first_ray);
+  const bool errors = totals().keeps_errors();
+  const bool only_count =
+      rays.traits().power && !options_.pairs && !problem_.front_facing() && !(errors && problem_.numbered());
+  const std::optional<double> power = only_count ? rays.traits().power : std::nullopt;
   if (first_ray > 0 && power != counted_power_) add_counted_hits();
   counted_power_ = power;
-  if (!only_count) ensure_totals();
+  if (!only_count || errors) ensure_sums();
   return {.problem = problem_,
           .frame = frame,
           .tree = tree_,
           .first_ray = static_cast<std::uint32_t>(first_ray),
-          .segments = traits.segments,
+          .segments = rays.traits().segments,
           .pairs = options_.pairs,
           .vectors = options_.count,
           .hits = hits_.data(),
-          .totals = only_count ? nullptr : totals_.data()};
+          .totals = only_count ? nullptr : sums_.data(),
+          .photons = errors && !only_count ? photons_.data() : nullptr,
+          .powers = rays.powers()};
 }
 
 void DiscResults::add_counted_hits() {
-  ensure_totals();
+  ensure_sums();
   std::optional<RepeatedSums> sums;
+  std::optional<RepeatedSums> squares;
   if (counted_power_) sums.emplace(*counted_power_, options_.memory);
-  for (std::size_t place = 0; place < totals_.size(); ++place)
+  if (counted_power_ && !photons_.empty()) squares.emplace(*counted_power_ * *counted_power_, options_.memory);
+  for (std::size_t place = 0; place < sums_.size(); ++place) {
+    PhotonSums* const photons = squares ? &photons_[place] : nullptr;
+    std::uint32_t added = 0;
     for (int k = 0; k < classes; ++k) {
       const std::uint32_t count = std::exchange(hits_[place][static_cast<std::size_t>(k)], 0);
-      totals_[place].hits += count;
-      found_ += count;
-      if (sums) totals_[place].power[k] = sums->add(totals_[place].power[k], count);
+      if (sums) sums_[place].power[k] = sums->add(sums_[place].power[k], count);
+      if (photons != nullptr) photons->squares[k] = squares->add(photons->squares[k], count);
+      added += count;
     }
+    sums_[place].hits += added;
+    found_ += added;
+    if (photons == nullptr || added == 0) continue;
+    photons->largest = std::max(photons->largest, *counted_power_);
+    photons->add_photons(added);
+  }
 }
 
 void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
@@ -102,8 +144,8 @@ void DiscResults::end_complete_block(const Block& block, std::uint64_t tests) {
 /// If a copy of the results fits the memory budget, adds the bytes that it needs beyond those of the previous copy to
 /// the outcome's bytes, and returns true. Otherwise returns false; a stopped run then returns the previous copy.
 bool DiscResults::has_room_for_snapshot() {
-  const double copy = bytes_of(hits_) + bytes_of(totals_);
-  const double more = copy - bytes_of(snapshot_.counts) - bytes_of(snapshot_.totals);
+  const double copy = bytes_of(hits_) + bytes_of(sums_) + bytes_of(photons_);
+  const double more = copy - bytes_of(snapshot_.counts) - bytes_of(snapshot_.sums) - bytes_of(snapshot_.photons);
   if (!fits_memory(outcome_.bytes + more, problem_)) return false;
   outcome_.bytes += more;
   return true;
@@ -126,7 +168,9 @@ void DiscResults::take_snapshot() {
   batches_.add(rays_ - snapshot_.rays, found - snapshot_.hits);
   snapshot_.rays = rays_;
   snapshot_.hits = found;
-  snapshot_.totals = totals_;
+  snapshot_.sums = sums_;
+  snapshot_.photons = photons_;
+  if (snapshot_.earlier) *snapshot_.earlier = totals();
   snapshot_.counts = hits_;
   snapshot_.counted_power = counted_power_;
   snapshot_.in_totals = found_;
@@ -134,7 +178,9 @@ void DiscResults::take_snapshot() {
 
 void DiscResults::restore_snapshot() {
   rays_ = snapshot_.rays;
-  totals_ = std::move(snapshot_.totals);
+  sums_ = std::move(snapshot_.sums);
+  photons_ = std::move(snapshot_.photons);
+  if (snapshot_.earlier) totals() = *snapshot_.earlier;
   hits_ = std::move(snapshot_.counts);
   hits_.resize(tree_.discs.size());
   counted_power_ = snapshot_.counted_power;
@@ -151,7 +197,7 @@ void DiscResults::mark_done_discs(std::span<const DiscRun> skipped) const {
 
 void DiscResults::finish_outcome(std::span<const DiscRun> skipped) {
   if (partial_ && !by_discs_) restore_snapshot();
-  totals_.empty() && counted_power_ ? store_counted() : store_totals();
+  sums_.empty() && counted_power_ ? store_counted() : store_totals();
   if (!options_.count) outcome_.counts = {};
   outcome_.counts.hits = outcome_.total_hits;
   outcome_.progress = {rays_, problem_.rays().size()};
@@ -159,6 +205,8 @@ void DiscResults::finish_outcome(std::span<const DiscRun> skipped) {
   if (outcome_.stopped) outcome_.pairs.clear();
   if (rays_ > snapshot_.rays) batches_.add(rays_ - snapshot_.rays, outcome_.total_hits - snapshot_.hits);
   outcome_.batches = batches_;
+  if (outcome_.stopped) outcome_.standard_error.clear();
+  if (outcome_.stopped) outcome_.upper_bound.clear();
   if (by_discs_) mark_done_discs(skipped);
 }
 
@@ -187,11 +235,11 @@ std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) co
     const auto& [x, y, z] = hits_[place];
     if ((x | y | z) == 0) continue;  // the most frequent case with few rays
     const std::uint32_t disc = tree_.order[place];
-    const DiscTotals totals{.hits = std::uint64_t{x} + y + z,
-                            .power = {sums.add(0, x), sums.add(0, y), sums.add(0, z)}};
-    outcome_.hits[disc] = totals.hits;
-    outcome_.irradiance[disc] = irradiance(totals, problem_.discs()[disc]);
-    found += totals.hits;
+    outcome_.hits[disc] = std::uint64_t{x} + y + z;
+    const double power = (sums.add(0, x) + sums.add(0, y)) + sums.add(0, z);
+    const double radius = problem_.discs()[disc].radius;
+    outcome_.irradiance[disc] = power / (std::numbers::pi * radius * radius);
+    found += outcome_.hits[disc];
   }
   return found;
 }
@@ -199,18 +247,19 @@ std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) co
 void DiscResults::store_totals() {
   add_counted_hits();
   outcome_.total_hits = found_;
-  if (options_.totals != nullptr) {
-    options_.totals->resize(totals_.size());
-    for (std::size_t place = 0; place < totals_.size(); ++place)
-      (*options_.totals)[tree_.order[place]] = totals_[place];
-    return;
-  }
-  outcome_.hits.resize(totals_.size());
-  outcome_.irradiance.resize(totals_.size());
-  for (std::size_t place = 0; place < totals_.size(); ++place) {
+  totals().add_rays(problem_);
+  const bool own = options_.totals == nullptr;
+  if (own) resize_results(sums_.size(), !photons_.empty(), outcome_);
+  for (std::size_t place = 0; place < sums_.size(); ++place) {
     const std::uint32_t disc = tree_.order[place];
-    outcome_.hits[disc] = totals_[place].hits;
-    outcome_.irradiance[disc] = irradiance(totals_[place], problem_.discs()[disc]);
+    PhotonSums* const photons = photons_.empty() ? nullptr : &photons_[place];
+    if (photons != nullptr) photons->close();
+    if (own) {
+      finish_disc(own_, problem_.discs()[disc], disc, sums_[place], photons, outcome_);
+    } else {
+      totals()[disc] = sums_[place];
+      if (photons != nullptr) totals().photon_sums(disc) = *photons;
+    }
   }
 }
 

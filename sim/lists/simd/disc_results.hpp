@@ -5,6 +5,7 @@
 
 #include "block_search.hpp"
 #include "detp/sim/base/memory.hpp"
+#include "detp/sim/search/irradiance.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "ray_blocks.hpp"
 
@@ -12,9 +13,10 @@ namespace detp::sim::stream {
 
 /// The results so far, disc by disc in the order of a DiscTree.
 ///
-/// If all rays of a block have the same power, their hits are only counted (unless pairs or only front-facing hits are
-/// requested). The counts are converted to sums of powers before a block with another power, and at the end. The sums
-/// have the same bits as if powers were added in ray order.
+/// If all rays of a block have the same power, their hits are only counted (unless pairs, only front-facing hits, or
+/// standard errors with photon numbers are requested). The counts are converted to sums of powers before a block with
+/// another power, before another block of photons, and at the end. The sums have the same bits as if powers were added in
+/// ray order.
 ///
 /// After a stop request, a block may end with only some discs searched. The block's results are then dropped, and the
 /// outcome is the latest copy of earlier results. Copies are made after some of the blocks. If one block has all rays
@@ -24,8 +26,8 @@ class DiscResults {
   /// Keeps references to all four. Continues options.totals if it is not null.
   DiscResults(const Problem& problem, const DiscTree& tree, const RunOptions& options, Outcome& outcome);
 
-  /// Prepares the search of a block of rays with these traits, and returns its data.
-  [[nodiscard]] BlockSearch begin(const Frame& frame, std::size_t first_ray, const RayTraits& traits);
+  /// Prepares the search of a block of rays, and returns its data.
+  [[nodiscard]] BlockSearch begin(const Frame& frame, const Block& rays);
 
   /// To be called after the search of a block.
   template <class Workers>
@@ -56,11 +58,13 @@ class DiscResults {
  private:
   /// A copy of the results after the first `rays` rays.
   struct Snapshot {
-    explicit Snapshot(std::pmr::memory_resource* memory) : totals(memory), counts(memory) {}
+    explicit Snapshot(std::pmr::memory_resource* memory) : sums(memory), photons(memory), counts(memory) {}
     std::size_t rays = 0;
     std::uint64_t hits = 0;
-    Totals totals;
+    std::pmr::vector<DiscTotals> sums;
+    std::pmr::vector<PhotonSums> photons;
     std::pmr::vector<ClassCounts> counts;
+    std::optional<Totals> earlier = {};  ///< only if the rays are of several blocks of photons
     std::optional<double> counted_power = {};
     std::uint64_t in_totals = 0;
   };
@@ -91,7 +95,9 @@ class DiscResults {
   void restore_snapshot();
   void mark_done_discs(std::span<const DiscRun> skipped) const;
   void finish_outcome(std::span<const DiscRun> skipped);
-  void ensure_totals();
+  [[nodiscard]] Totals& totals() { return options_.totals == nullptr ? own_ : *options_.totals; }
+  void ensure_sums();
+  void begin_photons(std::size_t first_ray);
   void add_counted_hits();
   void store_counted() const;
   [[nodiscard]] std::uint64_t store_counted(std::size_t first, std::size_t last) const;
@@ -101,13 +107,17 @@ class DiscResults {
   const DiscTree& tree_;
   const RunOptions& options_;
   Outcome& outcome_;
-  Totals totals_;                        ///< empty while hits have only been counted
-  std::pmr::vector<ClassCounts> hits_;   ///< hits that are not yet in the totals
-  std::optional<double> counted_power_;  ///< power of each ray in hits_; nullopt if these powers are in the totals
-  std::uint64_t found_ = 0;              ///< hits in the totals, not including those of earlier runs
-  std::size_t rays_ = 0;                 ///< all discs have been searched for the first rays_ rays
-  bool partial_ = false;                 ///< the last block ended with only some discs searched
-  bool by_discs_ = false;                ///< partial_, and that block has all rays: some discs are complete
+  Totals own_;                         ///< if options.totals is null; has only the sums over earlier blocks of photons
+  std::pmr::vector<DiscTotals> sums_;  ///< of the block of photons under way; empty while hits have only been counted
+  std::pmr::vector<PhotonSums> photons_;  ///< empty unless errors are kept
+  std::pmr::vector<ClassCounts> hits_;    ///< hits that are not yet in the sums
+  std::optional<double> counted_power_;   ///< power of each ray in hits_; nullopt if these powers are in the sums
+  std::uint64_t found_ = 0;               ///< hits in the sums, not including those of earlier runs
+  std::size_t rays_ = 0;                  ///< all discs have been searched for the first rays_ rays
+  bool partial_ = false;                  ///< the last block ended with only some discs searched
+  bool by_discs_ = false;                 ///< partial_, and that block has all rays: some discs are complete
+  std::uint64_t first_photon_;
+  std::uint64_t last_block_;  ///< of photons
   std::uint64_t tests_at_snapshot_ = 0;
   Snapshot snapshot_;
   HitBatches batches_;

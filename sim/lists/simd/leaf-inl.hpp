@@ -58,34 +58,124 @@ HWY_INLINE void count_hits(const BlockSearch& block, const TreeNode& leaf, const
   }
 }
 
-/// Adds up the powers of the rays that hit, in ray order, and records pairs.
-HWY_INLINE void keep_hits(const BlockSearch& block, Mask hit, const std::uint32_t* ids, std::uint32_t place, int k,
-                          Worker& worker) {
+/// Rays that hit a disc, by their numbers in the block, in rising order.
+struct FoundRays {
+  const std::uint32_t* first;
+  const std::uint32_t* last;
+};
+
+/// Writes the rays of one class that hit the disc to `found`, and up to `padding` numbers beyond their end. Branches only
+/// for doubtful rays: whether a vector has a hit cannot be foreseen.
+template <bool segments, bool front_facing, int k>
+HWY_INLINE FoundRays find_hits(const BlockSearch& block, std::uint32_t place, const RayList& rays, std::uint32_t* found,
+                               Worker& worker) {
   const FloatLanes lanes;
   const WordLanes words;
-  if (hn::AllFalse(lanes, hit)) return;
-  HWY_ALIGN std::uint32_t found[padding] = {};
-  const auto places = hn::IndicesFromVec(words, kept_lanes(lanes, hit));
-  hn::StoreU(hn::TableLookupLanes(hn::Load(words, ids), places), words, found);
-  const std::size_t count = hn::CountTrue(lanes, hit);
-  const Ray* const first = block.problem.rays().data() + block.first_ray;
-  DiscTotals& totals = block.totals[place];
-  block.hits[place][static_cast<std::size_t>(k)] += static_cast<std::uint32_t>(count);
-  for (std::size_t i = 0; i < count; ++i) totals.power[k] += first[found[i] & ~falling].power;
+  const std::uint32_t* const first = found;
+  for (std::size_t i = 0; i < rays.size; i += hn::Lanes(lanes)) {
+    const RayVector<segments> vector(rays, i);
+    const Mask hit = test<segments, front_facing, k>(block, vector, in_list(i, rays.size), place, worker);
+    const auto kept = hn::IndicesFromVec(words, kept_lanes(lanes, hit));
+    const auto ids = hn::AndNot(hn::Set(words, falling), hn::Load(words, vector.id));
+    hn::StoreU(hn::TableLookupLanes(ids, kept), words, found);
+    found += hn::CountTrue(lanes, hit);
+  }
+  return {first, found};
+}
+
+/// Makes room for all of a disc's hits by so many rays, and a mark behind those of each class.
+HWY_INLINE std::uint32_t* room_for_hits(std::size_t rays, Worker& worker) {
+  const std::size_t room = rays + classes + padding;
+  if (worker.found.size() < room) worker.found.resize(room);
+  return worker.found.data();
+}
+
+/// Adds the powers of one class's rays that hit the disc, in ray order; and their squares, if each ray is a photon.
+HWY_INLINE void add_powers(const BlockSearch& block, std::uint32_t place, std::size_t k, const FoundRays& rays) {
+  const auto axis = static_cast<int>(k);
+  block.hits[place][k] += static_cast<std::uint32_t>(rays.last - rays.first);
+  double power = block.totals[place].power[axis];
+  if (block.photons == nullptr || block.problem.numbered()) {
+    for (const std::uint32_t* ray = rays.first; ray != rays.last; ++ray) power += block.powers[*ray];
+  } else {
+    PhotonSums& photons = block.photons[place];
+    double squares = photons.squares[axis];
+    double largest = photons.largest;
+    for (const std::uint32_t* ray = rays.first; ray != rays.last; ++ray) {
+      const double one = block.powers[*ray];
+      power += one;
+      squares += one * one;
+      largest = std::max(largest, one);
+    }
+    photons.squares[axis] = squares;
+    photons.largest = largest;
+    photons.add_photons(static_cast<std::uint64_t>(rays.last - rays.first));
+  }
+  block.totals[place].power[axis] = power;
+}
+
+HWY_INLINE void keep_pairs(const BlockSearch& block, std::uint32_t place, const FoundRays& rays, Worker& worker) {
   if (!block.pairs) return;
-  for (std::size_t i = 0; i < count; ++i)
-    add_pair(worker.pairs, {block.first_ray + (found[i] & ~falling), block.tree.order[place]});
+  for (const std::uint32_t* ray = rays.first; ray != rays.last; ++ray)
+    add_pair(worker.pairs, {block.first_ray + *ray, block.tree.order[place]});
+}
+
+/// Adds a disc's hits to the sums of its photons, if these have several rays: merges the three classes in ray order, and does
+/// what PhotonSums::add does, without branches that cannot be foreseen. UINT32_MAX must follow the rays of each class.
+HWY_NOINLINE inline void add_photons(const BlockSearch& block, std::uint32_t place,
+                                     const std::array<FoundRays, classes>& found) {
+  PhotonSums& sums = block.photons[place];
+  sums.close();
+  const std::uint64_t* const photons = block.problem.photons().data() + block.first_ray;
+  const std::uint32_t* next_x = found[0].first;
+  const std::uint32_t* next_y = found[1].first;
+  const std::uint32_t* next_z = found[2].first;
+  double squares_x = sums.squares.x;
+  double squares_y = sums.squares.y;
+  double squares_z = sums.squares.z;
+  double largest = sums.largest;
+  double open = 0;
+  std::uint64_t photon = PhotonSums::no_photon;
+  std::uint64_t count = 0;
+  int axis = 3;
+  const auto close = [&] {
+    const double square = open * open;
+    squares_x += axis == 0 ? square : 0.0;
+    squares_y += axis == 1 ? square : 0.0;
+    squares_z += axis == 2 ? square : 0.0;
+    largest = std::max(largest, open);
+  };
+  while (true) {
+    const std::uint32_t x = *next_x;
+    const std::uint32_t y = *next_y;
+    const std::uint32_t z = *next_z;
+    const std::uint32_t ray = std::min(x, std::min(y, z));
+    if (HWY_UNLIKELY(ray == UINT32_MAX)) break;
+    next_x += x == ray ? 1 : 0;
+    next_y += y == ray ? 1 : 0;
+    next_z += z == ray ? 1 : 0;
+    if (HWY_LIKELY(photons[ray] != photon)) {
+      close();
+      photon = photons[ray];
+      axis = (y == ray ? 1 : 0) + (z == ray ? 2 : 0);
+      open = 0;
+      ++count;
+    }
+    open += block.powers[ray];
+  }
+  close();
+  sums.squares = {squares_x, squares_y, squares_z};
+  sums.largest = largest;
+  sums.add_photons(count);
 }
 
 template <bool segments, bool front_facing, int k>
-HWY_INLINE void gather_hits(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
-  const FloatLanes lanes;
-  for (std::size_t i = 0; i < rays.size; i += hn::Lanes(lanes)) {
-    const RayVector<segments> vector(rays, i);
-    const Mask there = in_list(i, rays.size);
-    for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place)
-      keep_hits(block, test<segments, front_facing, k>(block, vector, there, place, worker), vector.id, place, k,
-                worker);
+HWY_INLINE void sum_hits(const BlockSearch& block, const TreeNode& leaf, const RayList& rays, Worker& worker) {
+  std::uint32_t* const room = room_for_hits(rays.size, worker);
+  for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
+    const FoundRays found = find_hits<segments, front_facing, k>(block, place, rays, room, worker);
+    add_powers(block, place, k, found);
+    keep_pairs(block, place, found, worker);
   }
 }
 
@@ -94,13 +184,44 @@ HWY_INLINE void test_class(const BlockSearch& block, const TreeNode& leaf, const
   if constexpr (counting_only)
     count_hits<segments, k>(block, leaf, rays, worker);
   else if (block.problem.front_facing())
-    gather_hits<segments, true, k>(block, leaf, rays, worker);
+    sum_hits<segments, true, k>(block, leaf, rays, worker);
   else
-    gather_hits<segments, false, k>(block, leaf, rays, worker);
+    sum_hits<segments, false, k>(block, leaf, rays, worker);
+}
+
+/// Tests each disc with the rays of all classes, as sums over photons with several rays need.
+template <bool segments, bool front_facing>
+HWY_INLINE void test_all(const BlockSearch& block, const TreeNode& leaf, const RayLists& lists, Worker& worker) {
+  std::uint32_t* const room = room_for_hits(size(lists), worker);
+  for (std::uint32_t place = leaf.first; place < leaf.first + leaf.count; ++place) {
+    std::array<FoundRays, classes> found;
+    std::uint32_t* end = room;
+    const auto keep = [&](std::size_t k, const FoundRays& rays) {
+      found[k] = rays;
+      end += rays.last - rays.first;
+      *end++ = UINT32_MAX;
+      add_powers(block, place, k, rays);
+      keep_pairs(block, place, rays, worker);
+    };
+    keep(0, find_hits<segments, front_facing, 0>(block, place, lists[0], end, worker));
+    keep(1, find_hits<segments, front_facing, 1>(block, place, lists[1], end, worker));
+    keep(2, find_hits<segments, front_facing, 2>(block, place, lists[2], end, worker));
+    if (end - room > classes && needs_all_classes(block)) add_photons(block, place, found);
+  }
+  worker.counts.visits += leaf.count;
+  worker.counts.disc_tests += leaf.count * size(lists);
+}
+
+template <bool segments>
+HWY_INLINE void test_all(const BlockSearch& block, const TreeNode& leaf, const RayLists& lists, Worker& worker) {
+  block.problem.front_facing() ? test_all<segments, true>(block, leaf, lists, worker)
+                               : test_all<segments, false>(block, leaf, lists, worker);
 }
 
 template <bool segments, bool counting_only>
 HWY_INLINE void test_leaf(const BlockSearch& block, const TreeNode& leaf, const RayLists& lists, Worker& worker) {
+  if constexpr (!counting_only)
+    if (needs_all_classes(block)) return test_all<segments>(block, leaf, lists, worker);
   test_class<segments, counting_only, 0>(block, leaf, lists[0], worker);
   test_class<segments, counting_only, 1>(block, leaf, lists[1], worker);
   test_class<segments, counting_only, 2>(block, leaf, lists[2], worker);

@@ -45,6 +45,13 @@ void TestDiscs(const BlockSearch& block, int k, std::uint32_t first, std::uint32
   return test_any<2>(block, leaf, rays, worker);
 }
 
+void TestAllClasses(const BlockSearch& block, std::uint32_t first, std::uint32_t count, const RayLists& lists,
+                    Worker& worker) {
+  const TreeNode leaf{.centre = {}, .half = {}, .first = first, .count = count & 0x7fff'ffff, .leaf = 1};
+  if (block.vectors) worker.vectors.test += count * vectors_of(lists);
+  block.segments ? test_all<true>(block, leaf, lists, worker) : test_all<false>(block, leaf, lists, worker);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace detp::sim::stream
 HWY_AFTER_NAMESPACE();
@@ -54,6 +61,7 @@ namespace detp::sim::stream {
 
 HWY_EXPORT(CullSphere);
 HWY_EXPORT(TestDiscs);
+HWY_EXPORT(TestAllClasses);
 
 void cull_sphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside,
                  Worker& worker) {
@@ -63,6 +71,11 @@ void cull_sphere(const BlockSearch& block, int k, const FloatSphere& sphere, con
 void test_discs(const BlockSearch& block, int k, std::uint32_t first, std::uint32_t count, const RayList& rays,
                 Worker& worker) {
   HWY_DYNAMIC_DISPATCH(TestDiscs)(block, k, first, count, rays, worker);
+}
+
+void test_all_classes(const BlockSearch& block, std::uint32_t first, std::uint32_t count, const RayLists& lists,
+                      Worker& worker) {
+  HWY_DYNAMIC_DISPATCH(TestAllClasses)(block, first, count, lists, worker);
 }
 
 }  // namespace detp::sim::stream

@@ -13,4 +13,9 @@ void cull_sphere(const BlockSearch& block, int k, const FloatSphere& sphere, con
 void test_discs(const BlockSearch& block, int k, std::uint32_t first, std::uint32_t count, const RayList& rays,
                 Worker& worker);
 
+/// Finds the hits of these discs by the listed rays of all classes, if these are needed at once (needs_all_classes). Also
+/// counts visits and disc tests.
+void test_all_classes(const BlockSearch& block, std::uint32_t first, std::uint32_t count, const RayLists& lists,
+                      Worker& worker);
+
 }  // namespace detp::sim::stream

@@ -14,6 +14,14 @@ void Block::load(const Problem& problem, const Frame& frame, std::size_t first, 
   for (RayList& list : lists_) list = arena_.allocate(capacity_, true);
   size_ = rays.size();
   traits_ = load_rays(rays, frame, lists_);
+  if (!keep_powers_) return;
+  powers_.resize(capacity_);
+  for (std::size_t i = 0; i < rays.size(); ++i) powers_[i] = rays[i].power;
+}
+
+bool needs_powers(const Problem& problem, const RunOptions& options) {
+  const bool errors = options.totals == nullptr ? options.standard_error : options.totals->keeps_errors();
+  return !problem.one_power() || options.pairs || problem.front_facing() || (errors && problem.numbered());
 }
 
 }  // namespace detp::sim::stream

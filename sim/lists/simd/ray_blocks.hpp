@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "detp/sim/search/outcome.hpp"
+#include "detp/sim/search/run_memory.hpp"
 #include "load_rays.hpp"
 
 /// Reads the rays block by block.
@@ -13,7 +13,9 @@ namespace detp::sim::stream {
 /// A block of rays, loaded.
 class Block {
  public:
-  explicit Block(std::pmr::memory_resource* memory) : arena_(memory) {}
+  /// `keep_powers`: searches will need the powers of single rays.
+  explicit Block(std::pmr::memory_resource* memory, bool keep_powers)
+      : arena_(memory), powers_(memory), keep_powers_(keep_powers) {}
 
   /// Loads up to `size` rays from number `first` on; none if there is no such ray.
   void load(const Problem& problem, const Frame& frame, std::size_t first, std::size_t size);
@@ -22,29 +24,44 @@ class Block {
   [[nodiscard]] std::size_t size() const { return size_; }  ///< including the rays that load_rays leaves out
   [[nodiscard]] const RayLists& lists() const { return lists_; }
   [[nodiscard]] const RayTraits& traits() const { return traits_; }
+  /// Powers of the rays by their numbers in the block; null unless kept. (Rays are 64 bytes apart: too far for the cache.)
+  [[nodiscard]] const double* powers() const { return keep_powers_ ? powers_.data() : nullptr; }
 
  private:
   ListArena arena_;
   RayLists lists_;
   RayTraits traits_;
+  std::pmr::vector<double> powers_;
+  bool keep_powers_;
   std::size_t first_ = 0;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;  ///< of each list; not reduced for a smaller block, so that no other pages are touched
 };
 
-/// Calls search(block) for one block after another, until all are searched or a stop is requested. While a block is
-/// searched, another thread, if there is one, loads the next block. Reports the share of the rays before each block.
+/// Whether powers of single rays are needed; if not, it is enough to count hits.
+[[nodiscard]] bool needs_powers(const Problem& problem, const RunOptions& options);
+
+/// Calls search(block) for one block after another, until all are searched or a stop is requested. All photons of a block
+/// of rays are in one block of photons (totals.hpp). While a block is searched, another thread, if there is one, loads the
+/// next block. Reports the share of the rays before each block.
 template <class Search>
 void for_each_block(const Problem& problem, const Frame& frame, const RunOptions& options, const Search& search) {
-  const std::size_t size = rays_in_block(problem.discs().size());
-  Block now(options.memory);
-  Block next(options.memory);
-  now.load(problem, frame, 0, size);
+  const std::size_t most = rays_in_block(problem.discs().size());
+  const std::uint64_t first_photon = detp::sim::first_photon(options);
+  const auto size_at = [&](std::size_t first) {
+    const std::size_t rays = problem.rays().size();
+    return first < rays ? problem.end_of_block(first, std::min(first + most, rays), first_photon) - first : 0;
+  };
+  const bool keep_powers = needs_powers(problem, options);
+  Block now(options.memory, keep_powers);
+  Block next(options.memory, keep_powers);
+  now.load(problem, frame, 0, size_at(0));
   while (now.first() < problem.rays().size()) {
     if (options.progress)
       options.progress(static_cast<double>(now.first()) / static_cast<double>(problem.rays().size()));
     if (options.stop.stop_requested()) break;
-    tbb::parallel_invoke([&] { next.load(problem, frame, now.first() + size, size); }, [&] { search(now); });
+    const std::size_t end = now.first() + now.size();
+    tbb::parallel_invoke([&] { next.load(problem, frame, end, size_at(end)); }, [&] { search(now); });
     std::swap(now, next);
   }
 }

@@ -52,7 +52,7 @@ void search_boxes(const SearchInput& input, const RunOptions& options, Outcome& 
     Workers workers([&] { return Worker(options.memory, options.stop, list_floats(size, tree.lists)); });
     DiscResults results(problem, tree, options, outcome);
     for_each_block(problem, frame, options, [&](const Block& block) {
-      divide(results.begin(frame, block.first(), block.traits()), tree.nodes.front(), block.lists(), workers);
+      divide(results.begin(frame, block), tree.nodes.front(), block.lists(), workers);
       results.end(block, workers);
     });
     results.store_results(workers);

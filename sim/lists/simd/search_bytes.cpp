@@ -16,7 +16,7 @@ double rays_together(const SearchSize& size) {
 
 /// Bytes of the block that is searched and of the block that is loaded meanwhile, both with their rays' ends.
 double block_bytes(const SearchSize& size) {
-  constexpr double bytes_a_ray = 7 * sizeof(float);
+  const double bytes_a_ray = 7 * sizeof(float) + (size.sums ? sizeof(double) : 0);
   return bytes_a_ray * static_cast<double>(std::min(2 * rays_in_block(size.discs), size.rays));
 }
 
@@ -37,8 +37,8 @@ double list_bytes(const SearchSize& size, const ListCapacity& lists, bool divide
 /// The larger of two peaks: during the search (with the blocks of rays) and after it (with the outcome, no blocks).
 double searching_bytes(const SearchSize& size, double tree, double lists) {
   constexpr double outcome = sizeof(std::uint64_t) + sizeof(double);
-  const double a_disc =
-      sizeof(FloatDisc) + sizeof(std::uint32_t) + sizeof(ClassCounts) + (size.sums ? sizeof(DiscTotals) : 0);
+  const double a_disc = sizeof(FloatDisc) + sizeof(std::uint32_t) + sizeof(ClassCounts) +
+                        (size.sums ? sizeof(DiscTotals) : 0) + size.error_bytes;
   const auto discs = static_cast<double>(size.discs);
   return a_disc * discs + tree + lists + std::max(block_bytes(size), size.own_totals ? outcome * discs : 0);
 }
@@ -50,7 +50,9 @@ SearchSize size_of(const Problem& problem, const RunOptions& options) {
           .rays = problem.rays().size(),
           .threads = options.threads,
           .segments = problem.segments(),
-          .sums = !problem.one_power() || options.pairs || problem.front_facing() || options.totals != nullptr,
+          .sums = !problem.one_power() || options.pairs || problem.front_facing() || options.totals != nullptr ||
+                  sums_bytes(problem, options) > 0,
+          .error_bytes = sums_bytes(problem, options) / static_cast<double>(problem.discs().size()),
           .own_totals = options.totals == nullptr};
 }
 

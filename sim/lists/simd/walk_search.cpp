@@ -35,23 +35,33 @@ class ClassWalk {
   void run() {
     const ArenaScope scope(worker_.lists);
     for (std::uint32_t place = 0; place < block_.tree.order.size(); ++place) {
-      const int first = walk_.enter(block_.problem.discs()[block_.tree.order[place]]);
-      for (int level = first; level <= walk_.innermost(); ++level) {
-        if (worker_.check.requested_after(test_work(lists_[static_cast<std::size_t>(level - 1)].size)))
-          return skip_from(place);
-        build(static_cast<std::size_t>(level), level == first);
-      }
-      const RayList& rays = lists_[static_cast<std::size_t>(walk_.innermost())];
-      if (worker_.check.requested_after(test_work(rays.size))) return skip_from(place);
-      if (rays.size > 0) test_discs(block_, k_, place, 1, rays, worker_);
+      if (!enter(place)) return;
+      if (rays().size > 0) test_discs(block_, k_, place, 1, rays(), worker_);
       worker_.counts.visits += k_ == 0 ? 1 : 0;
-      worker_.counts.disc_tests += rays.size;
+      worker_.counts.disc_tests += rays().size;
     }
   }
 
+  /// Makes the lists for the disc at the next place. Returns false if a stop was requested.
+  bool enter(std::uint32_t place) {
+    const int first = walk_.enter(block_.problem.discs()[block_.tree.order[place]]);
+    for (int level = first; level <= walk_.innermost(); ++level) {
+      if (worker_.check.requested_after(test_work(lists_[static_cast<std::size_t>(level - 1)].size)))
+        return skip_from(place);
+      build(static_cast<std::size_t>(level), level == first);
+    }
+    return !worker_.check.requested_after(test_work(rays().size)) || skip_from(place);
+  }
+
+  /// The rays that may hit the disc of the latest place.
+  [[nodiscard]] const RayList& rays() const { return lists_[static_cast<std::size_t>(walk_.innermost())]; }
+
+  [[nodiscard]] ListArena& arena() { return worker_.lists; }
+
  private:
-  void skip_from(std::uint32_t place) {
+  bool skip_from(std::uint32_t place) {
     worker_.skipped.push_back({place, static_cast<std::uint32_t>(block_.tree.order.size()) - place});
+    return false;
   }
 
   /// Makes a level's list. If `first`, frees the level's old list and all lists inside, which were culled from it.
@@ -81,6 +91,16 @@ class ClassWalk {
   std::size_t built_ = 1;
 };
 
+/// The walks of all classes together on one thread: no two threads may write the photon sums of a disc.
+void run_together(const BlockSearch& block, std::array<ClassWalk, classes>& walks, Worker& worker) {
+  const ArenaScope scopes[]{ArenaScope(walks[0].arena()), ArenaScope(walks[1].arena()), ArenaScope(walks[2].arena())};
+  for (std::uint32_t place = 0; place < block.tree.order.size(); ++place) {
+    for (ClassWalk& walk : walks)
+      if (!walk.enter(place)) return;
+    test_all_classes(block, place, 1, {walks[0].rays(), walks[1].rays(), walks[2].rays()}, worker);
+  }
+}
+
 void add(std::span<const SphereCounts> events, std::vector<SphereCounts>& sum) {
   sum.resize(events.size());
   for (std::size_t i = 0; i < events.size(); ++i) {
@@ -105,12 +125,18 @@ void search_walk(const SearchInput& input, const MakeWalk& make_walk, const List
   on_threads(thread_count(options.threads), [&] {
     DiscResults results(problem, discs, options, outcome);
     for_each_block(problem, frame, options, [&](const Block& rays) {
-      const BlockSearch block = results.begin(frame, rays.first(), rays.traits());
-      tbb::parallel_for(0, classes, [&](int k) {
+      const BlockSearch block = results.begin(frame, rays);
+      std::array walk_of{make_walk(*options.memory), make_walk(*options.memory), make_walk(*options.memory)};
+      const auto of_class = [&](int k) {
         const auto i = static_cast<std::size_t>(k);
-        const OwnedIn<ListWalk> walk = make_walk(*options.memory);
-        ClassWalk(block, k, rays.lists()[i], *walk, workers[i], events[i]).run();
-      });
+        return ClassWalk(block, k, rays.lists()[i], *walk_of[i], workers[i], events[i]);
+      };
+      if (block.photons != nullptr) {
+        std::array walks{of_class(0), of_class(1), of_class(2)};
+        run_together(block, walks, workers[0]);
+      } else {
+        tbb::parallel_for(0, classes, [&](int k) { of_class(k).run(); });
+      }
       results.end(rays, workers);
     });
     results.store_results(workers);

@@ -87,7 +87,7 @@ TEST_SUITE("known answer") {
       }
       ::close(descriptor);
     });
-    const std::vector<Ray> rays = read_rays(path);
+    const std::vector<Ray> rays = read_rays(path).paths.rays;
     REQUIRE(rays.size() == 2);
     CHECK(rays[1].origin == glm::dvec3{1, 2, 3});
   }

@@ -91,7 +91,7 @@ TEST_SUITE("known answer") {
     REQUIRE(scene.lights.size() == 1);
     CHECK(kind_of(scene.lights[0]) == LightKind::surface);
     CHECK(scene.lights[0].flux == doctest::Approx(3 * 3.14159265358979 * 0.5));
-    CHECK(photon_paths(scene, 100, 1).size() == 100);
+    CHECK(photon_paths(scene, 100, 1).rays.size() == 100);
     const Scene other = open_scene({.name = file, .samples = {}, .lights = {LightKind::point, LightKind::spot}});
     REQUIRE(other.lights.size() == 2);
     CHECK(other.lights[1].flux == 0.5);

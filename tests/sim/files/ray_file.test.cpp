@@ -14,7 +14,7 @@ namespace {
 
 std::vector<Ray> read_rays_of(const std::string& name, const std::string& content) {
   const ScratchFolder folder;
-  return read_rays(folder.file(name, content));
+  return read_rays(folder.file(name, content)).paths.rays;
 }
 
 std::string ray_error(const std::string& name, const std::string& content) {
@@ -34,13 +34,63 @@ TEST_SUITE("identity") {
         {.origin = {1e22, 0, 0}, .direction = glm::normalize(glm::dvec3{1, 2, 3}), .length = 0.7, .power = 1e-9}};
     const ScratchFolder folder;
     write_rays(folder.path("rays.csv"), rays);
-    const std::vector<Ray> back = read_rays(folder.path("rays.csv"));
+    const std::vector<Ray> back = read_rays(folder.path("rays.csv")).paths.rays;
     REQUIRE(back.size() == 2);
     for (std::size_t i = 0; i < 2; ++i) {
       CHECK(back[i].origin == rays[i].origin);
       CHECK(back[i].direction == rays[i].direction);
       CHECK(back[i].length == rays[i].length);
       CHECK(back[i].power == rays[i].power);
+    }
+  }
+}
+
+TEST_SUITE("photons in files") {
+  TEST_CASE("photons and landings are written and read back") {
+    const std::vector<Ray> rays(3, Ray{.length = 2});
+    const std::vector<std::uint64_t> photons{0, 0, 1};
+    const std::vector<double> landings{0.5, 1.999, unbounded};
+    const ScratchFolder folder;
+    write_rays(folder.path("rays.csv"), PathRays{rays, photons, landings});
+    const RayFile back = read_rays(folder.path("rays.csv"));
+    CHECK(back.paths.photons == photons);
+    CHECK(back.paths.landings == landings);
+    CHECK(back.order.empty());
+  }
+
+  TEST_CASE("photons get the numbers 0, 1, 2, … in the order of the rays; without the column there are none") {
+    const ScratchFolder folder;
+    const std::string header = "ox,oy,oz,dx,dy,dz,photon,landing\n";
+    const RayFile file = read_rays(
+        folder.file("r.csv", header + "0,0,0,0,0,1,7,1\n1,0,0,0,0,1,7,\n2,0,0,0,0,1,9,inf\n3,0,0,0,0,1,1e15,0\n"));
+    CHECK(file.paths.photons == std::vector<std::uint64_t>{0, 0, 1, 2});
+    CHECK(file.paths.landings == std::vector<double>{1, unbounded, unbounded, 0});
+    CHECK(file.order.empty());
+    const RayFile without = read_rays(folder.file("w.csv", "ox,oy,oz,dx,dy,dz\n0,0,0,0,0,1\n"));
+    CHECK(without.paths.photons.empty());
+    CHECK(without.paths.landings.empty());
+  }
+
+  TEST_CASE("rays of a photon that are apart are brought together, and know their places in the file") {
+    const ScratchFolder folder;
+    const std::string header = "ox,oy,oz,dx,dy,dz,photon\n";
+    const RayFile file = read_rays(
+        folder.file("r.csv", header + "0,0,0,0,0,1,5\n1,0,0,0,0,1,2\n2,0,0,0,0,1,5\n3,0,0,0,0,1,2\n4,0,0,0,0,1,3\n"));
+    CHECK(file.paths.photons == std::vector<std::uint64_t>{0, 0, 1, 1, 2});
+    CHECK(file.order == std::vector<std::uint32_t>{0, 2, 1, 3, 4});
+    for (std::size_t i = 0; i < 5; ++i) CHECK(file.paths.rays[i].origin.x == file.order[i]);
+  }
+
+  TEST_CASE("a photon that is no whole number, and a negative landing, are refused with their line") {
+    const std::string header = "ox,oy,oz,dx,dy,dz,photon,landing\n";
+    for (const auto& [row, reason] : {std::pair{"0.5,1", ":2: photon must be a whole number from 0 to 2^53 (got 0.5)"},
+                                      {"-1,1", ":2: photon must be a whole number"},
+                                      {"1e17,1", ":2: photon must be a whole number"},
+                                      {"nan,1", ":2: photon must be finite"},
+                                      {"1,-1", ":2: landing must be >= 0, or inf for none (got -1)"},
+                                      {"1,nan", ":2: landing must be >= 0, or inf for none (got nan)"}}) {
+      CAPTURE(row);
+      CHECK(ray_error("r.csv", header + "0,0,0,0,0,1," + row + "\n").find(reason) != std::string::npos);
     }
   }
 }
@@ -97,7 +147,7 @@ TEST_SUITE("bad input") {
 
   TEST_CASE("a damaged ray file is read or refused, and rays that are read are valid") {
     const auto read_sound = [](const std::string& path) {
-      for (const Ray& ray : read_rays(path)) {
+      for (const Ray& ray : read_rays(path).paths.rays) {
         REQUIRE(std::abs(glm::length(ray.direction) - 1) < 1e-14);
         REQUIRE(ray.length > 0);
         REQUIRE(ray.power >= 0);

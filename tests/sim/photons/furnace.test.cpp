@@ -161,7 +161,7 @@ TEST_SUITE("statistical") {
   TEST_CASE("a closed diffuse box with emitting walls has isotropic uniform light: irradiance and hits of each disc") {
     for (const double albedo : {0.0, 0.5, 0.8}) {
       CAPTURE(albedo);
-      const std::vector<Ray> rays = photon_paths(furnace({.diffuse = albedo}), pieces, 1);
+      const std::vector<Ray> rays = photon_paths(furnace({.diffuse = albedo}), pieces, 1).rays;
       // lines of μ_ℓ: a piece is a chord of the box, and meets both faces of a disc inside
       CHECK(hits_agree(rays, discs_inside(60, radius), 2 * landing));
       CHECK(hits_agree(rays, discs_inside(60, radius), landing, true));
@@ -176,16 +176,16 @@ TEST_SUITE("statistical") {
     for (const Material& material :
          {Material{.diffuse = 0, .specular = 0.5}, Material{.diffuse = 0, .specular = 0.5, .shininess = 5},
           Material{.diffuse = 0.2, .specular = 0.3, .shininess = 50}}) {
-      const std::vector<Ray> rays = photon_paths(furnace(material), pieces, 2);
+      const std::vector<Ray> rays = photon_paths(furnace(material), pieces, 2).rays;
       CHECK(hits_agree(rays, discs_inside(60, radius), 2 * landing));
       CHECK(irradiance_agrees(rays, discs_on_walls(60, radius), 2 * pi));
     }
   }
 
   TEST_CASE("controls: an albedo 2 % off, and a forgotten cosine, are found") {
-    const std::vector<Ray> off = photon_paths(furnace({.diffuse = 0.49}), pieces, 3);
+    const std::vector<Ray> off = photon_paths(furnace({.diffuse = 0.49}), pieces, 3).rays;
     CHECK_FALSE(irradiance_agrees(off, discs_on_walls(60, radius), 2 * pi));
-    const std::vector<Ray> rays = photon_paths(furnace({.diffuse = 0}), 200'000, 3);
+    const std::vector<Ray> rays = photon_paths(furnace({.diffuse = 0}), 200'000, 3).rays;
     CHECK(hits_agree(rays, discs_inside(60, radius), 2 * landing));
     CHECK_FALSE(hits_agree(without_cosine(rays), discs_inside(60, radius), 2 * landing));
   }
@@ -197,7 +197,7 @@ TEST_SUITE("statistical") {
     scene.box = {glm::dvec3{-10}, glm::dvec3{2}};
     scene.lights = {{DirectionalLight{{1, 2, -2}}}};
     const glm::dvec3 direction = glm::dvec3{1, 2, -2} / 3.0;
-    const std::vector<Ray> rays = photon_paths(scene, 400'000, 5);
+    const std::vector<Ray> rays = photon_paths(scene, 400'000, 5).rays;
     Deviations deviations;
     const std::vector<Disc> discs = discs_inside(60, 0.9);
     const Outcome outcome = counted(rays, discs);
@@ -214,9 +214,9 @@ TEST_SUITE("statistical") {
     std::vector<Disc> near;
     for (int i = 0; i < 20; ++i) near.push_back({{0.02 * i, 0, -1.5 + 0.15 * i}, {0, 1, 0}, 0.4});
     const double irradiance = std::sqrt(0.5) / beam(scene);
-    CHECK_FALSE(irradiance_agrees(photon_paths(scene, 400'000, 6), near, irradiance));
+    CHECK_FALSE(irradiance_agrees(photon_paths(scene, 400'000, 6).rays, near, irradiance));
     scene.overshoot = unbounded;
-    const std::vector<Ray> rays = photon_paths(scene, 400'000, 6);
+    const std::vector<Ray> rays = photon_paths(scene, 400'000, 6).rays;
     CHECK(irradiance_agrees(rays, near, irradiance));
     CHECK_FALSE(irradiance_agrees(rays, near, 1.02 * irradiance));
   }
@@ -232,7 +232,7 @@ TEST_SUITE("statistical") {
           discs.push_back({{0.5 + 0.1 * i, 0, -1 + 0.1 * i}, {0, 1, 0}, 0.4});
           discs.push_back({{0, 0.5 + 0.1 * i, -1 + 0.1 * i}, {1, 0, 0}, 0.4});
         }
-        return irradiance_agrees(photon_paths(scene, 1'000'000, 7), discs, 1 / (4 * beam(scene)), true);
+        return irradiance_agrees(photon_paths(scene, 1'000'000, 7).rays, discs, 1 / (4 * beam(scene)), true);
       };
       CHECK(sees_the_sky(white));
       CHECK_FALSE(sees_the_sky({.diffuse = 0.9}));
@@ -253,9 +253,9 @@ TEST_SUITE("statistical") {
     scene.mesh.materials.all = {wall, {.diffuse = 0, .glass = 1, .index = 1.5}};
     scene.mesh.materials.of_triangle.assign(scene.mesh.triangles.size(), 1);
     std::fill_n(scene.mesh.materials.of_triangle.begin(), walls, std::uint16_t{0});
-    CHECK(irradiance_agrees(photon_paths(scene, 2 * pieces, 8), discs_on_walls(60, radius), 2 * pi));
+    CHECK(irradiance_agrees(photon_paths(scene, 2 * pieces, 8).rays, discs_on_walls(60, radius), 2 * pi));
     scene.mesh.materials.all[1] = {.diffuse = 0.9};
-    CHECK_FALSE(irradiance_agrees(photon_paths(scene, 2 * pieces, 8), discs_on_walls(60, radius), 2 * pi));
+    CHECK_FALSE(irradiance_agrees(photon_paths(scene, 2 * pieces, 8).rays, discs_on_walls(60, radius), 2 * pi));
   }
 }
 

@@ -41,7 +41,7 @@ bool same(const std::vector<Ray>& first, const std::vector<Ray>& second) {
 
 std::vector<Ray> paths_with_threads(const Scene& scene, std::size_t count, std::size_t threads) {
   const tbb::global_control limit(tbb::global_control::max_allowed_parallelism, threads);
-  return photon_paths(scene, count, 1);
+  return photon_paths(scene, count, 1).rays;
 }
 
 /// Checks that all rays are valid.
@@ -60,14 +60,23 @@ void check_sound(const Scene& scene, const std::vector<Ray>& rays) {
 }  // namespace
 
 TEST_SUITE("known answer") {
-  TEST_CASE("there are exactly `count` rays, each a valid segment, and power × photons = 1") {
+  TEST_CASE("there are `count` rays and those up to the end of the last photon, all valid, and power × photons = 1") {
     for (const char* name : {"@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});
       for (const std::size_t count : {0U, 1U, 1000U}) {
-        const std::vector<Ray> rays = photon_paths(scene, count, 1);
-        REQUIRE(rays.size() == count);
+        const Paths paths = photon_paths(scene, count, 1);
+        const std::vector<Ray>& rays = paths.rays;
+        REQUIRE(paths.photons.size() == rays.size());
+        REQUIRE(paths.landings.size() == rays.size());
+        if (count == 0) CHECK(rays.empty());
         if (count == 0) continue;
+        REQUIRE(rays.size() >= count);
+        CHECK(std::ranges::is_sorted(paths.photons));
+        CHECK(paths.photons.back() == paths.photons[count - 1]);
+        CHECK(paths.photon_count == paths.photons.back() + 1);
+        const Paths more = photon_paths(scene, rays.size() + 1, 1);
+        CHECK(more.photons[rays.size()] > paths.photons.back());
         check_sound(scene, rays);
         if (scene.lights.size() > 1) continue;
         const double photons = 1 / rays[0].power;
@@ -84,7 +93,7 @@ TEST_SUITE("known answer") {
       Scene dark = scene;  // every photon has one piece
       dark.mesh.materials = {.all = {{.diffuse = 0}}};
       double sum = 0;
-      for (const Ray& ray : photon_paths(dark, 50'000, 1)) sum += ray.power;
+      for (const Ray& ray : photon_paths(dark, 50'000, 1).rays) sum += ray.power;
       CHECK(sum == doctest::Approx(1).epsilon(1e-3));
     }
   }
@@ -95,15 +104,15 @@ TEST_SUITE("known answer") {
     scene.mesh.materials = {.all = {{.diffuse = 0}}};
     const auto& spot = std::get<SpotLight>(scene.lights.at(0).shape);
     double photons = 0;
-    for (const Ray& ray : photon_paths(scene, 50'000, 1))
+    for (const Ray& ray : photon_paths(scene, 50'000, 1).rays)
       if (glm::distance(ray.origin, spot.position) < 1e-3) ++photons;
     CHECK(photons / 50'000 == doctest::Approx(0.9 * 0.05 + 0.1 / 3).epsilon(0.01));
   }
 
   TEST_CASE("a smaller number of rays gives the first of a larger number, except for their power") {
     const Scene scene = open_scene({.name = "@cornell", .samples = {}});
-    const std::vector<Ray> few = photon_paths(scene, 500, 7);
-    const std::vector<Ray> many = photon_paths(scene, 5000, 7);
+    const std::vector<Ray> few = photon_paths(scene, 500, 7).rays;
+    const std::vector<Ray> many = photon_paths(scene, 5000, 7).rays;
     for (std::size_t i = 0; i < few.size(); ++i) {
       CHECK(few[i].origin == many[i].origin);
       CHECK(few[i].length == many[i].length);
@@ -120,7 +129,7 @@ TEST_SUITE("known answer") {
         const double gap = 1e-5 * std::sqrt(12.0);
         const double rounding = 1e-15 * offset + 1e-14;
         std::size_t off = 0;
-        for (const Ray& ray : photon_paths(scene, 5000, 3)) {
+        for (const Ray& ray : photon_paths(scene, 5000, 3).rays) {
           const glm::dvec3 landing = (end_of(ray) - centre) / scale - gap * ray.direction;
           const glm::dvec3 start = (ray.origin - centre) / scale - gap * ray.direction;
           const auto out = [](const glm::dvec3& p) {
@@ -135,6 +144,26 @@ TEST_SUITE("known answer") {
       }
   }
 
+  TEST_CASE("a photon lands on the surface, whether its ray goes on or not, and nowhere if it leaves the scene") {
+    for (const double overshoot : {0.0, 0.3}) {
+      Scene scene = closed_box();
+      scene.overshoot = overshoot;
+      const Paths paths = photon_paths(scene, 5000, 3);
+      for (std::size_t i = 0; i < paths.rays.size(); ++i) {
+        const glm::dvec3 place = paths.rays[i].origin + paths.landings[i] * paths.rays[i].direction;
+        const double outermost = std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z)});
+        REQUIRE(outermost == doctest::Approx(1).epsilon(1e-13));
+        REQUIRE(paths.landings[i] < paths.rays[i].length);
+      }
+    }
+    Scene open;
+    built_in::add_quad(open.mesh, {{{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}}}, 1);
+    for (const glm::dvec3& position : open.mesh.positions) open.box.include(position);
+    open.lights = {{PointLight{.position = {0, 0.5, 0}}}};
+    const Paths paths = photon_paths(open, 2000, 1);
+    CHECK(std::ranges::count_if(paths.landings, [](double landing) { return landing == unbounded; }) > 1000);
+  }
+
   TEST_CASE("a photon that leaves the scene ends on the sphere of twice the half diagonal") {
     Scene scene;
     built_in::add_quad(scene.mesh, {{{-1, 0, -1}, {-1, 0, 1}, {1, 0, 1}, {1, 0, -1}}}, 1);
@@ -142,7 +171,7 @@ TEST_SUITE("known answer") {
     scene.lights = {{PointLight{.position = {0, 0.5, 0}}}};
     scene.mesh.materials.all = {{.diffuse = 0}};
     std::size_t away = 0;
-    for (const Ray& ray : photon_paths(scene, 2000, 1)) {
+    for (const Ray& ray : photon_paths(scene, 2000, 1).rays) {
       const double radius = glm::length(end_of(ray));
       const bool on_plane = std::abs(end_of(ray).y) < 1e-4 && radius < 1.5;
       if (!on_plane) CHECK(radius == doctest::Approx(std::sqrt(8.0)).epsilon(1e-12));
@@ -155,13 +184,13 @@ TEST_SUITE("known answer") {
   TEST_CASE("with albedo 1 paths in a closed box terminate: a photon has at most 1000 pieces") {
     Scene scene = closed_box();
     scene.mesh.materials.all = {{.diffuse = 1}};
-    CHECK(1 / photon_paths(scene, 10'000, 1)[0].power == doctest::Approx(10));
+    CHECK(1 / photon_paths(scene, 10'000, 1).rays[0].power == doctest::Approx(10));
   }
 
   TEST_CASE("with albedo 0 every photon in a closed box has one segment") {
     Scene scene = closed_box();
     scene.mesh.materials.all = {{.diffuse = 0}};
-    CHECK(1 / photon_paths(scene, 1000, 1)[0].power == doctest::Approx(1000));
+    CHECK(1 / photon_paths(scene, 1000, 1).rays[0].power == doctest::Approx(1000));
   }
 }
 
@@ -175,8 +204,8 @@ TEST_SUITE("identity") {
 
   TEST_CASE("another seed gives other paths") {
     const Scene scene = closed_box();
-    CHECK(same(photon_paths(scene, 10, 1), photon_paths(scene, 10, 1)));
-    CHECK_FALSE(same(photon_paths(scene, 10, 1), photon_paths(scene, 10, 2)));
+    CHECK(same(photon_paths(scene, 10, 1).rays, photon_paths(scene, 10, 1).rays));
+    CHECK_FALSE(same(photon_paths(scene, 10, 1).rays, photon_paths(scene, 10, 2).rays));
   }
 }
 
@@ -186,7 +215,7 @@ TEST_SUITE("statistical") {
     for (const double albedo : {0.2, 0.5, 0.8}) {
       Scene scene = closed_box();
       scene.mesh.materials.all = {{.diffuse = albedo}};
-      const double photons = 1 / photon_paths(scene, static_cast<std::size_t>(count), 5)[0].power;
+      const double photons = 1 / photon_paths(scene, static_cast<std::size_t>(count), 5).rays[0].power;
       const double expected = 1 / (1 - albedo);
       const double error = std::sqrt(albedo) / (1 - albedo) / std::sqrt(photons);  // of a geometric distribution
       CAPTURE(albedo);
@@ -199,7 +228,7 @@ TEST_SUITE("statistical") {
     const Scene scene = closed_box();
     double sum = 0;
     double bounced = 0;
-    for (const Ray& ray : photon_paths(scene, 200'000, 9)) {
+    for (const Ray& ray : photon_paths(scene, 200'000, 9).rays) {
       if (std::abs(ray.origin.y + 1) > 3.5e-5) continue;  // starts on the floor
       sum += ray.direction.y;
       ++bounced;
@@ -215,7 +244,7 @@ TEST_SUITE("statistical") {
     scene.mesh.materials.all = {{.diffuse = 0}};
     constexpr double count = 60'000;
     glm::dvec3 low{0.0}, high{0.0};
-    for (const Ray& ray : photon_paths(scene, static_cast<std::size_t>(count), 4))
+    for (const Ray& ray : photon_paths(scene, static_cast<std::size_t>(count), 4).rays)
       for (int axis = 0; axis < 3; ++axis) {
         if (end_of(ray)[axis] < -1) ++low[axis];
         if (end_of(ray)[axis] > 1) ++high[axis];
@@ -289,7 +318,7 @@ TEST_SUITE("known answer") {
           try {
             Scene scene = open_scene({.name = path, .samples = {}, .lights = {kind}, .up = up});
             scene.overshoot = 0.1 * diagonal(scene);
-            check_sound(scene, photon_paths(scene, 300, 1));
+            check_sound(scene, photon_paths(scene, 300, 1).rays);
             ++traced;
           } catch (const FileError&) {
             CHECK((path.ends_with("no_faces.obj") || path.ends_with("nonfinite_vertices.obj")));
@@ -310,7 +339,7 @@ TEST_SUITE("known answer") {
       CAPTURE(path);
       try {
         const Scene scene = open_scene({.name = path, .samples = {}});
-        const std::vector<Ray> rays = photon_paths(scene, 10'000, 1);
+        const std::vector<Ray> rays = photon_paths(scene, 10'000, 1).rays;
         CHECK(rays.size() == 10'000);
         check_sound(scene, rays);
       } catch (const FileError&) {

@@ -19,14 +19,26 @@ TEST_SUITE("identity") {
       for (const std::size_t count : {1, 5001}) {
         CAPTURE(name);
         CAPTURE(count);
-        const std::vector<Ray> expected = photon_paths(scene, count, 3);
+        const Paths expected = photon_paths(scene, count, 3);
         const PhotonSource source(scene, count, 3);
-        REQUIRE(source.size() == count);
-        for (const std::size_t block : {std::size_t{700}, count}) {
-          std::vector<Ray> rays(count);
-          for (std::size_t first = 0; first < count; first += block)
-            source.read(first, std::span(rays).subspan(first, std::min(block, count - first)));
-          CHECK(std::memcmp(rays.data(), expected.data(), count * sizeof(Ray)) == 0);
+        const std::size_t size = expected.rays.size();
+        REQUIRE(source.size() == size);
+        CHECK(source.photons() == expected.photon_count);
+        for (const std::size_t block : {std::size_t{1}, std::size_t{700}, size}) {
+          if (block == 1 && count > 1) continue;  // traces a group for each photon
+          std::vector<Ray> rays(size);
+          std::vector<std::uint64_t> photons;
+          std::vector<std::uint64_t> of_block;
+          for (std::size_t first = 0; first < size;) {
+            const std::uint64_t end = source.block_end(first, block);
+            REQUIRE(end > first);
+            if (end < size) CHECK(expected.photons[end] != expected.photons[end - 1]);
+            source.read_numbered(first, std::span(rays).subspan(first, end - first), of_block);
+            photons.insert(photons.end(), of_block.begin(), of_block.end());
+            first = end;
+          }
+          CHECK(std::memcmp(rays.data(), expected.rays.data(), size * sizeof(Ray)) == 0);
+          CHECK(photons == expected.photons);
         }
       }
     }
@@ -36,7 +48,7 @@ TEST_SUITE("identity") {
 TEST_SUITE("limit") {
   TEST_CASE("no photon's piece starts farther away than farthest_from reports") {
     const Scene scene = open_scene({.name = "@cornell", .samples = {}});
-    const std::vector<Ray> rays = photon_paths(scene, 5000, 3);
+    const std::vector<Ray> rays = photon_paths(scene, 5000, 3).rays;
     const PhotonSource source(scene, rays.size(), 3);
     for (const glm::dvec3& point : {scene.box.centre(), scene.box.low, scene.box.high + 3.0}) {
       double farthest = 0;

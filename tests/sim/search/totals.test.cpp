@@ -1,4 +1,4 @@
-#include "detp/sim/search/totals.hpp"
+#include "detp/sim/search/irradiance.hpp"
 
 #include <doctest/doctest.h>
 
@@ -92,7 +92,74 @@ TEST_SUITE("identity") {
   }
 }
 
+TEST_SUITE("reference value") {
+  TEST_CASE("blocks of photons are added as the leaves of a binary tree, with gaps as zeros") {
+    // Powers that tell the order of additions apart, of photons in blocks 0, 1, 2, 3, 6 and 9.
+    const std::vector<std::uint64_t> blocks{0, 1, 2, 3, 6, 9};
+    std::vector<Ray> rays;
+    std::vector<std::uint64_t> photons;
+    std::vector<double> sums;
+    for (const std::uint64_t block : blocks) {
+      sums.push_back(0);
+      for (int i = 0; i < 5; ++i) {
+        const double power = std::pow(10, 12 * uniform4(7, Stream::tests, rays.size())[0]);
+        rays.push_back({{0, 0, 1}, {0, 0, -1}, unbounded, power});
+        photons.push_back((block << log2_photons_in_block) + static_cast<std::uint64_t>(i));
+        sums.back() += power;
+      }
+    }
+    const double expected = (((sums[0] + sums[1]) + (sums[2] + sums[3])) + sums[4]) + sums[5];
+    const std::vector<Disc> one{{{0, 0, 0}, {0, 0, 1}, 1}};
+    const PathRays paths{rays, photons, {}};
+    for (const Candidate& candidate : candidates)
+      for (const Engine engine : {Engine::simd, Engine::plain}) {
+        CAPTURE(name(candidate.technique));
+        const Outcome outcome = run(make_problem(paths, one), candidate, {.standard_error = true, .engine = engine});
+        CHECK(outcome.irradiance[0] == expected / std::numbers::pi);
+        Totals totals;
+        totals.keep_errors();
+        for (const std::size_t first : {std::size_t{0}, std::size_t{10}, std::size_t{22}}) {
+          const std::size_t count = (first == 0 ? 10 : first == 10 ? 12 : 8);
+          const PathRays part{std::span(rays).subspan(first, count), std::span(photons).subspan(first, count), {}};
+          static_cast<void>(run(make_problem(part, one), candidate, {.engine = engine, .totals = &totals}));
+        }
+        Outcome joined;
+        finish(totals, one, joined);
+        CHECK(joined.irradiance == outcome.irradiance);
+        CHECK(joined.standard_error == outcome.standard_error);
+      }
+  }
+
+  TEST_CASE("rays without photon numbers are photons: 300 000 lines are summed in two blocks") {
+    const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 20, 0.3, 3);
+    std::vector<Ray> rays = LineField(enclosing_sphere(discs), 4).lines(0, 300'000);
+    for (std::size_t i = 0; i < rays.size(); ++i) rays[i].power = std::pow(10, 10 * uniform4(5, Stream::tests, i)[0]);
+    const Outcome outcome = run(make_problem(rays, discs), candidates[4], {.pairs = true});
+    std::vector<glm::dvec3> parts[2]{std::vector<glm::dvec3>(20), std::vector<glm::dvec3>(20)};
+    for (const Pair& pair : outcome.pairs)
+      parts[block_of_photon(pair.ray)][pair.disc][dominant_axis(rays[pair.ray].direction)] += rays[pair.ray].power;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      const auto sum = [&](const glm::dvec3& v) { return (v.x + v.y) + v.z; };
+      CHECK(outcome.irradiance[i] == (sum(parts[0][i]) + sum(parts[1][i])) / (std::numbers::pi * 0.3 * 0.3));
+    }
+  }
+}
+
 TEST_SUITE("bad input") {
+  TEST_CASE("photon numbers that fall, a wrong number of them, and impossible landings are refused by ray") {
+    const std::vector<Ray> rays(3);
+    const std::vector<Disc> one{{{0, 0, 0}, {0, 0, 1}, 1}};
+    const auto refuses = [&](std::vector<std::uint64_t> photons, std::vector<double> landings, const char* why) {
+      CHECK_THROWS_WITH_AS(static_cast<void>(make_problem(PathRays{rays, photons, landings}, one)),
+                           doctest::Contains(why), std::invalid_argument);
+    };
+    refuses({0, 2, 1}, {}, "ray 2: its photon has the number 1, after 2");
+    refuses({0, 1}, {}, "there are 2 photon numbers for 3 rays");
+    refuses({}, {1, 2, -1}, "ray 2: landing must be >= 0");
+    refuses({}, {1, NAN, 1}, "ray 1: landing must be >= 0");
+    refuses({0, 1, ~std::uint64_t{0}}, {}, "below 2^62");
+  }
+
   TEST_CASE("totals of other discs and invalid numbers of threads are refused") {
     const Problem problem = make_problem(few_rays(), few_discs());
     const auto try_run = [&](const RunOptions& options) { static_cast<void>(run(problem, candidates[0], options)); };

@@ -58,6 +58,21 @@ TEST_SUITE("known answer") {
     CHECK(nearest(make_problem(rays, one_disc), 3, {.count = false}).counts == Counts<std::uint64_t>{.hits = 2});
   }
 
+  TEST_CASE("a photon is where it met a surface, however far its ray goes on; a ray that met none has no photon") {
+    const std::vector<Ray> rays{down_to(0, -1, 5), down_to(-2, 0, 7), down_to(3, 0, 11), down_to(0.1, 0, 100)};
+    const Outcome ends = nearest(make_problem(std::span(rays).first(3), one_disc), 3);
+    std::vector<Ray> longer = rays;
+    std::vector<double> landings;
+    for (Ray& ray : longer) {
+      landings.push_back(ray.length);
+      ray.length += 0.7;
+    }
+    landings.back() = unbounded;
+    const Outcome landed = nearest(make_problem(PathRays{longer, {}, landings}, one_disc), 3);
+    CHECK(landed.irradiance == ends.irradiance);
+    CHECK(landed.counts.references == 3);
+  }
+
   TEST_CASE("fronts only: photons from behind do not count, and with too few in front the irradiance is 0") {
     std::vector<Ray> rays{down_to(1, 0, 2), down_to(2, 0, 3), down_to(3, 0, 4)};
     rays.push_back({.origin = {0.5, 0, -1}, .direction = {0, 0, 1}, .length = 1});
@@ -101,7 +116,7 @@ TEST_SUITE("bad input") {
       CHECK_THROWS_WITH_AS(static_cast<void>(nearest(problem, k, options)), doctest::Contains(why),
                            std::invalid_argument);
     };
-    refuses({Ray{}, Ray{}, Ray{}}, 3, "all rays are lines");
+    refuses({Ray{}, Ray{}, Ray{}}, 3, "no ray met one");
     refuses(even_photons(9), 10, "needs the 10 nearest photons, but the rays have only 9");
     refuses(std::vector<Ray>(9, down_to(0, 0, 1)), 9, "9 photons lie at the centre of disc 0");
     Totals totals;

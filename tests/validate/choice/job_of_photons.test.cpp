@@ -49,7 +49,7 @@ TEST_SUITE("identity") {
     request.effects = sim::EffectSelection("none");
     const validate::Job job = validate::make_job(request);
     const sim::Scene scene = sim::open_scene({.name = "@cornell", .samples = {}});
-    const std::vector<sim::Ray> expected = sim::photon_paths(scene, 3000, 1);
+    const std::vector<sim::Ray> expected = sim::photon_paths(scene, 3000, 1).rays;
     REQUIRE(job.rays.size() == expected.size());
     for (std::size_t i = 0; i < expected.size(); ++i) {
       CHECK(job.rays[i].origin == expected[i].origin);

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <concepts>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "geometry.hpp"
+
+namespace detp::sim {
+
+/// Rays as pieces of photon paths. What the search for pairs does not need is in arrays of its own, beside the rays.
+struct PathRays {
+  std::span<const Ray> rays;
+  /// Number of each ray's photon. Rays of one photon share its number and follow one another: numbers never fall. Empty:
+  /// each ray is a photon of its own.
+  std::span<const std::uint64_t> photons = {};
+  /// Distance from each ray's origin to the surface that the photon met; `unbounded` if it met none. Empty: each ray's end.
+  std::span<const double> landings = {};
+  /// Photons emitted, with those that gave no ray. 0: up to the last ray's photon.
+  std::uint64_t photon_count = 0;
+
+  PathRays() = default;
+  /// Rays without photon numbers and landings.
+  template <class Rays>
+  requires std::convertible_to<const Rays&, std::span<const Ray>> PathRays(const Rays& of) : rays(of) {}
+  PathRays(std::span<const Ray> of, std::span<const std::uint64_t> photon_numbers, std::span<const double> landing,
+           std::uint64_t emitted = 0)
+      : rays(of), photons(photon_numbers), landings(landing), photon_count(emitted) {}
+};
+
+/// The same, with its arrays.
+struct Paths {
+  std::vector<Ray> rays;
+  std::vector<std::uint64_t> photons = {};
+  std::vector<double> landings = {};
+  std::uint64_t photon_count = 0;
+
+  operator PathRays() const { return {rays, photons, landings, photon_count}; }
+};
+
+}  // namespace detp::sim

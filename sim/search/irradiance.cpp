@@ -1,0 +1,52 @@
+#include "irradiance.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace detp::sim {
+namespace {
+
+/// u_k - k, for k events.
+constexpr std::array<double, fewest_photons> more_photons{
+    2.995732273553991, 3.743864518390578, 4.295793621871989, 4.753656527932726, 5.153519026637571,
+    5.513034908741531, 5.842395652420288, 6.148113802432119, 6.434649715196317, 6.705216422115463};
+constexpr double one_sided = 1.6448536269514722;  ///< of a normal distribution, 95 %
+
+}  // namespace
+
+void resize_results(std::size_t discs, bool errors, Outcome& outcome) {
+  outcome.hits.resize(discs);
+  outcome.irradiance.resize(discs);
+  outcome.standard_error.resize(errors ? discs : 0);
+  outcome.upper_bound.resize(errors ? discs : 0);
+}
+
+void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, const DiscTotals& sums,
+                 const PhotonSums* photons, Outcome& outcome) {
+  const double area = std::numbers::pi * disc.radius * disc.radius;
+  const double power = totals.power(number, sums);
+  outcome.hits[number] = sums.hits;
+  outcome.irradiance[number] = power / area;
+  if (photons == nullptr) return;
+  if (photons->photons < fewest_photons) {
+    const double heaviest = std::max(photons->largest, totals.largest_power());
+    outcome.standard_error[number] = unbounded;
+    outcome.upper_bound[number] = (power + heaviest * more_photons[photons->photons]) / area;
+    return;
+  }
+  const auto n = static_cast<double>(totals.photons());
+  const double variance = std::max(0.0, totals.squares(number, *photons) - power * power / n) * n / (n - 1);
+  outcome.standard_error[number] = std::sqrt(variance) / area;
+  outcome.upper_bound[number] = outcome.irradiance[number] + one_sided * outcome.standard_error[number];
+}
+
+void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome) {
+  resize_results(discs.size(), totals.keeps_errors(), outcome);
+  for (std::size_t disc = 0; disc < discs.size(); ++disc)
+    finish_disc(totals, discs[disc], disc, totals[disc], totals.keeps_errors() ? &totals.photon_sums(disc) : nullptr,
+                outcome);
+}
+
+}  // namespace detp::sim

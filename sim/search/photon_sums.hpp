@@ -1,0 +1,50 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <limits>
+
+namespace detp::sim {
+
+/// What the standard error of one disc's irradiance needs: sums over the photons that hit the disc. All rays of a photon's
+/// path are one photon: they share its fate, so their powers on one disc are added before anything is squared.
+struct PhotonSums {
+  /// Σ x² over complete photons of the block under way, x a photon's power on this disc: three sums, by the dominant axis of
+  /// the photon's first ray that hits, each in the order of the photons
+  glm::dvec3 squares{0.0};
+  double open = 0;                   ///< power of the photon under way
+  double largest = 0;                ///< largest power of one photon on this disc
+  std::uint64_t photon = no_photon;  ///< number of the photon under way
+  std::uint32_t axis = 0;            ///< of the photon under way
+  std::uint32_t photons = 0;         ///< complete photons, of all blocks; does not grow beyond `most_photons`
+
+  static constexpr std::uint64_t no_photon = std::numeric_limits<std::uint64_t>::max();
+  static constexpr std::uint32_t most_photons = std::uint32_t{1} << 31;
+
+  /// Adds a ray of a photon. Rays must come in the order of their numbers, so that those of a photon follow one another.
+  void add(std::uint64_t number, int dominant_axis, double power) {
+    if (number != photon) {
+      close();
+      photon = number;
+      axis = static_cast<std::uint32_t>(dominant_axis);
+    }
+    open += power;
+  }
+
+  /// Completes the photon under way.
+  void close() {
+    if (photon == no_photon) return;
+    squares[static_cast<int>(axis)] += open * open;
+    largest = std::max(largest, open);
+    add_photons(1);
+    open = 0;
+    photon = no_photon;
+  }
+
+  void add_photons(std::uint64_t count) {
+    photons = static_cast<std::uint32_t>(std::min<std::uint64_t>(most_photons, photons + count));
+  }
+};
+
+}  // namespace detp::sim
