@@ -24,6 +24,7 @@ struct PathRays {
   /// Rays without photon numbers and landings.
   template <class Rays>
   requires std::convertible_to<const Rays&, std::span<const Ray>> PathRays(const Rays& of) : rays(of) {}
+  PathRays(const Ray* first, std::size_t count) : rays(first, count) {}
   PathRays(std::span<const Ray> of, std::span<const std::uint64_t> photon_numbers, std::span<const double> landing,
            std::uint64_t emitted = 0)
       : rays(of), photons(photon_numbers), landings(landing), photon_count(emitted) {}

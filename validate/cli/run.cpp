@@ -248,6 +248,8 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     request.stream = stream;
     validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
     note_all(common, job);
+    if (options.standard_error && request.ray_file && !job.numbered())
+      note(common, "standard errors: the rays have no column photon, so each ray counts as a photon of its own");
     inputs = to_json(job, request);
     return job;
   };

@@ -110,7 +110,7 @@ TEST_SUITE("bad input") {
     check_refused(each(uniform + "--technique photon-map --nearest", {"2", "1.5"}, "nearest"));
     check_refused({{model_numbers + "--technique bvh", "no closed form of bvh"},
                    {model_numbers + "--technique photon-map", "no closed form of photon-map"},
-                   {uniform + "--technique photon-map", "all rays are lines"},
+                   {uniform + "--technique photon-map", "no ray met one"},
                    {"run @cornell --rays 20 --technique photon-map", "needs the 50 nearest photons"}});
     for (const std::string technique : {"grid", "cell-spheres", "sphere-tree"})
       check_refused({{model_numbers + "--form published --technique " + technique, "--form corrected"}});

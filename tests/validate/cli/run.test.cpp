@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
+#include <tuple>
 
 #include "run_support.hpp"
 #include "support/csv_answer.hpp"
@@ -91,27 +94,80 @@ TEST_SUITE("end to end") {
     }
   }
 
-  TEST_CASE("--standard-error adds a column, and changes no other") {
+  TEST_CASE("--standard-error adds two columns, and changes no other") {
     const ScratchFolder folder;
     const auto written = [&](const std::string& more) {
       const std::string path = folder.path("discs.csv");
       CHECK(detp("run @uniform --samples 40 --rays 3000 --disc-radius 5% --per-disc " + path + more).code == 0);
       return support::content_of(path);
     };
-    std::string with = written(" --standard-error");
-    CHECK(with.starts_with("disc,hits,irradiance,standard_error\n"));
+    const std::string with = written(" --standard-error");
+    CHECK(with.starts_with("disc,hits,irradiance,standard_error,upper_bound\n"));
     std::string without;
+    int errors = 0;
     for (const std::string& row : rows_of(with)) {
-      const std::size_t last = row.rfind(',');
+      const std::size_t bound_at = row.rfind(',') + 1;
+      const std::size_t error_at = row.rfind(',', bound_at - 2) + 1;
       const std::size_t hits_at = row.find(',') + 1;
       const double hits = std::stod(row.substr(hits_at));
       const double irradiance = std::stod(row.substr(row.find(',', hits_at) + 1));
       // All lines carry the same power.
       const double expected = irradiance * std::sqrt((1 - hits / 3000) / hits * 3000 / 2999);
-      if (hits > 0) CHECK(std::stod(row.substr(last + 1)) == doctest::Approx(expected));
-      without += row.substr(0, last) + "\n";
+      if (hits >= 10) {
+        CHECK(std::stod(row.substr(error_at)) == doctest::Approx(expected));
+        CHECK(bound_at == row.size());
+        ++errors;
+      } else {
+        CHECK(row[error_at] == ',');
+        CHECK(std::stod(row.substr(bound_at)) > irradiance);
+      }
+      without += row.substr(0, error_at - 1) + "\n";
     }
+    CHECK(errors > 0);
+    CHECK(errors < 40);
     CHECK("disc,hits,irradiance\n" + without == written(""));
+  }
+
+  TEST_CASE(
+      "photons of a ray file: their rays may be apart, pairs have the file's numbers, errors are of whole photons") {
+    const ScratchFolder folder;
+    const std::string discs = folder.file("discs.csv", "x,y,z,nx,ny,nz,radius\n0,0,0,0,0,1,1\n");
+    std::string together = "ox,oy,oz,dx,dy,dz,photon\n";
+    std::string apart = together;
+    std::string anonymous = "ox,oy,oz,dx,dy,dz\n";
+    for (int photon = 0; photon < 24; ++photon)
+      for (int i = 0; i < 2; ++i) {
+        const std::string ray = fmt::format("{},0,0,0,0,1", photon % 2 == 0 ? 0.1 : 5.0);
+        together += fmt::format("{},{}\n", ray, photon);
+        anonymous += ray + "\n";
+      }
+    for (int i = 0; i < 2; ++i)
+      for (int photon = 0; photon < 24; ++photon)
+        apart += fmt::format("{},0,0,0,0,1,{}\n", photon % 2 == 0 ? 0.1 : 5.0, photon);
+    const auto result = [&](const std::string& rays) {
+      const std::string per_disc = folder.path("out.csv");
+      const std::string pairs = folder.path("pairs.csv");
+      const auto run = detp("run --discs " + discs + " --ray-file " + folder.file("rays.csv", rays) + " --per-disc " +
+                            per_disc + " --standard-error --pairs " + pairs + " --format json");
+      REQUIRE(run.code == 0);
+      return std::tuple{support::content_of(per_disc), support::content_of(pairs), Json::parse(run.out), run.err};
+    };
+    const auto [errors, pairs, json, err] = result(together);
+    // 12 of 24 photons hit, each with two rays.
+    const std::string row = rows_of(errors).front();
+    CHECK(std::stod(row.substr(row.rfind(',', row.size() - 2) + 1)) ==
+          doctest::Approx(2 * std::sqrt(24 * 0.25 * 24 / 23.0) / std::numbers::pi));
+    CHECK(json["photons"] == 24);
+    CHECK(json["rays"] == 48);
+    CHECK(err.find("photon") == std::string::npos);
+    const auto [errors_apart, pairs_apart, json_apart, err_apart] = result(apart);
+    CHECK(errors_apart == errors);
+    CHECK(rows_of(pairs_apart)[1] == "2,0");
+    CHECK(rows_of(pairs_apart).back() == "46,0");
+    const auto [errors_of_rays, pairs_of_rays, json_of_rays, err_of_rays] = result(anonymous);
+    CHECK(errors_of_rays != errors);
+    CHECK(json_of_rays["photons"] == 48);
+    CHECK(err_of_rays.find("each ray counts as a photon of its own") != std::string::npos);
   }
 
   TEST_CASE("own discs and rays: every technique writes the bytes that brute force writes") {
