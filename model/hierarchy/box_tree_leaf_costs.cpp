@@ -46,7 +46,7 @@ class SplitCosts {
   /// The share of nodes that the surface-area heuristic does not turn into leaves (box_tree_sah_leaves.hpp).
   static double split_share(double area, double half_area, double discs) {
     if (discs > box_tree::largest_sah_leaf) return 1;
-    const double saved = (1.6 - discs) * area + (1 + discs) * half_area;
+    const double saved = (box_tree_split::cull - discs) * area + (2 * box_tree_split::list + discs) * half_area;
     return below(-saved / (0.2 * area * std::pow(discs, 0.7)));
   }
 

@@ -10,11 +10,6 @@ namespace {
 
 using Row = SahLeaves::Row;
 
-// Constants of sim/lists/simd/disc_tree.cpp. The costs of lists are halved there too, because about one of two splits
-// is joined to a wide node.
-constexpr double cull_cost = 1.6;
-constexpr double list_cost = 0.5;
-
 double normal_density(double z) { return std::exp(-z * z / 2) / std::sqrt(2 * std::numbers::pi); }
 double normal_below(double z) { return std::erfc(-z / std::numbers::sqrt2) / 2; }
 
@@ -89,7 +84,7 @@ class SmallNodes {
 /// Sets the share of nodes with `discs` discs that become leaves. Returns the expected cost.
 double set_leaf_share(SahLeaves& level, int discs, double area, double children, double deviation,
                       double point_box_share) {
-  const double less = cull_cost * area + children - discs * area;
+  const double less = box_tree_split::cull * area + children - discs * area;
   if (std::abs(less) > deviations * deviation) {
     level.share[discs] = less > 0 ? 1 : 0;
     return discs * area + std::min(less, 0.0);
@@ -99,7 +94,7 @@ double set_leaf_share(SahLeaves& level, int discs, double area, double children,
   const double share = normal_below(z);
   const double density = normal_density(z);
   level.share[discs] = share;
-  level.box[discs] = std::max(0.02, 1 - 0.3 * deviation / (area * (discs - cull_cost)) * density / share);
+  level.box[discs] = std::max(0.02, 1 - 0.3 * deviation / (area * (discs - box_tree_split::cull)) * density / share);
   return discs * area + less * (1 - share) - deviation * density;
 }
 
@@ -186,7 +181,7 @@ void SahLeafModel::compute_from_halves(const CellKind& cell, int most, Row& area
   const Row half_area = area;
   const Row half_cost = cost;
   Row either;
-  for (int m = 1; m <= most; ++m) either[m] = 2 * (list_cost * half_area[m] + half_cost[m]);
+  for (int m = 1; m <= most; ++m) either[m] = 2 * (box_tree_split::list * half_area[m] + half_cost[m]);
   const double deviation = deviation_factor(leaf_ > 1 ? 1 : levels_[cell.halvings + 1].share[2]);
   const CellBoxes boxes(cell, ends_);
   boxes.products(std::span(area).subspan(1, static_cast<std::size_t>(most)));

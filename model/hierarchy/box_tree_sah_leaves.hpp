@@ -5,12 +5,12 @@
 #include <vector>
 
 #include "box_tree_boxes.hpp"
+#include "detp/model/vocabulary/box_tree_split.hpp"
 
 namespace detp::model::box_tree {
 
-/// Largest number of discs of a node that the surface-area heuristic may turn into a leaf
-/// (sim/lists/simd/disc_tree.cpp).
-inline constexpr int largest_sah_leaf = 64;
+/// Largest number of discs of a node that the surface-area heuristic may turn into a leaf.
+inline constexpr int largest_sah_leaf = box_tree_split::largest_leaf;
 
 /// Values farther from the mean than this many standard deviations are neglected.
 inline constexpr double deviations = 6;
@@ -27,7 +27,7 @@ struct SahLeaves {
 };
 
 /// Predicts which nodes become leaves although they have more than `leaf` discs, because children would cost more by
-/// the surface-area heuristic of sim/lists/simd/disc_tree.hpp. A node of m <= 64 discs becomes a leaf if
+/// the surface-area heuristic (model/vocabulary/box_tree_split.hpp). A node of m <= 64 discs becomes a leaf if
 ///
 ///     Z = 1.6 A + (A_l + A_r)/2 + c_l + c_r - m A >= 0
 ///

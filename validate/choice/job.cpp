@@ -76,12 +76,14 @@ class JobMaker {
       : request_(request), stop_(std::move(stop)), progress_(progress) {}
 
   Job make() {
-    const sim::Stopwatch watch;
+    sim::Stopwatch watch;
     progress_.read(request_);
     sim::in_memory("reading the scene", [&] { request_.numbers_alone() ? from_numbers() : from_scene_and_files(); });
     job_.front_facing = request_.front_facing;
+    job_.rays_from_file = request_.ray_file.has_value();
+    job_.read_seconds = watch.lap();
     sim::in_memory("making rays", [&] { make_rays(); });
-    job_.read_seconds = watch.seconds();
+    (job_.rays_from_file ? job_.read_seconds : job_.trace_seconds) += watch.lap();
     progress_.measure(job_.rays.size(), job_.discs.size());
     sim::in_memory("measuring rays and discs", [&] { measure_workload(); });
     return std::move(job_);

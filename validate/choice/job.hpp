@@ -86,7 +86,9 @@ struct Job {
   /// warnings about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
   bool front_facing = false;
-  double read_seconds = 0;  ///< time for reading or making scene and rays
+  bool rays_from_file = false;
+  double read_seconds = 0;   ///< time for reading or making the scene and the discs, and for reading rays from a file
+  double trace_seconds = 0;  ///< time for making rays: tracing photons, or drawing lines
 
   /// The problem. It refers to this job's rays and discs. Throws std::invalid_argument if the rays are a stream.
   [[nodiscard]] sim::Problem problem(int threads = 1, const std::stop_token& stop = {}) const {

@@ -71,7 +71,7 @@ Subject sphere_tree() {
           {sphere_tests, disc_tests}};
 }
 
-/// The trees that box_tree_rule gives if there are at least as many rays as discs.
+/// Trees of four children a node, with 8 and 16 discs in a leaf.
 Subject box_tree(Engine engine) {
   return {Technique::box_tree,
           fmt::format("box-tree-{}", name(engine)),

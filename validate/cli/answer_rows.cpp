@@ -36,8 +36,8 @@ Json rows_json(const std::vector<AnswerRow>& rows) {
 std::string to_text(const std::vector<AnswerRow>& rows, const TextColumns& columns) {
   std::vector<Json> cells;
   for (const AnswerRow& row : rows) cells.push_back(row.cells.front());
-  std::string text = aligned_text(cells, columns.inputs, columns.answers, columns.screen);
-  return text;
+  return aligned_text(cells, columns.inputs, columns.answers, columns.screen) +
+         (columns.legend.empty() ? "" : legend(columns.screen, columns.legend));
 }
 
 }  // namespace

@@ -21,6 +21,7 @@ struct TextColumns {
   Columns inputs;   ///< inputs that differ between rows are columns; all other inputs are printed above the table
   Columns answers;  ///< always columns, if any row has them
   Screen screen;
+  std::string legend = {};  ///< below the table
 };
 
 /// Number of rows for all combinations of both lists. Throws std::length_error for more than most_rows.

@@ -31,8 +31,8 @@ struct BenchCommand {
 std::vector<double> counts_of(std::string_view option, const std::string& list) {
   std::vector<double> counts;
   if (list.empty()) return counts;
-  for (const std::string& text : values_of(option, list)) {
-    counts.push_back(parse_number(option, text));
+  for (const std::string& text : values_of(option, list, true)) {
+    counts.push_back(parse_count(option, text));
     require_count(option, counts.back(), 1, 4e9);
   }
   return counts;
@@ -126,7 +126,7 @@ Command bench_command(CLI::App& program) {
   app->footer("Example: detp bench @tree --rays 1e4,1e5 --disc-radius 1%,4%\nExample: detp bench --regret");
   const auto command = std::make_shared<BenchCommand>();
   app->add_option("SCENE", command->scene, "a mesh or a built-in scene; default: the effort's set of scenes");
-  app->add_option("--rays", command->rays, "a list or a range, as 1e3,1e5; default: the effort's");
+  app->add_option("--rays", command->rays, "a list or a range, as 1k,100k; default: the effort's");
   app->add_option("--samples", command->samples, "a list or a range; default: the scene's vertices");
   app->add_option("--disc-radius", command->disc_radii,
                   "a list of lengths or percentages, as 1%,4%; default: the effort's");
@@ -140,7 +140,7 @@ Command bench_command(CLI::App& program) {
   app->add_option("--embree-modes", command->embree_modes, "best (six of them) or all 60; default: best")
       ->check(CLI::IsMember({"best", "all"}));
   add_number(*app, "--repeat", command->repeat, "rounds, at most; medians are shown; default: 5");
-  add_number(*app, "--most-hits", command->most_hits, "skip workloads with more hits; default: 1e6, thorough 5e6");
+  add_count(*app, "--most-hits", command->most_hits, "skip workloads with more hits; default: 1e6, thorough 5e6");
   command->regret.add_to(*app);
   return {app, [command](const CommonOptions& common, const std::stop_token& stop) {
             return run_command_bench(*command, common, stop);

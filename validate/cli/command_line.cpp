@@ -90,7 +90,7 @@ CommandLine::CommandLine()
       commands_{model_command(program_),    choose_command(program_), run_command(program_),
                 validate_command(program_), scene_command(program_),  bench_command(program_),
                 calibrate_command(program_)} {
-  program_.set_version_flag("--version", "detp " DETP_VERSION);
+  program_.set_version_flag("-V,--version", "detp " DETP_VERSION);
   // 0 is allowed, because otherwise the parser would report an unknown command as a missing command.
   program_.require_subcommand(0, 1);
   const auto formatter = std::make_shared<HelpFormatter>();
@@ -112,8 +112,7 @@ const Command& CommandLine::parse(int argc, char** argv) {
     arguments.resize(std::min<std::size_t>(arguments.size(), 1));
     arguments.emplace_back("--help");
   }
-  if (arguments.empty()) throw std::invalid_argument(fmt::format("a command is needed: {}", names()));
-  if (!arguments.front().starts_with('-')) require_command(arguments.front());
+  if (!arguments.empty() && !arguments.front().starts_with('-')) require_command(arguments.front());
   std::reverse(arguments.begin(), arguments.end());  // the parser expects the reverse order
   program_.parse(std::move(arguments));
   for (const Command& command : commands_)
@@ -133,6 +132,15 @@ std::string CommandLine::message(const CLI::ParseError& error) const {
       return text + did_you_mean(std::string_view(extra).substr(0, extra.find('=')), known);
     }
   return text;
+}
+
+std::string CommandLine::overview() const {
+  std::string text = program_.get_description() + "\n\n";
+  for (const Command& command : commands_)
+    text += fmt::format("  {:<10} {}\n", command.app->get_name(), command.app->get_description());
+  return text +
+         "\nExample: detp choose @tree --rays 100k --disc-radius 1%\n"
+         "detp help COMMAND explains a command and its options.\n";
 }
 
 std::string CommandLine::names() const {

@@ -17,6 +17,9 @@ class CommandLine {
   /// help or the version is requested. Throws std::invalid_argument for an empty argument, and if no command is named.
   [[nodiscard]] const Command& parse(int argc, char** argv);
 
+  /// All commands, a line each, and an example: what detp prints without arguments.
+  [[nodiscard]] std::string overview() const;
+
   [[nodiscard]] const CommonOptions& common() const { return common_; }
 
   /// The error message. For an unknown option, the message suggests the option that is probably meant.

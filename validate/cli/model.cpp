@@ -72,6 +72,13 @@ std::string scalars(const Json& json, const std::string& pattern_prefix = "") {
   return text;
 }
 
+std::string notes_text(const Json& json, const Screen& screen) {
+  const Json notes = json.value("notes", Json::array());
+  std::string text = notes.empty() ? "" : "\n";
+  for (const Json& note : notes) text += legend(screen, note.get<std::string>());
+  return text;
+}
+
 std::string why_extrapolated(const Json& json) {
   std::string text;
   for (const Json& reason : json.value("extrapolated_because", Json::array()))
@@ -96,6 +103,12 @@ const Columns& of_one_sphere() {
   return columns;
 }
 
+/// Of a sphere cache.
+const Columns& stop_columns() {
+  static const Columns columns{"k", "k_max", "k_best", "k_published", "k_corrected", "extrapolated"};
+  return columns;
+}
+
 Columns unit_cost_columns() {
   Columns columns;
   const Json costs = to_json(UnitCosts{});
@@ -104,8 +117,8 @@ Columns unit_cost_columns() {
 }
 
 Columns columns() {
-  return workload_columns() + candidate_columns() + Columns{"form", "k", "k_max", "k_best", "extrapolated"} + times() +
-         per_line() + outlook_columns() + count_columns() + unit_cost_columns() + of_one_sphere();
+  return workload_columns() + candidate_columns() + Columns{"curvature", "target_error", "form"} + stop_columns() +
+         times() + per_line() + outlook_columns() + count_columns() + unit_cost_columns() + of_one_sphere();
 }
 
 std::vector<Json> cells_of(const Json& inputs, const Candidate& candidate, const Json& json) {
@@ -113,6 +126,8 @@ std::vector<Json> cells_of(const Json& inputs, const Candidate& candidate, const
   shared.update(candidate_cells(candidate));
   for (const auto& [name, value] : json.items())
     if (!value.is_structured()) shared[name] = value;
+  for (const char* input : {"curvature", "target_error"})
+    if (inputs.contains(input)) shared[input] = inputs[input];
   if (json.contains("counts")) shared.update(count_cells(json["counts"]));
   for (const auto& [name, cost] : inputs["unit_costs"].items()) shared["cost_" + name] = cost;
   std::vector<Json> rows;
@@ -177,12 +192,15 @@ Result run_model(ModelOptions& options, const CommonOptions& common, const std::
   const auto rows = answer_all(
       options.workload.lists, options.candidate.lists, stop, [&] { return measure(options, common, stop); },
       [&](const Measured& measured) { return answer_row(options, measured, costs, levels); });
-  Result result = result_of(rows, expected, columns(),
-                            {workload_columns() + candidate_columns() + Columns{"form"},
-                             Columns{"k", "k_max", "k_best", "extrapolated"} + times() + per_line(), common.screen()});
+  Result result =
+      result_of(rows, expected, columns(),
+                {workload_columns() + candidate_columns() + Columns{"form", "curvature", "target_error"},
+                 stop_columns() + (options.outlook.given() ? error_columns() : Columns{}) + times() + per_line(),
+                 common.screen()});
   if (expected == 1)
     result.text =
         scalars(result.json) + why_extrapolated(result.json) + level_table(result.json.value("spheres", Json::array()));
+  result.text += notes_text(rows.front().answer, common.screen());
   return result;
 }
 
@@ -202,7 +220,7 @@ Command model_command(CLI::App& program) {
                                     "published or corrected; default: corrected");
   app->add_option("--costs", options->costs, unit_cost_help() + "\ndefault: t, u, w, v, n 1, so that times are counts");
   add_number(*app, "--levels", options->levels, "how many spheres to list; default: 64, of several rows none");
-  options->outlook.add_to(*app);
+  options->outlook.add_to(*app, options->candidate.lists);
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_model(*options, common, stop);
           }};

@@ -116,7 +116,9 @@ ModelAnswer sphere_cache_answer(const ModelQuestion& question) {
             {"form", name(question.form)},
             {"k", parameters.spheres},
             {"k_max", stops.max},
-            {"k_best", stops.best}};
+            {"k_best", stops.best},
+            {"k_published", own_spheres(question.workload, Form::published, {ratio})},
+            {"k_corrected", own_spheres(question.workload, Form::corrected, {ratio})}};
   json.update(question.form == Form::published ? published_cache(question, parameters)
                                                : corrected_cache(question, parameters));
   return {parameters, std::move(json)};

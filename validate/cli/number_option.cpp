@@ -40,4 +40,27 @@ std::int64_t parse_whole(std::string_view option, std::string_view text, std::in
   return value;
 }
 
+std::string without_count_suffix(std::string_view text) {
+  const std::string_view digits = text.substr(0, text.empty() ? 0 : text.size() - 1);
+  if (digits.empty() || digits.find_first_not_of("0123456789.") != std::string_view::npos) return std::string(text);
+  const char suffix = text.back();
+  const char* const exponent = suffix == 'k' ? "e3" : suffix == 'M' ? "e6" : suffix == 'G' ? "e9" : nullptr;
+  return exponent == nullptr ? std::string(text) : std::string(digits) + exponent;
+}
+
+double parse_count(std::string_view option, std::string_view text) {
+  return parse_number(option, without_count_suffix(text));
+}
+
+double parse_share(std::string_view option, std::string_view text) {
+  const bool percentage = text.ends_with('%');
+  try {
+    const double number = parse_number(option, text.substr(0, text.size() - (percentage ? 1 : 0)));
+    return percentage ? number / 100 : number;
+  } catch (const std::invalid_argument&) {
+    throw std::invalid_argument(
+        fmt::format("{} must be a number or a percentage, as 0.05 or 5% (got {})", option, detp::quoted(text)));
+  }
+}
+
 }  // namespace detp::cli

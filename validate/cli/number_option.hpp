@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-/// Every number on the command line is a decimal number without anything around it. (CLI11 would also accept 0x10, inf
-/// and " 5".)
+/// Every number on the command line is a decimal number without anything around it, except for the suffixes of counts and
+/// the percent sign of shares. (CLI11 would also accept 0x10, inf and " 5".)
 namespace detp::cli {
 
 /// Throws std::invalid_argument, naming the option, unless the text is a decimal number in the range of doubles.
@@ -19,6 +19,16 @@ namespace detp::cli {
 [[nodiscard]] std::int64_t parse_whole(std::string_view option, std::string_view text,
                                        std::int64_t least = std::numeric_limits<std::int64_t>::min(),
                                        std::int64_t most = std::numeric_limits<std::int64_t>::max());
+
+/// The text with a suffix of counts written as an exponent: "100k" is "100e3", "1.5M" is "1.5e6", "2G" is "2e9". Any other
+/// text is returned as it is.
+[[nodiscard]] std::string without_count_suffix(std::string_view text);
+
+/// Reads the number of things: "1000", "1e3" or "100k". Throws as parse_number does.
+[[nodiscard]] double parse_count(std::string_view option, std::string_view text);
+
+/// Reads a share: "0.05" or "5%". Throws std::invalid_argument, naming the option, for other text.
+[[nodiscard]] double parse_share(std::string_view option, std::string_view text);
 
 inline void read_value(std::string_view option, std::string_view text, double& value) {
   value = parse_number(option, text);
@@ -42,6 +52,15 @@ CLI::Option* add_number(CLI::App& command, const std::string& option, Number& va
   return command
       .add_option_function<std::string>(
           option, [option, &value](const std::string& text) { read_value(option, text, value); }, help)
+      ->type_name("N");
+}
+
+/// Adds an option for the number of things, which accepts 100k. `value` must outlive the parser.
+template <class Count>
+CLI::Option* add_count(CLI::App& command, const std::string& option, Count& value, const std::string& help) {
+  return command
+      .add_option_function<std::string>(
+          option, [option, &value](const std::string& text) { value = parse_count(option, text); }, help)
       ->type_name("N");
 }
 

@@ -102,6 +102,10 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
 int guarded_main(int argc, char** argv) {
   Interruption interruption;
   CommandLine line;
+  if (argc <= 1) {
+    write_result(line.overview());
+    return 0;
+  }
   try {
     return run(line.parse(argc, argv), line.common(), interruption);
   } catch (const CLI::ParseError& error) {

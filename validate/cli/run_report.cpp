@@ -56,6 +56,14 @@ void add_stops(const Workload& workload, const Candidate& candidate, const CostT
   json["k"] = cache->spheres;
   json["k_max"] = stops.max;
   json["k_best"] = stops.best;
+  json["k_published"] = own_spheres(workload, Form::published, {cache->ratio});
+  json["k_corrected"] = own_spheres(workload, Form::corrected, {cache->ratio});
+}
+
+/// T_R and T_I at unit costs of 1, under the names that `model` gives them.
+Json unit_times(const Counts<double>& counts, Technique technique, const std::string& prefix = "") {
+  const CostBreakdown times = price(counts, UnitCosts{}, technique);
+  return {{prefix + "rebuild_time", times.rebuild}, {prefix + "intersect_time", times.intersect}};
 }
 
 /// The estimated hits of all rays; nothing if no ray is finished, or if the finished rays do not represent all rays.
@@ -106,14 +114,17 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   json["rays"] = whole(job.workload.rays);
   json["photons"] = job.independent_photons();
   json["counts"] = to_json(outcome.counts);
+  json.update(unit_times(as_expected(outcome.counts), answer.candidate.technique));
   if (answer.pilot) json["choosing_seconds"] = answer.pilot->pilot_seconds;
   if (const auto predicted = prediction(job.workload, answer)) {
     json["predicted"] = to_json(*predicted);
+    json.update(unit_times(*predicted, answer.candidate.technique, "predicted_"));
     json["predicted_seconds"] =
         price(*predicted, answer.costs, answer.candidate.technique, sim::useful_threads(answer.threads)).total();
   }
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
-               {"read_seconds", job.read_seconds + answer.run.read_seconds},
+               {"read_seconds", job.read_seconds},
+               {"trace_seconds", job.trace_seconds + answer.run.trace_seconds},
                {"rays_in_memory", answer.run.rays_in_memory},
                {"effects", to_json(job.observed.effects)},
                {"warnings", job.warnings},
@@ -156,11 +167,11 @@ std::string_view meaning(std::string_view term) {
   static const std::map<std::string_view, std::string_view> meanings{
       {"loaded", "rays brought into the search"},
       {"segments", "of these, rays in a search in which some rays end"},
-      {"cull_tests", "tests of a ray in a list against a sphere or box"},
+      {"cull_tests", "tests of a ray in a list against a sphere or box: rebuild_time, T_R at t = 1"},
       {"culls", "lists made, one for each sphere or box"},
       {"listed", "rays put into these lists"},
       {"visits", "discs tested with a list"},
-      {"disc_tests", "tests of a ray against a disc"},
+      {"disc_tests", "tests of a ray against a disc: intersect_time, T_I at u = 1"},
       {"doubtful", "of these, decided again in double precision"},
       {"steps", "cells visited by a ray"},
       {"nodes", "nodes of a tree visited"},
@@ -205,20 +216,23 @@ AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer
 
 Columns run_columns() {
   return workload_columns() + Columns{"engine", "threads"} + candidate_columns() +
-         Columns{"k", "k_max", "k_best", "photons", "hits_per_disc", "mean_irradiance"} + count_columns() +
-         count_columns("predicted_") +
-         Columns{"predicted_seconds", "choosing_seconds", "seconds",       "prepare_seconds",    "order_seconds",
-                 "build_seconds",     "search_seconds",   "timed_runs",    "read_seconds",       "rays_in_memory",
-                 "stopped",           "hits_so_far",      "hits_estimate", "hits_estimate_error"} +
+         Columns{"k", "k_max", "k_best", "k_published", "k_corrected", "photons", "hits_per_disc", "mean_irradiance"} +
+         count_columns() + count_columns("predicted_") +
+         Columns{"rebuild_time", "intersect_time", "predicted_rebuild_time", "predicted_intersect_time"} +
+         Columns{"predicted_seconds", "choosing_seconds", "seconds",     "prepare_seconds", "order_seconds",
+                 "build_seconds",     "search_seconds",   "timed_runs",  "read_seconds",    "trace_seconds",
+                 "rays_in_memory",    "stopped",          "hits_so_far", "hits_estimate",   "hits_estimate_error"} +
          effect_columns();
 }
 
 TextColumns run_text_columns(const Screen& screen) {
   return {{"scene", "field", "ray_file", "front_facing", "rays", "samples", "disc_radius", "engine", "technique",
            "parameters"},
-          {"hits", "cull_tests", "predicted_cull_tests", "disc_tests", "predicted_disc_tests", "seconds",
+          {"hits", "rebuild_time", "predicted_rebuild_time", "intersect_time", "predicted_intersect_time", "seconds",
            "predicted_seconds"},
-          screen};
+          screen,
+          "rebuild_time: T_R at t = 1, tests of rays against spheres or boxes. intersect_time: T_I at u = 1, tests "
+          "against discs. Both as in detp model, whose unit costs are 1."};
 }
 
 std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
@@ -233,10 +247,11 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
                                  : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
   add(effects_line(job.observed.effects));
   add("hits      " + hits_text(answer));
-  add(fmt::format(
-      "seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}; reading {:.3g} before{}",
-      timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
-      job.read_seconds + answer.run.read_seconds, repeats_text(timing)));
+  add(
+      fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}; not included: "
+                  "reading {:.3g}, making rays {:.3g}",
+                  timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
+                  repeats_text(timing), job.read_seconds, job.trace_seconds + answer.run.trace_seconds));
   return text + "\n" + counts_table(job, answer, screen);
 }
 

@@ -6,8 +6,12 @@
 
 namespace detp::cli {
 
+std::int64_t own_spheres(const Workload& workload, Form form, RadiusRatio ratio) {
+  return model::sphere_count(form, ratio, {workload.disc_radius}, {workload.sphere_radius});
+}
+
 SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form form, RadiusRatio ratio) {
-  const std::int64_t max = model::sphere_count(form, ratio, {workload.disc_radius}, {workload.sphere_radius});
+  const std::int64_t max = own_spheres(workload, form, ratio);
   if (max == 0) return {};
   return {max, form == Form::published ? model::published::best_stop(workload, costs, ratio)
                                        : model::best_stop(workload, costs, ratio).spheres};

@@ -10,6 +10,9 @@ struct SphereStops {
   std::int64_t best = 0;  ///< number of spheres with the least predicted time, by the same form; 0 if max is 0
 };
 
+/// The number of spheres k of a form: that of SphereStops::max, without the search for the best.
+[[nodiscard]] std::int64_t own_spheres(const Workload& workload, Form form, RadiusRatio ratio);
+
 /// Throws as model::sphere_count and model::best_stop do.
 [[nodiscard]] SphereStops sphere_stops(const Workload& workload, const UnitCosts& costs, Form form, RadiusRatio ratio);
 

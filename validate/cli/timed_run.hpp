@@ -12,7 +12,7 @@ namespace detp::cli {
 struct TimedRun {
   sim::Outcome outcome;
   double prepare_seconds = 0;      ///< time for checking rays and discs, and for S₀
-  double read_seconds = 0;         ///< time for making the rays of a stream
+  double trace_seconds = 0;        ///< time for making the rays of a stream
   std::size_t rays_in_memory = 0;  ///< maximum number of rays in memory at a time
 };
 

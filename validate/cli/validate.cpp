@@ -13,6 +13,7 @@
 #include "progress_line.hpp"
 #include "sweep_report.hpp"
 #include "text_table.hpp"
+#include "validate_summary.hpp"
 #include "workload_options.hpp"
 
 namespace detp::cli {
@@ -34,7 +35,7 @@ struct ValidateOptions {
 
 void add_effects(const std::vector<sim::EffectReport>& effects, Result& result) {
   result.json["effects"] = to_json(effects);
-  result.text = effects_line(effects);
+  result.text += effects_line(effects);
 }
 
 validate::Experiment uniform_experiment(validate::JobRequest request, const std::stop_token& stop, Result& result) {
@@ -70,6 +71,7 @@ validate::Experiment scene_experiment(const validate::JobRequest& request, const
   note_all(common, job);
   result.json["warnings"] = job.warnings;
   result.inputs = to_json(job, request);
+  result.text = describe(job);
   add_effects(job.observed.effects, result);
   validate::Experiment experiment{
       .workload = with_lines(job.workload, request.rays.value_or(default_lines)), .discs = {}, .stop = stop};
@@ -88,7 +90,7 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
   return experiment;
 }
 
-Json claim_json(const Claim& claim) {
+Json claim_json(const Claim& claim, const Claims& claims) {
   return {{"id", claim.id},
           {"quantity", claim.quantity},
           {"technique", claim.technique.empty() ? Json() : Json(claim.technique)},
@@ -102,10 +104,11 @@ Json claim_json(const Claim& claim) {
           {"tolerance", claim.tolerance},
           {"detectable", known(claim.detectable)},
           {"verdict", name(claim.verdict)},
+          {"documented", is_documented(claim, claims)},
           {"control",
            {{"offset", known(claim.control_offset)},
             {"predicted", known(claim.control)},
-            {"verdict", name(claim.control_verdict)}}},
+            {"verdict", control_name(claim.control_verdict)}}},
           {"lines", claim.lines},
           {"seconds", claim.seconds}};
 }
@@ -136,15 +139,17 @@ std::string to_text(const std::vector<Claim>& claims, const Screen& screen) {
                {known_text(100 * claim.relative_difference, "{:+.2f}%")},
                {fmt::format("{:.2g}%", 100 * claim.tolerance)},
                {known_text(100 * claim.detectable, "{:.2g}%")},
-               {std::string(name(claim.verdict)), style_of(claim.verdict)},
-               {std::string(name(claim.control_verdict)),
+               is_documented(claim, claims) ? TextCell{"refuted, as documented"}
+                                            : TextCell{std::string(name(claim.verdict)), style_of(claim.verdict)},
+               {std::string(control_name(claim.control_verdict)),
                 claim.control_verdict == Verdict::refuted ? Style::plain : Style::doubtful}});
   return table.text(screen) +
          legend(screen,
                 "±: one standard error of what was observed. differs: observed over predicted, less 1. within: a "
                 "difference that still counts as agreement. detects: the smallest error of the formula that would have "
-                "been refuted. control: the verdict on the formula made wrong by just that much; it should be refuted. "
-                "published: the paper's formula, corrected: ours; only a corrected one that is refuted is an error.");
+                "been refuted. control: whether the formula made wrong by just that much is caught (refuted). "
+                "published: the paper's formula, corrected: ours. As documented: the corrected form predicts another "
+                "number, and its header says what is wrong in the published one.");
 }
 
 std::string quantities(const std::vector<Claim>& claims, const Screen& screen) {
@@ -162,59 +167,23 @@ std::string quantities(const std::vector<Claim>& claims, const Screen& screen) {
   return text;
 }
 
-/// ", 2 to 10 %,"; empty if no control has a finite relative error.
-std::string range_of_controls(const std::vector<Claim>& claims) {
-  double least = INFINITY;
-  double most = 0;
-  for (const Claim& claim : claims)
-    if (std::isfinite(claim.control_offset)) {
-      least = std::min(least, std::abs(claim.control_offset));
-      most = std::max(most, std::abs(claim.control_offset));
-    }
-  return least <= most ? fmt::format(", {:.2g} to {:.2g} %,", 100 * least, 100 * most) : "";
-}
-
-std::string summary(const std::vector<Claim>& claims, const Screen& screen) {
-  const auto count = [&](Form form, Verdict verdict) {
-    return std::count_if(claims.begin(), claims.end(),
-                         [&](const Claim& claim) { return claim.form == form && claim.verdict == verdict; });
-  };
-  std::string text = "\n";
-  for (const auto form : {Form::corrected, Form::published})
-    text += fmt::format("{}: {} agree, {} refuted, {} undecided\n", name(form), count(form, Verdict::agrees),
-                        count(form, Verdict::refuted), count(form, Verdict::undecided));
-  const auto controls = std::count_if(claims.begin(), claims.end(),
-                                      [](const Claim& claim) { return claim.control_verdict == Verdict::refuted; });
-  return text + wrapped(fmt::format("negative controls: {} of {} formulas made wrong by what is just detectable{} were "
-                                    "refuted",
-                                    controls, claims.size(), range_of_controls(claims)),
-                        screen.text_width(), 2);
-}
-
 Table table_of(const std::vector<Claim>& claims, const Result& result) {
   Table table(workload_columns() +
               Columns{"id", "quantity", "form", "source", "predicted", "observed", "standard_error",
-                      "relative_difference", "tolerance", "detectable", "verdict", "control_offset",
+                      "relative_difference", "tolerance", "detectable", "verdict", "documented", "control_offset",
                       "control_predicted", "control_verdict", "lines", "seconds"} +
               effect_columns() + sweep_columns());
   for (const Claim& claim : claims) {
     Json row = workload_cells(result.inputs);
     row.update(effect_cells(result.json["effects"]));
-    row.update(claim_json(claim));
+    row.update(claim_json(claim, claims));
     row["control_offset"] = known(claim.control_offset);
     row["control_predicted"] = known(claim.control);
-    row["control_verdict"] = name(claim.control_verdict);
+    row["control_verdict"] = control_name(claim.control_verdict);
     row.erase("control");
     table.add(row);
   }
   return table;
-}
-
-ExitCode code_of(const std::vector<Claim>& claims) {
-  const bool refuted = std::any_of(claims.begin(), claims.end(), [](const Claim& claim) {
-    return claim.form == Form::corrected && claim.verdict == Verdict::refuted;
-  });
-  return refuted ? ExitCode::refuted : ExitCode::done;
 }
 
 void check_effort(const ValidateOptions& options, const validate::JobRequest& request) {
@@ -269,13 +238,14 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   const auto findings = validate::all_findings(
       experiment, sim::part_of(progress.report(), 0, options.thorough ? share_of_claims : 1), &done);
   const std::vector<Claim> claims = validate::judge_all(findings);
+  result.json["summary"] = claim_summary_json(claims);
   result.json["claims"] = Json::array();
-  for (const Claim& claim : claims) result.json["claims"].push_back(claim_json(claim));
+  for (const Claim& claim : claims) result.json["claims"].push_back(claim_json(claim, claims));
   if (done.done < done.of) result.stopped = done;
   const Screen screen = common.screen();
-  result.text = wrapped(result.text, screen.text_width(), 10) + "\n" +
-                (claims.empty() ? "no claim was judged\n"
-                                : to_text(claims, screen) + quantities(claims, screen) + summary(claims, screen));
+  result.text = (claims.empty() ? "answer    no claim was judged\n" : summary_text(claims, screen)) + "\n" +
+                wrapped(result.text, screen.text_width(), 10) +
+                (claims.empty() ? "" : "\n" + to_text(claims, screen) + quantities(claims, screen));
   Table table = table_of(claims, result);
   if (options.thorough && !result.stopped) sweep(options, common, stop, progress, table, result);
   result.csv = table.csv();
@@ -290,7 +260,7 @@ Command validate_command(CLI::App& program) {
   app->footer("Example: detp validate --samples 20000 --disc-radius 0.02 --scene-side 2");
   const auto options = std::make_shared<ValidateOptions>();
   options->workload.add_to(*app);
-  for (const auto& [option, value] : {std::pair{"--rays", "how many rays; default: 1e6 lines"},
+  for (const auto& [option, value] : {std::pair{"--rays", "how many rays, as 100k; default: 1M lines"},
                                       {"--samples", "how many samples; default: the scene's vertices, else 20000"},
                                       {"--disc-radius", "d; default: half the distance between samples, else 0.02"},
                                       {"--scene-side", "s, of a workload in numbers; default: 2"}})
@@ -303,7 +273,7 @@ Command validate_command(CLI::App& program) {
   app->add_flag("--resume", options->sweep.resume, "thorough: go on from the checkpoint");
   app->add_option("--sweep-rows", options->sweep_rows,
                   "thorough: write one row for each count of the sweep as CSV; default: none");
-  add_number(*app, "--most-samples", options->most_samples, "thorough: leave out larger workloads; default: 1e7, all");
+  add_count(*app, "--most-samples", options->most_samples, "thorough: leave out larger workloads; default: 1e7, all");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_validate(*options, common, stop);
           }};

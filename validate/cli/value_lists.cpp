@@ -70,8 +70,10 @@ Range range_of(std::string_view option, std::string_view item, std::vector<std::
   return range;
 }
 
-void append_range(std::string_view option, const std::string& item, std::vector<std::string>& values) {
+void append_range(std::string_view option, const std::string& item, bool counts, std::vector<std::string>& values) {
   std::vector<std::string> parts = split(item, ':');
+  if (counts)
+    for (std::string& part : parts) part = without_count_suffix(part);
   const auto signs =
       std::count_if(parts.begin(), parts.end(), [](const std::string& part) { return part.ends_with('%'); });
   const bool percentages = signs > 0;
@@ -105,13 +107,13 @@ void require_rows(std::size_t rows, std::size_t times) {
 
 std::vector<std::string> words_of(std::string_view text) { return split(text, ','); }
 
-std::vector<std::string> values_of(std::string_view option, std::string_view text) {
+std::vector<std::string> values_of(std::string_view option, std::string_view text, bool counts) {
   std::vector<std::string> values;
   for (const std::string& item : split(text, ',')) {
     if (item.find(':') == std::string::npos)
       values.push_back(item);
     else
-      append_range(option, item, values);
+      append_range(option, item, counts, values);
     if (values.size() > most_rows) refuse_rows(fmt::format("{} asks for", option), static_cast<double>(values.size()));
   }
   return values;
@@ -133,7 +135,9 @@ std::size_t ValueLists::rows() {
   for (const auto& option : options_) {
     if (option->text.empty()) continue;
     if (option->values.empty())
-      option->values = option->kind == Kind::words ? words_of(option->text) : values_of(option->name, option->text);
+      option->values = option->kind == Kind::words
+                           ? words_of(option->text)
+                           : values_of(option->name, option->text, option->kind == Kind::counts);
     require_rows(rows, option->values.size());
     rows *= option->values.size();
   }

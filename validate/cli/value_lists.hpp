@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,9 +17,10 @@ inline constexpr std::size_t most_rows = 20'000;
 
 /// The values of a list of numbers and ranges start:end:step: "1%,2%,4%", "0.3:0.9:0.05" or a mixture. The end of a
 /// range is included if a step meets it. Values of a range are rounded to the decimals of start and step: 0.35,
-/// not 0.35000000000000003. Throws std::invalid_argument, naming the option, for a malformed range, and
-/// std::length_error for more than most_rows values.
-[[nodiscard]] std::vector<std::string> values_of(std::string_view option, std::string_view text);
+/// not 0.35000000000000003. If `counts`, numbers may have the suffix k, M or G, as 100k:1M:100k. Throws
+/// std::invalid_argument, naming the option, for a malformed range, and std::length_error for more than most_rows
+/// values.
+[[nodiscard]] std::vector<std::string> values_of(std::string_view option, std::string_view text, bool counts = false);
 
 /// "0.3,0.5" split at its commas.
 [[nodiscard]] std::vector<std::string> words_of(std::string_view text);
@@ -38,7 +40,11 @@ enum class Values { one, many };
 class ValueLists {
  public:
   using Set = std::function<void(const std::string& value)>;
-  enum class Kind { numbers, words };
+  enum class Kind {
+    numbers,
+    counts,  ///< numbers that may have the suffix k, M or G
+    words
+  };
 
   /// Adds an option. `set` stores one value, or throws std::invalid_argument if the value is invalid. `set` is called
   /// during parsing if the command accepts one value, else by `choose_row`.
@@ -51,6 +57,14 @@ class ValueLists {
     return add(
         command, option, values, Kind::numbers,
         [option, &number](const std::string& value) { read_value(option, value, number); }, help);
+  }
+
+  /// As cli::add_count.
+  CLI::Option* add_count(CLI::App& command, const std::string& option, Values values, std::optional<double>& count,
+                         const std::string& help) {
+    return add(
+        command, option, values, Kind::counts,
+        [option, &count](const std::string& value) { count = parse_count(option, value); }, help);
   }
 
   template <class Text>

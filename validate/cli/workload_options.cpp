@@ -65,6 +65,10 @@ void require_numbers(const validate::JobRequest& request) {
   const auto need = [](bool given, std::string_view what, std::string_view option) {
     if (!given) throw std::invalid_argument(fmt::format("without a scene, {} is needed: {}", what, option));
   };
+  if (!request.samples && !request.disc_radius && !request.sphere_radius && !request.scene_side)
+    throw std::invalid_argument(
+        "a scene is needed (a mesh, or a built-in one as @tree); or --discs FILE and --ray-file FILE; or numbers: "
+        "--samples N --disc-radius d --scene-side s");
   need(request.samples.has_value(), "the number of samples", "--samples N");
   need(request.disc_radius.has_value(), "the disc radius", "--disc-radius d");
   need(request.sphere_radius || request.scene_side, "its size", "--sphere-radius r0 or --scene-side s");
@@ -107,9 +111,9 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
   command.add_option("--discs", request_.disc_file,
                      "discs from a CSV or PLY file; default: one at each of the scene's samples");
   command.add_option("--ray-file", request_.ray_file, "rays from a CSV or PLY file; default: made, as --field says");
-  lists.add(command, "--rays", axes.value_or(values), request_.rays, "how many rays; default: 100000");
-  lists.add(command, "--samples", values, request_.samples,
-            "how many samples; default: the scene's vertices, with numbers alone none");
+  lists.add_count(command, "--rays", axes.value_or(values), request_.rays, "how many rays, as 100k; default: 100k");
+  lists.add_count(command, "--samples", values, request_.samples,
+                  "how many samples; default: the scene's vertices, with numbers alone none");
   lists.add(
       command, "--disc-radius", axes.value_or(values), numbers,
       [this](const std::string& text) { request_.disc_radius = validate::parse_length(text); },
@@ -181,19 +185,25 @@ validate::JobRequest WorkloadOptions::request(const CommonOptions& common, bool 
 }
 
 void CandidateOptions::add_to(CLI::App& command, Values values, SphereStop default_stop) {
+  const bool of_model = default_stop == SphereStop::max;  // else of `run`
   using enum ValueLists::Kind;
   lists.add(
       command, "--technique", values, words, [this](const std::string& text) { technique = text; },
       fmt::format("{}; default: {}", known_techniques(),
-                  default_stop == SphereStop::max ? name(Technique::sphere_cache) : "the fastest by the model"));
+                  of_model ? name(Technique::sphere_cache)
+                           : "chosen by a pilot; for short searches by the numbers of rays and discs; for streams of "
+                             "rays and --engine plain by the closed forms"));
   for (const auto& [parameter, about] : shared_parameters()) {
     std::string help = about;
     if (!parameter->choices.empty()) help += fmt::format(": {}", fmt::join(parameter->choices, ", "));
     if (parameter->name != spheres_option)
-      help += "; default: the fastest by the model, where there is one";
+      help +=
+          of_model
+              ? "; default: the paper's rule for sphere-cache, octree and grid, else the fastest by the closed forms"
+              : "; default: chosen with the technique; with --technique the fastest by the closed forms";
     else
-      help += fmt::format(", as a number; max: the form's own; best: the fastest by the model; default: {}",
-                          default_stop == SphereStop::max ? "max" : "best");
+      help += fmt::format(", as a number; max: the form's own; best: the fastest by the closed forms; default: {}",
+                          of_model ? "max" : "best");
     lists.add(
         command, fmt::format("--{}", parameter->name), values, parameter->choices.empty() ? numbers : words,
         [this, one = parameter](const std::string& text) { set(*one, text); }, help);
@@ -314,12 +324,30 @@ void note_all(const CommonOptions& common, const validate::Job& job) {
 
 namespace {
 
-/// "; lights: area, spot (up: y)"; empty if the job has none.
+/// "; lights: area, spot (up: y)"; empty if the rays are not from lights.
 std::string lights_of(const validate::Job& job) {
-  if (job.lights.empty() || job.field != sim::Field::photons) return "";
+  if (job.lights.empty() || job.field != sim::Field::photons || job.rays_from_file) return "";
   std::vector<std::string_view> kinds;
   for (const sim::Light& light : job.lights) kinds.push_back(name(sim::kind_of(light)));
   return fmt::format("; light{}: {} (up: {})", kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "), sim::name(job.up));
+}
+
+bool has_ends(const sim::Ray& ray) { return ray.length != sim::unbounded; }
+
+/// What the rays are, whatever the effects are: "pieces of photon paths".
+std::string_view rays_of(const validate::Job& job) {
+  if (job.rays_from_file) return std::ranges::any_of(job.rays, has_ends) ? "segments from a file" : "lines from a file";
+  if (job.field == sim::Field::mixed) return "of a mixed field: isotropic lines, parallel lines, segments from a point";
+  return job.field == sim::Field::photons ? "pieces of photon paths" : "isotropic lines";
+}
+
+/// ", mean length 0.30 of the scene's side", or that predictions neglect the ends; empty for lines.
+std::string lengths_of(const validate::Job& job) {
+  const bool end = job.rays_from_file ? std::ranges::any_of(job.rays, has_ends) : job.field == sim::Field::photons;
+  if (!end) return "";
+  if (job.workload.path_length > 0)
+    return fmt::format(", mean length {:.2f} of the scene's side", job.workload.path_length / scene_side(job.workload));
+  return ", predicted as if they were lines (effect finite paths: off)";
 }
 
 }  // namespace
@@ -331,15 +359,7 @@ std::string describe(const validate::Job& job) {
   if (job.triangles > 0) text += fmt::format("{} triangles, ", spaced(static_cast<double>(job.triangles)));
   text += fmt::format("{} discs of radius d = {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n",
                       spaced(w.samples), w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
-  text += fmt::format("rays      {} ", spaced(w.rays));
-  if (job.field == sim::Field::mixed)
-    text += "of a mixed field: isotropic lines, parallel lines, segments from a point\n";
-  else if (w.path_length > 0)
-    text += fmt::format("photon paths or segments, mean length {:.2f} of the scene's side{}\n",
-                        w.path_length / scene_side(w), lights_of(job));
-  else
-    text += "isotropic lines\n";
-  return text;
+  return text + fmt::format("rays      {} {}{}{}\n", spaced(w.rays), rays_of(job), lengths_of(job), lights_of(job));
 }
 
 }  // namespace detp::cli

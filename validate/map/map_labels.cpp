@@ -31,7 +31,10 @@ std::string seconds_label(double seconds) {
 std::string describe(const TechniqueMap& map) {
   const Workload& workload = map.rows.front().workload;
   return fmt::format("{}: {} discs of dimension D = {:.2f}, {}", shown_path(map.name), workload.samples,
-                     workload.dimension, map.field == sim::Field::isotropic ? "isotropic lines" : "photon paths");
+                     workload.dimension,
+                     map.field == sim::Field::mixed       ? "a mixed field"
+                     : map.field == sim::Field::isotropic ? "isotropic lines"
+                                                          : "photon paths");
 }
 
 }  // namespace detp::validate

@@ -5,7 +5,7 @@
 //   build/box_tree_sah_leaves_table > model/hierarchy/box_tree_sah_leaves.inc
 //
 // Draws sets of m discs, uniform in a cell and with isotropic normals, and keeps the sets with discs in both halves of
-// the cell. Builds the binary tree of each set by the rule of sim/lists/simd/disc_tree.hpp. The cells are, in order:
+// the cell. Builds the binary tree of each set by the rule of model/vocabulary/box_tree_split.hpp. The cells are, in order:
 //   cells on a face of a cube, in its volume, and at an edge (samples on two faces), each for all shapes of cell (the
 //   next cut is across x, y or z);
 //   square and cubic cells that the curve does not cut (the discs are split in the middle of an arbitrary order).
@@ -24,6 +24,7 @@
 #include <span>
 #include <vector>
 
+#include "detp/model/vocabulary/box_tree_split.hpp"
 #include "detp/sim/geometry/random.hpp"
 
 namespace {
@@ -111,7 +112,8 @@ Built build(Cell cell, std::span<SmallDisc> discs) {
   node.box = left.box;
   node.box.include(right.box.low, right.box.high);
   const double area = node.box.area();
-  const double inner = 1.6 * area + 0.5 * (left.box.area() + right.box.area()) + left.cost + right.cost;
+  const double inner = box_tree_split::cull * area + box_tree_split::list * (left.box.area() + right.box.area()) +
+                       left.cost + right.cost;
   const double as_leaf = static_cast<double>(discs.size()) * area;
   return {node.box, std::min(as_leaf, inner), as_leaf <= inner};
 }

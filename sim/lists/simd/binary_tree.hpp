@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "detp/model/vocabulary/box_tree_split.hpp"
 #include "detp/sim/geometry/curve_sort.hpp"
 #include "disc_tree.hpp"
 
@@ -54,21 +55,18 @@ static_assert(sizeof(BinaryNode) == binary_node_bytes);
 [[nodiscard]] std::uint32_t boundary(std::span<const CurvePlace> places, std::uint32_t first, std::uint32_t count);
 
 /// The cost of a node that is not empty, times the area of its box, and whether it is an inner node: it is a leaf if that
-/// costs less and if it has at most 64 discs. `children` is the sum of the areas of the children's boxes, `below` the
-/// sum of their costs.
+/// costs less and if it has at most box_tree_split::largest_leaf discs. `children` is the sum of the areas of the
+/// children's boxes, `below` the sum of their costs.
 struct NodeCost {
   float cost;
   bool inner;
 
   NodeCost(float area, std::uint32_t count, float children, float below) {
-    // Costs for one ray, in units of disc tests; measured on lists of a few hundred rays.
-    constexpr float cull = 1.6F;  // one test of a ray against a box, with its share of making the list
-    constexpr float list = 1.0F;  // each listed ray
-    constexpr std::uint32_t most_in_a_leaf = 64;
-    // Culls and lists count half: about every other split is merged into a wide node and then costs nothing.
-    const float as_inner = cull * area + 0.5F * list * children + below;
+    constexpr auto cull = static_cast<float>(box_tree_split::cull);
+    constexpr auto list = static_cast<float>(box_tree_split::list);
+    const float as_inner = cull * area + list * children + below;
     const float as_leaf = static_cast<float>(count) * area;
-    inner = as_leaf > as_inner || count > most_in_a_leaf;
+    inner = as_leaf > as_inner || count > box_tree_split::largest_leaf;
     cost = inner ? as_inner : as_leaf;
   }
 };

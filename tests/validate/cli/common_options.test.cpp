@@ -57,6 +57,43 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE("detp alone shows every command, a line each, and an example that works") {
+    const Finished alone = detp("");
+    CHECK(alone.code == 0);
+    CHECK(alone.err.empty());
+    for (const std::string name : {"model", "choose", "run", "validate", "scene", "bench", "calibrate"})
+      CHECK(alone.out.find("\n  " + name + " ") != std::string::npos);
+    CHECK(std::count(alone.out.begin(), alone.out.end(), '\n') < 15);
+    const std::size_t example = alone.out.find("Example: detp ");
+    REQUIRE(example != std::string::npos);
+    const std::size_t from = example + std::string("Example: detp ").size();
+    CHECK(detp(alone.out.substr(from, alone.out.find('\n', from) - from)).code == 0);
+  }
+
+  TEST_CASE("the help of --technique and its parameters says what run and model do without them") {
+    const auto one_line = [](const std::string& help) { return std::regex_replace(help, std::regex("\\s+"), " "); };
+    const std::string run = one_line(detp("help run").out);
+    const std::string model = one_line(detp("help model").out);
+    CHECK(run.find("default: chosen by a pilot; for short searches by the numbers of rays and discs") !=
+          std::string::npos);
+    CHECK(run.find("the fastest by the model") == std::string::npos);
+    CHECK(model.find("default: the paper's rule for sphere-cache, octree and grid") != std::string::npos);
+    const std::string cube = " --samples 4096 --disc-radius 0.01 --scene-side 2 ";  // 2/(2 · 0.01) = 100 > 2^6
+    CHECK(result_of("model --technique octree" + cube).at("parameters").at("depth") == 6);
+    CHECK(result_of("model" + cube).at("parameters").at("ratio") == 0.65);
+  }
+
+  TEST_CASE("counts may have the suffix k, M or G, in lists and ranges too") {
+    const std::string numbers = "model --disc-radius 0.01 --scene-side 2 ";
+    const auto inputs = [&](const std::string& options) { return result_of(numbers + options).at("inputs"); };
+    CHECK(inputs("--samples 20k --rays 100k").at("rays") == 100'000);
+    CHECK(inputs("--samples 20k").at("samples") == 20'000);
+    CHECK(inputs("--samples 1.5k --rays 2G").at("samples") == 1'500);
+    CHECK(inputs("--samples 1M --rays 2G").at("rays") == 2'000'000'000);
+    CHECK(inputs("--samples 1k --rays 1k:3k:1k,0.1M").at("rays") == Json{1000, 2000, 3000, 100'000});
+    CHECK(result_of("run @uniform --samples 1k --rays 2k --technique grid").at("inputs").at("rays") == 2000);
+  }
+
   TEST_CASE("detp help shows the program's help, detp help COMMAND that of the command") {
     CHECK(detp("help").out == detp("--help").out);
     CHECK(detp("help").code == 0);
@@ -95,6 +132,8 @@ TEST_SUITE("end to end") {
     CHECK(version.err.empty());
     CHECK(version.out.starts_with("detp "));
     CHECK(std::count(version.out.begin(), version.out.end(), '.') == 2);
+    CHECK(detp("-V").out == version.out);
+    CHECK(detp("-V").code == 0);
   }
 
   TEST_CASE("every JSON result has schema, resolved inputs, provenance and the contract's keys") {

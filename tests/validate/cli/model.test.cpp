@@ -250,6 +250,45 @@ TEST_SUITE("known answer") {
         {{model_command + "--target-error 0", "target-error"}, {model_command + "--curvature nan", "--curvature"}});
   }
 
+  TEST_CASE("--target-error takes percentages and lists, and its results are columns of a table") {
+    const Json share = result_of(model_command + "--target-error 0.05");
+    const Json percentage = result_of(model_command + "--target-error 5%");
+    CHECK(percentage.at("inputs").at("target_error") == share.at("inputs").at("target_error"));
+    CHECK(percentage.at("rays_for_deviation") == share.at("rays_for_deviation"));
+    check_refused({{model_command + "--target-error 5x", "5%"}, {model_command + "--target-error 0%", "target-error"}});
+    const Json rows = result_of(model_command + "--levels 0 --ratio 0.5,0.6 --target-error 1%:5%:2%").at("rows");
+    REQUIRE(rows.size() == 6);
+    CHECK(rows[5].at("rays_for_deviation") == percentage.at("rays_for_deviation"));
+    const std::string text = detp(model_command + "--ratio 0.5,0.6 --target-error 1%,5% --curvature -12").out;
+    for (const char* column : {" target_error ", " rays_for_deviation ", " photons_for_error ", " radius_for_error "})
+      CHECK_MESSAGE(text.find(column) != std::string::npos, column);
+  }
+
+  TEST_CASE("photons_for_error is at radius_for_error, the best for so many photons, and the text says so") {
+    const std::string line = model_command + "--curvature -12 --target-error 5%";
+    const Json json = result_of(line);
+    const double f = 1 / (2 * 3.141592653589793 * outer * outer);
+    const double photons = json.at("photons_for_error");
+    const model::DensityError error =
+        model::density_error({f, -12 * f}, photons, json.at("radius_for_error").get<double>());
+    CHECK(std::sqrt(error.mean_square()) / f == Approx(0.05));
+    CHECK(json.at("radius_for_error").get<double>() > 2 * disc);
+    CHECK(detp(line).out.find("not with the given disc") != std::string::npos);
+  }
+
+  TEST_CASE("in a field that is not uniform, --target-error answers for a disc with the mean number of hits") {
+    const std::string line = "model @cornell --rays 2000 --samples 500 --disc-radius 4% --quiet --target-error 5% ";
+    const Json json = result_of(line);
+    const double hits = json.at("mean_disc_hits");
+    const double p = hits / 2000;
+    CHECK(hits == near(json.at("counts").at("hits").get<double>() / 500));
+    CHECK(json.at("mean_disc_deviation").get<double>() == near(std::sqrt((1 - p) / hits)));
+    CHECK(json.at("rays_for_mean_disc").get<double>() == near((1 - p) / p / 0.0025));
+    CHECK(json.at("notes").size() == 1);
+    CHECK(detp(line).out.find("Discs with fewer hits need more rays.") != std::string::npos);
+    CHECK_FALSE(json.contains("rays_for_deviation"));
+  }
+
   TEST_CASE("side and sphere radius follow from each other, and a percentage is one of the side") {
     const Json side = result_of("model --samples 10 --disc-radius 0.05 --scene-side 2").at("inputs");
     CHECK(side.at("sphere_radius").get<double>() == near(std::sqrt(3.0) + 0.05));

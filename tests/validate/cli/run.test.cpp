@@ -293,11 +293,43 @@ TEST_SUITE("end to end") {
       CHECK(seconds.at("total").get<double>() >= phases * (1 - 1e-9));
       CHECK(seconds.at("search").get<double>() > 0);
       CHECK(json.at("read_seconds").get<double>() > 0);
+      CHECK(json.at("trace_seconds").get<double>() > 0);
       CHECK(seconds.contains("all") == !repeat.empty());
       if (repeat.empty()) continue;
       CHECK(seconds.at("all").size() == (repeat.back() == '3' ? 3 : 4));
       const auto& all = seconds.at("all");
       CHECK(std::find(all.begin(), all.end(), seconds.at("total")) != all.end());
+    }
+  }
+
+  TEST_CASE("reading the scene and making its rays have two numbers; reading rays from a file is reading") {
+    const support::ScratchFolder folder;
+    const std::string rays = folder.path("rays.csv");
+    const Json scene = result_of(words("scene @cornell --samples 50 --rays 20k --write-rays") + Arguments{rays});
+    CHECK(scene.at("trace_seconds").get<double>() > scene.at("read_seconds").get<double>());
+    const Json file = result_of(words("run @cornell --samples 50 --technique grid --ray-file") + Arguments{rays});
+    CHECK(file.at("trace_seconds") == 0);
+    CHECK(file.at("read_seconds").get<double>() > scene.at("read_seconds").get<double>());
+  }
+
+  TEST_CASE("the text names the rays by their field, whatever the effects are") {
+    const support::ScratchFolder folder;
+    const std::string rays = folder.path("rays.csv");
+    const auto line_of_rays = [](const Arguments& arguments) {
+      const std::string text = detp(arguments + words("--quiet")).out;
+      const std::size_t from = text.find("\nrays ");
+      return text.substr(from, text.find('\n', from + 1) - from);
+    };
+    for (const std::string effects : {"auto", "none"}) {
+      CAPTURE(effects);
+      const Arguments line = words("scene @cornell --samples 50 --rays 1000 --effects " + effects);
+      CHECK(line_of_rays(line + Arguments{"--write-rays", rays}).find(" pieces of photon paths, ") !=
+            std::string::npos);
+      CHECK(line_of_rays(line + words("--field isotropic")).ends_with(" isotropic lines"));
+      const std::string file =
+          line_of_rays(words("scene @cornell --samples 50 --effects " + effects + " --ray-file") + Arguments{rays});
+      CHECK(file.find(" segments from a file, ") != std::string::npos);
+      CHECK(file.find("light") == std::string::npos);
     }
   }
 

@@ -268,6 +268,27 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE("published, corrected and counted rows join: k is the row's own, T_R and T_I have one name") {
+    const std::string workload = " @uniform --samples 2000 --rays 5000 --disc-radius 0.02 --ratio 0.5,0.65 ";
+    const auto model = csv_of("model" + workload + "--form published,corrected --levels 0");
+    const auto run = csv_of("run" + workload + "--technique sphere-cache --spheres max");
+    REQUIRE(model.size() == 4);
+    REQUIRE(run.size() == 2);
+    for (std::size_t i = 0; i < 4; ++i) {
+      CHECK(model[i].at("k") == model[i].at("k_" + model[i].at("form")));
+      for (const std::string same : {"scene", "disc_radius", "ratio", "k_published", "k_corrected"})
+        CHECK(model[i].at(same) == run[i / 2].at(same));
+    }
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(run[i].at("k") == run[i].at("k_corrected"));
+      for (const std::string time : {"rebuild_time", "intersect_time"})
+        CHECK(number(run[i], "predicted_" + time) == number(model[2 * i + 1], time));
+      CHECK(run[i].at("rebuild_time") == run[i].at("cull_tests"));
+      CHECK(run[i].at("intersect_time") == run[i].at("disc_tests"));
+    }
+    CHECK(detp("run" + workload + "--technique sphere-cache").out.find(" rebuild_time ") != std::string::npos);
+  }
+
   TEST_CASE("several techniques and engines in one run are rows of one table, and its text is aligned") {
     const std::string line = "run @cornell --rays 1000 --technique grid,sphere-tree,photon-map --engine plain,simd";
     const auto rows = csv_of(line + " --field photons");

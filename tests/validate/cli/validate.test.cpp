@@ -34,6 +34,27 @@ TEST_SUITE("end to end") {
     }
     CHECK(finished.code == (refuted ? 1 : 0));
     CHECK(refuted);
+    // The summary counts the claims, and names those of the choice that are refuted.
+    const Json summary = finished.json().at("summary");
+    const std::string chosen = summary.at("choice").at("technique");
+    Json refuted_claims = Json::array();
+    int agree = 0;
+    for (const Json& claim : claims) {
+      const bool corrected = claim.at("form") == "corrected";
+      agree += corrected && claim.at("verdict") == "agrees" ? 1 : 0;
+      if (claim.at("id").get<std::string>().starts_with("choice." + chosen + ".") && claim.at("verdict") == "refuted")
+        refuted_claims.push_back(claim.at("id"));
+    }
+    CHECK(summary.at("corrected").at("agrees") == agree);
+    CHECK(summary.at("choice").at("refuted_claims") == refuted_claims);
+    CHECK(summary.at("choice").at("technique") == claims[0].at("technique"));
+    const std::string text = detp("validate" + scene).out;
+    CHECK(text.starts_with("answer    "));
+    const std::size_t table = text.find("\nclaim ");
+    const std::size_t choice_line = text.find("\nchoice    " + chosen + ", ");
+    CHECK(choice_line < table);
+    for (const char* word : {"\nothers    predictions refuted: ", "sphere-cache: ", " refuted, as documented: "})
+      CHECK_MESSAGE(text.find(word) < table, word);
     const Json choice = result_of("choose --rigor estimate" + scene);
     for (const Json& candidate : choice.at("candidates")) {
       const std::string technique = candidate.at("technique");
@@ -80,8 +101,49 @@ TEST_SUITE("end to end") {
       if (column == "finite_paths") CHECK(effect.at("reason") == "switched off by --effects uneven-rays");
     }
     const std::string text = detp(sparse).out;
-    CHECK(text.starts_with("effects   on: uneven rays (by hand); off: facing, "));
+    CHECK(text.find("\neffects   on: uneven rays (by hand); off: facing, ") != std::string::npos);
     CHECK(detp("validate --samples 1 --rays 1 --format json").json().at("effects").size() == json.at("effects").size());
+  }
+
+  TEST_CASE(
+      "controls are caught, and refuted published forms are documented, in JSON, CSV and text; the summary is first") {
+    const std::string line = "validate --samples 200 --rays 3200";
+    const Finished finished = detp(line + " --format json");
+    CHECK(finished.code == 0);  // published forms are refuted, but no corrected one
+    const Json json = finished.json();
+    int documented = 0;
+    for (const Json& claim : json.at("claims")) {
+      CAPTURE(claim.at("id").get<std::string>());
+      const std::string control = claim.at("control").at("verdict");
+      CHECK((control == "caught" || control == "undecided"));
+      documented += claim.at("documented") == true ? 1 : 0;
+      if (claim.at("documented") == true) {
+        CHECK(claim.at("form") == "published");
+        CHECK(claim.at("verdict") == "refuted");
+      }
+    }
+    CHECK(documented >= 4);  // the number of spheres, rebuilds and both times of the sphere cache
+    const Json& summary = json.at("summary");
+    CHECK(summary.at("corrected").at("refuted") == 0);
+    CHECK(summary.at("published").at("documented") == documented);
+    CHECK(summary.at("controls").at("caught").get<int>() > 40);
+    CHECK(summary.at("controls").at("missed") == 0);
+    CHECK_FALSE(summary.contains("choice"));
+    int caught = 0;
+    for (const CsvRow& row : csv_rows(detp(line + " --format csv").out)) {
+      caught += row.at("control_verdict") == "caught" ? 1 : 0;
+      CHECK(row.at("control_verdict") != "refuted");
+      documented -= row.at("documented") == "true" ? 1 : 0;
+    }
+    CHECK(caught == summary.at("controls").at("caught").get<int>());
+    CHECK(documented == 0);
+    const std::string text = detp(line).out;
+    CHECK(text.starts_with("answer    none of the "));
+    const std::string summary_text = std::regex_replace(text.substr(0, text.find("\nclaim ")), std::regex("\\s+"), " ");
+    for (const char* word :
+         {" published ", "refuted, as documented: sphere-cache: sphere-count, rebuilds", " controls "})
+      CHECK_MESSAGE(summary_text.find(word) != std::string::npos, word);
+    CHECK(text.find("  refuted, as documented  caught\n") != std::string::npos);
   }
 
   TEST_CASE("the sweep's options are refused without a sweep") {

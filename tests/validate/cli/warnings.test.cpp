@@ -33,6 +33,32 @@ TEST_SUITE("end to end") {
       CHECK(detp(line + words("--quiet")).err.empty());
     }
   }
+
+  TEST_CASE("scene remarks on samples along lines, and the samples that it suggests lie on surfaces") {
+    const support::ScratchFolder folder;
+    // A room: two large walls of few vertices, and a picture rail of many.
+    std::string mesh = "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 10 10 0\nf 1 2 3\nf 2 4 3\n";
+    for (int i = 0; i <= 1000; ++i) {
+      const std::string x = std::to_string(0.01 * i);
+      mesh += "v " + x + " 5 0.1\nv " + x + " 5.01 0.1\n";
+      const int first = 5 + 2 * i;
+      if (i > 0)
+        mesh += "f " + std::to_string(first - 2) + " " + std::to_string(first) + " " + std::to_string(first + 1) + "\n";
+    }
+    const std::string room = folder.file("room.obj", mesh);
+    const Arguments line{"scene", room, "--rays", "100", "--quiet"};
+    const Json json = result_of(line);
+    CHECK(json.at("dimension").get<double>() < 1.5);
+    REQUIRE(json.at("remarks").size() == 1);
+    const std::string remark = json.at("remarks")[0];
+    CHECK(detp(line).out.find("remark    D = 1.") != std::string::npos);
+    std::smatch suggested;
+    REQUIRE(std::regex_search(remark, suggested, std::regex("--samples ([0-9]+) ")));
+    const Json better = result_of(line + Arguments{"--samples", suggested[1]});
+    CHECK(better.at("dimension").get<double>() > 1.5);
+    CHECK(better.at("remarks").empty());
+    CHECK(result_of("scene @cornell --rays 100").at("remarks").empty());
+  }
 }
 
 }  // namespace detp::support

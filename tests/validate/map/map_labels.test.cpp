@@ -24,5 +24,8 @@ TEST_SUITE("known answer") {
     CHECK(seconds_label(0.9996) == "1 s");
     CHECK(seconds_label(12.34) == "12 s");
     CHECK(describe(support::small_map()) == "@small: 50 discs of dimension D = 3.00, isotropic lines");
+    TechniqueMap mixed = support::small_map();
+    mixed.field = sim::Field::mixed;
+    CHECK(describe(mixed) == "@small: 50 discs of dimension D = 3.00, a mixed field");
   }
 }
