@@ -1,9 +1,8 @@
 #pragma once
 
-#include <tbb/parallel_invoke.h>
-
 #include <utility>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/search/outcome.hpp"
 #include "load_rays.hpp"
 
@@ -44,7 +43,7 @@ void for_each_block(const Problem& problem, const Frame& frame, const RunOptions
     if (options.progress)
       options.progress(static_cast<double>(now.first()) / static_cast<double>(problem.rays().size()));
     if (options.stop.stop_requested()) break;
-    tbb::parallel_invoke([&] { next.load(problem, frame, now.first() + size, size); }, [&] { search(now); });
+    sim::parallel_invoke([&] { next.load(problem, frame, now.first() + size, size); }, [&] { search(now); });
     std::swap(now, next);
   }
 }

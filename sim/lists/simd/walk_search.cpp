@@ -1,9 +1,8 @@
 #include "walk_search.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "disc_results.hpp"
 #include "list_search.hpp"
@@ -106,7 +105,7 @@ void search_walk(const SearchInput& input, const MakeWalk& make_walk, const List
     DiscResults results(problem, discs, options, outcome);
     for_each_block(problem, frame, options, [&](const Block& rays) {
       const BlockSearch block = results.begin(frame, rays.first(), rays.traits());
-      tbb::parallel_for(0, classes, [&](int k) {
+      sim::parallel_for(0, classes, [&](int k) {
         const auto i = static_cast<std::size_t>(k);
         const OwnedIn<ListWalk> walk = make_walk(*options.memory);
         ClassWalk(block, k, rays.lists()[i], *walk, workers[i], events[i]).run();
