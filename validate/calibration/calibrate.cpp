@@ -20,10 +20,10 @@ namespace {
 
 constexpr double longest_run = 0.06;      ///< seconds; a longer run is stopped and left out
 constexpr double longest_of_large = 0.2;  ///< the same with many discs or many rays
-constexpr int most_rounds = 6;
-constexpr int most_repeats = 4;         ///< in a round
-constexpr double enough_timed = 0.005;  ///< seconds after which a run is not repeated in the same round
-constexpr double long_run = 0.03;       ///< seconds; a shorter run is repeated once at least, to find warm caches
+constexpr int rounds_of_workload = 6;
+constexpr int most_repeats = 4;            ///< in a round
+constexpr double enough_in_round = 0.005;  ///< seconds after which a run is not repeated in the same round
+constexpr double long_run = 0.03;          ///< seconds; a shorter run is repeated once at least, to find warm caches
 
 class Calibrator {
  public:
@@ -81,7 +81,7 @@ class Calibrator {
     const auto begin = [&](int) {
       return !std::all_of(all.begin(), all.end(), [](auto& one) { return one.agrees(); });
     };
-    in_turns(all.size(), most_rounds, begin, [&](std::size_t i, int) {
+    in_turns(all.size(), rounds_of_workload, begin, [&](std::size_t i, int) {
       if (is_over(place)) return false;
       if (!all[i].agrees()) time(problem, all[i]);
       return true;
@@ -121,7 +121,7 @@ class Calibrator {
   void time(const sim::Problem& problem, Timed& one) {
     for (RoundTimes& times : one.times) times.begin_round();
     double timed = 0;
-    for (int i = 0; i < most_repeats && timed < (i < 2 ? long_run : enough_timed); ++i) {
+    for (int i = 0; i < most_repeats && timed < (i < 2 ? long_run : enough_in_round); ++i) {
       for (std::size_t j = 0; j < one.numbers.size(); ++j) {
         const sim::ProcessorStopwatch processor;
         const sim::Outcome outcome =

@@ -19,14 +19,14 @@ using support::Flushing;
 
 namespace {
 
-constexpr std::size_t count = 1000;
+constexpr std::size_t task_count = 1000;
 
 /// How many of the tasks of each algorithm flush subnormal numbers to zero.
 int flushing_tasks() {
   std::atomic<int> flushing = 0;
   const auto look = [&] { flushing += flushes() ? 1 : 0; };
-  sim::parallel_for(std::size_t{0}, count, [&](std::size_t) { look(); });
-  sim::parallel_for(ParallelRange(0, count, 1), [&](const ParallelRange&) { look(); });
+  sim::parallel_for(std::size_t{0}, task_count, [&](std::size_t) { look(); });
+  sim::parallel_for(ParallelRange(0, task_count, 1), [&](const ParallelRange&) { look(); });
   sim::parallel_invoke(look, look);
   std::size_t next = 0;
   sim::parallel_pipeline<std::size_t>(
@@ -34,11 +34,11 @@ int flushing_tasks() {
       [&](std::size_t& item) {
         look();
         item = next++;
-        return item < count;
+        return item < task_count;
       },
       [&](std::size_t) { look(); }, [&](std::size_t) { look(); });
   const int sum = sim::parallel_reduce(
-      ParallelRange(0, count, 1), 0,
+      ParallelRange(0, task_count, 1), 0,
       [&](const ParallelRange& part, int before) {
         look();
         return before + static_cast<int>(part.size());
@@ -47,7 +47,7 @@ int flushing_tasks() {
         look();
         return a + b;
       });
-  CHECK(sum == count);
+  CHECK(sum == task_count);
   return flushing;
 }
 
@@ -100,9 +100,9 @@ TEST_SUITE("known answer") {
     std::vector<std::size_t> added;
     std::size_t next = 0;
     sim::parallel_pipeline<std::size_t>(
-        5, [&](std::size_t& item) { return (item = next++) < count; }, [](std::size_t) {},
+        5, [&](std::size_t& item) { return (item = next++) < task_count; }, [](std::size_t) {},
         [&](std::size_t item) { added.push_back(item); });
-    REQUIRE(added.size() == count);
-    for (std::size_t i = 0; i < count; ++i) CHECK(added[i] == i);
+    REQUIRE(added.size() == task_count);
+    for (std::size_t i = 0; i < task_count; ++i) CHECK(added[i] == i);
   }
 }
