@@ -1,7 +1,8 @@
 # Checks which folder includes which. The line "May include:" in a folder's README.md lists the folders that it may
 # include; its sources must include no others, and there must be no cycle of includes between folders. Writes the
 # graph of the folders to folders.txt and folders.dot. Includes from other folders must begin with detp/; includes
-# from the same folder must be plain file names. Called with -D SOURCE=<top of the project> -D DRAW=<folder for the drawing>.
+# from the same folder must be plain file names. Also checks that only one file calls oneTBB's algorithms. Called with
+# -D SOURCE=<top of the project> -D DRAW=<folder for the drawing>.
 
 cmake_policy(VERSION 3.25)
 file(GLOB_RECURSE files RELATIVE ${SOURCE} ${SOURCE}/model/*.[hic]* ${SOURCE}/sim/*.[hic]* ${SOURCE}/validate/*.[hic]*)
@@ -35,6 +36,14 @@ foreach(file ${files})
 endforeach()
 list(REMOVE_DUPLICATES folders)
 list(SORT folders)
+
+# oneTBB's algorithms are called by sim/base/parallel.hpp only, which sets the floating-point mode of each task.
+foreach(file ${files})
+  file(STRINGS ${SOURCE}/${file} lines REGEX "tbb(::|/)(parallel_|task_group|flow_graph)")
+  if(lines AND NOT file STREQUAL "sim/base/parallel.hpp")
+    message(SEND_ERROR "${file}: calls oneTBB's algorithms; use those of sim/base/parallel.hpp: ${lines}")
+  endif()
+endforeach()
 
 # The folders that each README.md allows.
 set(text)

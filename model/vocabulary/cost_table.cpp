@@ -4,12 +4,15 @@
 
 #include <stdexcept>
 
+#include "checks.hpp"
+
 namespace detp {
 
 void check(const CostTable& costs) {
   for (const Technique technique : all_techniques) try {
       check(costs[technique]);
       check(costs.threads_of(technique));
+      require_non_negative("relative error", costs.relative_error_of(technique));
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(fmt::format("{}: {}", name(technique), error.what()));
     }

@@ -13,6 +13,8 @@ struct CostTable {
   std::array<UnitCosts, all_techniques.size()> of_technique{};  ///< in the order of Technique
   std::array<ThreadCosts, all_techniques.size()> threads{};     ///< default: more threads are no faster
   Engine engine = Engine::simd;                                 ///< whose costs these are
+  /// Standard error of seconds by these costs from right counts, relative to the seconds; 0: not known.
+  std::array<double, all_techniques.size()> relative_errors{};
 
   CostTable() = default;
   /// The same costs for all techniques, on one thread.
@@ -28,10 +30,18 @@ struct CostTable {
     return threads[static_cast<std::size_t>(technique)];
   }
 
+  [[nodiscard]] double& relative_error_of(Technique technique) {
+    return relative_errors[static_cast<std::size_t>(technique)];
+  }
+  [[nodiscard]] double relative_error_of(Technique technique) const {
+    return relative_errors[static_cast<std::size_t>(technique)];
+  }
+
   bool operator==(const CostTable&) const = default;
 };
 
-/// Throws as check(UnitCosts); the message names the technique.
+/// Throws as check(UnitCosts) and check(ThreadCosts), and for an error that is negative or not finite; the message names
+/// the technique.
 void check(const CostTable& costs);
 
 /// The costs of one technique, which are valid because the table was checked.

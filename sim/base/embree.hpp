@@ -33,7 +33,8 @@ inline void require_no_error(const Owned<RTCDevice>& device) {
     throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
 }
 
-/// Builds the scene's tree. Throws Stopped ("stopped while " + doing) if a stop is requested during the build,
+/// Builds the scene's tree. Embree calls the callbacks for bounds in its own floating-point mode, which flushes subnormal
+/// numbers to zero; their results must have margins that cover this. Throws Stopped ("stopped while " + doing) if a stop is requested during the build,
 /// OutOfMemory or std::runtime_error if Embree fails.
 inline void commit(RTCDevice device, RTCScene scene, const std::stop_token& stop, const char* doing) {
   const auto go_on = [](void* token, double) { return !static_cast<const std::stop_token*>(token)->stop_requested(); };

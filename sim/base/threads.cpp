@@ -11,6 +11,8 @@
 #include <thread>
 #include <vector>
 
+#include "floating_point.hpp"
+
 namespace detp::sim {
 namespace {
 
@@ -54,10 +56,14 @@ void on_threads(int threads, FunctionRef<void()> work) {
   std::optional<global_control> more_than_cores;
   if (parallelism > global_control::active_value(global_control::max_allowed_parallelism))
     more_than_cores.emplace(global_control::max_allowed_parallelism, parallelism);
+  const auto in_default_mode = [&] {
+    const DefaultFloatingPoint mode;
+    work();
+  };
   if (oneapi::tbb::this_task_arena::max_concurrency() == started)
-    oneapi::tbb::this_task_arena::isolate([&] { work(); });
+    oneapi::tbb::this_task_arena::isolate(in_default_mode);
   else
-    oneapi::tbb::task_arena(started).execute(work);
+    oneapi::tbb::task_arena(started).execute(in_default_mode);
 }
 
 }  // namespace detp::sim

@@ -18,7 +18,7 @@ inline constexpr int most_threads = 4096;
 /// whose `threads` is larger than in all earlier calls finds the number by starting threads; other calls start none.
 [[nodiscard]] int startable_threads(int threads);
 
-/// Calls `work`. Its oneTBB algorithms run on `threads` threads, including this one, or on fewer if the program has
+/// Calls `work`, in the default floating-point mode. Its oneTBB algorithms run on `threads` threads, including this one, or on fewer if the program has
 /// limited oneTBB to fewer or if no more can be started. If the caller runs in an arena of as many threads, they run in
 /// that arena, isolated from its other tasks; otherwise in an arena of their own.
 void on_threads(int threads, FunctionRef<void()> work);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 
 namespace detp::sim {
@@ -114,6 +115,7 @@ bool EffectReport::is_close() const {
 
 Observed observe(const Problem& problem, const SurfaceFacts& surface, const EffectSelection& selection,
                  const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
   const Stopwatch watch;
   const EffectSample sample(problem, surface, stop);
   Observed observed{

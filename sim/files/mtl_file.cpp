@@ -45,6 +45,11 @@ Material material_of(const Statement& from, std::size_t& scaled) {
   else if (from.has_model(glass_models))
     to.glass = 1;
   if (from.index > 0.1 && from.index != 1) to.index = from.index;
+  constexpr double vast = 0x1p1000;  // beyond it, the sum may overflow and its inverse be subnormal
+  if (std::max(to.diffuse, to.specular) > vast) {
+    to.diffuse /= vast;
+    to.specular /= vast;
+  }
   const double shares = to.diffuse + to.specular;
   if (shares > 1) ++scaled;
   const double scale = (1 - to.glass) / std::max(1.0, shares);
@@ -58,20 +63,22 @@ class MtlReader {
   MtlReader(const std::string& path, std::stop_token stop) : path_(path), lines_(path, mtl_format, std::move(stop)) {}
 
   std::vector<Material> read(Notices& notices) {
-    std::vector<Statement> all;
+    std::vector<Material> materials;
+    std::optional<Statement> now;
+    std::size_t scaled = 0;
     while (lines_.next()) {
       const std::string_view keyword = lines_.keyword();
-      if (keyword == "newmtl")
-        all.push_back({.name = std::string(trimmed(lines_.rest())), .model = {}});
-      else if (all.empty())
+      if (keyword == "newmtl") {
+        if (now) materials.push_back(material_of(*now, scaled));
+        now.emplace().name = trimmed(lines_.rest());
+      } else if (now) {
+        add(*now, keyword);
+      } else {
         lines_.fail("comes before the first newmtl");
-      else
-        add(all.back(), keyword);
+      }
     }
     lines_.note_unknown(notices);
-    std::vector<Material> materials;
-    std::size_t scaled = 0;
-    for (const Statement& one : all) materials.push_back(material_of(one, scaled));
+    if (now) materials.push_back(material_of(*now, scaled));
     const auto note = [&](std::size_t count, const char* what) {
       if (count > 0) notices.push_back(fmt::format("{}: {}: {}", shown_path(path_), what, count));
     };
@@ -84,7 +91,7 @@ class MtlReader {
   void add(Statement& to, std::string_view keyword) {
     if (keyword == "Kd") to.diffuse = luminance();
     if (keyword == "Ks") to.specular = luminance();
-    if (keyword == "Ke") to.emitted = luminance();
+    if (keyword == "Ke") to.emitted = radiance();
     if (keyword == "Ns") to.shininess = number();
     if (keyword == "Ni") to.index = number();
     if (keyword == "d") to.opacity = share();
@@ -100,7 +107,16 @@ class MtlReader {
     colour[0] = checked(lines_.number(cut_word(words)));
     colour[1] = colour[2] = colour[0];
     for (std::size_t i = 1; i < 3 && !trimmed(words).empty(); ++i) colour[i] = checked(lines_.number(cut_word(words)));
-    return 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+    const double sum = 0.2126 * colour[0] + 0.7152 * colour[1] + 0.0722 * colour[2];
+    return std::min(sum, std::numeric_limits<double>::max());  // rounding must not make it infinite
+  }
+
+  [[nodiscard]] double radiance() const {
+    const double value = luminance();
+    if (std::fpclassify(value) == FP_SUBNORMAL)
+      lines_.fail(fmt::format("must be 0 or at least {:.4g}, for the luminance of the three numbers (got {:.4g})",
+                              std::numeric_limits<double>::min(), value));
+    return value;
   }
 
   [[nodiscard]] double number() const {

@@ -21,7 +21,8 @@ namespace detp::sim {
 ///       rest.
 /// If diffuse and specular shares add up to more than 1, both are scaled down. Textures are ignored. A file that is
 /// not there gives no material and a notice, as do scaled shares and textures. Throws FileError for a number that cannot
-/// be read, is not finite or negative, and for a statement before the first newmtl.
+/// be read, is not finite or negative, for a radiance below the range of normal doubles, and for a statement before the
+/// first newmtl.
 [[nodiscard]] std::vector<Material> read_mtl(const std::string& path, Notices& notices, std::stop_token stop = {});
 
 }  // namespace detp::sim

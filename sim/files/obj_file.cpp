@@ -4,11 +4,15 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <string_view>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 #include "detp/sim/base/kept_memory.hpp"
+#include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/unit_vector.hpp"
 #include "file_error.hpp"
 #include "mtl_file.hpp"
@@ -37,6 +41,12 @@ struct CornerNormals {
 
   /// The sum; the first normal if the normals cancel, as at a plant's leaf that has one triangle for each side.
   [[nodiscard]] glm::dvec3 vector() const { return glm::length(sum) < least_sum * count ? first : sum; }
+};
+
+/// Lets a table with strings as keys be searched for a part of a line.
+struct HashOfName {
+  using is_transparent = void;
+  std::size_t operator()(std::string_view name) const { return std::hash<std::string_view>()(name); }
 };
 
 /// Indices of a face's corner as written in the file; 0: none.
@@ -91,11 +101,15 @@ class ObjReader {
   /// The material of the faces that follow. Faces before the first one have number 0, that of no name.
   void use_material(std::string_view name) {
     if (runs_.empty()) memory_.push(runs_, {std::size_t{0}, std::uint16_t{0}});
-    const auto found = std::find(names_.begin(), names_.end(), name);
-    const auto number = static_cast<std::size_t>(found - names_.begin());
-    if (number > UINT16_MAX) lines_.fail("a mesh can have 65535 materials");
-    if (found == names_.end()) names_.emplace_back(name);
-    memory_.push(runs_, {mesh_.triangles.size(), static_cast<std::uint16_t>(number)});
+    memory_.push(runs_, {mesh_.triangles.size(), number_of(name)});
+  }
+
+  /// The number of a material: the number of other names before it.
+  std::uint16_t number_of(std::string_view name) {
+    if (const auto known = numbers_.find(name); known != numbers_.end()) return known->second;
+    if (names_.size() > UINT16_MAX) lines_.fail("a mesh can have 65535 materials");
+    names_.emplace_back(name);
+    return numbers_[names_.back()] = static_cast<std::uint16_t>(names_.size() - 1);
   }
 
   /// One name, which may contain blanks; if there is no such file, the words are names.
@@ -104,31 +118,35 @@ class ObjReader {
     const bool is_one = std::filesystem::exists(beside(path_, names), ignored);
     for (std::string_view words = names, word = is_one ? names : cut_word(words); !word.empty();
          word = is_one ? std::string_view{} : cut_word(words))
-      if (std::find(libraries_.begin(), libraries_.end(), word) == libraries_.end()) libraries_.emplace_back(word);
+      if (known_libraries_.emplace(word).second) libraries_.emplace_back(word);
   }
 
   /// Reads the libraries, and gives each triangle its material. Without a library that can be found, all are matt.
   void add_materials(Notices& notices) {
     if (runs_.empty() || libraries_.empty()) return;
-    std::vector<Material> known;
+    StopCheck check(stop_, "matching materials");
+    std::vector<Material> materials(names_.size());
+    std::vector<bool> defined(names_.size());
+    bool some = false;
     for (const std::string& library : libraries_)
-      for (Material& one : read_mtl(beside(path_, library), notices, stop_)) known.push_back(std::move(one));
-    if (known.empty()) return;
-    mesh_.materials.all.resize(names_.size());
-    std::size_t unknown = 0;
-    for (std::size_t i = 1; i < names_.size(); ++i) {
-      const auto found =
-          std::find_if(known.begin(), known.end(), [&](const Material& m) { return m.name == names_[i]; });
-      if (found != known.end())
-        mesh_.materials.all[i] = *found;
-      else
-        ++unknown;
-    }
+      for (Material& one : read_mtl(beside(path_, library), notices, stop_)) {
+        check.after(1);
+        some = true;
+        const auto used = numbers_.find(one.name);
+        if (used == numbers_.end() || used->second == 0 || defined[used->second]) continue;  // the first one counts
+        defined[used->second] = true;
+        materials[used->second] = std::move(one);
+      }
+    if (!some) return;
+    mesh_.materials.all = std::move(materials);
+    const auto unknown = std::count(defined.begin() + 1, defined.end(), false);
     if (unknown > 0) notices.push_back("materials that no library defines, taken as matt: " + std::to_string(unknown));
     std::vector<std::uint16_t>& numbers = mesh_.materials.of_triangle;
     memory_.reserve(numbers, mesh_.triangles.size());
-    for (std::size_t i = 0; i < runs_.size(); ++i)
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
       numbers.resize(i + 1 < runs_.size() ? runs_[i + 1].first : mesh_.triangles.size(), runs_[i].second);
+      check.after(1);
+    }
   }
 
   /// The first three numbers of a v or vn line.
@@ -191,8 +209,10 @@ class ObjReader {
   std::vector<glm::dvec3> normals_;
   std::vector<CornerNormals> at_positions_;
   std::vector<std::uint32_t> polygon_;
-  std::vector<std::string> libraries_;
-  std::vector<std::string> names_{""};                       ///< of materials
+  std::vector<std::string> libraries_;  ///< in the order of the file
+  std::unordered_set<std::string> known_libraries_;
+  std::vector<std::string> names_{""};  ///< of materials
+  std::unordered_map<std::string, std::uint16_t, HashOfName, std::equal_to<>> numbers_{{"", 0}};
   std::vector<std::pair<std::size_t, std::uint16_t>> runs_;  ///< first triangle and material, in rising order
 };
 

@@ -1,11 +1,9 @@
 #include "curve_sort.hpp"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
 
 namespace detp::sim::stream {
@@ -51,7 +49,7 @@ std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells, con
     return spread_10_bits(std::min(static_cast<std::uint32_t>(above * scale), last));
   };
   std::vector<CurvePlace> places(discs.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, discs.size(), 1U << 14), [&](const auto& range) {
+  sim::parallel_for(ParallelRange(0, discs.size(), 1U << 14), [&](const auto& range) {
     StopCheck check(stop, doing);
     for_each_checked(range.begin(), range.end(), check, [&](std::size_t i) {
       const glm::dvec3 above = discs[i].centre - box.low;
@@ -87,7 +85,7 @@ class Pass {
  private:
   template <class Visit>
   void for_each_word(const Visit& visit) const {
-    tbb::parallel_for(std::size_t{0}, stretches_, [&](std::size_t i) {
+    sim::parallel_for(std::size_t{0}, stretches_, [&](std::size_t i) {
       StopCheck check(stop_, doing);
       for_each_checked(from_.size() * i / stretches_, from_.size() * (i + 1) / stretches_, check,
                        [&](std::size_t word) { visit(i, from_[word]); });

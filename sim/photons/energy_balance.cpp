@@ -1,11 +1,11 @@
 #include "energy_balance.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "photon_walk.hpp"
 
@@ -76,10 +76,11 @@ double EnergyBalance::absorbed() const {
 
 EnergyBalance energy_balance(const Scene& scene, std::uint64_t photons, std::uint64_t seed,
                              const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
   if (photons == 0) throw std::invalid_argument("an energy balance needs at least 1 photon (got 0)");
   const PhotonWalk walk(scene, seed, stop);
   std::vector<Account> groups((photons + photons_in_a_sum - 1) / photons_in_a_sum, empty_account(scene));
-  oneapi::tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t group) {
+  sim::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t group) {
     StopCheck check(stop, "tracing photons");
     check.now();
     const std::uint64_t first = group * photons_in_a_sum;

@@ -1,11 +1,16 @@
 #include "lights.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
 #include "detp/model/vocabulary/checks.hpp"
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/geometry/random.hpp"
 
 namespace detp::sim {
@@ -16,12 +21,16 @@ constexpr double even_share = 0.1;  // of the photons, spread evenly over the li
 }  // namespace
 
 Lights::Lights(const Scene& scene) {
+  const DefaultFloatingPoint mode;
   if (scene.lights.empty()) throw std::invalid_argument("photon paths need a light; " + scene.name + " has none");
   double flux = 0;
   double shining = 0;
   std::vector<Emitter> emitters;
   for (const Light& light : scene.lights) {
     require_non_negative("flux of a light", light.flux);
+    if (std::fpclassify(light.flux) == FP_SUBNORMAL)
+      throw std::invalid_argument(fmt::format("flux of a light must be 0 or at least {:.4g} (got {:.4g})",
+                                              std::numeric_limits<double>::min(), light.flux));
     emitters.push_back(emitter_of(light, scene));
     flux += light.flux;
     shining += light.flux > 0 ? 1 : 0;

@@ -19,7 +19,7 @@ struct EmittedPhoton {
 /// is off by about 2^-k.
 class Lights {
  public:
-  /// Throws std::invalid_argument if there is no light, a flux is negative or not finite, or all are zero; and as
+  /// Throws std::invalid_argument if there is no light, a flux is negative, subnormal or not finite, or all are zero; and as
   /// emitter_of.
   explicit Lights(const Scene& scene);
 

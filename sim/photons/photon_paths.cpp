@@ -1,10 +1,10 @@
 #include "photon_paths.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "photon_rounds.hpp"
 #include "photon_tracer.hpp"
@@ -17,7 +17,7 @@ constexpr std::uint64_t block_size = 256;  // number of photons that one thread 
 std::vector<PhotonPieces> trace_round(const PhotonTracer& tracer, std::uint64_t first, std::uint64_t photons,
                                       const std::stop_token& stop) {
   std::vector<PhotonPieces> blocks((photons + block_size - 1) / block_size);
-  tbb::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
+  sim::parallel_for(std::size_t{0}, blocks.size(), [&](std::size_t i) {
     const std::uint64_t start = first + i * block_size;
     blocks[i] = tracer.trace(start, std::min(start + block_size, first + photons), stop);
   });
@@ -49,6 +49,7 @@ Paths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed, co
 
 Paths photon_paths(const Scene& scene, std::size_t count, std::uint64_t seed, std::shared_ptr<const RayCaster> caster,
                    const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
   const PhotonTracer tracer(scene, seed, std::move(caster));
   PhotonRounds rounds(scene.name, count);
   Paths paths;

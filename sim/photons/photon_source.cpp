@@ -1,10 +1,10 @@
 #include "photon_source.hpp"
 
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 #include <utility>
 
+#include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "photon_rounds.hpp"
 
 namespace detp::sim {
@@ -17,6 +17,7 @@ constexpr std::uint64_t group_size = 1024;  // photons in a group
 PhotonSource::PhotonSource(const Scene& scene, std::uint64_t count, std::uint64_t seed,
                            std::shared_ptr<const RayCaster> caster, const std::stop_token& stop)
     : tracer_(scene, seed, std::move(caster)), count_(count), limit_(0), starts_{0} {
+  const DefaultFloatingPoint mode;
   PhotonRounds rounds(scene.name, count);
   limit_ = rounds.limit();
   try {
@@ -41,7 +42,7 @@ void PhotonSource::count_rays(std::uint64_t groups, const std::stop_token& stop)
   if (groups <= known) return;
   std::vector<std::uint64_t> rays(groups - known);
   std::vector<Box> boxes(groups - known);
-  oneapi::tbb::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
+  sim::parallel_for(std::size_t{0}, rays.size(), [&](std::size_t i) {
     const PhotonPieces pieces = trace_group(known + i, stop);
     rays[i] = pieces.rays.size();
     for (const Ray& ray : pieces.rays) boxes[i].include(ray.origin);
@@ -85,10 +86,11 @@ void PhotonSource::read(std::uint64_t first, std::span<Ray> block, const std::st
 
 void PhotonSource::read_numbered(std::uint64_t first, std::span<Ray> block, std::vector<std::uint64_t>& photons,
                                  const std::stop_token& stop) const {
+  const DefaultFloatingPoint mode;
   photons.resize(block.size());
   if (block.empty()) return;
   const std::uint64_t last = first + block.size();
-  oneapi::tbb::parallel_for(group_of(first), group_of(last - 1) + 1, [&](std::uint64_t group) {
+  sim::parallel_for(group_of(first), group_of(last - 1) + 1, [&](std::uint64_t group) {
     const PhotonPieces pieces = trace_group(group, stop);
     const std::uint64_t from = std::max(first, starts_[group]);
     const std::uint64_t to = std::min(last, starts_[group] + pieces.rays.size());

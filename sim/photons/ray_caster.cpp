@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "detp/sim/base/embree.hpp"
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/scene/distinct_facets.hpp"
 
@@ -99,6 +100,7 @@ struct RayCaster::Embree {
 
 RayCaster::RayCaster(const Mesh& mesh, const Box& box, const std::stop_token& stop)
     : centre_(box.centre()), scale_(caster_unit(box)) {
+  const DefaultFloatingPoint mode;
   std::vector<Facet> facets;
   facets.reserve(mesh.triangles.size());
   StopCheck check(stop, "copying triangles");

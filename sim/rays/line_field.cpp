@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
@@ -34,6 +35,7 @@ Ray LineField::line(std::uint64_t index) const {
 }
 
 std::vector<Ray> LineField::lines(std::uint64_t first, std::size_t count, const std::stop_token& stop) const {
+  const DefaultFloatingPoint mode;
   StopCheck check(stop, "making lines");
   std::vector<Ray> rays;
   rays.reserve(count);

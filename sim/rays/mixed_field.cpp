@@ -1,8 +1,6 @@
 #include "mixed_field.hpp"
 
 #include <fmt/format.h>
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/checks.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
@@ -82,8 +81,7 @@ Ray MixedField::from_point(std::uint64_t index) const {
 
 void MixedField::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
   constexpr std::size_t rays_at_once = 4096;
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-  oneapi::tbb::parallel_for(Range(0, block.size(), rays_at_once), [&](const Range& range) {
+  sim::parallel_for(ParallelRange(0, block.size(), rays_at_once), [&](const ParallelRange& range) {
     StopCheck check(stop, "making rays");
     check.now();
     for_each_checked(range.begin(), range.end(), check, [&](std::size_t i) { block[i] = ray(first + i); });

@@ -1,10 +1,9 @@
 #include "ray_source.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <algorithm>
 
+#include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
 
 namespace detp::sim {
@@ -14,6 +13,7 @@ void RaysInMemory::read(std::uint64_t first, std::span<Ray> block, const std::st
 }
 
 double RaysInMemory::farthest_from(const glm::dvec3& point) const {
+  const DefaultFloatingPoint mode;
   double farthest = 0;
   for (const Ray& ray : rays_) farthest = std::max(farthest, glm::distance(ray.origin, point));
   return farthest;
@@ -21,8 +21,7 @@ double RaysInMemory::farthest_from(const glm::dvec3& point) const {
 
 void LinesOfField::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
   constexpr std::size_t lines_at_once = 4096;
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-  oneapi::tbb::parallel_for(Range(0, block.size(), lines_at_once), [&](const Range& range) {
+  sim::parallel_for(ParallelRange(0, block.size(), lines_at_once), [&](const ParallelRange& range) {
     StopCheck check(stop, "making lines");
     check.now();
     for_each_checked(range.begin(), range.end(), check, [&](std::size_t i) { block[i] = field_.line(first + i); });
@@ -30,6 +29,7 @@ void LinesOfField::read(std::uint64_t first, std::span<Ray> block, const std::st
 }
 
 double LinesOfField::farthest_from(const glm::dvec3& point) const {
+  const DefaultFloatingPoint mode;
   constexpr double rounding = 1 + 1e-12;  // errors of the lines' origins and of this formula
   return (glm::distance(sphere_.centre, point) + sphere_.radius + 1e-15 * glm::length(sphere_.centre)) * rounding;
 }

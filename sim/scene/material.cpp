@@ -21,6 +21,8 @@ void check(const Material& material) {
   require(material.shininess >= 1, "shininess must be >= 1, that", material.shininess);
   require(material.index > 0 && std::isfinite(material.index), "index of refraction must be > 0 and finite, that",
           material.index);
+  require(std::fpclassify(material.emitted) != FP_SUBNORMAL, "emitted radiance must be 0 or a normal number, that",
+          material.emitted);
   require(material.emitted >= 0 && std::isfinite(material.emitted), "emitted radiance must be >= 0 and finite, that",
           material.emitted);
 }

@@ -17,14 +17,14 @@ struct Material {
   double shininess = std::numeric_limits<double>::infinity();
   double glass = 0;    ///< share that is reflected or refracted by Fresnel's equations
   double index = 1.5;  ///< of refraction behind the front, over that before it; > 0
-  double emitted = 0;  ///< radiance of the front, >= 0
+  double emitted = 0;  ///< radiance of the front, >= 0 and not subnormal
 };
 
 /// The material of triangles that have none.
 inline const Material matt{};
 
-/// Throws std::invalid_argument, naming the material, unless all numbers are finite (but for the shininess) and in
-/// range, and the shares add up to at most 1.
+/// Throws std::invalid_argument, naming the material, unless all numbers are finite (except the shininess) and in range,
+/// and the shares add up to at most 1.
 void check(const Material& material);
 
 /// The materials of a mesh's triangles.

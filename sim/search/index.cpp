@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
@@ -36,6 +37,7 @@ Outcome search(const Index& index, const Problem& problem, const RunOptions& opt
 }
 
 void search(const Index& index, const Problem& problem, const RunOptions& options, Outcome& outcome) {
+  const DefaultFloatingPoint mode;
   check_options(options, problem);
   clear(outcome);
   Stopwatch watch;

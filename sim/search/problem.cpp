@@ -8,6 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "soundness.hpp"
@@ -74,6 +75,7 @@ Extent extent_of(std::span<const Disc> discs, StopCheck& check) {
 }  // namespace
 
 Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
   require_number("disc", discs.size());
   StopCheck check(stop, checking);
   return extent_of(discs, check).enclosing;
@@ -128,6 +130,7 @@ void Problem::set_farthest(double farthest) {
 
 Problem make_problem(const PathRays& rays, std::span<const Disc> discs, bool front_facing, int threads,
                      const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
   Problem problem(discs, front_facing, stop);
   problem.set_farthest(problem.store_rays(rays, threads, 0, stop));
   return problem;
@@ -135,6 +138,7 @@ Problem make_problem(const PathRays& rays, std::span<const Disc> discs, bool fro
 
 Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, bool front_facing,
                                   const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
   Problem problem(discs, front_facing, stop);
   require_non_negative("distance of the farthest ray's origin", farthest);
   problem.set_farthest(farthest);
@@ -142,6 +146,7 @@ Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, 
 }
 
 void set_rays(Problem& problem, const PathRays& rays, int threads, std::uint64_t first) {
+  const DefaultFloatingPoint mode;
   Problem changed = problem;
   const double farthest = changed.store_rays(rays, threads, first, {});
   if (farthest > problem.farthest())

@@ -1,11 +1,11 @@
 #include "ray_search.hpp"
 
 #include <oneapi/tbb/enumerable_thread_specific.h>
-#include <oneapi/tbb/parallel_pipeline.h>
 
 #include <algorithm>
 #include <functional>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "hit_collector.hpp"
@@ -84,21 +84,12 @@ Counts<std::uint64_t> search_alone(Chunks& chunks, MakeRaySearch make, HitSum& s
 
 /// Chunks leave the pipeline in order, so a buffer is free when its turn comes again.
 Counts<std::uint64_t> search_together(Chunks& chunks, std::size_t under_way, MakeRaySearch make, HitSum& total) {
-  using namespace oneapi::tbb;
-  enumerable_thread_specific<OwnedIn<RaySearch>> searches([&] { return make(); });
-  const auto cut = make_filter<void, Chunk>(filter_mode::serial_in_order, [&](flow_control& flow) {
-    Chunk chunk;
-    if (!chunks.next(chunk)) flow.stop();
-    return chunk;
-  });
-  const auto search = make_filter<Chunk, Chunk>(filter_mode::parallel, [&](const Chunk& chunk) {
-    searches.local()->search(chunk.first, chunk.last, *chunk.hits);
-    return chunk;
-  });
-  const auto sum =
-      make_filter<Chunk, void>(filter_mode::serial_in_order, [&](const Chunk& chunk) { total.add(chunk); });
+  oneapi::tbb::enumerable_thread_specific<OwnedIn<RaySearch>> searches([&] { return make(); });
   try {
-    parallel_pipeline(under_way, cut & search & sum);
+    sim::parallel_pipeline<Chunk>(
+        under_way, [&](Chunk& chunk) { return chunks.next(chunk); },
+        [&](const Chunk& chunk) { searches.local()->search(chunk.first, chunk.last, *chunk.hits); },
+        [&](const Chunk& chunk) { total.add(chunk); });
   } catch (const Stopped&) {  // unfinished chunks are left out
   }
   Counts<std::uint64_t> counts;

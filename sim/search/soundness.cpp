@@ -1,9 +1,6 @@
 #include "soundness.hpp"
 
 #include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_reduce.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,12 +8,12 @@
 #include <string>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/geometry/unit_vector.hpp"
 
 namespace detp::sim {
 namespace {
 
-using Range = tbb::blocked_range<std::size_t>;
 constexpr std::size_t rays_at_once = std::size_t{1} << 14;
 
 /// Fast test with the vector's square: true only if all coordinates are certainly at most largest_coordinate. False for
@@ -84,9 +81,9 @@ struct RaySummary {
 
 RaySummary summarise_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power,
                           const StopCheck& stop) {
-  return tbb::parallel_reduce(
-      Range(0, rays.size(), rays_at_once), RaySummary{},
-      [&](const Range& range, RaySummary summary) {
+  return sim::parallel_reduce(
+      ParallelRange(0, rays.size(), rays_at_once), RaySummary{},
+      [&](const ParallelRange& range, RaySummary summary) {
         StopCheck check = stop;
         for_each_checked(rays.subspan(range.begin(), range.size()), check, [&](const Ray& ray) {
           summary.sound = summary.sound && surely_sound(ray, most_power);

@@ -1,5 +1,6 @@
 #include "views.hpp"
 
+#include "detp/sim/base/floating_point.hpp"
 #include "soundness.hpp"
 
 namespace detp::sim {
@@ -10,6 +11,7 @@ glm::dvec3 vector_at(const VectorsView& view, std::size_t i) { return {view.at(i
 }  // namespace
 
 void read_rays(const RaysView& view, std::vector<Ray>& rays) {
+  const DefaultFloatingPoint mode;
   rays.resize(view.count);
   for (std::size_t i = 0; i < view.count; ++i)
     rays[i] =
@@ -17,6 +19,7 @@ void read_rays(const RaysView& view, std::vector<Ray>& rays) {
 }
 
 std::vector<Disc> read_discs(const DiscsView& view) {
+  const DefaultFloatingPoint mode;
   std::vector<Disc> discs(view.count);
   for (std::size_t i = 0; i < view.count; ++i)
     discs[i] = normalised(Disc{vector_at(view.centres, i), vector_at(view.normals, i), view.radii[i]});

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "detp/sim/base/floating_point.hpp"
+
 namespace detp::sim {
 
 // Each is defined in its own file.
@@ -31,6 +33,7 @@ constexpr std::array<TechniqueSearch, all_techniques.size()> registry{{
 const TechniqueSearch& search_of(Technique technique) { return registry[static_cast<std::size_t>(technique)]; }
 
 std::unique_ptr<Index> prepare(const Problem& problem, const Valid<Candidate>& candidate, const RunOptions& options) {
+  const DefaultFloatingPoint mode;
   return search_of(candidate.technique).prepare(problem, candidate.parameters, options);
 }
 

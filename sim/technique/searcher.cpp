@@ -2,12 +2,14 @@
 
 #include <utility>
 
+#include "detp/sim/base/floating_point.hpp"
 #include "registry.hpp"
 
 namespace detp::sim {
 
 Problem searched_problem(std::span<const Disc> discs, std::optional<double> farthest, bool front_facing,
                          const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
   constexpr double radii = 1000;
   if (!farthest) farthest = radii * enclosing_sphere(discs, stop).radius;
   return make_problem_without_rays(discs, *farthest, front_facing, stop);

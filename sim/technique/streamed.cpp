@@ -6,6 +6,7 @@
 #include <bit>
 #include <stdexcept>
 
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/base/scratch.hpp"
 #include "detp/sim/base/stopped.hpp"
@@ -157,6 +158,7 @@ std::size_t default_block(std::size_t discs) {
 
 StreamedOutcome run_streamed(std::span<const Disc> discs, const RaySource& source, const Valid<Candidate>& candidate,
                              const StreamOptions& options) {
+  const DefaultFloatingPoint mode;
   return StreamedSearch(discs, source, candidate, options).run_all();
 }
 

@@ -26,12 +26,16 @@ int main() {
     for (Segment& s : photons) s = {{random(), random(), 1}, {random() - 0.5F, random() - 0.5F, -1}, 9, 1.0F / 20'000};
   };
 
+  // What an operation costs on this machine: as detp calibrate stored it, or measured now, roughly.
+  const auto stored = detp::validate::find_calibration();
+  const detp::CostTable costs = stored ? stored->simd : detp::validate::calibrate({.seconds = 1}).simd.costs;
+
   trace_photons();
   // Technique and parameters, chosen by a pilot; the samples, sorted once.
   const auto show = [](const detp::sim::Phase& phase) {
     std::printf("%3.0f %% %s\n", 100 * phase.from, phase.what.c_str());
   };
-  detp::validate::Plan plan = detp::validate::plan(discs, rays, {.progress = show});
+  detp::validate::Plan plan = detp::validate::plan(discs, rays, {.costs = costs, .progress = show});
   detp::sim::SearchScratch scratch;
   double radius = 0.02;
   for (int pass = 0; pass < 4; ++pass, radius *= 0.8) {  // new photons and a smaller radius in each pass

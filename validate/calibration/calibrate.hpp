@@ -4,6 +4,7 @@
 #include <optional>
 #include <stop_token>
 
+#include "calibration_quality.hpp"
 #include "cost_fit.hpp"
 #include "detp/sim/base/phase.hpp"
 #include "thread_fit.hpp"
@@ -26,33 +27,32 @@ struct EngineCalibration {
   std::array<std::optional<ThreadFit>, all_techniques.size()> thread_fits = {};
 };
 
-struct Calibration {
+struct Calibration : CalibrationQuality {
   EngineCalibration plain = {};
   EngineCalibration simd = {};
-  double left_out_median_error = 0;          ///< of all runs on one thread, by fits to other workloads
   double threads_left_out_median_error = 0;  ///< of all runs on more threads, from their times on one; 0 without any
   std::size_t workloads = 0;                 ///< measured
   double seconds = 0;                        ///< that the calibration took
-  /// processor time over wall time of all runs; if it is small, other programs were busy
-  double processor_share = 1;
   bool stopped = false;  ///< a stop request came: the costs are fitted to the workloads measured until then
 
   [[nodiscard]] EngineCalibration& of(Engine engine) { return engine == Engine::plain ? plain : simd; }
   [[nodiscard]] const EngineCalibration& of(Engine engine) const { return engine == Engine::plain ? plain : simd; }
 };
 
-/// A calibration whose median error on left-out workloads exceeds this is doubtful.
-inline constexpr double doubtful_error = 0.15;
-
 /// Times all exact techniques, with several parameters each, on uniform samples in a cube and on its faces: 10² … 10⁵
 /// discs (10⁶ once), 10² … 10⁵ rays, from few to very many hits; by both engines where they differ. The discs of half
 /// the workloads are in order along a curve. The rays of half the workloads are isotropic lines; those of the others
-/// are pieces of such lines. Runs of more than 0.06 s are left out. Each candidate is run two to seven times in
-/// succession, until 0.015 s have passed; the shortest time counts, of the wall clock or of the processor: time that
-/// other programs took is no cost. Fits the unit costs of each technique and engine to its runs on one thread, in
-/// seconds (fit_costs); the usual costs are the built-in ones. On every second workload, each run whose work is
-/// divided alternates with runs on 2, 4, … threads; the costs of threads are fitted to these. A technique with too few
-/// runs (10, or 5 on more threads) keeps the built-in costs.
+/// are pieces of such lines. Runs of more than 0.06 s are left out.
+///
+/// The candidates of a workload are timed in rounds. In a round, each is run up to four times in succession, until 0.005 s
+/// have passed; the shortest time counts, of the wall clock or of the processor: time that other programs took is no cost.
+/// A candidate takes part in two to six rounds, until the shortest times of two rounds agree within 5 %. On every second
+/// workload, each run whose work is divided alternates with runs on 2, 4, … threads, by the wall clock; if these times
+/// never agree, they are left out.
+///
+/// Fits the unit costs of each technique and engine to its runs on one thread, in seconds (fit_costs); the usual costs are
+/// the built-in ones. Fits the costs of threads to the runs on more threads. A technique with too few runs (10, or 5 on
+/// more threads) keeps the built-in costs.
 [[nodiscard]] Calibration calibrate(const CalibrationOptions& options = {});
 
 }  // namespace detp::validate

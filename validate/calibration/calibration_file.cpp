@@ -4,11 +4,14 @@
 
 #include <array>
 #include <chrono>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
+#include <system_error>
 
 #include "built_in_costs.hpp"
 #include "cache_file.hpp"
+#include "calibration_key_json.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
 
@@ -19,6 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "detp.calibrate";
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
+constexpr double most_error = 100;  ///< relative; of a calibration that is of any use
 
 std::string today() {
   const std::chrono::year_month_day day(std::chrono::floor<std::chrono::days>(std::chrono::system_clock::now()));
@@ -34,19 +38,43 @@ constexpr std::array thread_terms{ThreadTerm{"serial_preparing", &ThreadCosts::s
                                   ThreadTerm{"serial_search", &ThreadCosts::serial_search},
                                   ThreadTerm{"start", &ThreadCosts::start}};
 
-/// The costs of one engine. Unit costs that the file does not name are 0; techniques that it does not name have the
-/// built-in costs.
-CostTable costs_of(const Json& json, Engine engine) {
+/// A time or error above this is none of any machine, and predictions with it might overflow.
+void require_possible(const std::string& what, double value, double most) {
+  require_non_negative(what, value);
+  if (value > most) throw std::invalid_argument(fmt::format("{} must be at most {} (got {})", what, most, value));
+}
+
+UnitCosts unit_costs_of(const Json& units, Technique technique) {
+  constexpr double most_seconds = 1;
+  UnitCosts costs;
+  bool some = false;
+  for (const UnitCostTerm& term : unit_cost_terms) {
+    double& cost = costs.*term.cost;
+    cost = units.value(std::string(term.symbol), 0.0);
+    require_possible(fmt::format("unit cost {} of {}", term.symbol, name(technique)), cost, most_seconds);
+    some = some || cost > 0;
+  }
+  if (!some) throw std::invalid_argument(fmt::format("it has no unit costs of {}", name(technique)));
+  return costs;
+}
+
+/// The costs of one engine, which must name all exact techniques. Unit costs that the file does not name are 0. Costs of
+/// threads that it does not name are the built-in ones.
+CostTable costs_of(const Json& json, Engine engine, const CalibrationQuality& quality) {
   CostTable costs = built_in_unit_costs(engine);
-  const Json& units = json.at("costs").at(std::string(name(engine)));
-  const Json& threads = json.at("threads").at(std::string(name(engine)));
+  const std::string engine_name(name(engine));
+  const Json& units = json.at("costs").at(engine_name);
+  const Json& threads = json.at("threads").at(engine_name);
+  const Json errors = json.value("relative_errors", Json::object()).value(engine_name, Json::object());
   for (const Technique technique : all_techniques) {
     const std::string key(name(technique));
-    if (const auto found = units.find(key); found != units.end())
-      for (const UnitCostTerm& term : unit_cost_terms)
-        costs[technique].*term.cost = found->value(std::string(term.symbol), 0.0);
+    if (record_of(technique).exact || units.contains(key))
+      costs[technique] = unit_costs_of(units.value(key, Json::object()), technique);
     if (const auto found = threads.find(key); found != threads.end())
       for (const ThreadTerm& term : thread_terms) costs.threads_of(technique).*term.cost = found->at(term.name);
+    double& error = costs.relative_error_of(technique);
+    error = errors.value(key, quality.relative_error());
+    require_possible("relative error of " + key, error, most_error);
   }
   check(costs);
   return costs;
@@ -59,6 +87,13 @@ Json to_json(const CostTable& costs) {
       for (const UnitCostTerm& term : unit_cost_terms)
         if (const double cost = costs[technique].*term.cost; cost > 0)
           json[std::string(name(technique))][std::string(term.symbol)] = cost;
+  return json;
+}
+
+Json errors_json(const CostTable& costs) {
+  Json json = Json::object();
+  for (const Technique technique : all_techniques)
+    if (record_of(technique).exact) json[std::string(name(technique))] = costs.relative_error_of(technique);
   return json;
 }
 
@@ -89,6 +124,9 @@ std::string calibration_text(const Calibration& calibration) {
       {"key", to_json(this_machine())},
       {"date", today()},
       {"left_out_median_error", calibration.left_out_median_error},
+      {"processor_share", calibration.processor_share},
+      {"relative_errors",
+       {{"simd", errors_json(calibration.simd.costs)}, {"plain", errors_json(calibration.plain.costs)}}},
       {"costs", {{"simd", to_json(calibration.simd.costs)}, {"plain", to_json(calibration.plain.costs)}}},
       {"threads", {{"simd", threads_json(calibration.simd.costs)}, {"plain", threads_json(calibration.plain.costs)}}}};
   return json.dump(2) + "\n";
@@ -100,16 +138,50 @@ void write_calibration(const std::string& path, const Calibration& calibration) 
   write_cache_file(path, calibration_text(calibration));
 }
 
+std::string save_calibration(const std::string& path, const Calibration& calibration) {
+  if (const std::string doubt = calibration.doubt(); !doubt.empty())
+    if (const auto stored = find_calibration(path); stored && stored->is_better_than(calibration))
+      return fmt::format("this calibration is doubtful: {}; that of {}, whose median error is {:.2g} %, is kept", doubt,
+                         stored->date, 100 * stored->left_out_median_error);
+  write_calibration(path, calibration);
+  return "";
+}
+
+std::optional<StoredCalibration> find_calibration(const std::string& path, std::string* why_not) {
+  std::string ignored;
+  std::string& reason = why_not != nullptr ? *why_not : ignored;
+  reason.clear();
+  std::error_code unknown;  // a file that cannot be looked at is not used
+  if (path.empty() || !std::filesystem::exists(path, unknown)) return std::nullopt;
+  try {
+    StoredCalibration stored = read_calibration(path);
+    const std::string differs = difference(stored.key, this_machine());
+    if (differs.empty()) return stored;
+    reason = fmt::format("{}: {}", path, differs);
+  } catch (const sim::FileError& error) {
+    reason = error.what();
+  }
+  return std::nullopt;
+}
+
+CostTable stored_unit_costs(Engine engine) {
+  const auto stored = find_calibration();
+  return stored ? stored->of(engine) : built_in_unit_costs(engine);
+}
+
 StoredCalibration parse_calibration(const std::string& text, const std::string& path) {
   try {
     const Json json = Json::parse(text);
     check_version(json, path);
-    StoredCalibration stored{.key = key_of(json.at("key")),
-                             .date = json.at("date"),
-                             .plain = costs_of(json, Engine::plain),
-                             .simd = costs_of(json, Engine::simd),
-                             .left_out_median_error = json.at("left_out_median_error")};
-    require_non_negative("left_out_median_error", stored.left_out_median_error);
+    StoredCalibration stored;
+    stored.key = key_of(json.at("key"));
+    stored.date = json.at("date");
+    stored.left_out_median_error = json.at("left_out_median_error");
+    require_possible("left_out_median_error", stored.left_out_median_error, most_error);
+    stored.processor_share = json.value("processor_share", 1.0);  // earlier files do not have it
+    require_share("processor_share", stored.processor_share);
+    stored.plain = costs_of(json, Engine::plain, stored);
+    stored.simd = costs_of(json, Engine::simd, stored);
     return stored;
   } catch (const nlohmann::json::exception& error) {
     throw sim::FileError(

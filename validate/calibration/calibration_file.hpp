@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "calibrate.hpp"
@@ -8,12 +9,13 @@
 /// Calibrations on disc.
 namespace detp::validate {
 
-struct StoredCalibration {
+struct StoredCalibration : CalibrationQuality {
   CalibrationKey key;
   std::string date;  ///< "2026-11-20"
   CostTable plain;
   CostTable simd;
-  double left_out_median_error = 0;
+
+  [[nodiscard]] const CostTable& of(Engine engine) const { return engine == Engine::plain ? plain : simd; }
 };
 
 /// detp/calibration.json in $XDG_CACHE_HOME, or in ~/.cache if that is not set to an absolute path; empty if there is
@@ -26,8 +28,20 @@ struct StoredCalibration {
 /// Writes the file, and its folder if necessary. Throws sim::FileError.
 void write_calibration(const std::string& path, const Calibration& calibration);
 
+/// The same, but a doubtful calibration does not replace a better one of this machine and program. Returns why it was not
+/// written; "" if it was.
+std::string save_calibration(const std::string& path, const Calibration& calibration);
+
 /// Throws sim::FileError if the file cannot be read, if it is not a calibration, or if an older or newer program wrote it.
 [[nodiscard]] StoredCalibration read_calibration(const std::string& path);
+
+/// The calibration in the file, if there is one of this machine and program. Else nullopt, and in *why_not, unless null, the
+/// reason with the path; "" if there is no such file.
+[[nodiscard]] std::optional<StoredCalibration> find_calibration(const std::string& path = default_calibration_path(),
+                                                                std::string* why_not = nullptr);
+
+/// The stored costs of this machine, for PlanOptions::costs; the built-in ones if there are none that can be used.
+[[nodiscard]] CostTable stored_unit_costs(Engine engine = Engine::simd);
 
 /// The text as read_calibration reads it; `path` is for messages.
 [[nodiscard]] StoredCalibration parse_calibration(const std::string& text, const std::string& path);

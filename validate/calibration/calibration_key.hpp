@@ -1,6 +1,5 @@
 #pragma once
 
-#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 /// The machine and program to which stored costs and stored choices belong.
@@ -23,10 +22,5 @@ struct CalibrationKey {
 
 /// The first difference in words, as "its cpu is A, here it is B"; empty if the keys are equal.
 [[nodiscard]] std::string difference(const CalibrationKey& stored, const CalibrationKey& here);
-
-[[nodiscard]] nlohmann::ordered_json to_json(const CalibrationKey& key);
-
-/// Throws nlohmann::json::exception if a value is missing or of another type.
-[[nodiscard]] CalibrationKey key_of(const nlohmann::ordered_json& json);
 
 }  // namespace detp::validate

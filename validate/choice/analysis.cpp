@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/validate/base/in_turns.hpp"
@@ -192,6 +193,7 @@ class Analyser {
 
 Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& ranking,
                  const AnalysisOptions& options) {
+  const sim::DefaultFloatingPoint mode;
   const auto predicted = [&](const std::vector<Candidate>& candidates) {
     std::vector<Analysed> all;
     for (const Candidate& candidate : candidates) {

@@ -7,6 +7,7 @@
 #include <stop_token>
 #include <utility>
 
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/technique/searcher.hpp"
 
 namespace detp::validate {
@@ -24,6 +25,7 @@ class LateSearcher {
 
   /// If building throws, the next call tries again.
   const sim::Searcher& get(const std::stop_token& stop = {}) {
+    const sim::DefaultFloatingPoint mode;
     if (!is_built()) {
       const std::lock_guard lock(mutex_);
       if (!searcher_) {

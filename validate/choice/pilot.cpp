@@ -9,6 +9,7 @@
 #include "box_tree_bound.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
@@ -167,6 +168,7 @@ std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t d
 
 PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays,
                             const Valid<CostTable>& costs, const PilotOptions& options) {
+  const sim::DefaultFloatingPoint mode;
   if (sample.empty()) throw std::invalid_argument("a pilot needs at least one ray");
   require_count("number of rays", rays, 1, 1e18);
   if (!is_allowed(Technique::box_tree, options))
@@ -222,6 +224,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
 }
 
 PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>& costs, const PilotOptions& options) {
+  const sim::DefaultFloatingPoint mode;
   const sim::Stopwatch watch;
   const std::span<const sim::Ray> rays = problem.rays();
   const std::size_t discs = problem.discs().size();
@@ -238,6 +241,7 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>&
 
 PilotChoice choose_again(const PilotChoice& pilot, const sim::Problem& problem, double radius_ratio, double rays,
                          const Valid<CostTable>& costs, const PilotOptions& options) {
+  const sim::DefaultFloatingPoint mode;
   require_positive("ratio of the radii", radius_ratio);
   require_count("number of rays", rays, 1, 1e18);
   const Prices prices{costs, sim::useful_threads(options.threads)};

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "allowed_ranking.hpp"
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
@@ -219,10 +220,12 @@ class Plan::Planner {
 };
 
 Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays, const PlanOptions& options) {
+  const sim::DefaultFloatingPoint mode;
   return Plan::Planner(discs, nullptr, rays, options).run();
 }
 
 Plan plan(const sim::DiscsView& discs, const sim::RaysView& rays, const PlanOptions& options) {
+  const sim::DefaultFloatingPoint mode;
   const auto own_discs = std::make_shared<const std::vector<sim::Disc>>(sim::read_discs(discs));
   std::vector<sim::Ray> copied;
   sim::read_rays(rays, copied);

@@ -19,9 +19,10 @@ class LateSearcher;
 class PlanMemory;
 
 struct PlanOptions {
-  CostTable costs = built_in_unit_costs();  ///< seconds; measure those of this machine with validate::calibrate
-  std::optional<double> rays = {};          ///< number of rays in each search; default: as many as are shown to `plan`
-  std::optional<double> farthest = {};      ///< as for sim::Searcher
+  /// seconds, of another machine; those of this one: stored_unit_costs() or calibrate().simd.costs
+  CostTable costs = built_in_unit_costs();
+  std::optional<double> rays = {};      ///< number of rays in each search; default: as many as are shown to `plan`
+  std::optional<double> farthest = {};  ///< as for sim::Searcher
   bool front_facing = false;
   /// that closed forms take into account, in plans and replans; the class of a memory is always that of the evidence
   sim::EffectSelection effects = {};

@@ -14,7 +14,7 @@
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/calibration/cache_file.hpp"
-#include "detp/validate/calibration/calibration_key.hpp"
+#include "detp/validate/calibration/calibration_key_json.hpp"
 
 namespace detp::validate {
 namespace {

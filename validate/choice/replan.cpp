@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "detp/model/rank/choose.hpp"
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
@@ -44,6 +45,7 @@ double least_time_ratio(double radius_ratio, double rays_ratio) {
 }
 
 Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
+  const sim::DefaultFloatingPoint mode;
   const sim::Stopwatch watch;
   const Plan::Basis& basis = *plan.basis_;
   require_positive("disc radius", disc_radius);

@@ -1,13 +1,12 @@
 #pragma once
 
-#include <tbb/parallel_for.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include "claim.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
 
 namespace detp::validate {
@@ -35,7 +34,7 @@ inline constexpr int batch_count = 32;
 template <class One>
 auto for_each_batch(const Experiment& experiment, const One& one) {
   std::vector<decltype(one(0))> results(batch_count);
-  tbb::parallel_for(0, batch_count, [&](int batch) {
+  sim::parallel_for(0, batch_count, [&](int batch) {
     sim::StopCheck(experiment.stop, "counting").now();
     results[static_cast<std::size_t>(batch)] = one(batch);
   });

@@ -3,6 +3,7 @@
 #include <array>
 #include <utility>
 
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
 
 namespace detp::validate {
@@ -26,6 +27,7 @@ bool add_findings(Run run, const Experiment& experiment, std::vector<Finding>& f
 }  // namespace
 
 std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress, sim::Progress* done) {
+  const sim::DefaultFloatingPoint mode;
   struct Step {
     const char* name;
     Run run;

@@ -96,7 +96,28 @@ std::string thread_table(const validate::Calibration& calibration, const Screen&
   return table.text(screen);
 }
 
-std::string to_text(const validate::Calibration& calibration, const std::string& saved, const Screen& screen) {
+/// Where a calibration was saved, or why it was not.
+struct Saved {
+  std::string path = {};
+  std::string why_not = {};
+};
+
+/// Saves it where later commands look for it, unless there is a better one; with --output there, in any case.
+Saved save(const validate::Calibration& calibration, const CommonOptions& common) {
+  if (calibration.stopped) return {.why_not = "stopped"};
+  if (common.output) {
+    validate::write_calibration(*common.output, calibration);
+    return {.path = *common.output};
+  }
+  const std::string path = validate::default_calibration_path();
+  if (path.empty()) return {.why_not = "there is no folder for it"};
+  const std::string kept = validate::save_calibration(path, calibration);
+  if (kept.empty()) return {.path = path};
+  note(common, fmt::format("not saved: {}; --output FILE saves it in any case", kept));
+  return {.why_not = kept};
+}
+
+std::string to_text(const validate::Calibration& calibration, const Saved& saved, const Screen& screen) {
   TextTable table({{.head = "technique", .align = Align::left},
                    {.head = "engine", .align = Align::left},
                    {.head = "runs"},
@@ -128,19 +149,16 @@ std::string to_text(const validate::Calibration& calibration, const std::string&
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   add(fmt::format("error     {:.2g} % in the median, on {} workloads left out of the fit in turn{}",
                   100 * calibration.left_out_median_error, calibration.workloads,
-                  calibration.left_out_median_error > validate::doubtful_error
-                      ? ": more than 15 %; predicted seconds are doubtful"
-                      : ""));
+                  calibration.doubt().empty() ? "" : "; predicted seconds are doubtful"));
   if (calibration.threads_left_out_median_error > 0)
     add(fmt::format("threads   {:.2g} % in the median, of the time on several threads from that on one",
                     100 * calibration.threads_left_out_median_error));
-  if (calibration.processor_share < 0.9)
+  if (calibration.processor_share < validate::doubtful_share)
     add(
         fmt::format("busy      other programs used this machine: {:.0f} % of the time went to detp; the costs are in "
                     "processor time",
                     100 * calibration.processor_share));
-  add(saved.empty() ? "saved     no: " + std::string(calibration.stopped ? "stopped" : "there is no folder for it")
-                    : "saved     " + saved);
+  add("saved     " + (saved.path.empty() ? "no: " + saved.why_not : saved.path));
   return text;
 }
 
@@ -180,9 +198,7 @@ Result run_calibrate(const CalibrateOptions& options, const CommonOptions& commo
   const ProgressLine progress(common);
   const validate::Calibration calibration = validate::calibrate(
       {.seconds = options.seconds, .threads = common.threads, .stop = stop, .progress = progress.report()});
-  const std::string path = common.output.value_or(validate::default_calibration_path());
-  const bool save = !calibration.stopped && !path.empty();
-  if (save) validate::write_calibration(path, calibration);
+  const Saved saved = save(calibration, common);
   const Json stored = Json::parse(validate::calibration_text(calibration));
   Result result;
   result.inputs = {{"seconds", options.seconds}};
@@ -192,14 +208,16 @@ Result run_calibrate(const CalibrateOptions& options, const CommonOptions& commo
                  {"thread_fits", thread_fits_json(calibration)},
                  {"left_out_median_error", calibration.left_out_median_error},
                  {"threads_left_out_median_error", calibration.threads_left_out_median_error},
-                 {"doubtful", calibration.left_out_median_error > validate::doubtful_error},
+                 {"relative_error", calibration.relative_error()},
+                 {"relative_errors", stored["relative_errors"]},
+                 {"doubtful", !calibration.doubt().empty()},
                  {"workloads", calibration.workloads},
                  {"seconds", calibration.seconds},
                  {"processor_share", calibration.processor_share},
                  {"key", stored["key"]},
                  {"date", stored["date"]},
-                 {"saved", save ? path : ""}};
-  result.text = to_text(calibration, save ? path : "", common.screen());
+                 {"saved", saved.path}};
+  result.text = to_text(calibration, saved, common.screen());
   result.csv = to_csv(calibration);
   result.output_is_written = true;
   if (calibration.stopped) result.stopped = sim::Progress{calibration.workloads, 0, "workloads measured"};
@@ -210,7 +228,9 @@ Result run_calibrate(const CalibrateOptions& options, const CommonOptions& commo
 
 Command calibrate_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("calibrate", "The unit costs of this machine, saved for later commands");
-  app->footer("Example: detp calibrate --seconds 10\n--output FILE saves the calibration there instead.");
+  app->footer(
+      "Example: detp calibrate --seconds 10\n--output FILE saves the calibration there instead, even if it is "
+      "doubtful.");
   const auto options = std::make_shared<CalibrateOptions>();
   add_number(*app, "--seconds", options->seconds, "time for the measurements; default: 17");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {

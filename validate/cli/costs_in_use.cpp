@@ -2,11 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <stdexcept>
-#include <system_error>
 
-#include "detp/sim/files/file_error.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "unit_cost_option.hpp"
@@ -22,26 +19,25 @@ CostsInUse built_in() {
       .built_in = true};
 }
 
-CostsInUse calibrated(const validate::StoredCalibration& stored) {
+CostsInUse calibrated(const validate::StoredCalibration& stored, const CommonOptions& common) {
+  if (const std::string doubt = stored.doubt(); !doubt.empty())
+    note(common,
+         fmt::format(
+             "predicted seconds are doubtful, as is the calibration: {}; calibrate again while the machine is quiet",
+             doubt));
   return {.simd = stored.simd,
           .plain = stored.plain,
           .origin = fmt::format("of each operation: of this machine, calibrated {} (median error {:.2g} %)",
-                                stored.date, 100 * stored.left_out_median_error)};
+                                stored.date, 100 * stored.left_out_median_error),
+          .relative_error = stored.relative_error()};
 }
 
 /// The stored calibration, unless it is missing, broken or of another machine.
 CostsInUse stored_or_built_in(const CommonOptions& common) {
-  const std::string path = validate::default_calibration_path();
-  std::error_code unknown;  // a file that cannot be looked at is not used
-  if (path.empty() || !std::filesystem::exists(path, unknown)) return built_in();
-  try {
-    const validate::StoredCalibration stored = validate::read_calibration(path);
-    const std::string differs = validate::difference(stored.key, validate::this_machine());
-    if (differs.empty()) return calibrated(stored);
-    note(common, fmt::format("{}: not used, {}; detp calibrate makes a new one", path, differs));
-  } catch (const sim::FileError& error) {
-    note(common, fmt::format("{}; not used", error.what()));
-  }
+  std::string why_not;
+  if (const auto stored = validate::find_calibration(validate::default_calibration_path(), &why_not))
+    return calibrated(*stored, common);
+  if (!why_not.empty()) note(common, fmt::format("{}; not used; detp calibrate makes a new one", why_not));
   return built_in();
 }
 
@@ -71,7 +67,7 @@ CostsInUse CostOptions::costs(const CommonOptions& common) const {
   if (!differs.empty())
     throw std::invalid_argument(fmt::format(
         "{} is of another machine or program: {}; make one here with detp calibrate", calibration_, differs));
-  return calibrated(stored);
+  return calibrated(stored, common);
 }
 
 }  // namespace detp::cli

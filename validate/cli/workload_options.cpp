@@ -90,6 +90,7 @@ std::pair<sim::Field, sim::FieldShares> parse_field(const std::string& text) {
     std::size_t from = std::string_view("mixed").size();
     while (from < text.size() && text[from] == ':') {
       const std::size_t end = std::min(text.find(':', from + 1), text.size());
+      if (end == from + 1) break;  // an empty share
       numbers.push_back(parse_number("--field", text.substr(from + 1, end - from - 1)));
       from = end;
     }

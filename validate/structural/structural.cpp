@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "detp/sim/base/floating_point.hpp"
 #include "structural_registry.hpp"
 
 namespace detp::validate {
@@ -26,6 +27,7 @@ Counts<double> structural_brute_force(const sim::Problem& problem, const Lines& 
 
 Counts<double> structural_counts(const sim::Problem& problem, double rays, const Valid<Candidate>& candidate,
                                  const std::stop_token& stop, bool front_facing, Engine engine) {
+  const sim::DefaultFloatingPoint mode;
   require_count("number of rays", rays, 1, 1e18);
   const StructuralModel& model = structural_model(candidate.technique);
   if (model.counts == nullptr)
@@ -39,6 +41,7 @@ Counts<double> structural_counts(const sim::Problem& problem, double rays, const
 
 Counts<double> structural_counts(std::span<const sim::Disc> discs, double rays, const Valid<Candidate>& candidate,
                                  const std::stop_token& stop, bool front_facing, Engine engine) {
+  const sim::DefaultFloatingPoint mode;
   const sim::Sphere enclosing = sim::enclosing_sphere(discs, stop);
   const double farthest = glm::distance(discs[0].centre, enclosing.centre);  // of ray origins: sets the slack
   return structural_counts(sim::make_problem_without_rays(discs, farthest, false, stop), rays, candidate, stop,

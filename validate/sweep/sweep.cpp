@@ -1,7 +1,6 @@
 #include "sweep.hpp"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
 #include <bit>
@@ -11,6 +10,7 @@
 
 #include "checkpoint.hpp"
 #include "detp/model/rank/predict.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "detp/validate/base/search_work.hpp"
 #include "measure_point.hpp"
 
@@ -102,7 +102,7 @@ void check_checkpoint(std::span<const SweepPoint> points, const SweepOptions& op
 
 SweepResult run_sweep(std::span<const SweepPoint> points, const SweepOptions& options) {
   MeasurementCollector collector(points, options);
-  tbb::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
+  sim::parallel_for(0, tbb::this_task_arena::max_concurrency(), [&](int) {
     while (const SweepPoint* point = collector.next_point()) {
       auto deviations = measure_point(*point, options.seed, options.stop);
       if (!deviations.empty()) collector.add(*point, std::move(deviations));

@@ -1,9 +1,9 @@
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <numeric>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/run_memory.hpp"
@@ -77,7 +77,7 @@ class FloatBruteForce final : public Index {
 
   template <class Workers>
   void test_block(const BlockSearch& block, const Block& rays, Workers& workers) const {
-    tbb::parallel_for(std::size_t{0}, (discs_.discs.size() - 1) / chunk + 1, [&](std::size_t i) {
+    sim::parallel_for(std::size_t{0}, (discs_.discs.size() - 1) / chunk + 1, [&](std::size_t i) {
       const std::size_t count = std::min(chunk, discs_.discs.size() - i * chunk);
       Worker& worker = workers.local();
       const DiscRun run{static_cast<std::uint32_t>(i * chunk), static_cast<std::uint32_t>(count)};

@@ -1,14 +1,13 @@
 #include "disc_results.hpp"
 
 #include <hwy/cache_control.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <atomic>
 #include <numbers>
 #include <utility>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/search/sort_pairs.hpp"
 
 namespace detp::sim::stream {
@@ -215,7 +214,7 @@ void DiscResults::store_counted() const {
   outcome_.hits.resize(hits_.size());
   outcome_.irradiance.resize(hits_.size());
   std::atomic<std::uint64_t> found = 0;
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, hits_.size(), 1U << 14),
+  sim::parallel_for(ParallelRange(0, hits_.size(), 1U << 14),
                     [&](const auto& range) { found += store_counted(range.begin(), range.end()); });
   outcome_.total_hits = found;
 }

@@ -2,9 +2,6 @@
 
 #include <fmt/format.h>
 #include <hwy/cache_control.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
-#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,6 +11,7 @@
 #include <stdexcept>
 
 #include "binary_tree.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
@@ -62,7 +60,7 @@ class Builder {
     }
     const std::uint32_t middle = boundary(*discs_.places, first, count);
     const std::uint32_t right = number + 2 * (middle - first);
-    tbb::parallel_invoke([&] { split_in_parallel(first, middle - first, number + 1); },
+    sim::parallel_invoke([&] { split_in_parallel(first, middle - first, number + 1); },
                          [&] { split_in_parallel(middle, first + count - middle, right); });
     binary_[number] = {.box = nothing, .first = first, .count = count, .right = 0, .cost = 0};
     join(binary_[number], binary_[number + 1], binary_[right], right);
@@ -152,7 +150,7 @@ DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<
   tree.order = std::move(order);
   tree.discs.resize(tree.order.size());
   on_threads(thread_count(options.threads), [&] {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tree.order.size(), grain), [&](const auto& range) {
+    sim::parallel_for(ParallelRange(0, tree.order.size(), grain), [&](const auto& range) {
       StopCheck check(options.stop, "putting discs in order");
       for_each_checked(range.begin(), range.end(), check, [&](std::size_t place) {
         if (place + prefetch_distance < tree.order.size())

@@ -1,9 +1,8 @@
 #pragma once
 
-#include <tbb/parallel_invoke.h>
-
 #include <utility>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "load_rays.hpp"
 
@@ -61,7 +60,7 @@ void for_each_block(const Problem& problem, const Frame& frame, const RunOptions
       options.progress(static_cast<double>(now.first()) / static_cast<double>(problem.rays().size()));
     if (options.stop.stop_requested()) break;
     const std::size_t end = now.first() + now.size();
-    tbb::parallel_invoke([&] { next.load(problem, frame, end, size_at(end)); }, [&] { search(now); });
+    sim::parallel_invoke([&] { next.load(problem, frame, end, size_at(end)); }, [&] { search(now); });
     std::swap(now, next);
   }
 }

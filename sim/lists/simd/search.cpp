@@ -2,9 +2,9 @@
 
 #include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
-#include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "disc_results.hpp"
@@ -24,7 +24,7 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
   }
   // Isolated: a waiting thread must not start an unrelated task, which would put its lists on top of the lists in use.
   tbb::this_task_arena::isolate([&] {
-    tbb::parallel_for(node.first, node.first + node.count, [&](std::uint32_t child) {
+    sim::parallel_for(node.first, node.first + node.count, [&](std::uint32_t child) {
       Worker& worker = workers.local();
       const TreeNode& next = block.tree.nodes[child];
       if (worker.check.requested_after(test_work(size(lists))))

@@ -1,9 +1,8 @@
 #include "walk_search.hpp"
 
-#include <tbb/parallel_for.h>
-
 #include <array>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "disc_results.hpp"
 #include "list_search.hpp"
@@ -135,7 +134,7 @@ void search_walk(const SearchInput& input, const MakeWalk& make_walk, const List
         std::array walks{of_class(0), of_class(1), of_class(2)};
         run_together(block, walks, workers[0]);
       } else {
-        tbb::parallel_for(0, classes, [&](int k) { of_class(k).run(); });
+        sim::parallel_for(0, classes, [&](int k) { of_class(k).run(); });
       }
       results.end(rays, workers);
     });

@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "detp/model/vocabulary/nearest_name.hpp"
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/mesh_file.hpp"
 #include "detp/sim/photons/emitter.hpp"
@@ -115,6 +116,7 @@ Scene mesh_scene(const SceneRequest& request, const std::stop_token& stop) {
 }  // namespace
 
 Scene open_scene(const SceneRequest& request, const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
   if (request.samples == std::size_t{0}) throw std::invalid_argument("a scene needs at least 1 sample (got 0)");
   return request.name.starts_with('@') ? built_in_scene(request, stop) : mesh_scene(request, stop);
 }

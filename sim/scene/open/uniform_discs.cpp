@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/memory.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/scene/built_in/built_in.hpp"
@@ -11,6 +12,7 @@ namespace detp::sim {
 
 std::vector<Disc> uniform_discs(Body body, double side, std::size_t count, double radius, std::uint64_t seed,
                                 const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
   require_positive("cube side", side);
   require_positive("disc radius", radius);
   require_memory(fmt::format("{} discs and samples", count),

@@ -3,15 +3,20 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
+#include <stop_token>
 
+#include "detp/sim/base/stopped.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/mesh_file.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/scene/open/open_scene.hpp"
 #include "support/scratch_file.hpp"
+#include "support/work_log.hpp"
 
 using namespace detp::sim;
 using detp::support::ScratchFolder;
+namespace support = detp::support;
 
 namespace {
 
@@ -70,6 +75,41 @@ TEST_SUITE("known answer") {
     CHECK(notices[1].find("textures, ignored: 1") != std::string::npos);
   }
 
+  TEST_CASE("the largest numbers of a file scale down to shares of at most 1") {
+    const double largest = std::numeric_limits<double>::max();
+    for (const char* const albedo : {"Kd 1.7e308\n", "Kd 1.7976931348623157e308\n"}) {
+      CHECK(material_in(albedo).diffuse <= 1);
+      CHECK(material_in(albedo).diffuse == doctest::Approx(1));
+    }
+    CHECK(material_in("Ke 1.7976931348623157e308\n").emitted <= largest);
+    const Material both = material_in("Kd 1.7e308\nKs 1.7e308\nNs 10\n");
+    CHECK(both.diffuse == doctest::Approx(0.5));
+    CHECK(both.specular == doctest::Approx(0.5));
+  }
+
+  TEST_CASE("a stop request ends the matching of materials with those of the library") {
+    const ScratchFolder folder;
+    std::string library;
+    for (int i = 0; i < 200'000; ++i) library += "newmtl " + std::to_string(i) + "\n";
+    const std::string faces = "v 0 0 0\nv 1 0 0\nv 0 0 1\nusemtl 199999\nf 1 2 3\n";
+    const std::string mtl = folder.file("many.mtl", library);
+    const std::string obj = folder.file("many.obj", "mtllib many.mtl\n" + faces);
+    Notices notices;
+    std::uint64_t reading = 0;
+    {
+      const support::LoggedWork work;
+      (void)read_mtl(mtl, notices);
+      (void)read_mesh(folder.file("alone.obj", faces), notices);
+      reading = work.total();
+    }
+    std::stop_source stop;
+    const support::LoggedWork work([&](std::uint64_t total) {
+      if (total > reading + StopCheck::most_work) stop.request_stop();
+    });
+    CHECK_THROWS_WITH_AS((void)read_mesh(obj, notices, stop.get_token()), "stopped while matching materials", Stopped);
+    CHECK(work.bounded());
+  }
+
   TEST_CASE("an OBJ file's faces have the materials of its library; the emitting ones are the scene's light") {
     const ScratchFolder folder;
     (void)folder.file("lamp.mtl", "newmtl lamp\nKd 0\nKe 3\nnewmtl wall paint\nKd 0.7 0.7 0.7\n");
@@ -118,6 +158,8 @@ TEST_SUITE("bad input") {
     refuses("newmtl a\nNs inf\n", ":2: ");
     refuses("newmtl a\n\nKe\n", ":3: has too few numbers");
     refuses("Kd 1 1 1\n", ":1: comes before the first newmtl");
+    refuses("newmtl a\nKe 1e-308\n", ":2: must be 0 or at least 2.225e-308");
+    refuses("newmtl a\nKe 3e-308 0 0\n", "(got 6.378e-309)");
     refuses("newmtl a\nd 1.5\n", ":2: must be in [0, 1]");
   }
 }

@@ -138,6 +138,7 @@ TEST_SUITE("bad input") {
     refuses({PointLight{}, -1}, "flux of a light must be >= 0");
     refuses({PointLight{}, nan}, "flux of a light");
     refuses({PointLight{}, 0}, "flux of all lights must be > 0");
+    refuses({PointLight{}, 1e-310}, "flux of a light must be 0 or at least 2.225e-308");
     Scene dark = two_squares({{SurfaceLight{}}});
     dark.mesh.materials = {};
     CHECK_THROWS_WITH_AS(Lights{dark}, "no triangle of two squares emits light; give a material that emits",

@@ -22,6 +22,8 @@ validate::Calibration some_calibration() {
   calibration.plain.costs[Technique::box_tree].cull_test = 1.5e-8;
   calibration.simd.costs.threads_of(Technique::bsp) = {.serial_preparing = 1, .serial_search = 0.0625, .start = 1.5e-5};
   calibration.left_out_median_error = 0.0625;
+  calibration.processor_share = 0.9375;
+  calibration.simd.costs.relative_error_of(Technique::box_tree) = 0.03125;
   return calibration;
 }
 
@@ -41,16 +43,71 @@ TEST_SUITE("identity") {
     const validate::StoredCalibration stored = validate::read_calibration(path);
     CHECK(stored.key == validate::this_machine());
     CHECK(stored.left_out_median_error == 0.0625);
+    CHECK(stored.processor_share == 0.9375);
     CHECK(stored.date.size() == 10);
     const validate::Calibration written = some_calibration();
     CHECK(stored.plain.engine == Engine::plain);
     CHECK(stored.simd.engine == Engine::simd);
     for (const Technique technique : all_techniques)
       if (record_of(technique).exact) {
+        CHECK(stored.simd.relative_error_of(technique) == written.simd.costs.relative_error_of(technique));
         CHECK(stored.plain[technique] == written.plain.costs[technique]);
         CHECK(stored.simd[technique] == written.simd.costs[technique]);
         CHECK(stored.simd.threads_of(technique) == written.simd.costs.threads_of(technique));
       }
+  }
+}
+
+TEST_SUITE("known answer") {
+  TEST_CASE(
+      "a doubtful calibration does not replace a better one, but a worse one, a broken one and one of elsewhere") {
+    const support::ScratchFolder folder;
+    const std::string path = folder.path("calibration.json");
+    const auto with_error = [](double error) {
+      validate::Calibration calibration = some_calibration();
+      calibration.left_out_median_error = error;
+      return calibration;
+    };
+    const auto stored_error = [&] { return validate::read_calibration(path).left_out_median_error; };
+    CHECK(validate::save_calibration(path, with_error(0.4)).empty());
+    CHECK(validate::save_calibration(path, with_error(0.3)).empty());
+    CHECK_FALSE(validate::save_calibration(path, with_error(0.35)).empty());
+    CHECK(stored_error() == 0.3);
+    CHECK(validate::save_calibration(path, with_error(0.05)).empty());
+    CHECK(validate::save_calibration(path, with_error(0.2)).find("its median error is 20 %") != std::string::npos);
+    CHECK(stored_error() == 0.05);
+    CHECK(validate::save_calibration(path, with_error(0.1)).empty());  // not doubtful: the newer one counts
+    CHECK(stored_error() == 0.1);
+    folder.file("calibration.json", "{");
+    CHECK(validate::save_calibration(path, with_error(0.2)).empty());
+    folder.file("calibration.json",
+                replaced(validate::calibration_text(with_error(0.05)), "\"cpu\": \"", "\"cpu\": \"x"));
+    CHECK(validate::save_calibration(path, with_error(0.2)).empty());
+    CHECK(stored_error() == 0.2);
+  }
+
+  TEST_CASE(
+      "a stored calibration of this machine is found; a broken one and one of elsewhere are not, and it says why") {
+    const support::ScratchFolder folder;
+    std::string why = "nothing";
+    CHECK_FALSE(validate::find_calibration(folder.path("none.json"), &why));
+    CHECK(why.empty());
+    const std::string good = validate::calibration_text(some_calibration());
+    CHECK(validate::find_calibration(folder.file("good.json", good), &why)->simd[Technique::grid].step == 1.25e-8);
+    CHECK(why.empty());
+    CHECK_FALSE(validate::find_calibration(folder.file("bad.json", "{"), &why));
+    CHECK(why.find("is not a calibration") != std::string::npos);
+    CHECK_FALSE(
+        validate::find_calibration(folder.file("far.json", replaced(good, "\"cpu\": \"", "\"cpu\": \"x")), &why));
+    CHECK(why.find("far.json: its cpu is") != std::string::npos);
+  }
+
+  TEST_CASE("a calibration without errors of techniques, as earlier programs wrote it, has the error of all") {
+    std::string old = replaced(validate::calibration_text(some_calibration()), "relative_errors", "other");
+    old = replaced(old, "processor_share", "another");
+    const validate::StoredCalibration stored = validate::parse_calibration(old, "c.json");
+    CHECK(stored.processor_share == 1);
+    CHECK(stored.simd.relative_error_of(Technique::box_tree) == doctest::Approx(0.0625 / 0.6745));
   }
 }
 
@@ -63,6 +120,10 @@ TEST_SUITE("bad input") {
           good.substr(0, good.size() / 2), replaced(good, "detp.calibrate", "detp.run"),
           replaced(good, "\"version\": 1", "\"version\": 2"),
           replaced(good, "\"left_out_median_error\": 0.0625", "\"left_out_median_error\": -1"),
+          replaced(good, "\"left_out_median_error\": 0.0625", "\"left_out_median_error\": 1e308"),
+          replaced(good, "\"processor_share\": 0.9375", "\"processor_share\": 2"),
+          replaced(good, "\"box-tree\": 0.03125", "\"box-tree\": 1e308"),
+          replaced(good, "\"v\": 1.25e-08", "\"v\": 1e9"), replaced(good, "\"octree\": {", "\"no-tree\": {"),
           replaced(good, "\"serial_search\": 0.0625", "\"serial_search\": 1.5"),
           replaced(good, "\"serial_search\": 0.0625", "\"serial\": 0.5"),
           replaced(good, "\"v\": 1.25e-08", "\"v\": -1"), replaced(good, "\"v\": 1.25e-08", "\"v\": \"x\"")}) {

@@ -85,7 +85,11 @@ TEST_SUITE("bad input") {
     Json older = Json::parse(content_of(path));
     older["key"]["cost_model"] = 2;
     const CacheFolder cache(folder.path("cache"));
-    for (const std::string& content : {foreign.dump(), older.dump(), std::string("{")}) {
+    Json costless = Json::parse(content_of(path));
+    costless["costs"] = {{"simd", Json::object()}, {"plain", Json::object()}};
+    Json vast = Json::parse(content_of(path));
+    vast["left_out_median_error"] = 1e308;
+    for (const std::string& content : {foreign.dump(), older.dump(), costless.dump(), vast.dump(), std::string("{")}) {
       CAPTURE(content);
       folder.file("cache/detp/calibration.json", content);
       const Finished automatic = detp(question);
@@ -94,14 +98,40 @@ TEST_SUITE("bad input") {
       CHECK(automatic.json().at("unit_costs").get<std::string>().find("built in") != std::string::npos);
       const Finished named = detp(question + " --calibration " + path);
       CHECK(named.code == 2);
-      const char* const why = content == "{"            ? "is not a calibration"
-                              : content == older.dump() ? "version 2 of the cost model"
-                                                        : "its cpu is another";
+      const char* const why = content == "{"               ? "is not a calibration"
+                              : content == older.dump()    ? "version 2 of the cost model"
+                              : content == costless.dump() ? "it has no unit costs of brute-force"
+                              : content == vast.dump()     ? "left_out_median_error must be at most 100"
+                                                           : "its cpu is another";
       CHECK(named.err.find(why) != std::string::npos);
     }
     CHECK(detp(question + " --calibration " + folder.path("missing.json")).code == 2);
-    CHECK(detp("calibrate --seconds 0").code == 2);
   }
+
+  TEST_CASE("choose and run warn of a doubtful calibration, in one line") {
+    const ScratchFolder folder;
+    validate::Calibration calibration;
+    calibration.plain.costs = validate::built_in_unit_costs(Engine::plain);
+    calibration.simd.costs = validate::built_in_unit_costs();
+    const auto errors_of = [&](const std::string& command) {
+      const std::string path = folder.file("mine.json", validate::calibration_text(calibration));
+      const Finished finished = detp(command + " --calibration " + path);
+      CHECK(finished.code == 0);
+      return finished.err;
+    };
+    for (const std::string& command : {question, std::string("run @uniform --samples 100 --rays 100")}) {
+      CAPTURE(command);
+      calibration.processor_share = 1;
+      CHECK(errors_of(command).find("doubtful") == std::string::npos);
+      calibration.processor_share = 0.5;
+      const std::string errors = errors_of(command);
+      CHECK(errors.find("predicted seconds are doubtful") != std::string::npos);
+      CHECK(errors.find("other programs took 50 % of the time") != std::string::npos);
+      CHECK(errors.find('\n') == errors.size() - 1);
+    }
+  }
+
+  TEST_CASE("calibrate takes no time of zero") { CHECK(detp("calibrate --seconds 0").code == 2); }
 }
 
 }  // namespace detp::support

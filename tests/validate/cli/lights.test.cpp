@@ -64,6 +64,9 @@ TEST_SUITE("bad input") {
     refuses("run @cornell --up w", "--up must be one of");
     refuses("run @cornell --light surface", "no triangle of @cornell emits light");
     refuses("run @cornell --field mixed:1:2", "three shares");
+    refuses("run @cornell --field mixed::",
+            "a mixture is mixed, or mixed:ISOTROPIC:DIRECTIONAL:POINT with three shares");
+    refuses("run @cornell --field mixed:", "three shares");
     refuses("run @cornell --field mixed:0.5:0.2:0.2", "must add up to 1");
     refuses("run @cornell --field mixed --light spot", "these are a mixed field");
     refuses("run @uniform --light area", "--light and --up are for photon paths; these are isotropic lines");

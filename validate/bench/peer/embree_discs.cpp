@@ -1,12 +1,10 @@
 #include "embree_discs.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
-#include <oneapi/tbb/parallel_for.h>
-
 #include <stdexcept>
 #include <string>
 
 #include "detp/sim/base/embree.hpp"
+#include "detp/sim/base/parallel.hpp"
 #include "sse_state.hpp"
 
 namespace detp::validate {
@@ -47,8 +45,7 @@ EmbreeOwned<RTCScene> build_embree_discs(RTCDevice device, std::span<const sim::
   float* vertex = new_buffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, RTC_FORMAT_FLOAT4, 4, discs.size());
   float* normal = new_buffer(geometry.get(), RTC_BUFFER_TYPE_NORMAL, RTC_FORMAT_FLOAT3, 3, discs.size());
   require_no_embree_error(device);
-  using Range = oneapi::tbb::blocked_range<std::size_t>;
-  oneapi::tbb::parallel_for(Range(0, discs.size(), 4096), [&](const Range& part) {
+  sim::parallel_for(sim::ParallelRange(0, discs.size(), 4096), [&](const sim::ParallelRange& part) {
     for (std::size_t i = part.begin(); i < part.end(); ++i) {
       const sim::Disc& disc = discs[i];
       store_four(vertex + 4 * i, static_cast<float>(disc.centre.x), static_cast<float>(disc.centre.y),

@@ -1,12 +1,11 @@
 #include "embree_peer.hpp"
 
-#include <oneapi/tbb/blocked_range.h>
 #include <oneapi/tbb/enumerable_thread_specific.h>
 #include <oneapi/tbb/global_control.h>
-#include <oneapi/tbb/parallel_for.h>
 
 #include <numbers>
 
+#include "detp/sim/base/parallel.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "embree_discs.hpp"
 #include "embree_tracer.hpp"
@@ -15,7 +14,7 @@ namespace detp::validate {
 namespace {
 
 using Tallies = std::vector<DiscTally>;
-using Range = oneapi::tbb::blocked_range<std::size_t>;
+using Range = sim::ParallelRange;
 
 /// Number of rays or discs that one thread processes at a time: small enough to balance the load and to react to a stop
 /// request, and a multiple of the number of rays in a stream.
@@ -31,7 +30,7 @@ sim::Sphere sphere_around(RTCScene scene) {
 
 PeerOutcome merged(oneapi::tbb::enumerable_thread_specific<Tallies>& all, std::span<const sim::Disc> discs) {
   PeerOutcome outcome{std::vector<std::uint64_t>(discs.size()), std::vector<double>(discs.size())};
-  oneapi::tbb::parallel_for(Range(0, discs.size(), block), [&](const Range& part) {
+  sim::parallel_for(Range(0, discs.size(), block), [&](const Range& part) {
     for (std::size_t i = part.begin(); i < part.end(); ++i) {
       for (const Tallies& tallies : all) {
         outcome.hits[i] += tallies[i].hits;
@@ -66,7 +65,7 @@ PeerOutcome EmbreePeer::run(std::span<const sim::Ray> rays, std::span<const sim:
   const EmbreeTracer tracer(scene.get(), rays, sphere_around(scene.get()), mode);
   oneapi::tbb::enumerable_thread_specific<Tallies> all(Tallies(discs.size()));
   const std::size_t blocks = (rays.size() + block - 1) / block;
-  oneapi::tbb::parallel_for(Range(0, blocks, 1), [&](const Range& part) {
+  sim::parallel_for(Range(0, blocks, 1), [&](const Range& part) {
     for (std::size_t i = part.begin(); i < part.end() && !stop.stop_requested(); ++i)
       tracer.trace(i * block, std::min(rays.size(), (i + 1) * block), all.local());
   });

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/geometry/geometry.hpp"
+#include "detp/sim/scene/open/uniform_discs.hpp"
+
+/// The workloads that a calibration times.
+namespace detp::validate {
+
+struct TimedWorkload {
+  sim::Body body;
+  std::size_t samples;
+  std::size_t rays;
+  double radius;
+};
+
+/// Whether there are more discs, or more rays, than the last-level cache holds. Only techniques with short runs are timed
+/// on such workloads.
+[[nodiscard]] inline bool is_large(const TimedWorkload& workload) {
+  constexpr std::size_t many = 200'000;
+  return workload.samples > many || workload.rays > many;
+}
+
+inline constexpr std::size_t least_workloads = 16;  ///< measured even if that takes longer than asked
+
+/// First least_workloads small ones; then small and large, sparse and dense ones mixed, so that any first part of them can
+/// be fitted.
+[[nodiscard]] std::vector<TimedWorkload> timed_workloads();
+
+/// `place` is the number of the workload. On every second pair of workloads, the discs follow each other along a curve, as
+/// the vertices of many meshes nearly do; on the others, in random order.
+[[nodiscard]] std::vector<sim::Disc> discs_of(const TimedWorkload& workload, std::size_t place);
+
+/// Isotropic lines; on every second four workloads pieces of them, from 0.1 to 0.5 of the side long.
+[[nodiscard]] std::vector<sim::Ray> rays_of(const TimedWorkload& workload, const std::vector<sim::Disc>& discs,
+                                            std::size_t place);
+
+/// Parameters from too coarse to too fine; `place` varies them from workload to workload.
+[[nodiscard]] std::vector<Candidate> timed_candidates(const TimedWorkload& workload, std::size_t place);
+
+}  // namespace detp::validate
