@@ -22,6 +22,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view schema = "detp.calibrate";
 constexpr std::size_t most_bytes = std::size_t{1} << 20;
+constexpr double most_seconds = 1;  ///< of an operation
 constexpr double most_error = 100;  ///< relative; of a calibration that is of any use
 
 std::string today() {
@@ -45,7 +46,6 @@ void require_possible(const std::string& what, double value, double most) {
 }
 
 UnitCosts unit_costs_of(const Json& units, Technique technique) {
-  constexpr double most_seconds = 1;
   UnitCosts costs;
   bool some = false;
   for (const UnitCostTerm& term : unit_cost_terms) {
@@ -71,7 +71,11 @@ CostTable costs_of(const Json& json, Engine engine, const CalibrationQuality& qu
     if (record_of(technique).exact || units.contains(key))
       costs[technique] = unit_costs_of(units.value(key, Json::object()), technique);
     if (const auto found = threads.find(key); found != threads.end())
-      for (const ThreadTerm& term : thread_terms) costs.threads_of(technique).*term.cost = found->at(term.name);
+      for (const ThreadTerm& term : thread_terms) {
+        double& cost = costs.threads_of(technique).*term.cost;
+        cost = found->at(term.name);
+        require_possible(fmt::format("{} of {}", term.name, name(technique)), cost, most_seconds);  // or a share
+      }
     double& error = costs.relative_error_of(technique);
     error = errors.value(key, quality.relative_error());
     require_possible("relative error of " + key, error, most_error);

@@ -123,7 +123,8 @@ TEST_SUITE("bad input") {
           replaced(good, "\"left_out_median_error\": 0.0625", "\"left_out_median_error\": 1e308"),
           replaced(good, "\"processor_share\": 0.9375", "\"processor_share\": 2"),
           replaced(good, "\"box-tree\": 0.03125", "\"box-tree\": 1e308"),
-          replaced(good, "\"v\": 1.25e-08", "\"v\": 1e9"), replaced(good, "\"octree\": {", "\"no-tree\": {"),
+          replaced(good, "\"v\": 1.25e-08", "\"v\": 1e9"), replaced(good, "\"start\": 1.5e-05", "\"start\": 1e308"),
+          replaced(good, "\"octree\": {", "\"no-tree\": {"),
           replaced(good, "\"serial_search\": 0.0625", "\"serial_search\": 1.5"),
           replaced(good, "\"serial_search\": 0.0625", "\"serial\": 0.5"),
           replaced(good, "\"v\": 1.25e-08", "\"v\": -1"), replaced(good, "\"v\": 1.25e-08", "\"v\": \"x\"")}) {
