@@ -13,7 +13,9 @@ namespace detp::sim {
 /// unchanged. All components must be finite.
 [[nodiscard]] inline glm::dvec3 unit_or_zero(const glm::dvec3& vector) {
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-  if (std::abs(glm::dot(vector, vector) - 1) <= rounding) return vector;
+  const double square = glm::dot(vector, vector);
+  if (std::abs(square - 1) <= rounding) return vector;
+  if (square > 1e-200 && square < 1e200) return vector * (1 / std::sqrt(square));
   const double largest = std::max({std::abs(vector.x), std::abs(vector.y), std::abs(vector.z)});
   if (largest == 0) return glm::dvec3{0.0};
   return glm::normalize(vector / largest);

@@ -44,6 +44,7 @@ void search(const Index& index, const Problem& problem, const RunOptions& option
   try {
     StopCheck(options.stop, "beginning").now();
     index.search(problem, options, outcome);
+    if (options.progress && !outcome.stopped) options.progress(1);
     if (options.count) {
       outcome.counts.loaded = problem.rays().size();
       if (problem.segments()) outcome.counts.segments = outcome.counts.loaded;

@@ -9,7 +9,7 @@ namespace detp::sim {
 namespace {
 
 /// u_k - k, for k events.
-constexpr std::array<double, fewest_photons> more_photons{
+constexpr std::array<double, 10> more_photons{
     2.995732273553991, 3.743864518390578, 4.295793621871989, 4.753656527932726, 5.153519026637571,
     5.513034908741531, 5.842395652420288, 6.148113802432119, 6.434649715196317, 6.705216422115463};
 constexpr double one_sided = 1.6448536269514722;  ///< of a normal distribution, 95 %
@@ -30,14 +30,19 @@ void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, con
   outcome.hits[number] = sums.hits;
   outcome.irradiance[number] = power / area;
   if (photons == nullptr) return;
-  if (photons->photons < fewest_photons) {
-    const double heaviest = std::max(photons->largest, totals.largest_power());
+  const double squares = totals.squares(number, *photons);
+  const double heaviest = std::max(photons->largest, totals.largest_power());
+  const bool in_range = squares > 0 && squares < unbounded;  // not so if powers are extreme, or if nothing hits
+  if (!in_range || squares * (1 + 1e-9) < fewest_photons * photons->largest * photons->largest) {
+    const double as_heavy = in_range ? squares / (heaviest * heaviest) : photons->photons;
+    const double most = fewest_photons - 1;
+    const auto k = static_cast<std::size_t>(std::min(most, std::ceil(as_heavy - 1e-9)));
     outcome.standard_error[number] = unbounded;
-    outcome.upper_bound[number] = (power + heaviest * more_photons[photons->photons]) / area;
+    outcome.upper_bound[number] = (power + heaviest * more_photons[k]) / area;
     return;
   }
   const auto n = static_cast<double>(totals.photons());
-  const double variance = std::max(0.0, totals.squares(number, *photons) - power * power / n) * n / (n - 1);
+  const double variance = std::max(0.0, squares - power * power / n) * n / (n - 1);
   outcome.standard_error[number] = std::sqrt(variance) / area;
   outcome.upper_bound[number] = outcome.irradiance[number] + one_sided * outcome.standard_error[number];
 }

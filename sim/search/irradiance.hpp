@@ -7,8 +7,8 @@
 
 namespace detp::sim {
 
-/// With fewer photons than this on a disc, its standard error is not known well enough to be stated: only a bound is.
-inline constexpr std::uint64_t fewest_photons = 10;
+/// A standard error is stated only if no photon brings more than one part in so many of Σ x² to the disc (finish).
+inline constexpr double fewest_photons = 10;
 
 /// Bytes for each disc: its photon sums, its standard error and its bound.
 constexpr double error_bytes = sizeof(PhotonSums) + 2 * sizeof(double);
@@ -24,14 +24,19 @@ constexpr double error_bytes = sizeof(PhotonSums) + 2 * sizeof(double);
 ///          d  radius of the disc
 ///
 /// SE² estimates the variance of a sum over N independent photons; a photon's rays are not independent of one another.
-/// With fewer than 10 photons on the disc, SE is infinite.
+/// SE is infinite, for not known, if one photon brings more than a tenth of Σ x²: so always if fewer than 10 photons hit the
+/// disc, and exactly then if all bring the same power. Where a few photons bring most of the power, as on a caustic, SE
+/// follows from them alone, and intervals of ± 1.96 SE would hold less often than they should.
 ///
-/// The bound is one-sided, of 95 %. With k < 10 photons on the disc it is (P + w (u_k - k)) / (π d²), with u_k the upper
-/// bound of a Poisson mean after k events, so that e^-u Σ_{i <= k} u^i/i! = 0.05, and w the largest power that one photon has
-/// brought to this disc, but at least the largest power of a ray. It is exact where all photons bring w, as where none hits:
-/// u_0 = -ln 0.05, and safe where they bring less. (A. Dobson et al., Statistics in Medicine 10, 1991, with the largest
-/// weight in place of the root mean square one.) It is too low if photons can bring more than w, by several rays of a path. With 10
-/// photons or more, it is E + 1.645 SE.
+/// The bound is one-sided, of 95 %. If SE is known, it is E + 1.645 SE. Otherwise it is (P + w (u_k - k)) / (π d²) with
+///
+///   where  w    largest power that one photon has brought to this disc, but at least the largest power of a ray
+///          k    Σ x² / w², rounded up, at most 9: the number of photons if all were as heavy
+///          u_k  upper bound of a Poisson mean after k events: e^-u Σ_{i <= k} u^i/i! = 0.05
+///
+/// It is exact where all photons bring w, also where none hits: u_0 = -ln 0.05. Where some bring less, it is larger than
+/// that of A. Dobson et al., Statistics in Medicine 10, 1991, which has the root mean square weight in place of w. It is too
+/// low if photons can bring more than w, by many rays of one path.
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
 
 /// The same for one disc, `sums` and `photons` being those of the block of photons under way. The outcome's arrays must have

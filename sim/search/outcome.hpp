@@ -28,10 +28,11 @@ using FoundPairs = std::pmr::vector<Pair>;
 
 /// The time of each phase in seconds.
 struct Phases {
-  double order = 0;   ///< sorting the samples
-  double build = 0;   ///< building an index
-  double search = 0;  ///< all the rest: rebuilding spheres, traversing, testing discs
-  [[nodiscard]] double total() const { return order + build + search; }
+  double prepare = 0;  ///< reading a view, and checking rays; only of searches that do so (Searcher)
+  double order = 0;    ///< sorting the samples
+  double build = 0;    ///< building an index
+  double search = 0;   ///< all the rest: rebuilding spheres, traversing, testing discs
+  [[nodiscard]] double total() const { return prepare + order + build + search; }
 };
 
 struct RunOptions {
@@ -51,7 +52,7 @@ struct RunOptions {
   /// Memory for a search's arrays, except those that it returns. A Scratch keeps the memory for the next search.
   std::pmr::memory_resource* memory = std::pmr::new_delete_resource();
   /// Unless empty: called now and then during the search, with the share of the rays that are searched (ray-map and
-  /// photon-map: of the discs). The simd engine calls it before each block of rays; plain techniques with lists of rays
+  /// photon-map: of the discs), and with 1 after a search that was not stopped. The simd engine calls it before each block of rays; plain techniques with lists of rays
   /// do not call it. Calls do not overlap, but may come from different threads. It may request a stop.
   std::function<void(double share)> progress = {};
 };
@@ -86,8 +87,8 @@ struct Outcome {
   /// Power of the rays that cross the disc, divided by the disc's area π d². Powers are added in the order of Totals, so
   /// all exact techniques give the same bits.
   std::vector<double> irradiance;
-  /// Standard error of the irradiance, for independent photons (irradiance.hpp); infinite if fewer than 10 photons hit the
-  /// disc. Empty if not requested, or if the run was stopped.
+  /// Standard error of the irradiance, for independent photons (irradiance.hpp); infinite, for not known, if fewer
+  /// than 10 photons hit the disc or one brings too much of it. Empty if not requested, or if the run was stopped.
   std::vector<double> standard_error;
   std::vector<double> upper_bound;  ///< one-sided bound of the irradiance, 95 %; empty like standard_error
   std::uint64_t total_hits = 0;

@@ -1,25 +1,66 @@
 #include "views.hpp"
 
-#include "detp/sim/base/floating_point.hpp"
+#include <stdexcept>
+#include <string>
+
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/parallel.hpp"
+#include "detp/sim/base/threads.hpp"
 #include "soundness.hpp"
 
 namespace detp::sim {
 namespace {
 
+template <class T>
+glm::dvec3 vector_at(const VectorsView& view, std::size_t i) {
+  return {view.get<T>(i, 0), view.get<T>(i, 1), view.get<T>(i, 2)};
+}
 glm::dvec3 vector_at(const VectorsView& view, std::size_t i) { return {view.at(i, 0), view.at(i, 1), view.at(i, 2)}; }
+
+template <class Origin, class Direction>
+void read_some(const RaysView& view, std::size_t first, std::size_t last, Ray* rays) {
+  for (std::size_t i = first; i < last; ++i)
+    rays[i] = normalised(Ray{vector_at<Origin>(view.origins, i), vector_at<Direction>(view.directions, i),
+                             view.lengths[i], view.powers[i]});
+}
+
+template <class View>
+void require_array(const char* what, const View& view) {
+  if (!view.exists()) throw std::invalid_argument(std::string("the array of ") + what + " is null");
+}
 
 }  // namespace
 
-void read_rays(const RaysView& view, std::vector<Ray>& rays) {
+void read_rays(const RaysView& view, std::vector<Ray>& rays, int threads) {
+  constexpr std::size_t at_once = 4096;
   const DefaultFloatingPoint mode;
+  require_count("number of threads", threads, 0, most_threads);
+  if (view.count > 0) {
+    require_array("origins", view.origins);
+    require_array("directions", view.directions);
+    require_array("lengths", view.lengths);
+    require_array("powers", view.powers);
+  }
   rays.resize(view.count);
-  for (std::size_t i = 0; i < view.count; ++i)
-    rays[i] =
-        normalised(Ray{vector_at(view.origins, i), vector_at(view.directions, i), view.lengths[i], view.powers[i]});
+  const auto read = view.origins.floats()
+                        ? view.directions.floats() ? &read_some<float, float> : &read_some<float, double>
+                    : view.directions.floats() ? &read_some<double, float>
+                                               : &read_some<double, double>;
+  const auto read_all = [&] {
+    parallel_for(ParallelRange(0, view.count, at_once),
+                 [&](const ParallelRange& range) { read(view, range.begin(), range.end(), rays.data()); });
+  };
+  threads == 1 || view.count <= at_once ? read(view, 0, view.count, rays.data())
+                                        : on_threads(thread_count(threads), read_all);
 }
 
 std::vector<Disc> read_discs(const DiscsView& view) {
   const DefaultFloatingPoint mode;
+  if (view.count > 0) {
+    require_array("centres", view.centres);
+    require_array("normals", view.normals);
+    require_array("radii", view.radii);
+  }
   std::vector<Disc> discs(view.count);
   for (std::size_t i = 0; i < view.count; ++i)
     discs[i] = normalised(Disc{vector_at(view.centres, i), vector_at(view.normals, i), view.radii[i]});

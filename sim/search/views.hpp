@@ -1,8 +1,13 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 #include <glm/vec3.hpp>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "detp/sim/geometry/geometry.hpp"
@@ -14,33 +19,56 @@ namespace detp::sim {
 template <int components>
 class ArrayView {
  public:
-  /// `stride` is the number of bytes from one element to the next.
-  ArrayView(const float* first, std::size_t stride = components * sizeof(float))
-      : first_(reinterpret_cast<const std::byte*>(first)), stride_(stride), floats_(true) {}
-  ArrayView(const double* first, std::size_t stride = components * sizeof(double))
-      : first_(reinterpret_cast<const std::byte*>(first)), stride_(stride) {}
+  /// Elements one after another; `stride` is the number of bytes from one element to the next.
+  ArrayView(const float* first, std::size_t stride = components * sizeof(float)) : ArrayView(stride, first) {}
+  ArrayView(const double* first, std::size_t stride = components * sizeof(double)) : ArrayView(stride, first) {}
 
   /// Number k of element i.
-  [[nodiscard]] double at(std::size_t i, int k) const {
-    const std::byte* const place = first_ + i * stride_;
-    return floats_ ? value<float>(place, k) : value<double>(place, k);
+  [[nodiscard]] double at(std::size_t i, int k) const { return floats_ ? get<float>(i, k) : get<double>(i, k); }
+  /// The same if the type is known: float or double.
+  template <class T>
+  [[nodiscard]] double get(std::size_t i, int k) const {
+    T value;  // copied, because the caller's structs may be packed
+    std::memcpy(&value, first_[static_cast<std::size_t>(k)] + i * stride_, sizeof(T));
+    return static_cast<double>(value);
+  }
+
+  [[nodiscard]] bool floats() const { return floats_; }
+  /// True if there is an array for each component.
+  [[nodiscard]] bool exists() const {
+    return std::ranges::none_of(first_, [](const std::byte* first) { return first == nullptr; });
+  }
+
+ protected:
+  /// An array for each component.
+  template <class T>
+  ArrayView(std::size_t stride, const std::array<const T*, components>& arrays)
+      : stride_(stride), floats_(std::is_same_v<T, float>) {
+    for (std::size_t k = 0; k < components; ++k) first_[k] = reinterpret_cast<const std::byte*>(arrays[k]);
   }
 
  private:
   template <class T>
-  [[nodiscard]] static double value(const std::byte* place, int k) {
-    T value;  // copied, because the caller's structs may be packed
-    std::memcpy(&value, place + static_cast<std::size_t>(k) * sizeof(T), sizeof(T));
-    return static_cast<double>(value);
+  ArrayView(std::size_t stride, const T* first) : stride_(stride), floats_(std::is_same_v<T, float>) {
+    for (std::size_t k = 0; first != nullptr && k < components; ++k)
+      first_[k] = reinterpret_cast<const std::byte*>(first + k);
   }
 
-  const std::byte* first_;
+  std::array<const std::byte*, components> first_{};  ///< of each component
   std::size_t stride_;
-  bool floats_ = false;
+  bool floats_;
 };
 
 /// Elements of three numbers: points or directions.
-using VectorsView = ArrayView<3>;
+class VectorsView : public ArrayView<3> {
+ public:
+  using ArrayView::ArrayView;
+  /// The coordinates in arrays of their own.
+  VectorsView(const float* x, const float* y, const float* z, std::size_t stride = sizeof(float))
+      : ArrayView(stride, std::array{x, y, z}) {}
+  VectorsView(const double* x, const double* y, const double* z, std::size_t stride = sizeof(double))
+      : ArrayView(stride, std::array{x, y, z}) {}
+};
 
 /// One number for each element, or the same number for all.
 class NumbersView : public ArrayView<1> {
@@ -49,6 +77,7 @@ class NumbersView : public ArrayView<1> {
   NumbersView(double of_all) : ArrayView(static_cast<const double*>(nullptr)), of_all_(of_all), same_(true) {}
 
   [[nodiscard]] double operator[](std::size_t i) const { return same_ ? of_all_ : at(i, 0); }
+  [[nodiscard]] bool exists() const { return same_ || ArrayView::exists(); }
 
  private:
   double of_all_ = 0;
@@ -62,6 +91,8 @@ struct RaysView {
   VectorsView directions;
   NumbersView lengths = unbounded;
   NumbersView powers = 1.0;
+  std::span<const std::uint64_t> photons = {};  ///< as PathRays::photons; not copied
+  std::span<const double> landings = {};        ///< as PathRays::landings; not copied
 };
 
 /// Discs: see Disc for the meaning of each field. Normals may have any length except 0.
@@ -72,8 +103,9 @@ struct DiscsView {
   NumbersView radii;
 };
 
-/// Copies the rays and normalises their directions. A direction of 0 stays 0; a direction that is not finite stays so.
-void read_rays(const RaysView& view, std::vector<Ray>& rays);
+/// Copies the rays on so many threads (as RunOptions::threads), and normalises their directions. A direction of 0 stays 0; a
+/// direction that is not finite stays so. Throws std::invalid_argument if an array is null, or if threads are out of range.
+void read_rays(const RaysView& view, std::vector<Ray>& rays, int threads = 1);
 
 /// Copies the discs and normalises their normals, as read_rays does.
 [[nodiscard]] std::vector<Disc> read_discs(const DiscsView& view);

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "registry.hpp"
 
 namespace detp::sim {
@@ -32,17 +33,25 @@ Searcher::Searcher(std::vector<Disc> copies, std::span<const Disc> borrowed, con
 }
 
 const Outcome& Searcher::search(const PathRays& rays, SearchScratch& scratch, RunOptions options) const {
+  const DefaultFloatingPoint mode;
+  Stopwatch watch;
   Problem problem = problem_;
   set_rays(problem, rays, options.threads);
+  const double prepare = watch.lap();
   scratch.memory.begin();
   options.memory = &scratch.memory;
   detp::sim::search(*index_, problem, options, scratch.outcome);
+  scratch.outcome.seconds.prepare = prepare;
   return scratch.outcome;
 }
 
 const Outcome& Searcher::search(const RaysView& rays, SearchScratch& scratch, const RunOptions& options) const {
-  read_rays(rays, scratch.rays);
-  return search(scratch.rays, scratch, options);
+  Stopwatch watch;
+  read_rays(rays, scratch.rays, options.threads);
+  const double reading = watch.lap();
+  search(PathRays{scratch.rays, rays.photons, rays.landings}, scratch, options);
+  scratch.outcome.seconds.prepare += reading;
+  return scratch.outcome;
 }
 
 }  // namespace detp::sim

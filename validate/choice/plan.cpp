@@ -53,10 +53,12 @@ std::unique_ptr<sim::Index> build_index(const sim::Problem& problem, const Candi
 class Plan::Planner {
  public:
   Planner(std::span<const sim::Disc> discs, std::shared_ptr<const std::vector<sim::Disc>> own_discs,
-          std::span<const sim::Ray> rays, const PlanOptions& options)
+          std::span<const sim::Ray> rays, const PlanOptions& options, double reading = 0)
       : options_(options),
         rays_(rays),
+        reading_(reading),
         building_{.engine = options.costs.engine, .stop = options.stop, .threads = options.threads} {
+    require_count("number of threads", options.threads, 0, sim::most_threads);
     if (rays.empty()) throw std::invalid_argument("a plan needs at least one ray, to see where the rays are");
     if (options.remembered_only && options.memory == nullptr)
       throw std::invalid_argument("a plan by remembered choices only needs a memory");
@@ -202,7 +204,7 @@ class Plan::Planner {
     Plan made(basis_, best.candidate);
     made.searcher_ = std::make_shared<LateSearcher>(sim::Searcher(basis_->problem, std::move(index)));
     made.threads_ = best.threads;
-    made.predicted_seconds_ = best.seconds;
+    made.predicted_seconds_ = best.seconds + reading_ * basis_->rays / static_cast<double>(rays_.size());
     made.predicted_error_ = best.error;
     made.planning_seconds_ = seconds_;
     made.rays_ = basis_->rays;
@@ -213,6 +215,7 @@ class Plan::Planner {
 
   const PlanOptions& options_;
   std::span<const sim::Ray> rays_;
+  double reading_;  ///< seconds for reading the rays from a view, which each search does again
   sim::RunOptions building_;
   std::shared_ptr<Basis> basis_;
   std::optional<WorkloadClass> class_;  ///< set if there is a memory
@@ -228,8 +231,9 @@ Plan plan(const sim::DiscsView& discs, const sim::RaysView& rays, const PlanOpti
   const sim::DefaultFloatingPoint mode;
   const auto own_discs = std::make_shared<const std::vector<sim::Disc>>(sim::read_discs(discs));
   std::vector<sim::Ray> copied;
-  sim::read_rays(rays, copied);
-  return Plan::Planner(*own_discs, own_discs, copied, options).run();
+  const sim::Stopwatch watch;
+  sim::read_rays(rays, copied, options.threads);
+  return Plan::Planner(*own_discs, own_discs, copied, options, watch.seconds()).run();
 }
 
 }  // namespace detp::validate

@@ -287,8 +287,8 @@ Command run_command(CLI::App& program) {
              "time that many further runs, which do not count; the median is shown; default: 0");
   app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");
   app->add_flag("--standard-error", options->standard_error,
-                "add to --per-disc the standard error of each irradiance, for independent photons; where fewer than 10 "
-                "photons hit a disc, an upper bound (95 %) instead");
+                "add to --per-disc the standard error of each irradiance, for independent photons; where too few "
+                "photons hit a disc (fewer than 10), an upper bound (95 %) of the irradiance instead");
   app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_run(*options, common, stop);

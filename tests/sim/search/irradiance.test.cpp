@@ -34,7 +34,12 @@ std::vector<double> by_definition(const PathRays& paths, std::span<const Disc> d
     for (const double share : of_disc) hit += share > 0 ? 1 : 0;
     double squares = 0;
     for (const double share : of_disc) squares += std::pow(share - mean, 2);
-    errors.push_back(hit < 10 ? unbounded : std::sqrt(n * squares / (n - 1)));
+    double all = 0;
+    double largest = 0;
+    for (const double share : of_disc) all += share * share;
+    for (const double share : of_disc) largest = std::max(largest, share * share);
+    const bool few = hit < 10 || all * (1 + 1e-9) < 10 * largest;
+    errors.push_back(few ? unbounded : std::sqrt(n * squares / (n - 1)));
   }
   return errors;
 }
@@ -64,7 +69,7 @@ const std::vector<Candidate> exact_techniques{{Technique::brute_force, BruteForc
 TEST_SUITE("standard error of irradiance") {
   TEST_CASE("It is that of the sample variance of whole photons, the same bytes by every technique and in blocks") {
     const std::vector<Disc> discs = uniform_discs(Body::cube, 2, 60, 0.5, 3);
-    std::vector<Ray> rays = LineField(enclosing_sphere(discs), 4).lines(0, 700);
+    std::vector<Ray> rays = LineField(enclosing_sphere(discs), 4).lines(0, 3000);
     const std::vector<std::uint64_t> photons = few_rays_each(rays.size());
     enum class Powers { same, change, random };
     for (const Powers powers : {Powers::same, Powers::change, Powers::random})
@@ -139,6 +144,29 @@ TEST_SUITE("standard error of irradiance") {
     CHECK(std::isinf(two.standard_error[0]));
     // u_2 = 6.2958: two photons of weight 10 were seen.
     CHECK(two.upper_bound[0] == doctest::Approx(10 * 6.295793622 / std::numbers::pi).epsilon(1e-9));
+  }
+
+  TEST_CASE("If one photon brings more than a tenth of the sum of squares, there is a bound only") {
+    const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}};
+    std::vector<Ray> rays(50, Ray{{0, 0, 1}, {0, 0, -1}, unbounded, 1});
+    rays.front().power = 2;  // 4 of 53
+    CHECK(std::isfinite(run(make_problem(rays, discs), box_tree, {.standard_error = true}).standard_error[0]));
+    rays.front().power = 3;  // 9 of 58
+    const Outcome outcome = run(make_problem(rays, discs), box_tree, {.standard_error = true});
+    CHECK(std::isinf(outcome.standard_error[0]));
+    // k = 58/9, rounded up: u_7 - 7 = 6.1481
+    CHECK(outcome.upper_bound[0] == doctest::Approx((52 + 3 * 6.148113802) / std::numbers::pi).epsilon(1e-8));
+  }
+
+  TEST_CASE("Powers whose squares underflow or overflow give bounds, no zero errors") {
+    const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}};
+    for (const double power : {0.0, 1e-200, 1e200}) {
+      const std::vector<Ray> rays(50, Ray{{0, 0, 1}, {0, 0, -1}, unbounded, power});
+      const Outcome outcome = run(make_problem(rays, discs), box_tree, {.standard_error = true});
+      CHECK(std::isinf(outcome.standard_error[0]));
+      CHECK(outcome.upper_bound[0] >= outcome.irradiance[0]);
+      CHECK(std::isfinite(outcome.upper_bound[0]));
+    }
   }
 
   TEST_CASE("Bounds of few hits hold in 95 % of cases") {
