@@ -4,6 +4,8 @@
 
 #include <stdexcept>
 
+#include "checks.hpp"
+
 namespace detp {
 
 void check(const CostTable& costs) {
@@ -13,6 +15,7 @@ void check(const CostTable& costs) {
     } catch (const std::invalid_argument& error) {
       throw std::invalid_argument(fmt::format("{}: {}", name(technique), error.what()));
     }
+  require_non_negative("error of the unit costs", costs.relative_error);
 }
 
 namespace {

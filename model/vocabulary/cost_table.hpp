@@ -13,6 +13,8 @@ struct CostTable {
   std::array<UnitCosts, all_techniques.size()> of_technique{};  ///< in the order of Technique
   std::array<ThreadCosts, all_techniques.size()> threads{};     ///< default: more threads are no faster
   Engine engine = Engine::simd;                                 ///< whose costs these are
+  /// relative standard error of the time of right counts; 0: the costs are given, and their error is not known
+  double relative_error = 0;
 
   CostTable() = default;
   /// The same costs for all techniques, on one thread.
@@ -31,7 +33,7 @@ struct CostTable {
   bool operator==(const CostTable&) const = default;
 };
 
-/// Throws as check(UnitCosts); the message names the technique.
+/// Throws as check(UnitCosts); the message names the technique. Also throws if the error is negative or not finite.
 void check(const CostTable& costs);
 
 /// The costs of one technique, which are valid because the table was checked.

@@ -110,6 +110,8 @@ StoredCalibration parse_calibration(const std::string& text, const std::string& 
                              .simd = costs_of(json, Engine::simd),
                              .left_out_median_error = json.at("left_out_median_error")};
     require_non_negative("left_out_median_error", stored.left_out_median_error);
+    constexpr double median_of_normal = 0.6745;  // of the absolute values, in standard deviations
+    stored.simd.relative_error = stored.plain.relative_error = stored.left_out_median_error / median_of_normal;
     return stored;
   } catch (const nlohmann::json::exception& error) {
     throw sim::FileError(

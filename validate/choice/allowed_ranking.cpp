@@ -1,12 +1,16 @@
 #include "allowed_ranking.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 namespace detp::validate {
 namespace {
 
-double cautious_seconds(const model::Ranked& one) { return one.time.total() * doubt_of(one); }
+double cautious_seconds(const model::Ranked& one) {
+  const double doubt = doubt_of(one.candidate.technique, one.extrapolated);
+  return doubt > 1 ? doubt : one.time.total();
+}
 
 void move_choice_to_front(std::vector<model::Ranked>& ranking) {
   const auto choice = std::min_element(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) {
@@ -17,10 +21,9 @@ void move_choice_to_front(std::vector<model::Ranked>& ranking) {
 
 }  // namespace
 
-double doubt_of(const model::Ranked& one) {
-  const Technique technique = one.candidate.technique;
+double doubt_of(Technique technique, std::span<const std::string> extrapolated) {
   const bool compared = technique == Technique::brute_force || technique == Technique::box_tree;
-  return compared || one.extrapolated.empty() ? 1 : closed_form_doubt;
+  return compared || extrapolated.empty() ? 1 : std::numeric_limits<double>::infinity();
 }
 
 std::vector<model::Ranked> allowed_ranking(const Valid<Workload>& workload, const Valid<CostTable>& costs,

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "detp/model/rank/choose.hpp"
@@ -10,12 +11,12 @@ namespace detp::validate {
 /// How many times as long as predicted a search may take, in scenes for which its closed form was not made.
 inline constexpr double closed_form_doubt = 2;
 
-/// closed_form_doubt for an extrapolated closed form (model::Ranked::extrapolated), except those of brute force and of box
-/// trees, which were compared with real scenes; otherwise 1.
-[[nodiscard]] double doubt_of(const model::Ranked& one);
+/// Infinite for an extrapolated closed form (model::Ranked::extrapolated), whose tests were off by up to 17 times; 1 for
+/// brute force and box trees, which were compared with real scenes, and for other closed forms.
+[[nodiscard]] double doubt_of(Technique technique, std::span<const std::string> extrapolated);
 
-/// model::rank without the disabled techniques, with the choice first: the candidate that is fastest even if each takes
-/// doubt_of times as long as predicted. model::rank does not tune a technique that is slower than another one;
+/// model::rank without the disabled techniques, with the choice first: the fastest candidate whose closed form is not
+/// doubted (doubt_of), or the fastest of all if each is. model::rank does not tune a technique that is slower than another one;
 /// where that one is disabled, this function tunes it. Empty if all are disabled. Throws as model::rank.
 [[nodiscard]] std::vector<model::Ranked> allowed_ranking(const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                                          std::span<const Technique> disabled,

@@ -58,7 +58,7 @@ std::string candidate_table(const ChooseAnswer& answer, const Screen& screen) {
                                 {describe(row.candidate), style},
                                 {fmt::format("{}", threads_of(row))}};
     if (row.predicted != nullptr) {
-      const char* const mark = row.predicted->extrapolated.empty() ? "" : "~";
+      const std::string_view mark = extrapolation_mark(row.candidate.technique, row.predicted->extrapolated);
       cells.push_back({fmt::format("{:.3g}", tests(row.predicted->counts))});
       const double error = error_of(answer, row).value_or(0);
       cells.push_back({fmt::format("{:.3g}{}{}", row.predicted->time.total(), mark,
@@ -86,12 +86,13 @@ std::string candidate_notes(const ChooseAnswer& answer, const Screen& screen) {
       "radius of the sphere around all discs.";
   if (answer.analysis)
     text +=
-        " ± of measured seconds: half the range of the timed runs; none where there was one run. !: predicted seconds "
-        "off by more than a factor of two.";
+        " ± of measured seconds: half the range of the timed runs; none where there was one run. ! after a ratio: "
+        "predicted seconds off by more than a factor of two.";
   if (answer.pilot)
     text +=
-        " ± of predicted seconds: standard error of the pilot. Could still win: less than 15 % slower than the choice, "
-        "which is about the error of unit costs.";
+        " ± of predicted seconds: standard error, of the pilot's counts and of unit costs. Could still win: less than "
+        "15 % "
+        "slower than the choice, which is about the error of calibrated unit costs.";
   const std::string extrapolated = extrapolated_note(predictions);
   return (extrapolated.empty() ? "" : wrapped(extrapolated, screen.text_width(), 2)) + legend(screen, text);
 }

@@ -5,10 +5,17 @@
 #include <algorithm>
 #include <set>
 
+#include "detp/validate/choice/allowed_ranking.hpp"
+
 namespace detp::cli {
 
 Json extrapolated_json(const std::vector<std::string>& reasons) {
   return {{"extrapolated", !reasons.empty()}, {"extrapolated_because", reasons}};
+}
+
+std::string_view extrapolation_mark(Technique technique, const std::vector<std::string>& reasons) {
+  if (reasons.empty()) return "";
+  return validate::doubt_of(technique, reasons) > 1 ? "!" : "~";
 }
 
 std::string extrapolated_note(std::span<const std::pair<Technique, std::vector<std::string>>> predictions) {
@@ -21,12 +28,19 @@ std::string extrapolated_note(std::span<const std::pair<Technique, std::vector<s
       if (known == reasons.end()) known = reasons.insert(known, {reason, {}});
       known->second.insert(technique);
     }
+  const bool doubted = std::any_of(predictions.begin(), predictions.end(),
+                                   [](const auto& one) { return extrapolation_mark(one.first, one.second) == "!"; });
+  const bool compared = std::any_of(predictions.begin(), predictions.end(),
+                                    [](const auto& one) { return extrapolation_mark(one.first, one.second) == "~"; });
+  const std::string_view first = !doubted   ? "~ extrapolated: "
+                                 : compared ? "~ extrapolated, ! also never chosen: "
+                                            : "! extrapolated, never chosen: ";
   std::string note;
   for (const auto& [reason, techniques] : reasons) {
     std::vector<std::string_view> names;
     if (techniques.size() < marked.size())
       for (const Technique technique : techniques) names.push_back(name(technique));
-    note += fmt::format("{}{}", note.empty() ? "~ extrapolated: " : "; ", reason);
+    note += fmt::format("{}{}", note.empty() ? first : "; ", reason);
     if (!names.empty()) note += fmt::format(" ({})", fmt::join(names, ", "));
   }
   return note;

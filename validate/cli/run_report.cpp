@@ -105,6 +105,10 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                                      {"mean_irradiance", mean_irradiance(outcome)}});
   json["counts"] = to_json(outcome.counts);
   if (answer.pilot) json["choosing_seconds"] = answer.pilot->pilot_seconds;
+  if (answer.pilot && answer.pilot->predicted) {
+    json["predicted_error"] = to_json(answer.pilot->choice().counts_error);
+    json["predicted_seconds_error"] = answer.pilot->choice().error;
+  }
   if (const auto predicted = prediction(job.workload, answer)) {
     json["predicted"] = to_json(*predicted);
     json["predicted_seconds"] =
@@ -204,10 +208,11 @@ AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer
 Columns run_columns() {
   return workload_columns() + Columns{"engine", "threads"} + candidate_columns() +
          Columns{"k", "k_max", "k_best", "hits_per_disc", "mean_irradiance"} + count_columns() +
-         count_columns("predicted_") +
-         Columns{"predicted_seconds", "choosing_seconds", "seconds",       "prepare_seconds",    "order_seconds",
-                 "build_seconds",     "search_seconds",   "timed_runs",    "read_seconds",       "rays_in_memory",
-                 "stopped",           "hits_so_far",      "hits_estimate", "hits_estimate_error"} +
+         count_columns("predicted_") + Columns{"predicted_seconds", "predicted_seconds_error", "choosing_seconds",
+                                               "seconds",           "prepare_seconds",         "order_seconds",
+                                               "build_seconds",     "search_seconds",          "timed_runs",
+                                               "read_seconds",      "rays_in_memory",          "stopped",
+                                               "hits_so_far",       "hits_estimate",           "hits_estimate_error"} +
          effect_columns();
 }
 
