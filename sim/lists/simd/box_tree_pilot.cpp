@@ -234,7 +234,11 @@ double BoxTreePilot::work_of_a_ray(std::uint32_t node) const {
 
 /// Draws subtrees systematically, with probabilities proportional to their work; those with much work for certain.
 void BoxTreePilot::draw_subtrees(std::size_t most) {
-  std::size_t left = std::min(most, subtrees_.size());
+  if (most >= subtrees_.size()) {
+    for (Subtree& subtree : subtrees_) subtree.weight = 1;
+    return;
+  }
+  std::size_t left = most;
   double total = 0;
   for (const Subtree& subtree : subtrees_) total += subtree.work;
   for (bool more = true; more && left > 0;) {
@@ -290,28 +294,22 @@ void BoxTreePilot::refine(const Sample& sample, Subtree& subtree, Worker& worker
     sum.sum += of_ray;
     sum.squares += of_ray * of_ray;
   };
-  double within_leaves = subtree.hits.squares;
-  subtree.hits = {};
+  const SumOverRays of_leaves = std::exchange(subtree.hits, {});
   for (const RayList& list : inside)
     for (std::size_t i = 0; i < list.size; ++i) {
       const OfRay ray = std::exchange(of_ray_[list.id[i] & ~falling], {});
-      add(subtree.listed, ray.listed);
       add(subtree.disc_tests, ray.disc_tests);
       add(subtree.hits, ray.hits);
     }
-  finish(subtree.listed);
   finish(subtree.disc_tests);
   finish(subtree.hits);
-  subtree.hits.squares += within_leaves / (sample.precision * sample.precision);
+  subtree.hits.sum = of_leaves.sum / sample.precision;  // without rounding
+  subtree.hits.squares += of_leaves.squares / (sample.precision * sample.precision);
 }
 
 void BoxTreePilot::cull_refined(const Sample& sample, std::uint32_t node, const RayLists& lists, Subtree& subtree,
                                 Worker& worker) {
   const BinaryNode& here = nodes_[node];
-  const auto of_each = [&](float OfRay::*count, float value) {
-    for (const RayList& list : lists)
-      for (std::size_t i = 0; i < list.size; ++i) of_ray_[list.id[i] & ~falling].*count += value;
-  };
   if (here.leaf()) {
     if (size(lists) == 0) return;
     std::fill_n(sample.block.hits + here.first, here.count, ClassCounts{});
@@ -319,13 +317,18 @@ void BoxTreePilot::cull_refined(const Sample& sample, std::uint32_t node, const 
     double hits = 0;
     for (std::uint32_t place = here.first; place < here.first + here.count; ++place)
       for (const std::uint32_t by_class : sample.block.hits[place]) hits += by_class;
-    of_each(&OfRay::disc_tests, static_cast<float>(here.count));
-    if (hits > 0) of_each(&OfRay::hits, static_cast<float>(hits / static_cast<double>(size(lists))));
+    const auto hits_of_each = static_cast<float>(hits / static_cast<double>(size(lists)));
+    for (const RayList& list : lists)
+      for (std::size_t i = 0; i < list.size; ++i) {
+        OfRay& ray = of_ray_[list.id[i] & ~falling];
+        ray.disc_tests += static_cast<float>(here.count);
+        ray.hits += hits_of_each;
+      }
+    subtree.hits.sum += hits;
     // A leaf's hits are spread evenly over its rays. At worst, a few of these hit all discs, and the others none.
     subtree.hits.squares += hits * (here.count - hits / static_cast<double>(size(lists)));
     return;
   }
-  of_each(&OfRay::listed, 1);
   for (const std::uint32_t child : {node + 1, here.right}) {
     const ArenaScope scope(worker.lists);
     cull_refined(sample, child, cull_child(sample, child, lists, subtree.weight, worker), subtree, worker);

@@ -48,7 +48,7 @@ struct PilotRays {
 /// are made, and discs visited, if a block of rays has a ray there. The probability comes from the share of the sampled
 /// rays in the list and, if there are few, from the surface of the box relative to the parent's.
 ///
-/// Few sampled rays may reach many discs that lie close together. If the errors of such nodes of the top exceed a tenth of
+/// Few sampled rays may reach many discs that lie close together. If the errors of such nodes of the top exceed a fifth of
 /// the work, up to 64 times as many other rays are culled against these nodes, and those that cross them replace the
 /// sample there (box_tree_pilot_again.cpp). Errors: box_tree_pilot_errors.cpp.
 ///
@@ -71,6 +71,7 @@ class BoxTreePilot {
     float rays = 0;             ///< sampled rays in its list; those of a second sample divided by its precision
     float precision = 1;        ///< rays of the sample that was culled here, over those of the first sample
     float blocks = 0;           ///< expected number of blocks of all rays that have a ray in its list
+    float guessed = 0;          ///< standard error of `blocks`: half of them where no sampled ray came
     float weight = 0;           ///< number of nodes for which it stands; 0: it was not culled
     std::uint32_t refined = 0;  ///< number of the root of its refined subtree; 0: none
   };
@@ -83,7 +84,6 @@ class BoxTreePilot {
   };
   /// What a ray of the sample did in the subtree that is culled.
   struct OfRay {
-    float listed = 0;
     float disc_tests = 0;
     float hits = 0;
   };
@@ -95,7 +95,6 @@ class BoxTreePilot {
     std::uint32_t last = 0;
     std::uint32_t sample = 0;     ///< number of the sample that is culled here
     Groups rays = {};             ///< sampled rays that cross it, by group
-    SumOverRays listed = {};      ///< in the lists of its refined nodes
     SumOverRays disc_tests = {};  ///< in its smallest leaves
     SumOverRays hits = {};
     double expected_hits = 0;  ///< of the sampled rays that cross it
@@ -124,8 +123,7 @@ class BoxTreePilot {
   };
   /// Errors because a sample has few rays; the same for every shape.
   struct RayErrors {
-    double listed = 0;  ///< relative variance of the sum over all rays
-    double disc_tests = 0;
+    double tests = 0;  ///< relative variance of the sum over all rays
     double hits = 0;
     std::uint32_t node = 0;  ///< the node in which unseen rays may do most work
     double rays = 0;         ///< standard error of the number of rays that cross this node, where no sampled ray does

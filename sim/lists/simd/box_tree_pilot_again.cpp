@@ -11,7 +11,8 @@ namespace detp::sim::stream {
 namespace {
 
 constexpr double few = 24;             ///< sampled rays; with more, their spread shows the error
-constexpr double largest_error = 0.1;  ///< of the work of all sampled rays
+constexpr double largest_error = 0.2;  ///< of the work of all sampled rays
+constexpr double wanted_error = 0.1;   ///< with a second sample
 constexpr double least_error = 0.02;   ///< of a node that gets a second sample
 constexpr std::size_t most_regions = 16;
 constexpr double most_rays = 64;  ///< in the second sample for each ray of the first one
@@ -23,7 +24,7 @@ constexpr std::size_t rays_at_once = 2048;
 /// so that a node that no sampled ray crosses has an error, too (A. Agresti and B. A. Coull, 1998: for two standard errors, add
 /// half the square of two to the count).
 ///
-///     e = √(c + 2) u         F = Σ e² / (0.1 W)²,  from 4 to 64
+///     e = √(c + 2) u         F = Σ e² / (0.1 W)², from 4 to 64, if Σ e² > (0.2 W)²
 ///
 ///   where  u   expected work of a ray that crosses the node (set_expected_work)
 ///          W   expected work of all sampled rays: Σ c u over the subtrees, and some for each ray
@@ -61,7 +62,7 @@ BoxTreePilot::SecondSample BoxTreePilot::plan_second_sample() const {
     squares += one.error * one.error;
   }
   constexpr double least_rays = 4;
-  second.precision = std::clamp(squares / std::pow(largest_error * work, 2), least_rays, most_rays);
+  second.precision = std::clamp(squares / std::pow(wanted_error * work, 2), least_rays, most_rays);
   if (squares <= std::pow(largest_error * work, 2)) second.regions.clear();
   return second;
 }

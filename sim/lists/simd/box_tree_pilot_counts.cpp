@@ -124,11 +124,9 @@ class BoxTreePilot::Evaluation {
       tests /= work;
       break;
     }
-    if (!(tests > 0)) {  // each leaf holds more discs than a subtree: a ray that crosses the node tests all of them
-      const double work = pilot_.work_of_a_ray(rays.node);
-      culls = 1 / work;
-      tests = sparse.count / work;
-    }
+    const double work = pilot_.work_of_a_ray(rays.node);
+    culls = std::max(culls, 1 / work);
+    if (!(tests > 0)) tests = sparse.count / work;  // leaves hold whole subtrees: the ray is tested against all discs
     const double lists =
         rays.rays > 0 ? std::min(1.0, pilot_.blocks_.count() / rays.rays) : 0;  // that these rays share
     constexpr double of_edges = 0.03;  // of the boxes at the edge of subtrees; measured
@@ -138,11 +136,11 @@ class BoxTreePilot::Evaluation {
       const double count = counts_.*term;
       found_.error.*term = std::sqrt(subtrees + (relative + edges * edges) * count * count + unseen * unseen);
     };
-    set(&Counts<double>::cull_tests, rays.listed, culls * rays.work, scale);
-    set(&Counts<double>::listed, rays.listed, culls * rays.work, scale);
-    set(&Counts<double>::disc_tests, rays.disc_tests, tests * rays.work, scale);
-    set(&Counts<double>::culls, rays.listed, lists * culls * rays.work, 1);
-    set(&Counts<double>::visits, rays.disc_tests, lists * tests * rays.work, 1);
+    set(&Counts<double>::cull_tests, rays.tests, culls * rays.work, scale);
+    set(&Counts<double>::listed, rays.tests, culls * rays.work, scale);
+    set(&Counts<double>::disc_tests, rays.tests, tests * rays.work, scale);
+    set(&Counts<double>::culls, rays.tests, lists * culls * rays.work, 1);
+    set(&Counts<double>::visits, rays.tests, lists * tests * rays.work, 1);
     found_.error.cull_tests = std::hypot(found_.error.cull_tests, scale * edge_of_tests_);
     found_.error.culls = std::hypot(found_.error.culls, guessed_culls_, edge_of_culls_);
     found_.error.visits = std::hypot(found_.error.visits, guessed_visits_);
@@ -156,8 +154,8 @@ class BoxTreePilot::Evaluation {
       return scale * pilot_.subtrees_[i].weight * pilot_.subtrees_[i].doubtful;
     };
     found_.error.doubtful = std::sqrt(variance_of_subtrees(doubtful) + rays.hits * counts_.doubtful * counts_.doubtful +
-                                      scale * counts_.doubtful + (rays.rays > 0 ? scale * scale : 0));
-    found_.error.made = error_of_made();
+                                      (rays.rays > 0 ? scale * counts_.doubtful + scale * scale : 0));
+    found_.error.made = std::hypot(error_of_made(), edges * counts_.made);
   }
 
   /// The drawn subtrees are a sample of the nodes made for each disc. They are those with most work; the others may differ
@@ -239,9 +237,8 @@ class BoxTreePilot::Evaluation {
     const double tests = weight * known.rays * nodes_[node].count;
     counts_.disc_tests += tests;
     add(growth_of(node), tests, found_.disc_tests);
-    const double visits = weight * known.blocks * nodes_[node].count;
-    counts_.visits += visits;
-    guessed_visits_ += guessed(known) * visits;
+    counts_.visits += weight * known.blocks * nodes_[node].count;
+    guessed_visits_ += weight * known.guessed * nodes_[node].count;
     area_of_tests_ += weight * area(node) * nodes_[node].count;
   }
 
@@ -283,7 +280,7 @@ class BoxTreePilot::Evaluation {
       counts_.cull_tests += tested * here.rays;
       add(here_grows, tested * here.rays, found_.cull_tests);
       counts_.culls += tested * here.blocks;
-      guessed_culls_ += guessed(here) * tested * here.blocks;
+      guessed_culls_ += tested * here.guessed;
       area_of_culls_ += tested * area(node);
       if (known.weight == 0) continue;  // in a subtree that was not drawn
       if (at_top) enter(part_of(child));
@@ -319,12 +316,6 @@ class BoxTreePilot::Evaluation {
 
   [[nodiscard]] double made_below(std::uint32_t node) const {
     return is_inner(node) ? 1 + made_below(node + 1) + made_below(nodes_[node].right) : 1;
-  }
-
-  /// Standard error of the blocks that have a ray in a list, over their number: half of them where no sampled ray came.
-  [[nodiscard]] double guessed(const Known& known) const {
-    const double rays = known.rays * known.precision;
-    return known.blocks < pilot_.blocks_.count() ? 0.5 / (1 + rays) : 0;
   }
 
   static constexpr std::array sampled_terms{&Counts<double>::cull_tests, &Counts<double>::listed,

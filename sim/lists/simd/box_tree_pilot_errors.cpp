@@ -54,7 +54,8 @@ void BoxTreePilot::set_hits() {
 ///          x_g  expected work (for hits: expected hits) of the sampled rays of group g in the subtrees that they cross. The
 ///               groups are 32 runs of consecutive rays, in a circle, so that rays of one photon are in one group. The
 ///               factor 1.1 makes two standard errors a limit of 95 %, though there are only so many groups.
-///          y_i  the count of sampled ray i in the drawn subtree s; w: the number of subtrees for which it stands
+///          y_i  the disc tests (for hits: hits) of sampled ray i in the smallest leaves of the drawn subtree s; w: the number of
+///               subtrees for which it stands
 ///          ε    number of rays that may cross a node though no sampled ray does, or beyond those that the sampled rays stand
 ///               for: two sampled rays' worth, as a variance (plan_second_sample). Their work is that in the node
 ///               where it is largest.
@@ -96,8 +97,7 @@ void BoxTreePilot::set_ray_errors() {
     return sum > 0 ? squares / (sum * sum) : 0;
   };
   const double of_work = between(work, all_work);
-  ray_errors_.listed = of_work + within(&Subtree::listed);
-  ray_errors_.disc_tests = of_work + within(&Subtree::disc_tests);
+  ray_errors_.tests = of_work + within(&Subtree::disc_tests);
   ray_errors_.hits = between(hits, all_hits) + within(&Subtree::hits);
   find_unseen();
 }

@@ -113,6 +113,7 @@ void BoxTreePilot::set_blocks() {
     const std::uint32_t refined = known_[node].refined;
     if (refined == 0) return;
     known_[refined].blocks = known_[node].blocks;
+    known_[refined].guessed = known_[node].guessed;
     share_[refined] = share_[node];
     shape[refined] = shape[node];
   };
@@ -129,7 +130,9 @@ void BoxTreePilot::set_blocks() {
       share_[child] = (rays + prior) / (known_[child].precision * sampled_);
     }
     shape[child] = static_cast<float>(rays > 0 ? rays + prior : 1 / (1 / prior + 1 / (shape[parent] + 1e-3)));
-    known_[child].blocks = static_cast<float>(blocks_with_a_ray(child, shape[child]));
+    Known& known = known_[child];
+    known.blocks = static_cast<float>(blocks_with_a_ray(child, shape[child]));
+    known.guessed = known.blocks < blocks_.count() ? 0.5F * known.blocks / static_cast<float>(1 + rays) : 0;
     pass_on_to_refined(child);
   });
 }
