@@ -1,6 +1,7 @@
 #include "plan.hpp"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <type_traits>
@@ -138,7 +139,7 @@ class Plan::Planner {
                                     .seconds = one.time.total(),
                                     .error = 0,
                                     .threads = one.threads,
-                                    .doubt = doubt_of(one.candidate.technique, one.extrapolated)});
+                                    .doubt = doubt_of(*basis_->workload, one)});
     assess_for_replans();
     seconds_ += watch.seconds();
     remember(Rigor::estimate, true);  // techniques without a closed form were not examined
@@ -158,7 +159,7 @@ class Plan::Planner {
                                     .seconds = one.time.total(),
                                     .error = one.error,
                                     .threads = one.threads,
-                                    .doubt = doubt_of(one.candidate.technique, one.extrapolated),
+                                    .doubt = one.extrapolated.empty() ? 1 : std::numeric_limits<double>::infinity(),
                                     .counts_at = one.counts_at});
     if (choice.discs) basis_->order = choice.discs->order();
     seconds_ += watch.seconds() - choice.sort_seconds;

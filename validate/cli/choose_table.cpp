@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "choose_rows.hpp"
+#include "detp/model/rank/extrapolation.hpp"
 #include "extrapolated.hpp"
 #include "measured_report.hpp"
 #include "text_table.hpp"
@@ -26,6 +27,9 @@ std::vector<TextCell> pilot_cells(const ChooseAnswer& answer, const ChooseRow& r
   const std::string more = ratio < 2 ? fmt::format("{:+.2g} %", 100 * (ratio - 1)) : fmt::format("{:.3g} times", ratio);
   return {{fmt::format("{}, {}", could_win(answer, row) ? "yes" : "no", more)}};
 }
+
+/// Whether closed forms other than those of box trees and brute force are never chosen if they are extrapolated.
+bool is_real(const ChooseAnswer& answer) { return answer.pilot || !model::is_counted_scene(answer.workload); }
 
 std::string verdict(const ChooseAnswer& answer, const ChooseRow& row) {
   if (row.chosen) return "<- choice";
@@ -58,7 +62,8 @@ std::string candidate_table(const ChooseAnswer& answer, const Screen& screen) {
                                 {describe(row.candidate), style},
                                 {fmt::format("{}", threads_of(row))}};
     if (row.predicted != nullptr) {
-      const std::string_view mark = extrapolation_mark(row.candidate.technique, row.predicted->extrapolated);
+      const std::string_view mark =
+          extrapolation_mark(row.candidate.technique, row.predicted->extrapolated, is_real(answer));
       cells.push_back({fmt::format("{:.3g}", tests(row.predicted->counts))});
       const double error = error_of(answer, row).value_or(0);
       cells.push_back({fmt::format("{:.3g}{}{}", row.predicted->time.total(), mark,
@@ -93,7 +98,7 @@ std::string candidate_notes(const ChooseAnswer& answer, const Screen& screen) {
         " ± of predicted seconds: standard error, of the pilot's counts and of unit costs. Could still win: less than "
         "15 % "
         "slower than the choice, which is about the error of calibrated unit costs.";
-  const std::string extrapolated = extrapolated_note(predictions);
+  const std::string extrapolated = extrapolated_note(predictions, is_real(answer));
   return (extrapolated.empty() ? "" : wrapped(extrapolated, screen.text_width(), 2)) + legend(screen, text);
 }
 
