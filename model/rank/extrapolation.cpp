@@ -105,6 +105,12 @@ void uncounted_grid(const Valid<Workload>& workload, const Parameters& parameter
   reasons.range("cells a side", std::get<GridParameters>(parameters).cells, 2, 128);
 }
 
+bool is_counted_scene(const Valid<Workload>& workload) {
+  Reasons reasons;
+  uncounted_scene(workload, reasons);
+  return std::move(reasons).texts().empty();
+}
+
 std::vector<std::string> extrapolations(const Valid<Workload>& workload, const Valid<Candidate>& candidate) {
   Reasons reasons;
   if (const auto uncounted = model_of(candidate.technique).uncounted)

@@ -43,6 +43,10 @@ void uncounted_box_tree(const Valid<Workload>& workload, const Parameters& param
 void uncounted_octree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
 void uncounted_grid(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
 
+/// Whether the workload is of the kind that was compared with counts: isotropic lines, samples uniform in a cube or on its
+/// faces. Its numbers may be out of range.
+[[nodiscard]] bool is_counted_scene(const Valid<Workload>& workload);
+
 /// The reasons why the counts that `predict` returns for the candidate are extrapolated: a short text for each input
 /// outside the range that was compared with counts (see above), such as "d over r0 1e-05 below 0.0001". Empty if the
 /// counts are not extrapolated.

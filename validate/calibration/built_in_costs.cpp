@@ -100,6 +100,7 @@ constexpr BuiltIn of_both[] = {
 CostTable built_in_unit_costs(Engine engine) {
   CostTable costs;
   costs.engine = engine;
+  costs.relative_errors.fill(0.5);  // two standard errors are a factor of two
   const auto set = [&](std::span<const BuiltIn> built_in) {
     for (const BuiltIn& one : built_in) {
       costs[one.technique] = one.units.seconds();

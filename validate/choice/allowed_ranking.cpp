@@ -1,15 +1,21 @@
 #include "allowed_ranking.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
+
+#include "detp/model/rank/extrapolation.hpp"
 
 namespace detp::validate {
 namespace {
 
-double cautious_seconds(const model::Ranked& one) { return one.time.total() * doubt_of(one); }
-
-void move_choice_to_front(std::vector<model::Ranked>& ranking) {
-  const auto choice = std::min_element(ranking.begin(), ranking.end(), [](const auto& a, const auto& b) {
+void move_choice_to_front(const Valid<Workload>& workload, std::vector<model::Ranked>& ranking) {
+  const auto cautious_seconds = [&](const model::Ranked& one) {
+    const double doubt = doubt_of(workload, one);
+    return std::isinf(doubt) ? doubt : one.time.total() * doubt;
+  };
+  const auto choice = std::min_element(ranking.begin(), ranking.end(), [&](const auto& a, const auto& b) {
     return cautious_seconds(a) < cautious_seconds(b);
   });
   if (choice != ranking.end()) std::rotate(ranking.begin(), choice, choice + 1);
@@ -17,10 +23,11 @@ void move_choice_to_front(std::vector<model::Ranked>& ranking) {
 
 }  // namespace
 
-double doubt_of(const model::Ranked& one) {
+double doubt_of(const Valid<Workload>& workload, const model::Ranked& one) {
   const Technique technique = one.candidate.technique;
   const bool compared = technique == Technique::brute_force || technique == Technique::box_tree;
-  return compared || one.extrapolated.empty() ? 1 : closed_form_doubt;
+  if (compared || one.extrapolated.empty()) return 1;
+  return model::is_counted_scene(workload) ? closed_form_doubt : std::numeric_limits<double>::infinity();
 }
 
 std::vector<model::Ranked> allowed_ranking(const Valid<Workload>& workload, const Valid<CostTable>& costs,
@@ -37,7 +44,7 @@ std::vector<model::Ranked> allowed_ranking(const Valid<Workload>& workload, cons
     std::stable_sort(ranking.begin(), ranking.end(),
                      [](const auto& a, const auto& b) { return a.time.total() < b.time.total(); });
   }
-  move_choice_to_front(ranking);
+  move_choice_to_front(workload, ranking);
   return ranking;
 }
 

@@ -1,6 +1,7 @@
 #include "other_techniques.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "allowed_ranking.hpp"
 #include "detp/model/rank/choose.hpp"
@@ -43,8 +44,13 @@ class Comparison {
     if (!tuned) return found_.unexamined.push_back(technique);
     const double seconds = tuned->time.total();
     if (seconds >= closed_form_doubt * best()) return found_.ruled_out.push_back({technique, seconds, false});
-    found_.candidates.push_back(
-        {tuned->candidate, tuned->counts, tuned->time, tuned->threads, seconds * (closed_form_doubt - 1), true});
+    found_.candidates.push_back({.candidate = tuned->candidate,
+                                 .counts = tuned->counts,
+                                 .time = tuned->time,
+                                 .threads = tuned->threads,
+                                 .error = seconds * (closed_form_doubt - 1),
+                                 .closed_form = true,
+                                 .extrapolated = tuned->extrapolated});
   }
 
  private:
@@ -73,9 +79,20 @@ class Comparison {
 
 }  // namespace
 
-Piloted priced(const Candidate& candidate, const Counts<double>& counts, const Prices& prices, double relative_error) {
+Piloted priced(const Candidate& candidate, const Counts<double>& counts, const Counts<double>& error,
+               const Prices& prices) {
   const auto [threads, time] = prices(counts, candidate.technique);
-  return {candidate, counts, time, threads, relative_error * (time.rebuild + time.copy + time.intersect)};
+  Counts<double> more = counts;
+  more += error;
+  const double of_counts = price(more, prices.costs, candidate.technique, threads).total() - time.total();
+  return {
+      .candidate = candidate,
+      .counts = counts,
+      .time = time,
+      .threads = threads,
+      .error = std::hypot(
+          of_counts, static_cast<const CostTable&>(prices.costs).relative_error_of(candidate.technique) * time.total()),
+      .counts_error = error};
 }
 
 bool is_allowed(Technique technique, const PilotOptions& options) {

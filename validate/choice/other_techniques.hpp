@@ -22,9 +22,9 @@ struct SearchSize {
   double discs;
 };
 
-/// A candidate with its price. The error is that of all parts of the time that depend on the rays.
-[[nodiscard]] Piloted priced(const Candidate& candidate, const Counts<double>& counts, const Prices& prices,
-                             double relative_error);
+/// A candidate with its price and the price's error. `error` has the standard errors of the counts.
+[[nodiscard]] Piloted priced(const Candidate& candidate, const Counts<double>& counts, const Counts<double>& error,
+                             const Prices& prices);
 
 [[nodiscard]] bool is_allowed(Technique technique, const PilotOptions& options);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -56,7 +57,7 @@ class ShapeSearch {
     for (const Piloted& one : tried_)
       if (one.candidate == candidate) return false;
     const auto predicted = discs_.counts(shape, for_replans_);
-    tried_.push_back(priced(candidate, predicted.counts, prices_, predicted.relative_error));
+    tried_.push_back(priced(candidate, predicted.counts, predicted.error, prices_));
     if (for_replans_)
       tried_.back().counts_at = [predicted](double radius_ratio, double rays) {
         return predicted.at(radius_ratio, rays);
@@ -89,7 +90,8 @@ class ShapeSearch {
   std::vector<Piloted> tried_;
 };
 
-Piloted brute_force(const SearchSize& size, double hits, const Prices& prices) {
+/// Its tests are known. Of its hits, only the pilot's estimate is, or a closed form, which may be off by a factor of two.
+Piloted brute_force(const SearchSize& size, double hits, double error_of_hits, const Prices& prices) {
   const auto counts_at = [=](double radius_ratio, double rays) {
     const double blocks = ray_blocks(rays, size.discs, Engine::simd).count();
     return Counts<double>{.loaded = rays,
@@ -98,7 +100,8 @@ Piloted brute_force(const SearchSize& size, double hits, const Prices& prices) {
                           .disc_tests = rays * size.discs,
                           .hits = hits * rays / size.rays * radius_ratio * radius_ratio};
   };
-  Piloted found = priced({Technique::brute_force, BruteForceParameters{}}, counts_at(1, size.rays), prices, 0);
+  const Candidate candidate{Technique::brute_force, BruteForceParameters{}};
+  Piloted found = priced(candidate, counts_at(1, size.rays), {.hits = error_of_hits}, prices);
   found.counts_at = counts_at;
   return found;
 }
@@ -115,7 +118,7 @@ Piloted usual_box_tree(const SearchSize& size, const Prices& prices) {
                               .references = size.discs,
                               .placements = size.discs,
                               .sorted = size.discs};
-  return priced({Technique::box_tree, shape}, counts, prices, 0);
+  return priced({Technique::box_tree, shape}, counts, {}, prices);
 }
 
 /// The least time that any box tree takes: that of preparing, and of the search only if it decides whether brute force,
@@ -128,10 +131,11 @@ double least_box_tree_seconds(const sim::Problem& problem, std::span<const sim::
   return prices(least_box_tree_counts(problem, rays, size.rays), Technique::box_tree).time.total();
 }
 
-/// Sorts by time, but with the choice first: the candidate that is fastest even if closed forms and unit costs are off.
-/// A box tree needs `preparing` less than its time, because its discs are sorted already.
+/// Sorts by time, but with the choice first: the candidate that is fastest even if closed forms are off. Extrapolated
+/// closed forms are never chosen. A box tree needs `preparing` less than its time, because its discs are sorted already.
 void sort_by_time(std::vector<Piloted>& candidates, double preparing) {
   const auto cautious = [&](const Piloted& one) {
+    if (!one.extrapolated.empty()) return std::numeric_limits<double>::infinity();
     const double prepared = one.candidate.technique == Technique::box_tree ? preparing : 0;
     return seconds(one) - prepared + (one.closed_form ? one.error : 0);
   };
@@ -188,7 +192,8 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
     const double hits = options.expected_hits ? *options.expected_hits
                         : options.workload    ? model::expected_hits(*options.workload)
                                               : 0;
-    const Piloted brute = brute_force(size, hits, prices);
+    const double error_of_hits = hits > 0 ? hits : size.rays * size.discs;  // nothing is known
+    const Piloted brute = brute_force(size, hits, error_of_hits, prices);
     const double least = least_box_tree_seconds(problem, sample, size, preparing, seconds(brute), prices);
     if (seconds(brute) < least) {
       sim::Problem of_sample = problem;
@@ -208,7 +213,14 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
   }
   found.sampled_rays = sample.size();
   found.discs = std::make_shared<sim::PilotedDiscs>(
-      problem, sim::stream::PilotRays{sample, rays, options.independent_sample, options.expected_hits},
+      problem,
+      sim::stream::PilotRays{.sample = sample,
+                             .all = rays,
+                             .independent = options.independent_sample,
+                             .hits = options.expected_hits,
+                             .others = options.independent_sample ? std::span<const sim::Ray>()
+                                       : options.others.empty()   ? problem.rays()
+                                                                  : options.others},
       subtrees_of(rays, size.discs), sim::RunOptions{.stop = options.stop, .threads = options.threads});
   found.sort_seconds = found.discs->sort_seconds();
   found.candidates = ShapeSearch(*found.discs, size, prices, options.for_replans).run();
@@ -217,7 +229,10 @@ PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ra
     sort_by_time(found.candidates, preparing);
   };
   if (is_allowed(Technique::brute_force, options))
-    add([&] { found.candidates.push_back(brute_force(size, found.choice().counts.hits, prices)); });
+    add([&] {
+      const Piloted& tree = found.choice();
+      found.candidates.push_back(brute_force(size, tree.counts.hits, tree.counts_error.hits, prices));
+    });
   add([&] { compare_others(problem, size, prices, options, found); });
   found.pilot_seconds = watch.seconds() - found.sort_seconds;
   return found;
@@ -249,7 +264,7 @@ PilotChoice choose_again(const PilotChoice& pilot, const sim::Problem& problem, 
   const double preparing = prices({.placements = discs, .sorted = discs}, Technique::box_tree).time.total();
   PilotChoice found;
   for (const Piloted& one : pilot.candidates)
-    if (one.counts_at) found.candidates.push_back(priced(one.candidate, one.counts_at(radius_ratio, rays), prices, 0));
+    if (one.counts_at) found.candidates.push_back(priced(one.candidate, one.counts_at(radius_ratio, rays), {}, prices));
   if (found.candidates.empty()) throw std::invalid_argument("a choice without a pilot needs counts of an earlier one");
   const auto is_brute_force = [](const Piloted& one) { return one.candidate.technique == Technique::brute_force; };
   const auto brute = std::find_if(found.candidates.begin(), found.candidates.end(), is_brute_force);

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
@@ -26,9 +27,13 @@ struct Piloted {
   Counts<double> counts = {};  ///< expected
   CostBreakdown time = {};     ///< expected, seconds
   int threads = 1;             ///< for which the time is expected
-  /// Seconds. Standard error of the time because of sampling; 0 for brute force. Of a closed form, the time itself.
+  /// Seconds. Standard error of the time: that of the counts (as if all counts were off in the same direction) and that of
+  /// the unit costs. Of a closed form, the time itself.
   double error = 0;
+  /// standard errors of the counts; 0: exact, as the tests of brute force. Those of a closed form are not known.
+  Counts<double> counts_error = {};
   bool closed_form = false;  ///< its counts are those of the closed form, which may be off by a factor of two
+  std::vector<std::string> extrapolated = {};  ///< as model::Ranked: reasons why the closed form may be off farther
   /// The counts with the radius of the discs multiplied by `radius_ratio`, and with another number of rays. Empty without
   /// PilotOptions::for_replans, and for candidates that the pilot did not count.
   std::function<Counts<double>(double radius_ratio, double rays)> counts_at = {};
@@ -58,6 +63,7 @@ struct PilotOptions {
   int threads = 1;                           ///< most threads, for the pilot and for the choice; 0: all cores
   bool independent_sample = false;           ///< as sim::PilotRays::independent
   std::optional<double> expected_hits = {};  ///< as sim::PilotRays::hits
+  std::span<const sim::Ray> others = {};     ///< as sim::PilotRays::others; default: the problem's rays
   /// for the closed forms of other techniques; default: measured, if the problem has rays and the closed forms are needed
   std::optional<Workload> workload = {};
   bool for_replans = false;              ///< set Piloted::counts_at
@@ -83,8 +89,8 @@ struct PilotOptions {
 /// disc sorted, placed and visited once, each ray loaded, each hit tested. (If rays reach few of the discs, a search
 /// may visit fewer.) A technique that this does not rule out is compared by its closed form, if the closed forms and
 /// the evidence that they need take less than 2 % of the best; it is ruled out if it takes twice as long as the best,
-/// and chosen if it takes less than half as long: in real scenes, closed forms may be off by a factor of two. Brute
-/// force is chosen if it takes less time than sorting and placing the discs alone; then there is no pilot. After the
+/// and chosen if it takes less than half as long. It is never chosen if its closed form is extrapolated: in real scenes,
+/// its tests were off by up to 17 times. Brute force is chosen if it takes less time than sorting and placing the discs alone; then there is no pilot. After the
 /// pilot, the discs are sorted, and it is chosen only if it is faster than the rest of the run.
 ///
 /// Throws std::invalid_argument if the problem cannot be piloted (PilotedDiscs::can_pilot), for an empty sample, for a
@@ -98,7 +104,7 @@ struct PilotOptions {
 
 /// What choose_by_pilot would choose with discs of another radius and with another number of rays, without another
 /// pilot: the counts of the pilot's candidates are extrapolated (Piloted::counts_at; those without are left out), and
-/// compared with the other techniques, except those that the pilot did not examine. The errors of times are not known,
+/// compared with the other techniques, except those that the pilot did not examine. The errors of counts are not known,
 /// and are 0. `problem` must be the pilot's; options.workload, if it is set, must have the other radius.
 ///
 /// Throws std::invalid_argument if no candidate has counts_at, for a ratio of radii that is not > 0 and finite, and for

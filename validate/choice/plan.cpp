@@ -1,6 +1,7 @@
 #include "plan.hpp"
 
 #include <cmath>
+#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <type_traits>
@@ -141,7 +142,7 @@ class Plan::Planner {
                                     .seconds = one.time.total(),
                                     .error = 0,
                                     .threads = one.threads,
-                                    .doubt = doubt_of(one)});
+                                    .doubt = doubt_of(*basis_->workload, one)});
     assess_for_replans();
     seconds_ += watch.seconds();
     remember(Rigor::estimate, true);  // techniques without a closed form were not examined
@@ -152,14 +153,16 @@ class Plan::Planner {
     report("sorting the discs, and a pilot", 0.1, 0.6);
     const sim::Stopwatch watch;
     PilotChoice choice = with_all_rays_checked([&] {
-      return choose_by_pilot(basis_->problem, pilot_sample(rays_, basis_->problem.discs().size()), basis_->rays,
-                             options_.costs, {.threads = options_.threads, .for_replans = true, .stop = options_.stop});
+      return choose_by_pilot(
+          basis_->problem, pilot_sample(rays_, basis_->problem.discs().size()), basis_->rays, options_.costs,
+          {.threads = options_.threads, .others = rays_, .for_replans = true, .stop = options_.stop});
     });
     for (const Piloted& one : choice.candidates)
       basis_->candidates.push_back({.candidate = one.candidate,
                                     .seconds = one.time.total(),
                                     .error = one.error,
                                     .threads = one.threads,
+                                    .doubt = one.extrapolated.empty() ? 1 : std::numeric_limits<double>::infinity(),
                                     .counts_at = one.counts_at});
     if (choice.discs) basis_->order = choice.discs->order();
     seconds_ += watch.seconds() - choice.sort_seconds;

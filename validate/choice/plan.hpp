@@ -47,8 +47,8 @@ class Plan {
   [[nodiscard]] int threads() const { return threads_; }
   /// Predicted time of one search on threads(). Includes building, and also sorting, unless the discs' order is known.
   [[nodiscard]] double predicted_seconds() const { return predicted_seconds_; }
-  /// Standard error of the predicted time, because the pilot has only a sample of rays and subtrees. The error of the
-  /// unit costs comes in addition, and after `replan` that of the extrapolation.
+  /// Standard error of the predicted time: because the pilot has only a sample of rays and subtrees, and because of the unit
+  /// costs (CostTable::relative_errors). After `replan`, that of the extrapolation comes in addition.
   [[nodiscard]] double predicted_error() const { return predicted_error_; }
   [[nodiscard]] double planning_seconds() const { return planning_seconds_; }  ///< without sorting and building
   [[nodiscard]] Rigor rigor() const { return rigor_; }                         ///< reached

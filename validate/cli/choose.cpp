@@ -127,7 +127,7 @@ std::optional<sim::Progress> decide_by_pilot(ChooseAnswer& answer, const validat
                  : validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()),
                                              job.workload.rays, costs, options);
   for (const validate::Piloted& one : answer.pilot->candidates)
-    answer.ranking.push_back({one.candidate, one.counts, one.time, {}, one.threads});
+    answer.ranking.push_back({one.candidate, one.counts, one.time, one.extrapolated, one.threads});
   if (structural) answer.evidence_seconds = job.observed.seconds;
   answer.choosing_seconds = answer.evidence_seconds + answer.pilot->pilot_seconds;
   check_ranking(answer, costs, threads);

@@ -24,6 +24,8 @@ Json cells_of(const ChooseAnswer& answer, const ChooseRow& row, const Json& json
   for (const char* name : {"threads", "predicted_seconds_error", "could_still_win", "measured_seconds",
                            "measured_spread", "given_up_after_seconds", "not_run", "why_not"})
     if (json.contains(name)) cells[name] = json[name];
+  if (const validate::Piloted* const one = piloted(answer, row); one != nullptr && !one->closed_form)
+    cells.update(count_cells(one->counts_error, "predicted_error_"));
   if (row.run == nullptr) return cells;
   if (row.run->counted) cells.update(count_cells(*row.run->counted, "counted_"));
   cells.update(missed_ratios(*row.run, answer.costs));
@@ -43,7 +45,7 @@ std::string to_csv(const ChooseAnswer& answer, const Json& inputs) {
               Columns{"engine", "threads"} + count_columns("predicted_") +
               Columns{"predicted_seconds", "predicted_seconds_error", "could_still_win", "extrapolated",
                       "extrapolated_because"} +
-              count_columns("counted_") +
+              count_columns("predicted_error_") + count_columns("counted_") +
               Columns{"measured_seconds", "measured_spread", "given_up_after_seconds", "not_run", "why_not",
                       "seconds_ratio", "counts_ratio", "unit_costs_ratio", "worst_count", "worst_count_ratio"} +
               of_all);

@@ -39,6 +39,7 @@ Json candidate_json(const ChooseAnswer& answer, const ChooseRow& row) {
     json.update(extrapolated_json(row.predicted->extrapolated));
     if (const auto error = error_of(answer, row)) {
       json["predicted_seconds_error"] = *error;
+      if (!piloted(answer, row)->closed_form) json["predicted_error"] = to_json(piloted(answer, row)->counts_error);
       json["could_still_win"] = could_win(answer, row);
     }
   }

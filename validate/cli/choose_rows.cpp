@@ -21,11 +21,16 @@ std::vector<ChooseRow> rows_of(const ChooseAnswer& answer) {
   return rows;
 }
 
-std::optional<double> error_of(const ChooseAnswer& answer, const ChooseRow& row) {
-  if (!answer.pilot) return std::nullopt;
+const validate::Piloted* piloted(const ChooseAnswer& answer, const ChooseRow& row) {
+  if (!answer.pilot) return nullptr;
   for (const validate::Piloted& one : answer.pilot->candidates)
-    if (one.candidate == row.candidate) return one.error;
-  return std::nullopt;
+    if (one.candidate == row.candidate) return &one;
+  return nullptr;
+}
+
+std::optional<double> error_of(const ChooseAnswer& answer, const ChooseRow& row) {
+  const validate::Piloted* const one = piloted(answer, row);
+  return one == nullptr ? std::nullopt : std::optional(one->error);
 }
 
 bool could_win(const ChooseAnswer& answer, const ChooseRow& row) {

@@ -23,7 +23,10 @@ struct ChooseRow {
 /// The number of threads of the row's prediction and runs.
 [[nodiscard]] int threads_of(const ChooseRow& row);
 
-/// The pilot's standard error of the row's time, seconds; nothing if a pilot did not predict it.
+/// What a pilot predicted of the row, with its errors; null if a pilot did not predict it.
+[[nodiscard]] const validate::Piloted* piloted(const ChooseAnswer& answer, const ChooseRow& row);
+
+/// The standard error of the row's time, seconds; nothing if a pilot did not predict it.
 [[nodiscard]] std::optional<double> error_of(const ChooseAnswer& answer, const ChooseRow& row);
 
 /// Whether the row's predicted time cannot be told apart from that of the predicted choice. Requires a prediction.

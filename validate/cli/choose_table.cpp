@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "choose_rows.hpp"
+#include "detp/model/rank/extrapolation.hpp"
 #include "extrapolated.hpp"
 #include "measured_report.hpp"
 #include "text_table.hpp"
@@ -26,6 +27,9 @@ std::vector<TextCell> pilot_cells(const ChooseAnswer& answer, const ChooseRow& r
   const std::string more = ratio < 2 ? fmt::format("{:+.2g} %", 100 * (ratio - 1)) : fmt::format("{:.3g} times", ratio);
   return {{fmt::format("{}, {}", could_win(answer, row) ? "yes" : "no", more)}};
 }
+
+/// Whether closed forms other than those of box trees and brute force are never chosen if they are extrapolated.
+bool is_real(const ChooseAnswer& answer) { return answer.pilot || !model::is_counted_scene(answer.workload); }
 
 std::string verdict(const ChooseAnswer& answer, const ChooseRow& row) {
   if (row.chosen) return "<- choice";
@@ -58,7 +62,8 @@ std::string candidate_table(const ChooseAnswer& answer, const Screen& screen) {
                                 {describe(row.candidate), style},
                                 {fmt::format("{}", threads_of(row))}};
     if (row.predicted != nullptr) {
-      const char* const mark = row.predicted->extrapolated.empty() ? "" : "~";
+      const std::string_view mark =
+          extrapolation_mark(row.candidate.technique, row.predicted->extrapolated, is_real(answer));
       cells.push_back({fmt::format("{:.3g}", tests(row.predicted->counts))});
       const double error = error_of(answer, row).value_or(0);
       cells.push_back({fmt::format("{:.3g}{}{}", row.predicted->time.total(), mark,
@@ -86,13 +91,14 @@ std::string candidate_notes(const ChooseAnswer& answer, const Screen& screen) {
       "radius of the sphere around all discs.";
   if (answer.analysis)
     text +=
-        " ± of measured seconds: half the range of the timed runs; none where there was one run. !: predicted seconds "
-        "off by more than a factor of two.";
+        " ± of measured seconds: half the range of the timed runs; none where there was one run. ! after a ratio: "
+        "predicted seconds off by more than a factor of two.";
   if (answer.pilot)
     text +=
-        " ± of predicted seconds: standard error of the pilot. Could still win: less than 15 % slower than the choice, "
-        "which is about the error of unit costs.";
-  const std::string extrapolated = extrapolated_note(predictions);
+        " ± of predicted seconds: standard error, of the pilot's counts and of unit costs. Could still win: less than "
+        "15 % "
+        "slower than the choice, which is about the error of calibrated unit costs.";
+  const std::string extrapolated = extrapolated_note(predictions, is_real(answer));
   return (extrapolated.empty() ? "" : wrapped(extrapolated, screen.text_width(), 2)) + legend(screen, text);
 }
 

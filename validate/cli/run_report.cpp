@@ -116,6 +116,10 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   json["counts"] = to_json(outcome.counts);
   json.update(unit_times(as_expected(outcome.counts), answer.candidate.technique));
   if (answer.pilot) json["choosing_seconds"] = answer.pilot->pilot_seconds;
+  if (answer.pilot && answer.pilot->predicted) {
+    json["predicted_error"] = to_json(answer.pilot->choice().counts_error);
+    json["predicted_seconds_error"] = answer.pilot->choice().error;
+  }
   if (const auto predicted = prediction(job.workload, answer)) {
     json["predicted"] = to_json(*predicted);
     json.update(unit_times(*predicted, answer.candidate.technique, "predicted_"));
@@ -219,9 +223,10 @@ Columns run_columns() {
          Columns{"k", "k_max", "k_best", "k_published", "k_corrected", "photons", "hits_per_disc", "mean_irradiance"} +
          count_columns() + count_columns("predicted_") +
          Columns{"rebuild_time", "intersect_time", "predicted_rebuild_time", "predicted_intersect_time"} +
-         Columns{"predicted_seconds", "choosing_seconds", "seconds",     "prepare_seconds", "order_seconds",
-                 "build_seconds",     "search_seconds",   "timed_runs",  "read_seconds",    "trace_seconds",
-                 "rays_in_memory",    "stopped",          "hits_so_far", "hits_estimate",   "hits_estimate_error"} +
+         Columns{"predicted_seconds",  "predicted_seconds_error", "choosing_seconds", "seconds",     "prepare_seconds",
+                 "order_seconds",      "build_seconds",           "search_seconds",   "timed_runs",  "read_seconds",
+                 "trace_seconds",      "rays_in_memory",          "stopped",          "hits_so_far", "hits_estimate",
+                 "hits_estimate_error"} +
          effect_columns();
 }
 

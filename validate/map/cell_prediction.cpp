@@ -39,7 +39,7 @@ CellPrediction predict_by_pilot(const sim::Problem& problem, double rays, const 
   CellPrediction prediction{
       .rigor = Rigor::pilot, .ranking = {}, .ruled_out = pilot.ruled_out, .error = pilot.choice().error};
   for (const Piloted& one : pilot.candidates)
-    prediction.ranking.push_back({one.candidate, one.counts, one.time, {}, one.threads});
+    prediction.ranking.push_back({one.candidate, one.counts, one.time, one.extrapolated, one.threads});
   return comparable(std::move(prediction));
 }
 

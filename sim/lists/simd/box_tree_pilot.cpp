@@ -4,10 +4,10 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <deque>
 #include <memory>
 
 #include "detp/sim/base/stop_check.hpp"
-#include "detp/sim/geometry/random.hpp"
 #include "load_rays.hpp"
 #include "tree_search.hpp"
 
@@ -15,7 +15,6 @@ namespace detp::sim::stream {
 namespace {
 
 constexpr std::uint32_t coarse_leaf = 256;  ///< the nodes of subtrees that are not drawn are built down to this size
-constexpr std::uint64_t seed = 1;
 
 using FourFloats = float __attribute__((vector_size(16)));
 
@@ -51,25 +50,31 @@ FloatBox box_around(std::span<const FloatDisc> discs) {
   return box;
 }
 
-TreeNode as_tree_node(const BinaryNode& node) {
-  TreeNode box{.centre = {}, .half = {}, .first = node.first, .count = node.count & 0x7fff'ffff, .leaf = 1};
-  for (int axis = 0; axis < 3; ++axis) {
-    box.centre[axis] = 0.5F * (node.box.low[axis] + node.box.high[axis]);
-    box.half[axis] = 0.5F * (node.box.high[axis] - node.box.low[axis]);
-  }
-  return box;
+std::vector<std::uint32_t> groups_of(std::size_t rays, std::size_t groups) {
+  std::vector<std::uint32_t> group(rays);
+  for (std::size_t i = 0; i < rays; ++i) group[i] = static_cast<std::uint32_t>(i * groups / rays);
+  return group;
 }
 
 }  // namespace
+
+TreeNode as_leaf(const BinaryNode& node) {
+  TreeNode leaf{.centre = {}, .half = {}, .first = node.first, .count = node.count & 0x7fff'ffff, .leaf = 1};
+  for (int axis = 0; axis < 3; ++axis) {
+    leaf.centre[axis] = 0.5F * (node.box.low[axis] + node.box.high[axis]);
+    leaf.half[axis] = 0.5F * (node.box.high[axis] - node.box.low[axis]);
+  }
+  return leaf;
+}
 
 BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const SortedDiscs& discs, const PilotRays& rays,
                            std::size_t subtrees, const std::stop_token& stop)
     : discs_(discs),
       rays_(rays.all),
       sampled_(static_cast<double>(rays.sample.size())),
-      unseen_(rays.independent ? 1 : std::max(0.0, 1 - sampled_ / rays_)),
+      independent_(rays.independent),
       blocks_(ray_blocks(rays_, static_cast<double>(discs.tree.discs.size()), Engine::simd)),
-      work_(rays.sample.size()) {
+      given_hits_(rays.hits) {
   const std::span<const Ray> sample = rays.sample;
   Problem of_sample = problem;
   set_rays(of_sample, sample);
@@ -81,17 +86,23 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
   const auto hits = std::make_unique_for_overwrite<ClassCounts[]>(discs.tree.discs.size());
   const auto totals =
       problem.front_facing() ? std::make_unique_for_overwrite<DiscTotals[]>(discs.tree.discs.size()) : nullptr;
-  const std::vector<double> powers(totals ? sample.size() : 0, 1.0);
-  const BlockSearch block{.problem = of_sample,
-                          .frame = frame,
-                          .tree = discs.tree,
-                          .first_ray = 0,
-                          .segments = traits.segments,
-                          .pairs = false,
-                          .vectors = false,
-                          .hits = hits.get(),
-                          .totals = totals.get(),
-                          .powers = powers.data()};
+  std::deque<std::vector<double>> powers;  // front-facing hits are summed, not counted; the sums are not used
+  std::deque<Sample> samples;
+  const auto add_sample = [&](const Problem& of_rays, const RayLists& loaded, bool segments) -> Sample& {
+    powers.emplace_back(totals ? of_rays.rays().size() : 0, 1.0);
+    return samples.emplace_back(Sample{.block = {.problem = of_rays,
+                                                 .frame = frame,
+                                                 .tree = discs.tree,
+                                                 .first_ray = 0,
+                                                 .segments = segments,
+                                                 .pairs = false,
+                                                 .vectors = false,
+                                                 .hits = hits.get(),
+                                                 .totals = totals.get(),
+                                                 .powers = powers.back().data()},
+                                       .lists = loaded});
+  };
+  add_sample(of_sample, lists, traits.segments).group = groups_of(sample.size(), groups);
   const std::size_t nodes = 4 * discs.tree.discs.size() / coarse_leaf + subtrees * most_in_a_subtree;
   nodes_.reserve(nodes);
   area_.reserve(nodes);
@@ -100,19 +111,33 @@ BoxTreePilot::BoxTreePilot(const Problem& problem, const Frame& frame, const Sor
   for (const BinaryNode& node : nodes_) area_.push_back(node.box.area());
   known_.resize(nodes_.size());
   share_.resize(nodes_.size());
+  set_radius();
+  set_expected_work();
+  find_subtrees(0);
   segments_ = traits.segments;
-  cull_top(block, lists, worker);
+  of_ray_.resize(sample.size());
+  cull_top(samples.front(), 0, worker);
   StopCheck(stop, "culling the pilot's rays").now();
+  SecondSample second = plan_second_sample();
+  draw_second_sample(samples.front(), rays.others, second, worker);
+  for (const Region& region : second.regions) {
+    Sample& again = add_sample(*region.problem, region.lists, region.segments);
+    again.precision = second.precision;
+    again.group = region.group;
+    again.root = region.node;
+    of_ray_.resize(std::max(of_ray_.size(), region.group.size()));
+    cull_top(again, static_cast<std::uint32_t>(samples.size() - 1), worker);
+    StopCheck(stop, "culling the pilot's rays").now();
+  }
   draw_subtrees(subtrees);
   for (Subtree& subtree : subtrees_)
     if (subtree.weight > 0) {
-      refine(block, lists, subtree, worker);
+      refine(samples[subtree.sample], subtree, worker);
       StopCheck(stop, "culling the pilot's rays").now();
     }
-  hits_ = rays.hits.value_or(hits_ * rays_ / sampled_);
   set_blocks();
-  set_relative_error();
-  set_radius();
+  set_hits();
+  set_ray_errors();
 }
 
 /// Builds the top of the tree, and the nodes below it down to coarse_leaf discs. Returns the node's number.
@@ -132,139 +157,79 @@ std::uint32_t BoxTreePilot::build_coarse(std::uint32_t first, std::uint32_t coun
   return number;
 }
 
-void BoxTreePilot::cull_top(const BlockSearch& block, const RayLists& rays, Worker& worker) {
-  known_[0].rays = static_cast<float>(size(rays));
-  known_[0].weight = 1;
-  known_[0].blocks = static_cast<float>(blocks_.count());
-  share_[0] = static_cast<double>(size(rays)) / sampled_;
-  cull_top_below(block, 0, rays, worker);
+/// A ray that crosses a coarse leaf crosses the boxes around some of its discs, and tests the discs of a few small leaves.
+void BoxTreePilot::set_expected_work() {
+  const double box_of_disc = 12 * static_cast<double>(radius_) * radius_;  // half its surface
+  constexpr double leaves = 2.5;
+  work_.resize(coarse_);
+  for (std::uint32_t node = coarse_; node-- > 0;) {
+    const BinaryNode& here = nodes_[node];
+    const double area = area_[node];
+    const double count = here.count;
+    work_[node] = here.leaf() ? std::min(area * count, area * leaves * std::sqrt(count) + count * box_of_disc)
+                              : area + work_[node + 1] + work_[here.right];
+  }
+}
+
+void BoxTreePilot::find_subtrees(std::uint32_t node) {
+  if (nodes_[node].count <= most_in_a_subtree) {
+    subtrees_.push_back({.root = node});
+  } else {
+    find_subtrees(node + 1);
+    find_subtrees(nodes_[node].right);
+  }
+}
+
+/// Culls the sample, or a part of the second sample, down the top below its root.
+void BoxTreePilot::cull_top(const Sample& sample, std::uint32_t number, Worker& worker) {
+  const auto rays = static_cast<double>(size(sample.lists)) / sample.precision;
+  Known& known = known_[sample.root];
+  known.rays = static_cast<float>(rays);
+  known.precision = static_cast<float>(sample.precision);
+  known.weight = 1;
+  if (sample.root == 0) {
+    known.blocks = static_cast<float>(blocks_.count());
+    share_[0] = rays / sampled_;
+  }
+  const auto first = std::lower_bound(subtrees_.begin(), subtrees_.end(), sample.root,
+                                      [](const Subtree& one, std::uint32_t root) { return one.root < root; });
+  auto subtree = static_cast<std::size_t>(first - subtrees_.begin());
+  cull_top_below(sample, number, sample.root, sample.lists, subtree, worker);
 }
 
 /// Returns the child's lists, which stay in the worker's arena until the caller's scope ends, and notes their size.
-RayLists BoxTreePilot::cull_child(const BlockSearch& block, std::uint32_t child, const RayLists& lists, double weight,
+RayLists BoxTreePilot::cull_child(const Sample& sample, std::uint32_t child, const RayLists& lists, double weight,
                                   Worker& worker) {
-  RayLists inside = worker.lists.allocate_like(lists, block.segments);
-  if (size(lists) > 0) cull_node(block, as_tree_node(nodes_[child]), lists, inside, worker);
-  known_[child].rays = static_cast<float>(size(inside));
+  RayLists inside = worker.lists.allocate_like(lists, sample.block.segments);
+  if (size(lists) > 0) cull_node(sample.block, as_leaf(nodes_[child]), lists, inside, worker);
+  known_[child].rays = static_cast<float>(static_cast<double>(size(inside)) / sample.precision);
+  known_[child].precision = static_cast<float>(sample.precision);
   known_[child].weight = static_cast<float>(weight);
   return inside;
 }
 
-void BoxTreePilot::cull_top_below(const BlockSearch& block, std::uint32_t node, const RayLists& lists, Worker& worker) {
+void BoxTreePilot::cull_top_below(const Sample& sample, std::uint32_t number, std::uint32_t node, const RayLists& lists,
+                                  std::size_t& subtree, Worker& worker) {
   const BinaryNode& here = nodes_[node];
   if (here.count <= most_in_a_subtree) {
-    const auto discs = static_cast<float>(std::sqrt(here.count));
-    const double area = here.box.area();  // 0 if the discs are in one point and too small for floats
-    const double of_a_ray = area > 0 ? expected_work(node) / area : discs;
-    subtrees_.push_back({.root = node, .work = (1 + known_[node].rays) * of_a_ray});
+    Subtree& found = subtrees_[subtree++];
+    found.sample = number;
+    found.work = (1 / sample.precision + known_[node].rays) * work_of_a_ray(node);
+    found.rays = {};
     for (const RayList& list : lists)
-      for (std::size_t i = 0; i < list.size; ++i) work_[list.id[i] & ~falling] += discs;
+      for (std::size_t i = 0; i < list.size; ++i) ++found.rays[sample.group[list.id[i] & ~falling]];
     return;
   }
   for (const std::uint32_t child : {node + 1, here.right}) {
     const ArenaScope scope(worker.lists);
-    cull_top_below(block, child, cull_child(block, child, lists, 1, worker), worker);
+    cull_top_below(sample, number, child, cull_child(sample, child, lists, 1, worker), subtree, worker);
   }
 }
 
-/// Expected work below a coarse node for a ray that crosses it, times the area of its box.
-double BoxTreePilot::expected_work(std::uint32_t node) const {
-  const BinaryNode& here = nodes_[node];
-  if (here.leaf()) return here.box.area() * std::sqrt(here.count);
-  return here.box.area() + expected_work(node + 1) + expected_work(here.right);
-}
-
-/// Draws subtrees systematically, with probabilities proportional to their work; those with much work for certain.
-void BoxTreePilot::draw_subtrees(std::size_t most) {
-  std::size_t left = std::min(most, subtrees_.size());
-  double total = 0;
-  for (const Subtree& subtree : subtrees_) total += subtree.work;
-  for (bool more = true; more && left > 0;) {
-    more = false;
-    for (Subtree& subtree : subtrees_)
-      if (subtree.weight == 0 && left > 0 && subtree.work * static_cast<double>(left) >= total) {
-        subtree.weight = 1;
-        total -= subtree.work;
-        --left;
-        more = true;
-      }
-  }
-  if (left == 0) return;
-  const double step = total / static_cast<double>(left);
-  double next = step * uniform4(seed, Stream::pilot, 0, 1)[0];
-  double sum = 0;
-  for (Subtree& subtree : subtrees_) {
-    if (subtree.weight == 1) continue;
-    sum += subtree.work;
-    if (sum <= next) continue;
-    subtree.weight = step / subtree.work;
-    next += step;
-  }
-}
-
-void BoxTreePilot::refine(const BlockSearch& block, const RayLists& rays, Subtree& subtree, Worker& worker) {
-  const BinaryNode root = nodes_[subtree.root];
-  subtree.first = static_cast<std::uint32_t>(nodes_.size());
-  nodes_.resize(nodes_.size() + 2 * root.count);
-  subtree.last = split_run(discs_, finest_leaf, root.first, root.count, nodes_.data(), subtree.first);
-  nodes_.resize(subtree.last);
-  for (std::uint32_t i = subtree.first; i < subtree.last; ++i) area_.push_back(nodes_[i].box.area());
-  known_.resize(subtree.last);
-  share_.resize(subtree.last);
-  known_[subtree.root].refined = subtree.first;
-  known_[subtree.first] = known_[subtree.root];
-  known_[subtree.first].refined = 0;
-  const ArenaScope scope(worker.lists);
-  RayLists inside = worker.lists.allocate_like(rays, block.segments);
-  cull_node(block, as_tree_node(nodes_[subtree.first]), rays, inside, worker);
-  if (subtree.root != 0) known_[subtree.first].rays = static_cast<float>(size(inside));
-  const Counts<std::uint64_t> before = worker.counts;
-  cull_refined(block, subtree.first, inside, subtree.weight, worker);
-  doubtful_ += subtree.weight * static_cast<double>(worker.counts.doubtful - before.doubtful);
-  subtree.tests = static_cast<double>(tests(worker.counts) - tests(before));
-}
-
-void BoxTreePilot::cull_refined(const BlockSearch& block, std::uint32_t node, const RayLists& lists, double weight,
-                                Worker& worker) {
-  const BinaryNode& here = nodes_[node];
-  if (here.leaf()) {
-    if (size(lists) == 0) return;
-    std::fill_n(block.hits + here.first, here.count, ClassCounts{});
-    search_below(block, as_tree_node(here), lists, worker);
-    for (std::uint32_t place = here.first; place < here.first + here.count; ++place)
-      for (const std::uint32_t hits : block.hits[place]) hits_ += weight * hits;
-    return;
-  }
-  for (const std::uint32_t child : {node + 1, here.right}) {
-    const ArenaScope scope(worker.lists);
-    cull_refined(block, child, cull_child(block, child, lists, weight, worker), weight, worker);
-  }
-}
-
-/// From the spread of the drawn subtrees' tests, and from that of the rays' work.
-void BoxTreePilot::set_relative_error() {
-  double all = 0;  // tests in subtrees
-  double drawn = 0;
-  double sum = 0;
-  double squares = 0;
-  for (const Subtree& subtree : subtrees_) {
-    const double stands_for = subtree.weight * subtree.tests;
-    all += stands_for;
-    if (subtree.weight <= 1) continue;
-    drawn += 1;
-    sum += stands_for;
-    squares += stands_for * stands_for;
-  }
-  if (all == 0) return;
-  const double of_subtrees = drawn > 1 ? std::max(0.0, squares - sum * sum / drawn) * drawn / (drawn - 1) : 0;
-  double work = 0;
-  double work_squares = 0;
-  for (const double of_ray : work_) {
-    work += of_ray;
-    work_squares += of_ray * of_ray;
-  }
-  const double spread = std::max(0.0, sampled_ * work_squares / (work * work) - 1);
-  relative_error_ = std::sqrt(of_subtrees / (all * all) + spread / sampled_ * unseen_);
+/// Expected work below a coarse node for a ray that crosses its box.
+double BoxTreePilot::work_of_a_ray(std::uint32_t node) const {
+  const double area = area_[node];  // 0 if the discs are in one point and too small for floats
+  return area > 0 ? work_[node] / area : nodes_[node].count;
 }
 
 void BoxTreePilot::set_radius() {

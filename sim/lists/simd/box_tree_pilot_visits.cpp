@@ -32,6 +32,7 @@ class BoxTreePilot::Spread {
  public:
   explicit Spread(const BoxTreePilot& pilot) : pilot_(pilot) {
     pilot.for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
+      if (!pilot.same_sample(child, parent)) return;
       Class& one = class_of(parent);
       one.children += 1;
       one.reached += pilot.known_[child].rays;
@@ -40,11 +41,12 @@ class BoxTreePilot::Spread {
     for (Class& one : classes_)
       if (one.by_surface > 0) one.factor = one.reached / one.by_surface;
     pilot.for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
-      const double rays = pilot.known_[parent].rays;
+      if (!pilot.same_sample(child, parent)) return;
+      const double rays = pilot.seen(parent);
       const double share = expected_share(child, parent);
       const double variance = rays * share * (1 - share);
       Class& one = class_of(parent);
-      one.squares += std::pow(pilot.known_[child].rays - rays * share, 2);
+      one.squares += std::pow(pilot.seen(child) - rays * share, 2);
       one.independent += variance;
       one.pairs += (rays - 1) * variance;
     });
@@ -102,6 +104,8 @@ class BoxTreePilot::Spread {
 /// 1 + (n - 1)/(s + 1). So s is large if rays are spread evenly, and small if they are bundled. Then the expected share
 /// of the parent's rays, given c, is (c + s f q)/(n + s). Light is more even within a small box than in the whole scene,
 /// so f and s are those of parents with about the same number of rays.
+///
+/// Where a second sample begins, the share is that of its rays, plus half a ray.
 void BoxTreePilot::set_blocks() {
   const Spread spread(*this);
   std::vector<float> shape(nodes_.size());  // of the gamma distribution of a node's share
@@ -109,18 +113,26 @@ void BoxTreePilot::set_blocks() {
     const std::uint32_t refined = known_[node].refined;
     if (refined == 0) return;
     known_[refined].blocks = known_[node].blocks;
+    known_[refined].guessed = known_[node].guessed;
     share_[refined] = share_[node];
     shape[refined] = shape[node];
   };
   shape[0] = known_[0].rays;
   pass_on_to_refined(0);
   for_each_culled_child([&](std::uint32_t child, std::uint32_t parent) {
-    const double strength = spread.strength(parent);
-    const double prior = strength * spread.expected_share(child, parent);
-    const double rays = known_[child].rays;
-    share_[child] = share_[parent] * (rays + prior) / (known_[parent].rays + strength);
+    const double rays = seen(child);
+    double prior = 0.5;
+    if (same_sample(child, parent)) {
+      const double strength = spread.strength(parent);
+      prior = strength * spread.expected_share(child, parent);
+      share_[child] = share_[parent] * (rays + prior) / (seen(parent) + strength);
+    } else {
+      share_[child] = (rays + prior) / (known_[child].precision * sampled_);
+    }
     shape[child] = static_cast<float>(rays > 0 ? rays + prior : 1 / (1 / prior + 1 / (shape[parent] + 1e-3)));
-    known_[child].blocks = static_cast<float>(blocks_with_a_ray(child, shape[child]));
+    Known& known = known_[child];
+    known.blocks = static_cast<float>(blocks_with_a_ray(child, shape[child]));
+    known.guessed = known.blocks < blocks_.count() ? 0.5F * known.blocks / static_cast<float>(1 + rays) : 0;
     pass_on_to_refined(child);
   });
 }
@@ -128,7 +140,10 @@ void BoxTreePilot::set_blocks() {
 double BoxTreePilot::blocks_with_a_ray(std::uint32_t node, double shape) const {
   constexpr double many = 16;           // sampled rays; then every block has some
   constexpr double least_shape = 1e-6;  // practically no block has one
-  if (unseen_ == 0 || known_[node].rays > many) return known_[node].rays > 0 ? blocks_.count() : 0;
+  const Known& known = known_[node];
+  const bool all_seen = unseen(known.precision) == 0;
+  if (all_seen && known.rays == 0) return 0;
+  if ((all_seen && blocks_.count() == 1) || known.rays > many) return blocks_.count();
   // The rays of a block in the list are a Poisson variable, whose mean is a gamma variable of that shape.
   const auto any = [&](double rays) {
     const auto power = static_cast<float>(std::max(shape, least_shape));

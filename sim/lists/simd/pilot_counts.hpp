@@ -14,8 +14,8 @@ struct RadiusGrowth {
 
 /// Counts of a box tree, predicted by a pilot.
 struct PilotCounts {
-  Counts<double> counts;      ///< of the search of all rays, building included
-  double relative_error = 0;  ///< relative standard error of the tests
+  Counts<double> counts;  ///< of the search of all rays, building included
+  Counts<double> error;   ///< standard errors of the counts; 0: the count is exact
   RadiusGrowth cull_tests;
   RadiusGrowth listed;
   RadiusGrowth disc_tests;

@@ -138,6 +138,49 @@ TEST_SUITE("searcher") {
     CHECK(same(searcher.search(rays, scratch), expected));
   }
 
+  TEST_CASE("Coordinates in arrays of their own are read as those one after another, on any number of threads") {
+    const std::vector<Ray> rays = rays_of(3, 20'000);
+    std::array<std::vector<double>, 6> columns;
+    for (const Ray& ray : rays)
+      for (int k = 0; k < 3; ++k) {
+        columns[static_cast<std::size_t>(k)].push_back(ray.origin[k]);
+        columns[static_cast<std::size_t>(k) + 3].push_back(3 * ray.direction[k]);
+      }
+    const auto at = [&](std::size_t i) { return columns[i].data(); };
+    const RaysView view{.count = rays.size(), .origins = {at(0), at(1), at(2)}, .directions = {at(3), at(4), at(5)}};
+    std::vector<Ray> alone;
+    std::vector<Ray> together;
+    read_rays(view, alone);
+    read_rays(view, together, 2);
+    REQUIRE(alone.size() == rays.size());
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      REQUIRE(alone[i].origin == rays[i].origin);
+      REQUIRE(glm::length(alone[i].direction - rays[i].direction) < 1e-15);
+      REQUIRE(together[i].direction == alone[i].direction);
+    }
+  }
+
+  TEST_CASE("Seconds of a search include reading a view and checking rays; photon numbers reach the standard errors") {
+    const std::vector<Ray> rays = rays_of(4, 50'000);
+    const RaysView view{.count = rays.size(),
+                        .origins = {&rays[0].origin.x, sizeof(Ray)},
+                        .directions = {&rays[0].direction.x, sizeof(Ray)}};
+    const Searcher searcher(searched_discs(), {Technique::box_tree, BoxTreeParameters{}}, 10.0);
+    SearchScratch scratch;
+    const Phases seconds = searcher.search(view, scratch).seconds;
+    CHECK(seconds.prepare > 0);
+    CHECK(seconds.total() == doctest::Approx(seconds.prepare + seconds.build + seconds.search));
+    RaysView numbered = view;
+    std::vector<std::uint64_t> photons;
+    for (std::size_t i = 0; i < rays.size(); ++i) photons.push_back(i / 5);
+    numbered.photons = photons;
+    const std::vector<double> whole = searcher.search(numbered, scratch, {.standard_error = true}).standard_error;
+    const Outcome expected = run(make_problem(PathRays{scratch.rays, photons, {}}, searched_discs()),
+                                 {Technique::box_tree, BoxTreeParameters{}}, {.standard_error = true});
+    CHECK(whole == expected.standard_error);
+    CHECK(whole != searcher.search(view, scratch, {.standard_error = true}).standard_error);
+  }
+
   TEST_CASE("Many threads search one searcher at once, each with a scratch of its own") {
     for (const Candidate& candidate : candidates()) {
       CAPTURE(describe(candidate));
@@ -173,6 +216,14 @@ TEST_SUITE("searcher") {
     const std::array<float, 3> nan{NAN, 0, 0};
     CHECK_THROWS_WITH_AS((void)searcher.search(RaysView{1, nan.data(), nan.data()}, scratch),
                          doctest::Contains("ray 0: origin must be finite"), std::invalid_argument);
+    const float* const none = nullptr;
+    CHECK_THROWS_WITH_AS((void)searcher.search(RaysView{1, nan.data(), none}, scratch),
+                         "the array of directions is null", std::invalid_argument);
+    CHECK_THROWS_WITH_AS((void)searcher.search(RaysView{1, nan.data(), {nan.data(), none, nan.data()}}, scratch),
+                         "the array of directions is null", std::invalid_argument);
+    for (const int threads : {-1, 1'000'000})
+      CHECK_THROWS_WITH_AS((void)searcher.search(RaysView{1, nan.data(), nan.data()}, scratch, {.threads = threads}),
+                           doctest::Contains("number of threads"), std::invalid_argument);
     CHECK_THROWS_WITH_AS(Searcher({}, {Technique::box_tree, BoxTreeParameters{}}), "there must be at least one disc",
                          std::invalid_argument);
     CHECK_THROWS_AS(Searcher(searched_discs(), {Technique::box_tree, GridParameters{}}), std::invalid_argument);

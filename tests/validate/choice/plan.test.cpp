@@ -182,6 +182,9 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_WITH_AS(static_cast<void>(validate::plan(discs, many)), doctest::Contains("ray 3000:"),
                          std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(validate::plan(discs, rays, {.rays = 0})), std::invalid_argument);
+    for (const int threads : {-1, 1'000'000})
+      CHECK_THROWS_WITH_AS(static_cast<void>(validate::plan(discs, rays, {.threads = threads})),
+                           doctest::Contains("number of threads"), std::invalid_argument);
     const auto made = validate::plan(discs, rays);
     sim::SearchScratch scratch;
     const std::vector<sim::Ray> far{{.origin = {1e9, 0, 0}, .direction = {1, 0, 0}}};
