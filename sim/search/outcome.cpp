@@ -1,5 +1,6 @@
 #include "outcome.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace detp::sim {
@@ -17,6 +18,21 @@ void clear(Outcome& outcome) {
   keep(&Outcome::spheres);
   keep(&Outcome::pairs);
   outcome = std::move(empty);
+}
+
+void add_block(const Outcome& part, Outcome& sum) {
+  sum.counts += part.counts;
+  sum.vectors += part.vectors;
+  sum.total_hits += part.total_hits;
+  sum.stopped = part.stopped;
+  sum.batches += part.batches;
+  sum.seconds.search += part.seconds.search;
+  sum.spheres.resize(std::max(sum.spheres.size(), part.spheres.size()));
+  for (std::size_t i = 0; i < part.spheres.size(); ++i) {
+    sum.spheres[i].rebuilds += part.spheres[i].rebuilds;
+    sum.spheres[i].tests += part.spheres[i].tests;
+    sum.spheres[i].listed += part.spheres[i].listed;
+  }
 }
 
 void keep_done_discs(Outcome& outcome) {

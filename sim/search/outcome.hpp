@@ -112,6 +112,10 @@ struct Outcome {
 /// Empties an outcome, and keeps the memory of its arrays.
 void clear(Outcome& outcome);
 
+/// Adds the outcome of a search of further rays: counts, hits, batches and the time of the search; `stopped` becomes that of
+/// the part. Progress, pairs and what follows from totals are left to the caller.
+void add_block(const Outcome& part, Outcome& sum);
+
 /// For a stopped outcome whose finished discs are marked in done_discs. Sets hits and irradiance of the other discs to
 /// 0, sets progress to the number of marked discs, and recomputes total_hits.
 void keep_done_discs(Outcome& outcome);

@@ -21,9 +21,6 @@ constexpr std::size_t rays_at_once = std::size_t{1} << 14;
 bool surely_in_range(const glm::dvec3& vector) {
   return glm::dot(vector, vector) <= largest_coordinate * largest_coordinate;
 }
-/// Fast test: true only if the length is certainly 1 to within 1e-12; has a margin for rounding. False for NaN.
-bool surely_unit(const glm::dvec3& vector) { return std::abs(glm::dot(vector, vector) - 1) <= 1.99e-12; }
-
 bool surely_sound(const Ray& ray, double most_power) {
   return surely_in_range(ray.origin) && surely_unit(ray.direction) && ray.length > 0 && ray.power >= 0 &&
          ray.power <= most_power;
@@ -128,12 +125,12 @@ std::shared_ptr<const std::vector<Ray>> normalised_if_needed(std::span<const Ray
 }  // namespace
 
 Ray normalised(Ray ray) {
-  if (!surely_unit(ray.direction)) ray.direction = unit_or_zero(ray.direction);
+  ray.direction = normalised(ray.direction);
   return ray;
 }
 
 Disc normalised(Disc disc) {
-  if (!surely_unit(disc.normal)) disc.normal = unit_or_zero(disc.normal);
+  disc.normal = normalised(disc.normal);
   return disc;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -7,6 +8,7 @@
 
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/paths.hpp"
+#include "detp/sim/geometry/unit_vector.hpp"
 
 /// The checks of make_problem, and its normalisation of directions and normals. All throw Stopped, except normalised().
 namespace detp::sim {
@@ -14,6 +16,15 @@ namespace detp::sim {
 /// Lower bound on disc radii, so that squares do not underflow.
 inline constexpr double least_radius = 1e-100;
 
+/// Fast test: true only if the length is certainly 1 to within 1e-12; has a margin for rounding. False for NaN.
+[[nodiscard]] inline bool surely_unit(const glm::dvec3& vector) {
+  return std::abs(glm::dot(vector, vector) - 1) <= 1.99e-12;
+}
+
+/// The vector scaled to unit length. Unchanged if its length is 1 to within 1e-12, or 0.
+[[nodiscard]] inline glm::dvec3 normalised(const glm::dvec3& vector) {
+  return surely_unit(vector) ? vector : unit_or_zero(vector);
+}
 /// Returns the ray or disc with a unit direction or normal. Unchanged if the length is 1 to within 1e-12, or 0.
 [[nodiscard]] Ray normalised(Ray ray);
 [[nodiscard]] Disc normalised(Disc disc);

@@ -18,10 +18,14 @@ glm::dvec3 vector_at(const VectorsView& view, std::size_t i) {
 glm::dvec3 vector_at(const VectorsView& view, std::size_t i) { return {view.at(i, 0), view.at(i, 1), view.at(i, 2)}; }
 
 template <class Origin, class Direction>
-void read_some(const RaysView& view, std::size_t first, std::size_t last, Ray* rays) {
-  for (std::size_t i = first; i < last; ++i)
-    rays[i] = normalised(Ray{vector_at<Origin>(view.origins, i), vector_at<Direction>(view.directions, i),
-                             view.lengths[i], view.powers[i]});
+void read_some(const RaysView& view, std::size_t first, std::span<Ray> rays) {
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    Ray& ray = rays[i];
+    ray.origin = vector_at<Origin>(view.origins, first + i);
+    ray.direction = normalised(vector_at<Direction>(view.directions, first + i));
+    ray.length = view.lengths[first + i];
+    ray.power = view.powers[first + i];
+  }
 }
 
 template <class View>
@@ -42,16 +46,17 @@ void read_rays(const RaysView& view, std::vector<Ray>& rays, int threads) {
     require_array("powers", view.powers);
   }
   rays.resize(view.count);
+  const std::span<Ray> all = rays;
   const auto read = view.origins.floats()
                         ? view.directions.floats() ? &read_some<float, float> : &read_some<float, double>
                     : view.directions.floats() ? &read_some<double, float>
                                                : &read_some<double, double>;
-  const auto read_all = [&] {
-    parallel_for(ParallelRange(0, view.count, at_once),
-                 [&](const ParallelRange& range) { read(view, range.begin(), range.end(), rays.data()); });
-  };
-  threads == 1 || view.count <= at_once ? read(view, 0, view.count, rays.data())
-                                        : on_threads(thread_count(threads), read_all);
+  if (threads == 1 || view.count <= at_once) return read(view, 0, all);
+  on_threads(thread_count(threads), [&] {
+    parallel_for(ParallelRange(0, view.count, at_once), [&](const ParallelRange& range) {
+      read(view, range.begin(), all.subspan(range.begin(), range.size()));
+    });
+  });
 }
 
 std::vector<Disc> read_discs(const DiscsView& view) {

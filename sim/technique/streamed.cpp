@@ -111,26 +111,10 @@ class StreamedSearch {
 
   void add(const Outcome& part, std::uint32_t first, std::size_t rays) {
     Outcome& sum = streamed_.outcome;
-    sum.counts += part.counts;
-    sum.vectors += part.vectors;
-    sum.total_hits += part.total_hits;
-    sum.stopped = part.stopped;
+    add_block(part, sum);
     sum.progress.done += part.stopped ? part.progress.done : rays;
-    sum.batches += part.batches;
-    sum.seconds.search += part.seconds.search;
-    add_spheres(part.spheres);
     sum.pairs.reserve(std::max(sum.pairs.capacity(), std::bit_ceil(sum.pairs.size() + part.pairs.size())));
     for (const Pair& pair : part.pairs) sum.pairs.push_back({pair.ray + first, pair.disc});
-  }
-
-  void add_spheres(const std::vector<SphereCounts>& part) {
-    std::vector<SphereCounts>& sum = streamed_.outcome.spheres;
-    sum.resize(std::max(sum.size(), part.size()));
-    for (std::size_t i = 0; i < part.size(); ++i) {
-      sum[i].rebuilds += part[i].rebuilds;
-      sum[i].tests += part[i].tests;
-      sum[i].listed += part[i].listed;
-    }
   }
 
   const RaySource& source_;
