@@ -1,0 +1,69 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "detp/validate/regret/regret_summary.hpp"
+#include "detp/validate/statistics/statistics.hpp"
+#include "support/pages.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+using support::check_says;
+using support::CsvRow;
+using support::number;
+using support::published;
+using support::source_text;
+
+TEST_SUITE("figures of pages") {
+  TEST_CASE("README.md says how far closed forms are off, as effects_choice.csv has it") {
+    const std::string page = source_text("README.md");
+    std::map<std::string, std::vector<double>> off;  // by field
+    std::pair<double, std::string> worst;            // and its scene
+    double worst_elsewhere = 1;
+    const auto rows = published("effects_choice.csv");
+    const auto factor = [](const CsvRow& row) {
+      const double ratio = number(row, "predicted_over_counted_auto");
+      return std::max(ratio, 1 / ratio);
+    };
+    for (const CsvRow& row : rows) {
+      if (row.at("tuned") == "true") continue;
+      off[row.at("field")].push_back(factor(row));
+      worst = std::max(worst, {factor(row), row.at("scene")});
+    }
+    for (const CsvRow& row : rows)
+      if (row.at("tuned") != "true" && row.at("scene") != worst.second)
+        worst_elsewhere = std::max(worst_elsewhere, factor(row));
+    const auto& lines = off.at("isotropic");
+    const auto& paths = off.at("photons");
+    check_says(page, fmt::format("[{} workloads of held-out scenes](validate/tools/effects_study/README.md)",
+                                 lines.size() + paths.size()));
+    check_says(page, fmt::format(
+                         "off by {:.2f} times (lines) and {:.2f} times (photon paths) in the median, {:.2f} and {:.2f} "
+                         "times at the 95th percentile, {:.2f} and {:.2f} times at worst",
+                         median(lines), median(paths), quantile(lines, 0.95), quantile(paths, 0.95), quantile(lines, 1),
+                         quantile(paths, 1)));
+    check_says(page, fmt::format("discs in {}, ", worst.second));
+    check_says(page, fmt::format("In all other scenes, {:.2f} times at worst", worst_elsewhere));
+  }
+
+  TEST_CASE("README.md says how long Embree takes, as bench.csv has it") {
+    std::vector<Regret> times;
+    std::set<std::string> ours;
+    for (const CsvRow& row : published("bench.csv")) {
+      times.push_back({number(row, "ours_seconds") / number(row, "embree_seconds")});
+      ours.insert(row.at("ours"));
+    }
+    const Figures figures = figures_of(times);
+    const std::string page = source_text("README.md");
+    check_says(page, fmt::format("[{} workloads](validate/bench/README.md)", figures.rows));
+    check_says(
+        page, fmt::format("Embree takes {:.1f} times as long as our fastest technique in the geometric mean, and never "
+                          "less than {:.2f} times",
+                          1 / figures.geometric_mean, 1 / figures.worst));
+    CHECK(ours == std::set<std::string>{"box-tree"});
+  }
+}

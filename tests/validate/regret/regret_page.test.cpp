@@ -1,0 +1,154 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+
+#include "detp/validate/regret/regret_summary.hpp"
+#include "detp/validate/statistics/statistics.hpp"
+#include "support/pages.hpp"
+
+using namespace detp;
+using namespace detp::validate;
+using support::check_says;
+using support::CsvRow;
+using support::number;
+using support::published;
+using support::source_text;
+
+namespace {
+
+/// The rows of regret.csv, as far as figures need them. A baseline has one option, the one that counts.
+std::vector<RegretRow> published_regrets() {
+  std::vector<RegretRow> rows;
+  for (const CsvRow& fields : published("regret.csv")) {
+    if (rows.empty() || fields.at("tier") == rows.front().choices.front().tier) {
+      RegretRow& row = rows.emplace_back();
+      row.workload.scene = fields.at("scene");
+      row.workload.held_out = fields.at("held_out") == "true";
+      row.workload.field = fields.at("field") == "photons" ? sim::Field::photons : sim::Field::isotropic;
+      row.threads = std::stoi(fields.at("threads"));
+      row.best_seconds = number(fields, "best_seconds");
+      row.noise = number(fields, "noise");
+      for (const Baseline& baseline : baselines()) {
+        const std::string name(baseline.name);
+        std::optional<Regret> regret;
+        if (!fields.at(name + "_regret").empty())
+          regret = Regret{number(fields, name + "_regret"), fields.at(name + "_abandoned") == "true"};
+        row.baselines.push_back({regret});
+      }
+    }
+    ChoiceRow& choice = rows.back().choices.emplace_back();
+    choice.tier = fields.at("tier");
+    choice.choice.predicted_seconds = fields.at("predicted_seconds").empty() ? 0 : number(fields, "predicted_seconds");
+    choice.choice.choosing_seconds = number(fields, "choosing_seconds");
+    choice.seconds = number(fields, "seconds");
+    choice.regret = {number(fields, "regret"), fields.at("abandoned") == "true"};
+  }
+  return rows;
+}
+
+/// Those of one half of the scenes, on one thread.
+std::vector<RegretRow> half_of(const std::vector<RegretRow>& rows, bool held_out) {
+  std::vector<RegretRow> some;
+  for (const RegretRow& row : rows)
+    if (row.workload.held_out == held_out && row.threads == 1) some.push_back(row);
+  return some;
+}
+
+/// The median time for evidence, by scene and field.
+std::map<std::string, double> seconds_for_evidence() {
+  std::map<std::string, std::vector<double>> all;
+  for (const CsvRow& row : published("effects_choice.csv"))
+    all[row.at("scene") + row.at("field")].push_back(number(row, "evidence_seconds_auto"));
+  std::map<std::string, double> medians;
+  for (const auto& [scene, seconds] : all) medians[scene] = median(seconds);
+  return medians;
+}
+
+/// (Choosing + run) over the best, where the best takes at least `least` seconds. `evidence` is added if it is not empty.
+Figures price_of(const std::vector<RegretRow>& rows, std::size_t tier, double least,
+                 const std::map<std::string, double>& evidence = {}) {
+  std::vector<Regret> prices;
+  for (const RegretRow& row : rows) {
+    if (row.best_seconds < least) continue;
+    const std::string field = row.workload.field == sim::Field::photons ? "photons" : "isotropic";
+    const double more = evidence.empty() ? 0 : evidence.at(row.workload.scene + field);
+    const ChoiceRow& choice = row.choices[tier];
+    prices.push_back({(choice.choice.choosing_seconds + choice.seconds + more) / row.best_seconds});
+  }
+  return figures_of(prices);
+}
+
+std::string figure(double value) { return value < 10 ? fmt::format("{:.2f}", value) : fmt::format("{:.1f}", value); }
+
+std::string cells_of(const Figures& figures) {
+  return fmt::format("{} | {} | {}", figure(figures.geometric_mean), figure(figures.p95), figure(figures.worst));
+}
+
+}  // namespace
+
+TEST_SUITE("figures of pages") {
+  TEST_CASE("validate/regret/README.md shows the regrets, prices and errors that regret.csv has") {
+    const std::string page = source_text("validate/regret/README.md");
+    const auto rows = published_regrets();
+    const auto held_out = half_of(rows, true);
+    const auto evidence = seconds_for_evidence();
+    const RegretSummary one = summarise(rows, 1);
+    const RegretSummary two = summarise(rows, 2);
+    check_says(
+        page,
+        fmt::format("{} workloads on one thread, {} of fitted and {} of held-out scenes, and {} of them also on two",
+                    one.rows, one.rows - held_out.size(), held_out.size(), two.rows));
+    const auto both = [](const RegretFigures& regret) {
+      return cells_of(regret.fitted) + " | " + cells_of(regret.held_out);
+    };
+    const auto prices = [&](std::size_t tier, const std::map<std::string, double>& more) {
+      return cells_of(price_of(held_out, tier, 0, more)) + " | " +
+             cells_of(price_of(held_out, tier, shortest_priced_run, more));
+    };
+    for (std::size_t i = 0; i < one.tiers.size(); ++i) {
+      const TierSummary& tier = one.tiers[i];
+      check_says(page, fmt::format("| {} | {} |\n", tier.tier, both(tier.regret)));
+      check_says(page, fmt::format("| {} | {} |\n", tier.tier, prices(i, {})));
+      if (tier.tier == "run")
+        check_says(page, fmt::format("| run, with the evidence for its report | {} |\n", prices(i, evidence)));
+      check_says(page, fmt::format("| {} | {} |\n", tier.tier, cells_of(two.tiers[i].regret.all)));
+      check_says(page, fmt::format("| {} | {} | {:.0f} % | {:.0f} % |\n", tier.tier, tier.prediction.rows,
+                                   100 * tier.prediction.median_error, 100 * tier.prediction.p95_error));
+    }
+    for (std::size_t i = 0; i < one.baselines.size(); ++i) {
+      const RegretFigures& regret = one.baselines[i].regret;
+      check_says(page, fmt::format("| {}{} | {} |\n", baselines()[i].text, regret.all.at_least > 0 ? ", at least" : "",
+                                   both(regret)));
+    }
+    check_says(page, fmt::format("| noise | {} | {} |\n", cells_of(summarise(half_of(rows, false), 1).noise),
+                                 cells_of(summarise(held_out, 1).noise)));
+    check_says(page, fmt::format("| noise | {} |\n", cells_of(two.noise)));
+  }
+
+  TEST_CASE("README.md says how near the choice of detp run is to the best, as regret.csv has it") {
+    const std::string page = source_text("README.md");
+    const auto held_out = half_of(published_regrets(), true);
+    REQUIRE_FALSE(held_out.empty());
+    const auto& choices = held_out.front().choices;
+    const auto run = static_cast<std::size_t>(std::ranges::find(choices, "run", &ChoiceRow::tier) - choices.begin());
+    const Figures price = price_of(held_out, run, 0);
+    check_says(page, fmt::format("[{} workloads of held-out scenes](validate/regret/README.md)", price.rows));
+    check_says(page, fmt::format(
+                         "take {:.2f} times the time of the best of all candidates in the geometric mean, {:.2f} times "
+                         "at the 95th percentile, {:.2f} times at worst",
+                         price.geometric_mean, price.p95, price.worst));
+    const auto evidence = seconds_for_evidence();
+    const auto three = [](const Figures& figures) {
+      return fmt::format("{:.2f}, {:.2f}, {:.2f}", figures.geometric_mean, figures.p95, figures.worst);
+    };
+    check_says(page, fmt::format("with it, about {}, and {} where the best takes at least 5 ms",
+                                 three(price_of(held_out, run, 0, evidence)),
+                                 three(price_of(held_out, run, shortest_priced_run, evidence))));
+    std::vector<Regret> constant;
+    for (const RegretRow& row : held_out) constant.push_back(row.baselines.front().front().value());
+    check_says(page, "the best constant takes " + three(figures_of(constant)));
+  }
+}
