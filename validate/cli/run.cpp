@@ -177,6 +177,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                    .costs = costs,
                    .engine = options.candidate.engine,
                    .repeat = options.repeat,
+                   .standard_error = options.standard_error,
                    .random_rays = !options.workload.request(common).ray_file};
   const Engine engine = options.candidate.engine;
   sim::RunOptions run{.pairs = options.pairs.has_value(),
@@ -190,7 +191,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
   else
     answer.run = run_job(job, answer.candidate, run, sim::part_of(progress, 0, share_of_first));
   run.threads = answer.threads;
-  run.count = run.pairs = run.standard_error = false;
+  run.count = run.pairs = false;
   answer.timing = time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run,
                             sim::part_of(progress, share_of_first, 1));
   return answer;

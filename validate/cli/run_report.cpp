@@ -8,6 +8,7 @@
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/validate/choice/error_seconds.hpp"
 #include "effects_report.hpp"
 #include "measured_report.hpp"
 #include "sphere_stops.hpp"
@@ -123,8 +124,11 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   if (const auto predicted = prediction(job.workload, answer)) {
     json["predicted"] = to_json(*predicted);
     json.update(unit_times(*predicted, answer.candidate.technique, "predicted_"));
-    json["predicted_seconds"] =
+    const double search =
         price(*predicted, answer.costs, answer.candidate.technique, sim::useful_threads(answer.threads)).total();
+    const double errors =
+        answer.standard_error ? validate::standard_error_seconds(predicted->hits, job.numbered(), answer.costs) : 0;
+    json["predicted_seconds"] = search + errors;
   }
   json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
                {"read_seconds", job.read_seconds},

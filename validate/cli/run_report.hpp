@@ -16,8 +16,9 @@ struct RunAnswer {
   Engine engine = Engine::simd;
   TimedRun run = {};
   Timing timing = {};
-  int repeat = 0;            ///< timed runs requested
-  bool random_rays = false;  ///< true for rays of a random field: the first rays are representative of all rays
+  int repeat = 0;               ///< timed runs requested
+  bool standard_error = false;  ///< requested
+  bool random_rays = false;     ///< true for rays of a random field: the first rays are representative of all rays
 };
 
 /// Hits, counts and seconds, and the predictions of the candidate's closed form if it has one. A stopped run has no

@@ -342,6 +342,11 @@ std::string_view rays_of(const validate::Job& job) {
   return job.field == sim::Field::photons ? "pieces of photon paths" : "isotropic lines";
 }
 
+/// ", 40 123 photons"; empty if each ray is a photon of its own.
+std::string photons_of(const validate::Job& job) {
+  return job.numbered() ? fmt::format(", {} photons", spaced(static_cast<double>(job.independent_photons()))) : "";
+}
+
 /// ", mean length 0.30 of the scene's side", or that predictions neglect the ends; empty for lines.
 std::string lengths_of(const validate::Job& job) {
   const bool end = job.rays_from_file ? std::ranges::any_of(job.rays, has_ends) : job.field == sim::Field::photons;
@@ -360,7 +365,8 @@ std::string describe(const validate::Job& job) {
   if (job.triangles > 0) text += fmt::format("{} triangles, ", spaced(static_cast<double>(job.triangles)));
   text += fmt::format("{} discs of radius d = {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n",
                       spaced(w.samples), w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
-  return text + fmt::format("rays      {} {}{}{}\n", spaced(w.rays), rays_of(job), lengths_of(job), lights_of(job));
+  return text + fmt::format("rays      {} {}{}{}{}\n", spaced(w.rays), rays_of(job), photons_of(job), lengths_of(job),
+                            lights_of(job));
 }
 
 }  // namespace detp::cli

@@ -6,6 +6,8 @@
 #define DETP_SIM_STREAM_LEAF_INL_HPP
 #endif
 
+#include <bit>
+
 #include "block_search.hpp"
 #include "detp/sim/geometry/predicates.hpp"
 #include "detp/sim/search/sort_pairs.hpp"
@@ -138,18 +140,25 @@ HWY_NOINLINE inline void add_photons(const BlockSearch& block, std::uint32_t pla
   std::uint64_t photon = PhotonSums::no_photon;
   std::uint64_t count = 0;
   int axis = 3;
+  // Masks and opaque() keep the compiler from making branches of it.
+  constexpr std::uint64_t all = ~std::uint64_t{0};
+  static constexpr std::uint64_t masks[4][3] = {{all, 0, 0}, {0, all, 0}, {0, 0, all}, {0, 0, 0}};
+  const auto opaque = [](std::uint32_t value) {
+    asm("" : "+r"(value));
+    return value;
+  };
   const auto close = [&] {
-    const double square = open * open;
-    squares_x += axis == 0 ? square : 0.0;
-    squares_y += axis == 1 ? square : 0.0;
-    squares_z += axis == 2 ? square : 0.0;
+    const auto square = std::bit_cast<std::uint64_t>(open * open);
+    squares_x += std::bit_cast<double>(square & masks[axis][0]);
+    squares_y += std::bit_cast<double>(square & masks[axis][1]);
+    squares_z += std::bit_cast<double>(square & masks[axis][2]);
     largest = std::max(largest, open);
   };
   while (true) {
     const std::uint32_t x = *next_x;
     const std::uint32_t y = *next_y;
     const std::uint32_t z = *next_z;
-    const std::uint32_t ray = std::min(x, std::min(y, z));
+    const std::uint32_t ray = opaque(std::min(x, opaque(std::min(y, z))));
     if (HWY_UNLIKELY(ray == UINT32_MAX)) break;
     next_x += x == ray ? 1 : 0;
     next_y += y == ray ? 1 : 0;

@@ -20,6 +20,7 @@ struct SearchSize {
   bool segments = false;  ///< at least one ray is a segment
   /// powers are summed, because rays differ in power, or the caller requests pairs, front-facing hits only, or totals
   bool sums = true;
+  bool powers = true;      ///< powers of single rays are kept (needs_powers)
   double error_bytes = 0;  ///< for each disc: of sums over earlier blocks of photons, and of standard errors
   bool own_totals = true;  ///< the search fills in the outcome's hits and irradiance
 };

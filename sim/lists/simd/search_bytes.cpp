@@ -16,7 +16,7 @@ double rays_together(const SearchSize& size) {
 
 /// Bytes of the block that is searched and of the block that is loaded meanwhile, both with their rays' ends.
 double block_bytes(const SearchSize& size) {
-  const double bytes_a_ray = 7 * sizeof(float) + (size.sums ? sizeof(double) : 0);
+  const double bytes_a_ray = 7 * sizeof(float) + (size.powers ? sizeof(double) : 0);
   return bytes_a_ray * static_cast<double>(std::min(2 * rays_in_block(size.discs), size.rays));
 }
 
@@ -52,6 +52,7 @@ SearchSize size_of(const Problem& problem, const RunOptions& options) {
           .segments = problem.segments(),
           .sums = !problem.one_power() || options.pairs || problem.front_facing() || options.totals != nullptr ||
                   sums_bytes(problem, options) > 0,
+          .powers = needs_powers(problem, options),
           .error_bytes = sums_bytes(problem, options) / static_cast<double>(problem.discs().size()),
           .own_totals = options.totals == nullptr};
 }

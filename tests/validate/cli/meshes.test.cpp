@@ -30,7 +30,7 @@ TEST_SUITE("end to end") {
       const Json json = result_of(arguments);
       CHECK(json.at("triangles").get<std::uint64_t>() > 0);
       CHECK(json.at("samples").get<std::uint64_t>() > 0);
-      CHECK(json.at("rays") == 1000);
+      CHECK(json.at("rays") >= 1000);  // whole photons
       CHECK(json.at("warnings").empty() == (name != "mixed_scale.obj"));
       CHECK(json.at("sphere_radius").get<double>() > 0);
     }
