@@ -34,7 +34,7 @@ struct Coverage {
   }
 };
 
-void search(const std::string& mesh, std::uint64_t seed, Coverage& coverage) {
+void search_sparse(const std::string& mesh, std::uint64_t seed, Coverage& coverage) {
   const support::ScratchFolder folder;
   validate::JobRequest request;
   request.scene = folder.file("scene.obj", mesh);
