@@ -59,8 +59,8 @@ TEST_SUITE("known answer") {
       "where few rays reach the discs, nine of ten counts are within two stated errors, and no wrong count is exact") {
     Coverage coverage;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      search(support::tiny_object(seed), seed, coverage);
-      search(support::furnished_floor(seed), seed, coverage);
+      search_sparse(support::tiny_object(seed), seed, coverage);
+      search_sparse(support::furnished_floor(seed), seed, coverage);
     }
     CHECK(coverage.all == 96);
     CHECK(coverage.inside >= 0.9 * coverage.all);
