@@ -83,12 +83,14 @@ TEST_SUITE("photons in files") {
 
   TEST_CASE("a photon that is no whole number, and a negative landing, are refused with their line") {
     const std::string header = "ox,oy,oz,dx,dy,dz,photon,landing\n";
-    for (const auto& [row, reason] : {std::pair{"0.5,1", ":2: photon must be a whole number from 0 to 2^53 (got 0.5)"},
-                                      {"-1,1", ":2: photon must be a whole number"},
-                                      {"1e17,1", ":2: photon must be a whole number"},
-                                      {"nan,1", ":2: photon must be finite"},
-                                      {"1,-1", ":2: landing must be >= 0, or inf for none (got -1)"},
-                                      {"1,nan", ":2: landing must be >= 0, or inf for none (got nan)"}}) {
+    for (const auto& [bound_row, reason] :
+         {std::pair{"0.5,1", ":2: photon must be a whole number from 0 to 2^53 (got 0.5)"},
+          {"-1,1", ":2: photon must be a whole number"},
+          {"1e17,1", ":2: photon must be a whole number"},
+          {"nan,1", ":2: photon must be finite"},
+          {"1,-1", ":2: landing must be >= 0, or inf for none (got -1)"},
+          {"1,nan", ":2: landing must be >= 0, or inf for none (got nan)"}}) {
+      const std::string row = bound_row;
       CAPTURE(row);
       CHECK(ray_error("r.csv", header + "0,0,0,0,0,1," + row + "\n").find(reason) != std::string::npos);
     }

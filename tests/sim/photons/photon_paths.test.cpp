@@ -313,7 +313,8 @@ TEST_SUITE("known answer") {
       CAPTURE(path);
       for (const LightKind kind :
            {LightKind::area, LightKind::point, LightKind::spot, LightKind::directional, LightKind::environment})
-        for (const auto& [known, up] : named_ups) {
+        for (const auto& [name_of_up, up] : named_ups) {
+          const std::string_view known = name_of_up;  // clang 14 cannot capture a binding
           CAPTURE(known);
           try {
             Scene scene = open_scene({.name = path, .samples = {}, .lights = {kind}, .up = up});
