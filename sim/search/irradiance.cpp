@@ -24,14 +24,13 @@ void resize_results(std::size_t discs, bool errors, Outcome& outcome) {
 }
 
 void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, const DiscTotals& sums,
-                 const PhotonSums* photons, Outcome& outcome) {
+                 const PhotonSums* photons, double heaviest, Outcome& outcome) {
   const double area = std::numbers::pi * disc.radius * disc.radius;
   const double power = totals.power(number, sums);
   outcome.hits[number] = sums.hits;
   outcome.irradiance[number] = power / area;
   if (photons == nullptr) return;
   const double squares = totals.squares(number, *photons);
-  const double heaviest = std::max(photons->largest, totals.largest_power());
   const bool in_range = squares > 0 && squares < unbounded;  // not so if powers are extreme, or if nothing hits
   if (!in_range || squares * (1 + 1e-9) < fewest_photons * photons->largest * photons->largest) {
     const double as_heavy = in_range ? squares / (heaviest * heaviest) : photons->photons;
@@ -47,11 +46,17 @@ void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, con
   outcome.upper_bound[number] = outcome.irradiance[number] + one_sided * outcome.standard_error[number];
 }
 
+double heaviest_photon(std::span<const PhotonSums> discs, double largest_power) {
+  for (const PhotonSums& disc : discs) largest_power = std::max(largest_power, disc.largest);
+  return largest_power;
+}
+
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome) {
   resize_results(discs.size(), totals.keeps_errors(), outcome);
+  const double heaviest = heaviest_photon(totals.photon_sums(), totals.largest_power());
   for (std::size_t disc = 0; disc < discs.size(); ++disc)
     finish_disc(totals, discs[disc], disc, totals[disc], totals.keeps_errors() ? &totals.photon_sums(disc) : nullptr,
-                outcome);
+                heaviest, outcome);
 }
 
 }  // namespace detp::sim

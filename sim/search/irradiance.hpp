@@ -30,19 +30,23 @@ constexpr double error_bytes = sizeof(PhotonSums) + 2 * sizeof(double);
 ///
 /// The bound is one-sided, of 95 %. If SE is known, it is E + 1.645 SE. Otherwise it is (P + w (u_k - k)) / (π d²) with
 ///
-///   where  w    largest power that one photon has brought to this disc, but at least the largest power of a ray
+///   where  w    largest power that one photon has brought to one disc, any of them, but at least the largest power of a ray
 ///          k    Σ x² / w², rounded up, at most 9: the number of photons if all were as heavy
 ///          u_k  upper bound of a Poisson mean after k events: e^-u Σ_{i <= k} u^i/i! = 0.05
 ///
 /// It is exact where all photons bring w, also where none hits: u_0 = -ln 0.05. Where some bring less, it is larger than
-/// that of A. Dobson et al., Statistics in Medicine 10, 1991, which has the root mean square weight in place of w. It is too
-/// low if photons can bring more than w, by many rays of one path.
+/// that of A. Dobson et al., Statistics in Medicine 10, 1991, which has the root mean square weight in place of w. Where
+/// photons bring many rays to a disc, w of this disc alone would be too low: such bounds held in 93 % of the cases on a
+/// caustic, where those with w of all discs hold in 99 % and are 1.5 times as large in the median.
 void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome);
 
 /// The same for one disc, `sums` and `photons` being those of the block of photons under way. The outcome's arrays must have
-/// their size. `photons` may be null: then there is no standard error.
+/// their size. `photons` may be null: then there is no standard error. `heaviest` is w.
 void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, const DiscTotals& sums,
-                 const PhotonSums* photons, Outcome& outcome);
+                 const PhotonSums* photons, double heaviest, Outcome& outcome);
+
+/// w, from the sums of all discs and the largest power of a ray.
+[[nodiscard]] double heaviest_photon(std::span<const PhotonSums> discs, double largest_power);
 
 /// Gives the outcome's arrays their size.
 void resize_results(std::size_t discs, bool errors, Outcome& outcome);

@@ -53,6 +53,7 @@ class Totals {
   [[nodiscard]] bool keeps_errors() const { return keeps_errors_; }
   PhotonSums& photon_sums(std::size_t disc) { return photon_sums_[disc]; }
   const PhotonSums& photon_sums(std::size_t disc) const { return photon_sums_[disc]; }
+  [[nodiscard]] std::span<const PhotonSums> photon_sums() const { return photon_sums_; }
 
   /// Number of the block under way.
   [[nodiscard]] std::uint64_t block() const { return block_; }

@@ -249,12 +249,13 @@ void DiscResults::store_totals() {
   totals().add_rays(problem_);
   const bool own = options_.totals == nullptr;
   if (own) resize_results(sums_.size(), !photons_.empty(), outcome_);
+  for (PhotonSums& photons : photons_) photons.close();
+  const double heaviest = heaviest_photon(photons_, problem_.largest_power());
   for (std::size_t place = 0; place < sums_.size(); ++place) {
     const std::uint32_t disc = tree_.order[place];
-    PhotonSums* const photons = photons_.empty() ? nullptr : &photons_[place];
-    if (photons != nullptr) photons->close();
+    const PhotonSums* const photons = photons_.empty() ? nullptr : &photons_[place];
     if (own) {
-      finish_disc(own_, problem_.discs()[disc], disc, sums_[place], photons, outcome_);
+      finish_disc(own_, problem_.discs()[disc], disc, sums_[place], photons, heaviest, outcome_);
     } else {
       totals()[disc] = sums_[place];
       if (photons != nullptr) totals().photon_sums(disc) = *photons;

@@ -158,6 +158,23 @@ TEST_SUITE("standard error of irradiance") {
     CHECK(outcome.upper_bound[0] == doctest::Approx((52 + 3 * 6.148113802) / std::numbers::pi).epsilon(1e-8));
   }
 
+  TEST_CASE("The bound of a disc allows for a photon as heavy as any that has hit another disc by many rays") {
+    const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}, {{5, 0, 0}, {0, 0, 1}, 1}};
+    std::vector<Ray> rays;
+    std::vector<std::uint64_t> photons;
+    for (std::uint64_t photon = 0; photon < 100; ++photon)
+      for (int ray = 0; ray < (photon == 50 ? 8 : 1); ++ray) {
+        rays.push_back({{0, 0, 1}, {0, 0, -1}, unbounded, 2});
+        photons.push_back(photon);
+      }
+    for (const Candidate& candidate : exact_techniques) {
+      const Outcome outcome =
+          run(make_problem(PathRays{rays, photons, {}}, discs), candidate, {.standard_error = true});
+      CHECK(outcome.hits[1] == 0);
+      CHECK(outcome.upper_bound[1] * std::numbers::pi == doctest::Approx(8 * 2 * -std::log(0.05)));
+    }
+  }
+
   TEST_CASE("Powers whose squares underflow or overflow give bounds, no zero errors") {
     const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}};
     for (const double power : {0.0, 1e-200, 1e200}) {
