@@ -7,4 +7,3 @@
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/choice/plan.hpp"
-#include "detp/validate/choice/plan_memory_file.hpp"

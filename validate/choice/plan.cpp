@@ -18,7 +18,6 @@
 #include "late_searcher.hpp"
 #include "pilot.hpp"
 #include "plan_basis.hpp"
-#include "plan_memory.hpp"
 
 namespace detp::validate {
 namespace {
@@ -61,8 +60,6 @@ class Plan::Planner {
         building_{.engine = options.costs.engine, .stop = options.stop, .threads = options.threads} {
     require_count("number of threads", options.threads, 0, sim::most_threads);
     if (rays.empty()) throw std::invalid_argument("a plan needs at least one ray, to see where the rays are");
-    if (options.remembered_only && options.memory == nullptr)
-      throw std::invalid_argument("a plan by remembered choices only needs a memory");
     const double count = options.rays.value_or(static_cast<double>(rays.size()));
     require_count("number of rays", count, 1, 1e18);
     report("checking the discs", 0, 0.1);
@@ -75,22 +72,10 @@ class Plan::Planner {
                                            .own_discs = std::move(own_discs)});
     basis_->options.stop = {};
     basis_->options.progress = {};
-    basis_->options.memory = nullptr;
   }
 
   Plan run() {
     const bool can_pilot = sim::PilotedDiscs::can_pilot(basis_->problem) && options_.costs.engine == Engine::simd;
-    const Rigor rigor = can_pilot ? Rigor::pilot : Rigor::estimate;
-    if (options_.memory != nullptr) {
-      const sim::Stopwatch watch;
-      const Workload evidence = sampled({});
-      class_ = class_of(evidence);
-      basis_->workload = options_.effects.text() == "auto" ? evidence : sampled(options_.effects);
-      const auto found = options_.remembered_only ? std::optional(options_.memory->require(*class_, rigor))
-                                                  : options_.memory->find(*class_, rigor);
-      seconds_ = watch.seconds();
-      if (found) return from_memory(*found);
-    }
     return can_pilot ? by_pilot() : by_closed_forms();
   }
 
@@ -99,11 +84,6 @@ class Plan::Planner {
   void report(const char* what, double from, double to) const {
     if (options_.progress) options_.progress({what, from, to});
     sim::StopCheck(options_.stop, "planning").now();
-  }
-
-  [[nodiscard]] Workload sampled(const sim::EffectSelection& effects) const {
-    return with_all_rays_checked(
-        [&] { return sampled_workload(basis_->problem, rays_, basis_->rays, effects, options_.stop); });
   }
 
   /// Returns look(), which sees some of the rays. If one of these is malformed, throws with its number among all rays.
@@ -121,15 +101,6 @@ class Plan::Planner {
     return sim::make_problem(rays_, basis_->problem.discs(), options_.front_facing, options_.threads, options_.stop);
   }
 
-  Plan from_memory(const RememberedChoice& choice) {
-    basis_->candidates = {{.candidate = choice.candidate,
-                           .seconds = choice.predicted_seconds,
-                           .error = choice.predicted_error,
-                           .threads = choice.threads}};
-    assess_for_replans();
-    return built(choice.rigor, true);
-  }
-
   Plan by_closed_forms() {
     report("measuring discs and rays", 0.1, 0.4);
     const sim::Stopwatch watch;
@@ -145,8 +116,7 @@ class Plan::Planner {
                                     .doubt = doubt_of(*basis_->workload, one)});
     assess_for_replans();
     seconds_ += watch.seconds();
-    remember(Rigor::estimate, true);  // techniques without a closed form were not examined
-    return built(Rigor::estimate, false);
+    return built();
   }
 
   Plan by_pilot() {
@@ -166,9 +136,8 @@ class Plan::Planner {
                                     .counts_at = one.counts_at});
     if (choice.discs) basis_->order = choice.discs->order();
     seconds_ += watch.seconds() - choice.sort_seconds;
-    remember(Rigor::pilot, !choice.unexamined.empty());
     report("building the index", 0.6, 1);
-    return planned(Rigor::pilot, false, build_choice(choice, basis_->problem, building_));
+    return planned(Rigor::pilot, build_choice(choice, basis_->problem, building_));
   }
 
   /// Sets what replans need to know of candidates without counts of a pilot.
@@ -183,26 +152,15 @@ class Plan::Planner {
     }
   }
 
-  void remember(Rigor rigor, bool cut_off) const {
-    if (options_.memory == nullptr) return;
-    const PlanCandidate& best = basis_->candidates.front();
-    options_.memory->remember(*class_, {.candidate = best.candidate,
-                                        .threads = best.threads,
-                                        .predicted_seconds = best.seconds,
-                                        .predicted_error = best.error,
-                                        .rigor = rigor,
-                                        .cut_off = cut_off});
-  }
-
   /// The first candidate's plan. Sorts the discs here for a box tree, so that their order is known to replans.
-  Plan built(Rigor rigor, bool remembered) {
+  Plan built() {
     report("building the index", 0.4, 1);
     const Candidate& candidate = basis_->candidates.front().candidate;
     if (candidate.technique == Technique::box_tree) basis_->order.emplace(basis_->problem, building_);
-    return planned(rigor, remembered, build_index(basis_->problem, candidate, basis_->order, building_));
+    return planned(Rigor::estimate, build_index(basis_->problem, candidate, basis_->order, building_));
   }
 
-  Plan planned(Rigor rigor, bool remembered, std::unique_ptr<sim::Index> index) {
+  Plan planned(Rigor rigor, std::unique_ptr<sim::Index> index) {
     const PlanCandidate& best = basis_->candidates.front();
     Plan made(basis_, best.candidate);
     made.searcher_ = std::make_shared<LateSearcher>(sim::Searcher(basis_->problem, std::move(index)));
@@ -212,7 +170,6 @@ class Plan::Planner {
     made.planning_seconds_ = seconds_;
     made.rays_ = basis_->rays;
     made.rigor_ = rigor;
-    made.remembered_ = remembered;
     return made;
   }
 
@@ -221,8 +178,7 @@ class Plan::Planner {
   double reading_;  ///< seconds for reading the rays from a view, which each search does again
   sim::RunOptions building_;
   std::shared_ptr<Basis> basis_;
-  std::optional<WorkloadClass> class_;  ///< set if there is a memory
-  double seconds_ = 0;                  ///< for choosing
+  double seconds_ = 0;  ///< for choosing
 };
 
 Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays, const PlanOptions& options) {

@@ -16,7 +16,6 @@
 namespace detp::validate {
 
 class LateSearcher;
-class PlanMemory;
 
 struct PlanOptions {
   /// seconds, of another machine; those of this one: stored_unit_costs() or calibrate().simd.costs
@@ -24,7 +23,7 @@ struct PlanOptions {
   std::optional<double> rays = {};      ///< number of rays in each search; default: as many as are shown to `plan`
   std::optional<double> farthest = {};  ///< as for sim::Searcher
   bool front_facing = false;
-  /// that closed forms take into account, in plans and replans; the class of a memory is always that of the evidence
+  /// that closed forms take into account, in plans and replans
   sim::EffectSelection effects = {};
   /// most threads, for building and for each search; 0: all threads of the caller's oneTBB arena, outside of one all
   /// cores. With as many threads as the caller's arena has, the work runs in that arena.
@@ -32,10 +31,6 @@ struct PlanOptions {
   std::stop_token stop = {};
   /// Called at the beginning of each phase. It cancels the plan if it requests a stop of the source of `stop`.
   sim::ReportPhase progress = {};
-  /// Unless null: a choice that it remembers for the class of the workload, with at least the rigor that this plan would
-  /// reach, is used without a pilot; else it remembers the choice of this plan. Must outlive the call only.
-  PlanMemory* memory = nullptr;
-  bool remembered_only = false;  ///< throw NotRemembered if the memory has no such choice
 };
 
 /// The choice for some discs, and its index. Const: many threads may execute a plan at once, each with its own scratch.
@@ -52,7 +47,6 @@ class Plan {
   [[nodiscard]] double predicted_error() const { return predicted_error_; }
   [[nodiscard]] double planning_seconds() const { return planning_seconds_; }  ///< without sorting and building
   [[nodiscard]] Rigor rigor() const { return rigor_; }                         ///< reached
-  [[nodiscard]] bool remembered() const { return remembered_; }                ///< the choice comes from a PlanMemory
 
   [[nodiscard]] bool is_built() const;
   /// Builds the index, unless it is built. `execute` calls it. Throws as sim::prepare, sim::Stopped on a stop request.
@@ -78,7 +72,6 @@ class Plan {
   double predicted_error_ = 0;
   double planning_seconds_ = 0;
   Rigor rigor_ = Rigor::estimate;
-  bool remembered_ = false;
 };
 
 /// Chooses technique, parameters and number of threads by a pilot (choose_by_pilot), and builds the index. If the rays
@@ -86,8 +79,7 @@ class Plan {
 /// the costs' engine searches. `rays` are some or all of the rays that will be searched. Borrows the discs, which must
 /// outlive the plan and its replans.
 ///
-/// Throws as make_problem and run do, and std::invalid_argument if there are no rays; sim::Stopped on a stop request;
-/// NotRemembered as PlanOptions::remembered_only says.
+/// Throws as make_problem and run do, and std::invalid_argument if there are no rays; sim::Stopped on a stop request.
 [[nodiscard]] Plan plan(std::span<const sim::Disc> discs, std::span<const sim::Ray> rays,
                         const PlanOptions& options = {});
 
@@ -100,7 +92,7 @@ class Plan {
 /// Takes microseconds, however many discs there are: nothing is measured, culled or sorted. The counts of the candidates
 /// that the pilot had tried are extrapolated from the first plan's radius and rays (sim::stream::PilotCounts::at), priced,
 /// and compared again; replans of replans do not add errors. Techniques that the pilot ruled out stay ruled out. A
-/// candidate that no pilot counted is compared by its closed form; a remembered choice is kept. Plan again if the radius
+/// candidate that no pilot counted is compared by its closed form. Plan again if the radius
 /// differs by more than a factor of four, or if rays come from elsewhere.
 ///
 /// The index is not built here, but by the first `execute` (or by Plan::build): the discs are copied and given their

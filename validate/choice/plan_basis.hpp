@@ -24,7 +24,7 @@ struct PlanCandidate {
 
 /// What a plan and its replans share.
 struct Plan::Basis {
-  PlanOptions options;                                      ///< without stop, progress and memory
+  PlanOptions options;                                      ///< without stop and progress
   sim::Problem problem;                                     ///< without rays
   double radius;                                            ///< of the discs, root mean square
   double rays;                                              ///< number of rays for which the plan was made

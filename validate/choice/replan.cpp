@@ -95,7 +95,6 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
       best.candidate->seconds > 0 ? best.candidate->error * best.seconds / best.candidate->seconds : 0;
   made.rays_ = count;
   made.rigor_ = plan.rigor_;
-  made.remembered_ = plan.remembered_;
   made.planning_seconds_ = watch.seconds();
   return made;
 }

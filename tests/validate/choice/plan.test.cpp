@@ -12,7 +12,6 @@
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/choice/allowed_ranking.hpp"
-#include "detp/validate/choice/plan_memory.hpp"
 
 using namespace detp;
 using doctest::Approx;
@@ -102,23 +101,6 @@ TEST_SUITE("known answer") {
       seconds.push_back(made.predicted_seconds());
     }
     CHECK(seconds[0] != seconds[1]);
-  }
-
-  TEST_CASE("a memory serves plans with any selection of effects; replans of what it serves have their own") {
-    const auto discs = some_discs();
-    const auto rays = some_rays(discs, 1, 2000);
-    validate::PlanMemory memory;
-    const auto first = validate::plan(discs, rays, {.farthest = 2e12, .memory = &memory});
-    const auto served = [&](const char* effects) {
-      return validate::plan(discs, rays,
-                            {.farthest = 2e12, .effects = sim::EffectSelection(effects), .memory = &memory});
-    };
-    const auto automatic = served("auto");
-    const auto none = served("none");
-    CHECK(automatic.remembered());
-    CHECK(none.remembered());
-    CHECK(none.predicted_seconds() == first.predicted_seconds());
-    CHECK(replan(none, 0.06).predicted_seconds() != replan(automatic, 0.06).predicted_seconds());
   }
 }
 

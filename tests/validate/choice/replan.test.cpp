@@ -14,7 +14,6 @@
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/choice/plan.hpp"
 #include "detp/validate/choice/plan_basis.hpp"
-#include "detp/validate/choice/plan_memory.hpp"
 
 using namespace detp;
 using doctest::Approx;
@@ -77,20 +76,13 @@ TEST_SUITE("identity") {
       }
   }
 
-  TEST_CASE("so do replans of plans by closed forms, and of remembered plans") {
+  TEST_CASE("so do replans of plans by closed forms") {
     const auto discs = discs_with(first_radius);
     const auto rays = rays_of_pass(1, 1500);
     const validate::PlanOptions far{.farthest = 2e12};
     const auto by_forms = validate::plan(discs, rays, far);
     CHECK(by_forms.rigor() == Rigor::estimate);
     check_passes(far, by_forms);
-
-    validate::PlanMemory memory;
-    const validate::PlanOptions options{.memory = &memory};
-    static_cast<void>(validate::plan(discs, rays, options));
-    const auto remembered = validate::plan(discs, rays, options);
-    REQUIRE(remembered.remembered());
-    check_passes({}, remembered);
   }
 
   TEST_CASE("a replan depends on the first plan and on its radius, not on the radii between") {
