@@ -4,13 +4,14 @@
 
 #include <cmath>
 #include <cstdint>
+#include <glm/vec3.hpp>
 #include <numbers>
 #include <string>
 
 #include "detp/sim/geometry/random.hpp"
 
 /// Meshes with dense objects that few rays reach, as OBJ files.
-namespace detp::support {
+namespace detp::study {
 
 class SparseScene {
  public:
@@ -22,15 +23,17 @@ class SparseScene {
   }
 
   /// A square floor of 10 x 10 with (cells + 1)² vertices.
-  void floor(int cells) {
-    const int first = vertices_ + 1;
-    for (int i = 0; i <= cells; ++i)
-      for (int j = 0; j <= cells; ++j) vertex(10.0 * i / cells, 0, 10.0 * j / cells);
-    for (int i = 0; i < cells; ++i)
-      for (int j = 0; j < cells; ++j) {
-        const int corner = first + i * (cells + 1) + j;
-        quad(corner, corner + 1, corner + cells + 2, corner + cells + 1);
-      }
+  void floor(int cells) { square({0, 0, 0}, {10, 0, 0}, {0, 0, 10}, cells); }
+
+  /// A room of 10 x 10 with floor, ceiling and four walls, each with (cells + 1)² vertices.
+  void room(double height, int cells) {
+    const glm::dvec3 x{10, 0, 0};
+    const glm::dvec3 y{0, height, 0};
+    const glm::dvec3 z{0, 0, 10};
+    const glm::dvec3 corner{0, 0, 0};
+    for (const glm::dvec3& low : {corner, y}) square(low, x, z, cells);
+    for (const glm::dvec3& near : {corner, z}) square(near, x, y, cells);
+    for (const glm::dvec3& left : {corner, x}) square(left, y, z, cells);
   }
 
   /// A sphere of about so many vertices.
@@ -55,6 +58,20 @@ class SparseScene {
   [[nodiscard]] const std::string& text() const { return text_; }
 
  private:
+  /// A parallelogram of cells² quads.
+  void square(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v, int cells) {
+    const int first = vertices_ + 1;
+    for (int i = 0; i <= cells; ++i)
+      for (int j = 0; j <= cells; ++j) {
+        const glm::dvec3 place = corner + u * (1.0 * i / cells) + v * (1.0 * j / cells);
+        vertex(place.x, place.y, place.z);
+      }
+    for (int i = 0; i < cells; ++i)
+      for (int j = 0; j < cells; ++j) {
+        const int low = first + i * (cells + 1) + j;
+        quad(low, low + 1, low + cells + 2, low + cells + 1);
+      }
+  }
   void vertex(double x, double y, double z) {
     text_ += fmt::format("v {:.7g} {:.7g} {:.7g}\n", x, y, z);
     ++vertices_;
@@ -87,4 +104,26 @@ inline std::string furnished_floor(std::uint64_t seed) {
   return scene.text();
 }
 
-}  // namespace detp::support
+/// Dense objects in a closed room.
+inline std::string furnished_room(std::uint64_t seed) {
+  SparseScene scene(seed);
+  const double height = scene.between(2.5, 6);
+  scene.room(height, static_cast<int>(scene.between(1, 20)));
+  for (int left = static_cast<int>(scene.between(4, 30)); left > 0; --left) {
+    const double radius = scene.between(0.02, 0.5);
+    scene.sphere(scene.between(1, 9), radius, scene.between(1, 9), radius, scene.between(200, 4000));
+  }
+  return scene.text();
+}
+
+/// Dense objects of very different sizes, near and far, in empty space.
+inline std::string clusters(std::uint64_t seed) {
+  SparseScene scene(seed);
+  for (int left = static_cast<int>(scene.between(3, 20)); left > 0; --left) {
+    const double radius = scene.between(0.01, 0.5);
+    scene.sphere(scene.between(1, 9), scene.between(1, 9), scene.between(1, 9), radius, scene.between(500, 8000));
+  }
+  return scene.text();
+}
+
+}  // namespace detp::study
