@@ -45,22 +45,26 @@ std::optional<Completed> completed(Technique technique, const FixedParameters& f
   return Completed{candidate, fixed.values.empty() ? best->counts : std::nullopt, best->tuned};
 }
 
-Ranked ranked(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Counts<double>& counts,
-              const Valid<CostTable>& costs, int most_threads) {
+Prediction ranked(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Counts<double>& counts,
+                  const Valid<CostTable>& costs, int most_threads) {
   require_count("number of threads", most_threads, 1, 1e6);
   const auto fastest = fastest_price(counts, costs, candidate.technique, most_threads);
-  return {candidate, counts, fastest.time, extrapolations(workload, candidate), fastest.threads};
+  return {.candidate = candidate,
+          .counts = counts,
+          .time = fastest.time,
+          .threads = fastest.threads,
+          .extrapolated = extrapolations(workload, candidate)};
 }
 
-bool is_faster(const Ranked& a, const Ranked& b) {
+bool is_faster(const Prediction& a, const Prediction& b) {
   return a.time.total() != b.time.total() ? a.time.total() < b.time.total()
                                           : a.candidate.technique < b.candidate.technique;
 }
 
 }  // namespace
 
-Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<CostTable>& costs,
-              int most_threads) {
+Prediction assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<CostTable>& costs,
+                  int most_threads) {
   return ranked(workload, candidate, predict(workload, candidate, costs.engine), costs, most_threads);
 }
 
@@ -70,22 +74,24 @@ std::optional<Candidate> complete(Technique technique, const FixedParameters& fi
   return found ? std::optional(found->candidate) : std::nullopt;
 }
 
-std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload, const Valid<CostTable>& costs,
-                              const SearchLimits& limits) {
+std::optional<Prediction> best_of(Technique technique, const Valid<Workload>& workload, const Valid<CostTable>& costs,
+                                  const SearchLimits& limits) {
   if (!has_closed_form(technique)) return std::nullopt;
   const auto found = completed(technique, {}, workload, costs, limits);
   if (!found) return std::nullopt;
   const auto* cache = std::get_if<SphereCacheParameters>(&found->candidate.parameters);
   if (cache != nullptr && cache->spheres == 0) return std::nullopt;  // this is brute force
   const Valid<Candidate> candidate(found->candidate);
-  Ranked best = ranked(workload, candidate, found->counts ? *found->counts : predict(workload, candidate, costs.engine),
-                       costs, limits.threads);
+  Prediction best =
+      ranked(workload, candidate, found->counts ? *found->counts : predict(workload, candidate, costs.engine), costs,
+             limits.threads);
   best.tuned = found->tuned;
   return best;
 }
 
-std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs, const SearchLimits& limits) {
-  std::vector<Ranked> ranking;
+std::vector<Prediction> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,
+                             const SearchLimits& limits) {
+  std::vector<Prediction> ranking;
   SearchLimits so_far = limits;
   const auto add = [&](Technique technique) {
     auto best = best_of(technique, workload, costs, so_far);

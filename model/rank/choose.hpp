@@ -1,23 +1,11 @@
 #pragma once
 
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "registry.hpp"
 
 namespace detp::model {
-
-/// A technique with its best parameters for a workload.
-struct Ranked {
-  Candidate candidate;
-  Counts<double> counts;                  ///< expected
-  CostBreakdown time;                     ///< expected, in the unit of the costs
-  std::vector<std::string> extrapolated;  ///< reasons why the counts are extrapolations; empty if they are not
-  int threads = 1;                        ///< for which the time is expected
-  /// false: the parameters are good, but not the best; with these, another technique is still faster
-  bool tuned = true;
-};
 
 /// All exact techniques with a closed form, each with good parameters, fastest first. The time of the first is at most
 /// 1 % longer than the shortest that an exhaustive search finds (400 random workloads and unit costs,
@@ -42,15 +30,15 @@ struct Ranked {
 ///            trees of box trees (means over 40 random workloads at the built-in unit costs, valgrind --tool=callgrind).
 ///            The first call of a program also makes a table of box_tree_boxes.cpp.
 /// Throws     std::invalid_argument for a workload or a number of threads out of range.
-[[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,
-                                       const SearchLimits& limits = {});
+[[nodiscard]] std::vector<Prediction> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,
+                                           const SearchLimits& limits = {});
 
 /// One technique with its best parameters: the sphere cache by best_ratio_and_stop; cell spheres and the octree by trying
 /// their depths; the sphere tree by trying fan-outs from 2 to 16 and leaves from 1 to 1024; the box tree by trying fan-outs
 /// of 4, 8 and 16 with leaves of 4, 8 … 256; the grid by best_grid_cells. nullopt if the technique has no closed form, if
 /// no parameters are within the limits, or if the best sphere cache has no spheres, which is brute force.
-[[nodiscard]] std::optional<Ranked> best_of(Technique technique, const Valid<Workload>& workload,
-                                            const Valid<CostTable>& costs, const SearchLimits& limits = {});
+[[nodiscard]] std::optional<Prediction> best_of(Technique technique, const Valid<Workload>& workload,
+                                                const Valid<CostTable>& costs, const SearchLimits& limits = {});
 
 /// One technique with the parameters in `fixed`. The others are the best ones if a closed form gives them, else the
 /// defaults. nullopt if no parameters are within the limits. Throws std::invalid_argument for a workload or parameter
@@ -60,7 +48,7 @@ struct Ranked {
                                                 const SearchLimits& limits = {});
 
 /// One candidate as `rank` would return it, on the number of threads, at most `most_threads`, that is fastest.
-[[nodiscard]] Ranked assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate,
-                            const Valid<CostTable>& costs, int most_threads = 1);
+[[nodiscard]] Prediction assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate,
+                                const Valid<CostTable>& costs, int most_threads = 1);
 
 }  // namespace detp::model

@@ -17,16 +17,16 @@ template <class E>
 inline constexpr std::array<std::string_view, 0> choice_names{};
 
 template <class E>
-concept Choice = std::is_enum_v<E> && !choice_names<E>.empty();
+concept NamedEnum = std::is_enum_v<E> && !choice_names<E>.empty();
 
 /// The name on the command line and in files.
-template <Choice E>
+template <NamedEnum E>
 [[nodiscard]] constexpr std::string_view name(E value) {
   return choice_names<E>[static_cast<std::size_t>(value)];
 }
 
 /// The value with that name; nullopt if there is none.
-template <Choice E>
+template <NamedEnum E>
 [[nodiscard]] constexpr std::optional<E> choice_named(std::string_view wanted) {
   for (std::size_t i = 0; i < choice_names<E>.size(); ++i)
     if (choice_names<E>[i] == wanted) return static_cast<E>(i);

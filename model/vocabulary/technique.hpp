@@ -39,7 +39,7 @@ template <auto member>
   return {name, name, what, help, least, most, small, {}, step, Access::get, Access::set};
 }
 
-template <auto member, Choice E>
+template <auto member, NamedEnum E>
 [[nodiscard]] constexpr Parameter choice(std::string_view name, E small, std::string_view help) {
   using Access = ParameterAccess<Parameters, member>;
   return {name, name, name, help, 0, 0, detp::name(small), choice_names<E>, 0, Access::get, Access::set};

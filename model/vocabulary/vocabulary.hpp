@@ -6,6 +6,7 @@
 #include "counts.hpp"
 #include "engine.hpp"
 #include "form.hpp"
+#include "prediction.hpp"
 #include "saturated.hpp"
 #include "technique.hpp"
 #include "thread_costs.hpp"

@@ -25,11 +25,12 @@ inline validate::RegretRow regret_row(double regret, bool held_out, double of_ba
                           .tried = 30,
                           .choices = {},
                           .baselines = {}};
-  row.choices.push_back({.tier = "estimate",
-                         .choice = {{Technique::box_tree, BoxTreeParameters{}}, 0.01, 0.005},
-                         .seconds = 0.01 * regret,
-                         .regret = {regret},
-                         .reason = "unit costs"});
+  row.choices.push_back(
+      {.tier = "estimate",
+       .choice = {{.candidate = {Technique::box_tree, BoxTreeParameters{}}, .time = {.intersect = 0.01}}, 0.005},
+       .seconds = 0.01 * regret,
+       .regret = {regret},
+       .reason = "unit costs"});
   for (const validate::Baseline& baseline : validate::baselines())
     row.baselines.emplace_back(baseline.candidates(cube_workload(1200, 500, 0.25, 25)).size(),
                                validate::Regret{of_baselines});

@@ -10,10 +10,10 @@ Contenders contenders(const Workload& workload, std::span<const Technique> named
     return record_of(technique).exact &&
            (named.empty() || std::find(named.begin(), named.end(), technique) != named.end());
   };
-  std::vector<model::Ranked> ranking = model::rank(workload, built_in_unit_costs());
+  std::vector<Prediction> ranking = model::rank(workload, built_in_unit_costs());
   Contenders found{.candidates = {}, .hits = ranking.front().counts.hits};
-  std::erase_if(ranking, [&](const model::Ranked& ranked) { return !wanted(ranked.candidate.technique); });
-  for (const model::Ranked& ranked : ranking)
+  std::erase_if(ranking, [&](const Prediction& ranked) { return !wanted(ranked.candidate.technique); });
+  for (const Prediction& ranked : ranking)
     if (ranked.time.total() <= hopeless * ranking.front().time.total()) found.candidates.push_back(ranked.candidate);
   for (const Technique technique : all_techniques)
     if (wanted(technique) && !model::has_closed_form(technique))

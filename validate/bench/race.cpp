@@ -72,9 +72,10 @@ class RaceRunner {
       return record_run(result, outcome, time.seconds());
     }
     try {
-      PilotChoice choice = choose_by_pilot(problem, options_.costs,
-                                           {.threads = options_.threads, .only_choice = true, .stop = options_.stop});
-      how.threads = choice.choice().threads;
+      Choice choice = choose(
+          {.problem = &problem, .purpose = Purpose::one_search, .threads = options_.threads, .stop = options_.stop},
+          options_.costs);
+      how.threads = choice.best().threads;
       const sim::Outcome outcome = sim::run(problem, *build_choice(choice, problem, how), how);
       return record_run(result, outcome, time.seconds());
     } catch (const sim::Stopped&) {

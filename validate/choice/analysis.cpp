@@ -191,13 +191,12 @@ class Analyser {
 
 }  // namespace
 
-Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& ranking,
-                 const AnalysisOptions& options) {
+Analysis analyse(const sim::Problem& problem, const std::vector<Prediction>& ranking, const AnalysisOptions& options) {
   const sim::DefaultFloatingPoint mode;
   const auto predicted = [&](const std::vector<Candidate>& candidates) {
     std::vector<Analysed> all;
     for (const Candidate& candidate : candidates) {
-      auto prediction = options.predict ? options.predict(candidate) : std::optional<model::Ranked>{};
+      auto prediction = options.predict ? options.predict(candidate) : std::optional<Prediction>{};
       const WorkDivision& division = record_of(candidate.technique).division;
       const bool divided =
           division.preparing || (options.engine == Engine::plain ? division.plain : division.simd) != Division::none;
@@ -208,7 +207,7 @@ Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& 
   };
   Analyser analyser(problem, options);
   std::vector<Analysed> ranked;
-  for (const model::Ranked& one : ranking)
+  for (const Prediction& one : ranking)
     ranked.push_back({.candidate = one.candidate, .threads = one.threads, .predicted = one});
   analyser.count(ranked);
   std::vector<Candidate> left_out = techniques_left_out(analyser.candidates());

@@ -17,7 +17,7 @@ namespace detp::validate {
 struct Analysed {
   Candidate candidate;
   int threads = 1;  ///< of its runs: those of the prediction, or else the most
-  std::optional<model::Ranked> predicted = {};
+  std::optional<Prediction> predicted = {};
   std::optional<Counts<std::uint64_t>> counted = {};
   std::optional<double> seconds = {};         ///< median of the timed runs (OwnTime)
   double spread = 0;                          ///< half the difference of the longest and shortest timed run, seconds
@@ -46,7 +46,7 @@ struct AnalysisOptions {
   std::stop_token stop = {};
   /// Returns the models' prediction for a candidate that was not ranked, or nothing if the candidate has no closed
   /// form.
-  std::function<std::optional<model::Ranked>(const Candidate&)> predict = {};
+  std::function<std::optional<Prediction>(const Candidate&)> predict = {};
   sim::ReportPhase progress = {};
 };
 
@@ -55,7 +55,7 @@ struct AnalysisOptions {
 /// candidates take turns, so that a disturbance of the machine affects all alike. A candidate that is predicted to be
 /// slow is started too. It is abandoned after `patience` times the shortest time so far. The predicted choice is never
 /// abandoned.
-[[nodiscard]] Analysis analyse(const sim::Problem& problem, const std::vector<model::Ranked>& ranking,
+[[nodiscard]] Analysis analyse(const sim::Problem& problem, const std::vector<Prediction>& ranking,
                                const AnalysisOptions& options = {});
 
 }  // namespace detp::validate

@@ -1,29 +1,31 @@
 #include "pilot.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
+#include <optional>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
 #include "box_tree_bound.hpp"
+#include "comparison.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/vocabulary/ray_blocks.hpp"
-#include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
-#include "detp/sim/technique/registry.hpp"
-#include "other_techniques.hpp"
+#include "detp/sim/technique/searcher.hpp"
+#include "doubt.hpp"
+#include "structural_sample.hpp"
 #include "usual_shape.hpp"
 
 namespace detp::validate {
 namespace {
-
-double seconds(const Piloted& one) { return one.time.total(); }
 
 /// usual_shape with the costs' p/u; where one of these is zero, with the usual one.
 BoxTreeParameters usual_shape_of(const SearchSize& size, const Prices& prices) {
@@ -38,7 +40,7 @@ class ShapeSearch {
   ShapeSearch(const sim::PilotedDiscs& discs, const SearchSize& size, const Prices& prices, bool for_replans)
       : discs_(discs), size_(size), prices_(prices), for_replans_(for_replans) {}
 
-  std::vector<Piloted> run() {
+  std::vector<Prediction> run() {
     consider(usual_shape_of(size_, prices_));
     for (BoxTreeParameters before{}; !(before == best());) {
       before = best();
@@ -46,7 +48,7 @@ class ShapeSearch {
       walk(&BoxTreeParameters::fan_out, 4, 64);
     }
     std::stable_sort(tried_.begin(), tried_.end(),
-                     [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
+                     [](const Prediction& a, const Prediction& b) { return a.seconds() < b.seconds(); });
     return std::move(tried_);
   }
 
@@ -54,7 +56,7 @@ class ShapeSearch {
   /// Returns true if the shape is the best so far, and was not tried before.
   bool consider(const BoxTreeParameters& shape) {
     const Candidate candidate{Technique::box_tree, shape};
-    for (const Piloted& one : tried_)
+    for (const Prediction& one : tried_)
       if (one.candidate == candidate) return false;
     const auto predicted = discs_.counts(shape, for_replans_);
     tried_.push_back(priced(candidate, predicted.counts, predicted.error, prices_));
@@ -78,8 +80,9 @@ class ShapeSearch {
   }
 
   [[nodiscard]] BoxTreeParameters best() const {
-    const auto least = std::min_element(tried_.begin(), tried_.end(),
-                                        [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
+    const auto least = std::min_element(tried_.begin(), tried_.end(), [](const Prediction& a, const Prediction& b) {
+      return a.seconds() < b.seconds();
+    });
     return std::get<BoxTreeParameters>(least->candidate.parameters);
   }
 
@@ -87,11 +90,11 @@ class ShapeSearch {
   const SearchSize& size_;
   const Prices& prices_;
   bool for_replans_;
-  std::vector<Piloted> tried_;
+  std::vector<Prediction> tried_;
 };
 
 /// Its tests are known. Of its hits, only the pilot's estimate is, or a closed form, which may be off by a factor of two.
-Piloted brute_force(const SearchSize& size, double hits, double error_of_hits, const Prices& prices) {
+Prediction brute_force(const SearchSize& size, double hits, double error_of_hits, const Prices& prices) {
   const auto counts_at = [=](double radius_ratio, double rays) {
     const double blocks = ray_blocks(rays, size.discs, Engine::simd).count();
     return Counts<double>{.loaded = rays,
@@ -101,13 +104,13 @@ Piloted brute_force(const SearchSize& size, double hits, double error_of_hits, c
                           .hits = hits * rays / size.rays * radius_ratio * radius_ratio};
   };
   const Candidate candidate{Technique::brute_force, BruteForceParameters{}};
-  Piloted found = priced(candidate, counts_at(1, size.rays), {.hits = error_of_hits}, prices);
+  Prediction found = priced(candidate, counts_at(1, size.rays), {.hits = error_of_hits}, prices);
   found.counts_at = counts_at;
   return found;
 }
 
 /// The usual shape, with a rough guess of its counts, from which the number of threads follows.
-Piloted usual_box_tree(const SearchSize& size, const Prices& prices) {
+Prediction usual_box_tree(const SearchSize& size, const Prices& prices) {
   constexpr double culls_of_ray = 40;
   constexpr double leaves_of_ray = 5;
   const BoxTreeParameters shape = usual_shape_of(size, prices);
@@ -118,7 +121,9 @@ Piloted usual_box_tree(const SearchSize& size, const Prices& prices) {
                               .references = size.discs,
                               .placements = size.discs,
                               .sorted = size.discs};
-  return priced({Technique::box_tree, shape}, counts, {}, prices);
+  Prediction found = priced({Technique::box_tree, shape}, counts, {}, prices);
+  found.source = Source::guess;
+  return found;
 }
 
 /// The least time that any box tree takes: that of preparing, and of the search only if it decides whether brute force,
@@ -129,21 +134,6 @@ double least_box_tree_seconds(const sim::Problem& problem, std::span<const sim::
   if (brute < preparing || brute > (1 + longest_search) * preparing) return preparing;
   const std::span<const sim::Ray> rays = problem.rays().empty() ? sample : problem.rays();
   return prices(least_box_tree_counts(problem, rays, size.rays), Technique::box_tree).time.total();
-}
-
-/// Sorts by time, but with the choice first: the candidate that is fastest even if closed forms are off. Extrapolated
-/// closed forms are never chosen. A box tree needs `preparing` less than its time, because its discs are sorted already.
-void sort_by_time(std::vector<Piloted>& candidates, double preparing) {
-  const auto cautious = [&](const Piloted& one) {
-    if (!one.extrapolated.empty()) return std::numeric_limits<double>::infinity();
-    const double prepared = one.candidate.technique == Technique::box_tree ? preparing : 0;
-    return seconds(one) - prepared + (one.closed_form ? one.error : 0);
-  };
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Piloted& a, const Piloted& b) { return seconds(a) < seconds(b); });
-  const auto choice = std::min_element(candidates.begin(), candidates.end(),
-                                       [&](const Piloted& a, const Piloted& b) { return cautious(a) < cautious(b); });
-  std::rotate(candidates.begin(), choice, choice + 1);
 }
 
 /// The time of a run in units of some 50 ns, roughly.
@@ -172,127 +162,167 @@ std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t d
   return sample;
 }
 
-PilotChoice choose_by_pilot(const sim::Problem& problem, std::span<const sim::Ray> sample, double rays,
-                            const Valid<CostTable>& costs, const PilotOptions& options) {
-  const sim::DefaultFloatingPoint mode;
-  if (sample.empty()) throw std::invalid_argument("a pilot needs at least one ray");
-  require_count("number of rays", rays, 1, 1e18);
-  if (!is_allowed(Technique::box_tree, options))
-    throw std::invalid_argument("a pilot needs box-tree, which is disabled");
-  if (!sim::PilotedDiscs::can_pilot(problem))
-    throw std::invalid_argument("rays start too far from the discs for float kernels; a pilot needs them");
-  if (costs.engine != Engine::simd) throw std::invalid_argument("a pilot counts for the simd engine, not for plain");
-  sim::StopCheck(options.stop, "choosing").now();
-  const sim::Stopwatch watch;
-  const Prices prices{costs, sim::useful_threads(options.threads)};
-  const SearchSize size{rays,
-                        std::any_of(sample.begin(), sample.end(), [](const sim::Ray& ray) { return !ray.is_line(); }),
-                        static_cast<double>(problem.discs().size())};
-  PilotChoice found;
-  const double preparing = prices({.placements = size.discs, .sorted = size.discs}, Technique::box_tree).time.total();
-  if (is_allowed(Technique::brute_force, options)) {
-    const double hits = options.expected_hits ? *options.expected_hits
-                        : options.workload    ? model::expected_hits(*options.workload)
-                                              : 0;
-    const double error_of_hits = hits > 0 ? hits : size.rays * size.discs;  // nothing is known
-    const Piloted brute = brute_force(size, hits, error_of_hits, prices);
-    const double least = least_box_tree_seconds(problem, sample, size, preparing, seconds(brute), prices);
-    if (seconds(brute) < least) {
-      sim::Problem of_sample = problem;
-      sim::set_rays(of_sample, sample);  // checks the sample, as a pilot does
-      found.candidates = {brute};
-      found.ruled_out = {{Technique::box_tree, least, true}};
-      compare_others(problem, size, prices, options, found);
-      found.pilot_seconds = watch.seconds();
-      return found;
-    }
-  }
-  if (options.only_choice && work_of(rays, size.discs) < least_work) {
-    found.candidates = {usual_box_tree(size, prices)};
-    found.predicted = false;
-    found.pilot_seconds = watch.seconds();
-    return found;
-  }
-  found.sampled_rays = sample.size();
-  found.discs = std::make_shared<sim::PilotedDiscs>(
-      problem,
-      sim::stream::PilotRays{.sample = sample,
-                             .all = rays,
-                             .independent = options.independent_sample,
-                             .hits = options.expected_hits,
-                             .others = options.independent_sample ? std::span<const sim::Ray>()
-                                       : options.others.empty()   ? problem.rays()
-                                                                  : options.others},
-      subtrees_of(rays, size.discs), sim::RunOptions{.stop = options.stop, .threads = options.threads});
-  found.sort_seconds = found.discs->sort_seconds();
-  found.candidates = ShapeSearch(*found.discs, size, prices, options.for_replans).run();
-  const auto add = [&](auto&& more) {
-    more();
-    sort_by_time(found.candidates, preparing);
-  };
-  if (is_allowed(Technique::brute_force, options))
-    add([&] {
-      const Piloted& tree = found.choice();
-      found.candidates.push_back(brute_force(size, tree.counts.hits, tree.counts_error.hits, prices));
-    });
-  add([&] { compare_others(problem, size, prices, options, found); });
-  found.pilot_seconds = watch.seconds() - found.sort_seconds;
-  return found;
-}
+namespace {
 
-PilotChoice choose_by_pilot(const sim::Problem& problem, const Valid<CostTable>& costs, const PilotOptions& options) {
-  const sim::DefaultFloatingPoint mode;
-  const sim::Stopwatch watch;
-  const std::span<const sim::Ray> rays = problem.rays();
+/// What is sampled of a search, and how.
+struct Sample {
+  std::vector<sim::Ray> rays;
+  bool independent = false;          ///< as sim::PilotRays::independent
+  std::optional<double> hits = {};   ///< as sim::PilotRays::hits
+  std::span<const sim::Ray> others;  ///< as sim::PilotRays::others
+};
+
+Sample sample_of(const Question& question, Rigor rigor, const sim::Problem& problem) {
   const std::size_t discs = problem.discs().size();
-  // Without a pilot, one ray stands for all: nothing is culled.
-  const bool piloted =
-      !options.only_choice || work_of(static_cast<double>(rays.size()), static_cast<double>(discs)) >= least_work;
-  const std::vector<sim::Ray> sample =
-      pilot_sample(piloted ? rays : rays.first(std::min<std::size_t>(1, rays.size())), discs);
-  const double sampling = watch.seconds();
-  PilotChoice found = choose_by_pilot(problem, sample, static_cast<double>(rays.size()), costs, options);
-  found.pilot_seconds += sampling;
-  return found;
+  if (rigor == Rigor::structural) {
+    if (!question.workload) throw std::invalid_argument("a structural choice needs a workload");
+    return {.rays = structural_sample(problem.enclosing(), *question.workload,
+                                      pilot_size(*question.ray_count, static_cast<double>(discs))),
+            .independent = true,
+            .hits = model::expected_hits(*question.workload),
+            .others = {}};
+  }
+  if (question.rays.empty()) throw std::invalid_argument("a pilot needs rays");
+  return {.rays = pilot_sample(question.rays, discs), .others = question.rays};
 }
 
-PilotChoice choose_again(const PilotChoice& pilot, const sim::Problem& problem, double radius_ratio, double rays,
-                         const Valid<CostTable>& costs, const PilotOptions& options) {
-  const sim::DefaultFloatingPoint mode;
-  require_positive("ratio of the radii", radius_ratio);
-  require_count("number of rays", rays, 1, 1e18);
-  const Prices prices{costs, sim::useful_threads(options.threads)};
-  const auto discs = static_cast<double>(problem.discs().size());
+class SampleChoice {
+ public:
+  SampleChoice(const Question& question, Rigor rigor, const sim::Problem& problem, const Valid<CostTable>& costs)
+      : question_(question),
+        rigor_(rigor),
+        problem_(problem),
+        prices_{costs, sim::useful_threads(question.threads)},
+        discs_(static_cast<double>(problem.discs().size())),
+        preparing_(prices_({.placements = discs_, .sorted = discs_}, Technique::box_tree).time.total()) {}
+
+  Choice run() && {
+    if (!decide_without_pilot()) decide_by_pilot();
+    found_.choosing_seconds = watch_.seconds() - found_.sort_seconds;
+    return std::move(found_);
+  }
+
+ private:
+  [[nodiscard]] SearchSize size_of(std::span<const sim::Ray> sample) const {
+    return {*question_.ray_count, std::ranges::any_of(sample, [](const sim::Ray& ray) { return !ray.is_line(); }),
+            discs_};
+  }
+
+  /// Returns true if brute force, or the usual shape for a short search, is the choice without a pilot.
+  bool decide_without_pilot() {
+    const double work = work_of(*question_.ray_count, discs_);
+    const bool is_short = question_.purpose == Purpose::one_search && work < least_work;
+    if (is_short && rigor_ == Rigor::pilot) {  // one ray stands for all: nothing is culled
+      sample_.rays.assign(question_.rays.begin(), question_.rays.begin() + 1);
+    } else {
+      sample_ = sample_of(question_, rigor_, problem_);
+    }
+    const SearchSize size = size_of(sample_.rays);
+    if (question_.allows(Technique::brute_force) && is_brute_force_faster(size)) return true;
+    if (!is_short) return false;
+    found_.candidates = {usual_box_tree(size, prices_)};
+    return true;
+  }
+
+  bool is_brute_force_faster(const SearchSize& size) {
+    const double hits = sample_.hits         ? *sample_.hits
+                        : question_.workload ? model::expected_hits(*question_.workload)
+                                             : 0;
+    const double error_of_hits = hits > 0 ? hits : size.rays * size.discs;  // nothing is known
+    const Prediction brute = brute_force(size, hits, error_of_hits, prices_);
+    const double least = least_box_tree_seconds(problem_, sample_.rays, size, preparing_, brute.seconds(), prices_);
+    if (brute.seconds() >= least) return false;
+    sim::Problem of_sample = problem_;
+    sim::set_rays(of_sample, sample_.rays);  // checks the sample, as a pilot does
+    found_.candidates = {brute};
+    found_.ruled_out = {{Technique::box_tree, least, true}};
+    compare_others(question_, size, prices_, false, 0, found_);
+    return true;
+  }
+
+  void decide_by_pilot() {
+    const SearchSize size = size_of(sample_.rays);
+    found_.sampled_rays = sample_.rays.size();
+    found_.discs = std::make_shared<sim::PilotedDiscs>(
+        problem_,
+        sim::stream::PilotRays{.sample = sample_.rays,
+                               .all = size.rays,
+                               .independent = sample_.independent,
+                               .hits = sample_.hits,
+                               .others = sample_.others},
+        subtrees_of(size.rays, size.discs), sim::RunOptions{.stop = question_.stop, .threads = question_.threads});
+    found_.sort_seconds = found_.discs->sort_seconds();
+    found_.candidates = ShapeSearch(*found_.discs, size, prices_, question_.purpose == Purpose::replans).run();
+    if (question_.allows(Technique::brute_force)) {
+      const Prediction& tree = found_.best();
+      found_.candidates.push_back(brute_force(size, tree.counts.hits, tree.counts_error.hits, prices_));
+      put_choice_first(found_.candidates, false, preparing_);
+    }
+    compare_others(question_, size, prices_, false, preparing_, found_);
+  }
+
+  const Question& question_;
+  Rigor rigor_;
+  const sim::Problem& problem_;
+  sim::Stopwatch watch_;
+  Prices prices_;
+  double discs_;
+  double preparing_;
+  Sample sample_ = {};
+  Choice found_ = {};
+};
+
+}  // namespace
+
+Choice choose_by_sample(const Question& question, Rigor rigor, const Valid<CostTable>& costs) {
+  const std::string_view what = rigor == Rigor::structural ? "a structural choice" : "a pilot";
+  if (question.problem == nullptr) throw std::invalid_argument(fmt::format("{} needs discs", what));
+  if (!question.allows(Technique::box_tree))
+    throw std::invalid_argument(fmt::format("{} needs box-tree, which is disabled", what));
+  if (!sim::PilotedDiscs::can_pilot(*question.problem))
+    throw std::invalid_argument(
+        fmt::format("rays start too far from the discs for float kernels; {} needs them", what));
+  if (costs.engine != Engine::simd)
+    throw std::invalid_argument(fmt::format("{} counts for the simd engine, not for plain", what));
+  if (rigor == Rigor::structural && question.problem->rays().empty() &&
+      question.problem->farthest() < question.problem->enclosing().radius)
+    throw std::invalid_argument(fmt::format(
+        "a structural choice needs a problem for rays that start up to {} from the centre of the discs (got {})",
+        question.problem->enclosing().radius, question.problem->farthest()));
+  sim::StopCheck(question.stop, "choosing").now();
+  if (rigor == Rigor::pilot || question.problem->rays().empty())
+    return SampleChoice(question, rigor, *question.problem, costs).run();
+  const sim::Problem without_rays =
+      sim::searched_problem(question.problem->discs(), {}, question.problem->front_facing(), question.stop);
+  return SampleChoice(question, rigor, without_rays, costs).run();
+}
+
+Choice sample_again(const Choice& choice, const Question& question, double radius_ratio,
+                    const Valid<CostTable>& costs) {
+  const double rays = *question.ray_count;
+  const Prices prices{costs, sim::useful_threads(question.threads)};
+  const auto discs = static_cast<double>(question.problem->discs().size());
   const double preparing = prices({.placements = discs, .sorted = discs}, Technique::box_tree).time.total();
-  PilotChoice found;
-  for (const Piloted& one : pilot.candidates)
+  Choice found;
+  for (const Prediction& one : choice.candidates)
     if (one.counts_at) found.candidates.push_back(priced(one.candidate, one.counts_at(radius_ratio, rays), {}, prices));
   if (found.candidates.empty()) throw std::invalid_argument("a choice without a pilot needs counts of an earlier one");
-  const auto is_brute_force = [](const Piloted& one) { return one.candidate.technique == Technique::brute_force; };
-  const auto brute = std::find_if(found.candidates.begin(), found.candidates.end(), is_brute_force);
-  if (brute != found.candidates.end() && seconds(*brute) < preparing) {
-    found.candidates = {Piloted(*brute)};
+  const auto is_brute_force = [](const Prediction& one) { return one.candidate.technique == Technique::brute_force; };
+  const auto brute = std::ranges::find_if(found.candidates, is_brute_force);
+  if (brute != found.candidates.end() && brute->seconds() < preparing) {
+    found.candidates = {Prediction(*brute)};
     found.ruled_out = {{Technique::box_tree, preparing, true}};
-  } else if (std::all_of(found.candidates.begin(), found.candidates.end(), is_brute_force)) {
+  } else if (std::ranges::all_of(found.candidates, is_brute_force)) {
     found.unexamined = {Technique::box_tree};
   }
-  sort_by_time(found.candidates, preparing);
-  PilotOptions of_others = options;
-  for (const Technique technique : pilot.unexamined) {
+  put_choice_first(found.candidates, false, preparing);
+  Question of_others = question;
+  for (const Technique technique : choice.unexamined) {
     of_others.disabled.push_back(technique);
     found.unexamined.push_back(technique);
   }
-  compare_others(problem, {rays, found.choice().counts.segments > 0, discs}, prices, of_others, found);
-  sort_by_time(found.candidates, preparing);
+  compare_others(of_others, {rays, found.best().counts.segments > 0, discs}, prices, true, preparing, found);
   return found;
-}
-
-std::unique_ptr<sim::Index> build_choice(PilotChoice& choice, const sim::Problem& problem,
-                                         const sim::RunOptions& options) {
-  const Candidate& candidate = choice.choice().candidate;
-  if (!choice.discs || candidate.technique != Technique::box_tree) return sim::prepare(problem, candidate, options);
-  const auto discs = std::exchange(choice.discs, nullptr);
-  return std::move(*discs).build(problem, std::get<BoxTreeParameters>(candidate.parameters), options);
 }
 
 }  // namespace detp::validate

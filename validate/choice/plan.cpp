@@ -1,22 +1,20 @@
 #include "plan.hpp"
 
 #include <cmath>
-#include <limits>
 #include <memory>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
 
-#include "allowed_ranking.hpp"
+#include "choice.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/sim/effects/observe.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/sim/technique/registry.hpp"
+#include "evidence.hpp"
 #include "late_searcher.hpp"
-#include "pilot.hpp"
 #include "plan_basis.hpp"
 
 namespace detp::validate {
@@ -75,8 +73,29 @@ class Plan::Planner {
   }
 
   Plan run() {
-    const bool can_pilot = sim::PilotedDiscs::can_pilot(basis_->problem) && options_.costs.engine == Engine::simd;
-    return can_pilot ? by_pilot() : by_closed_forms();
+    Question question{.problem = &basis_->problem,
+                      .rays = rays_,
+                      .ray_count = basis_->rays,
+                      .effects = options_.effects,
+                      .purpose = options_.once ? Purpose::one_search : Purpose::replans,
+                      .threads = options_.threads,
+                      .stop = options_.stop};
+    const Rigor rigor = reachable_rigor(question, options_.costs);
+    report(rigor == Rigor::pilot ? "sorting the discs, and a pilot" : "measuring discs and rays", 0.1, 0.6);
+    Choice choice = with_all_rays_checked([&] {
+      if (rigor == Rigor::estimate) question.workload = basis_->workload = evidence(question, basis_->rays);
+      return choose(question, options_.costs);
+    });
+    basis_->candidates = choice.candidates;
+    basis_->options.costs = costs_for(question, options_.costs);
+    seconds_ = choice.choosing_seconds;
+    report("building the index", 0.6, 1);
+    if (choice.discs) basis_->order = choice.discs->order();
+    const Candidate& best = choice.best().candidate;
+    if (best.technique != Technique::box_tree || choice.discs)
+      return planned(rigor, build_choice(choice, basis_->problem, building_));
+    basis_->order.emplace(basis_->problem, building_);  // sorted here, so that replans know it
+    return planned(rigor, build_index(basis_->problem, best, basis_->order, building_));
   }
 
  private:
@@ -101,71 +120,12 @@ class Plan::Planner {
     return sim::make_problem(rays_, basis_->problem.discs(), options_.front_facing, options_.threads, options_.stop);
   }
 
-  Plan by_closed_forms() {
-    report("measuring discs and rays", 0.1, 0.4);
-    const sim::Stopwatch watch;
-    basis_->workload = sim::observe(problem_with_rays(), {}, options_.effects, options_.stop).workload;
-    basis_->workload->rays = basis_->rays;
-    const int threads = sim::useful_threads(options_.threads);
-    for (const model::Ranked& one :
-         allowed_ranking(*basis_->workload, options_.costs, {}, {.threads = threads, .stop = options_.stop}))
-      basis_->candidates.push_back({.candidate = one.candidate,
-                                    .seconds = one.time.total(),
-                                    .error = 0,
-                                    .threads = one.threads,
-                                    .doubt = doubt_of(*basis_->workload, one)});
-    assess_for_replans();
-    seconds_ += watch.seconds();
-    return built();
-  }
-
-  Plan by_pilot() {
-    report("sorting the discs, and a pilot", 0.1, 0.6);
-    const sim::Stopwatch watch;
-    PilotChoice choice = with_all_rays_checked([&] {
-      return choose_by_pilot(
-          basis_->problem, pilot_sample(rays_, basis_->problem.discs().size()), basis_->rays, options_.costs,
-          {.threads = options_.threads, .others = rays_, .for_replans = true, .stop = options_.stop});
-    });
-    for (const Piloted& one : choice.candidates)
-      basis_->candidates.push_back({.candidate = one.candidate,
-                                    .seconds = one.time.total(),
-                                    .error = one.error,
-                                    .threads = one.threads,
-                                    .doubt = one.extrapolated.empty() ? 1 : std::numeric_limits<double>::infinity(),
-                                    .counts_at = one.counts_at});
-    if (choice.discs) basis_->order = choice.discs->order();
-    seconds_ += watch.seconds() - choice.sort_seconds;
-    report("building the index", 0.6, 1);
-    return planned(Rigor::pilot, build_choice(choice, basis_->problem, building_));
-  }
-
-  /// Sets what replans need to know of candidates without counts of a pilot.
-  void assess_for_replans() {
-    for (PlanCandidate& one : basis_->candidates) {
-      if (!model::has_closed_form(one.candidate.technique)) continue;
-      try {
-        const int threads = sim::useful_threads(options_.threads);
-        one.closed_form_seconds = model::assess(*basis_->workload, one.candidate, options_.costs, threads).time.total();
-      } catch (const std::invalid_argument&) {  // no closed form for these parameters
-      }
-    }
-  }
-
-  /// The first candidate's plan. Sorts the discs here for a box tree, so that their order is known to replans.
-  Plan built() {
-    report("building the index", 0.4, 1);
-    const Candidate& candidate = basis_->candidates.front().candidate;
-    if (candidate.technique == Technique::box_tree) basis_->order.emplace(basis_->problem, building_);
-    return planned(Rigor::estimate, build_index(basis_->problem, candidate, basis_->order, building_));
-  }
-
   Plan planned(Rigor rigor, std::unique_ptr<sim::Index> index) {
-    const PlanCandidate& best = basis_->candidates.front();
+    const Prediction& best = basis_->candidates.front();
     Plan made(basis_, best.candidate);
     made.searcher_ = std::make_shared<LateSearcher>(sim::Searcher(basis_->problem, std::move(index)));
     made.threads_ = best.threads;
-    made.predicted_seconds_ = best.seconds + reading_ * basis_->rays / static_cast<double>(rays_.size());
+    made.predicted_seconds_ = best.seconds() + reading_ * basis_->rays / static_cast<double>(rays_.size());
     made.predicted_error_ = best.error;
     made.planning_seconds_ = seconds_;
     made.rays_ = basis_->rays;

@@ -28,6 +28,9 @@ struct PlanOptions {
   /// most threads, for building and for each search; 0: all threads of the caller's oneTBB arena, outside of one all
   /// cores. With as many threads as the caller's arena has, the work runs in that arena.
   int threads = 1;
+  /// The plan is executed once or twice: a short search takes the usual shape of a box tree, as in `detp run`, because a pilot
+  /// would take longer than it saves; predicted_seconds are then a rough guess.
+  bool once = false;
   std::stop_token stop = {};
   /// Called at the beginning of each phase. It cancels the plan if it requests a stop of the source of `stop`.
   sim::ReportPhase progress = {};
@@ -74,7 +77,7 @@ class Plan {
   Rigor rigor_ = Rigor::estimate;
 };
 
-/// Chooses technique, parameters and number of threads by a pilot (choose_by_pilot), and builds the index. If the rays
+/// Chooses technique, parameters and number of threads (choose), and builds the index: by a pilot. If the rays
 /// may start too far away for float kernels, or if the costs are those of the plain engine, chooses by closed forms; then
 /// the costs' engine searches. `rays` are some or all of the rays that will be searched. Borrows the discs, which must
 /// outlive the plan and its replans.

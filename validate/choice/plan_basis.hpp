@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -10,26 +9,14 @@
 
 namespace detp::validate {
 
-/// A candidate of a plan, as the first plan predicted it.
-struct PlanCandidate {
-  Candidate candidate;
-  double seconds;
-  double error;  ///< standard error of the seconds
-  int threads = 1;
-  double doubt = 1;                ///< it is compared as if it took so many times as long
-  double closed_form_seconds = 0;  ///< by its closed form, for the basis's workload; 0: there is none
-  /// its counts with another radius and number of rays, as Piloted::counts_at; may be empty
-  std::function<Counts<double>(double radius_ratio, double rays)> counts_at = {};
-};
-
 /// What a plan and its replans share.
 struct Plan::Basis {
   PlanOptions options;                                      ///< without stop and progress
   sim::Problem problem;                                     ///< without rays
   double radius;                                            ///< of the discs, root mean square
   double rays;                                              ///< number of rays for which the plan was made
-  std::vector<PlanCandidate> candidates = {};               ///< not empty
-  std::optional<Workload> workload = {};                    ///< for candidates without counts_at
+  std::vector<Prediction> candidates = {};                  ///< not empty, the plan's first
+  std::optional<Workload> workload = {};                    ///< for closed forms; set if the plan was made by these
   std::optional<sim::DiscOrder> order = {};                 ///< if it is known
   std::shared_ptr<const std::vector<sim::Disc>> own_discs;  ///< of the problem; null if the discs are borrowed
 };

@@ -6,7 +6,7 @@
 
 namespace detp::validate {
 
-PredictionError prediction_error(const model::Ranked& predicted, const Counts<std::uint64_t>& counted, double seconds,
+PredictionError prediction_error(const Prediction& predicted, const Counts<std::uint64_t>& counted, double seconds,
                                  const CostTable& costs) {
   const Counts<double> found = as_expected(counted);
   const Technique technique = predicted.candidate.technique;

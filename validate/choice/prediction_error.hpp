@@ -18,7 +18,7 @@ struct PredictionError {
 };
 
 /// Requires measured seconds > 0.
-[[nodiscard]] PredictionError prediction_error(const model::Ranked& predicted, const Counts<std::uint64_t>& counted,
+[[nodiscard]] PredictionError prediction_error(const Prediction& predicted, const Counts<std::uint64_t>& counted,
                                                double seconds, const CostTable& costs);
 
 }  // namespace detp::validate

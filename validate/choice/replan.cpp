@@ -18,7 +18,7 @@ namespace detp::validate {
 namespace {
 
 struct Replanned {
-  const PlanCandidate* candidate = nullptr;
+  const Prediction* candidate = nullptr;
   double seconds = std::numeric_limits<double>::infinity();
   int threads = 1;
 
@@ -57,24 +57,24 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
   const int most_threads = sim::useful_threads(basis.options.threads);
   const double least_ratio = least_time_ratio(disc_radius / basis.radius, count / basis.rays);
   std::optional<Workload> now;
-  const auto by_closed_form = [&](const PlanCandidate& one) -> Replanned {
-    if (!(one.closed_form_seconds > 0)) return {&one, one.seconds * count / basis.rays, one.threads};
+  const auto by_closed_form = [&](const Prediction& one) -> Replanned {
+    if (!basis.workload) return {&one, one.seconds() * count / basis.rays, one.threads};
     if (!now) {
       now = with_disc_radius(*basis.workload, disc_radius);
       now->rays = count;
     }
-    const model::Ranked found = model::assess(*now, one.candidate, basis.options.costs, most_threads);
-    return {&one, one.seconds * found.time.total() / one.closed_form_seconds, found.threads};
+    const Prediction found = model::assess(*now, one.candidate, basis.options.costs, most_threads);
+    return {&one, found.seconds(), found.threads};
   };
-  const auto by_pilot = [&](const PlanCandidate& one) -> Replanned {
+  const auto by_pilot = [&](const Prediction& one) -> Replanned {
     Counts<double> counts = one.counts_at(disc_radius / basis.radius, count);
     if (basis.order) counts.sorted = 0;
     const auto fastest = fastest_price(counts, basis.options.costs, one.candidate.technique, most_threads);
     return {&one, fastest.time.total(), fastest.threads};
   };
   Replanned best;
-  for (const PlanCandidate& one : basis.candidates) {
-    if (!one.counts_at && one.seconds * one.doubt * least_ratio >= best.judged_seconds()) continue;  // it cannot win
+  for (const Prediction& one : basis.candidates) {
+    if (!one.counts_at && one.doubtful_seconds() * least_ratio >= best.judged_seconds()) continue;  // it cannot win
     const Replanned found = one.counts_at ? by_pilot(one) : by_closed_form(one);
     if (found.judged_seconds() < best.judged_seconds() || best.candidate == nullptr) best = found;
   }
@@ -92,7 +92,7 @@ Plan replan(const Plan& plan, double disc_radius, std::optional<double> rays) {
   made.threads_ = best.threads;
   made.predicted_seconds_ = best.seconds;
   made.predicted_error_ =
-      best.candidate->seconds > 0 ? best.candidate->error * best.seconds / best.candidate->seconds : 0;
+      best.candidate->seconds() > 0 ? best.candidate->error * best.seconds / best.candidate->seconds() : 0;
   made.rays_ = count;
   made.rigor_ = plan.rigor_;
   made.planning_seconds_ = watch.seconds();

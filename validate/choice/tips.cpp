@@ -85,38 +85,38 @@ class TipFinder {
     return input == TipInput::rays ? std::clamp(std::round(value), 1.0, most_rays) : value;
   }
 
-  std::optional<TippedChoice> choice_with(const TipInputs& inputs) {
+  std::optional<ChoiceThere> choice_with(const TipInputs& inputs) {
     ++found_.choices;
-    std::optional<TippedChoice> choice;
+    std::optional<ChoiceThere> choice;
     if (!stop_.stop_requested()) choice = choose_(inputs);
     if (stop_.stop_requested()) return std::nullopt;  // the choice may be that of a search that was ended
     return choice;
   }
 
   /// A technique that is not ruled out there, but is with the present inputs.
-  [[nodiscard]] std::optional<Technique> possible(const TippedChoice& there) const {
+  [[nodiscard]] std::optional<Technique> possible(const ChoiceThere& there) const {
     for (const Technique one : there.not_ruled_out)
       if (std::find(now_.not_ruled_out.begin(), now_.not_ruled_out.end(), one) == now_.not_ruled_out.end()) return one;
     return std::nullopt;
   }
 
-  [[nodiscard]] bool is_changed(TipKind kind, const TippedChoice& there, const TipInputs& inputs) const {
-    const bool same = there.candidate.technique == now_.candidate.technique;
+  [[nodiscard]] bool is_changed(TipKind kind, const ChoiceThere& there, const TipInputs& inputs) const {
+    const bool same = there.best.candidate.technique == now_.best.candidate.technique;
     switch (kind) {
       case TipKind::technique:
         return !same;
       case TipKind::not_ruled_out:
         return possible(there).has_value();
       case TipKind::parameters:
-        return same && there.unchanged_seconds > (1 + distinguishable) * there.seconds;
+        return same && there.unchanged_seconds > (1 + distinguishable) * there.best.seconds();
       case TipKind::threads:
-        return same && there.threads != std::min(now_.threads, inputs.threads);
+        return same && there.best.threads != std::min(now_.best.threads, inputs.threads);
     }
     return false;
   }
 
   /// The nearest value with the change: it is not at `before`, but at `value`.
-  Tip nearest(TipInput input, TipKind kind, double before, double value, TippedChoice there) {
+  Tip nearest(TipInput input, TipKind kind, double before, double value, ChoiceThere there) {
     while (input != TipInput::threads && factor_between(before, value) > accuracy) {
       const double middle = rounded(input, std::sqrt(before) * std::sqrt(value));
       if (middle == before || middle == value) break;
@@ -131,8 +131,8 @@ class TipFinder {
       }
     }
     const Candidate candidate =
-        kind == TipKind::not_ruled_out ? default_candidate(possible(there).value()) : there.candidate;
-    return {input, kind, value, value / value_of(present_, input), candidate, there.threads};
+        kind == TipKind::not_ruled_out ? default_candidate(possible(there).value()) : there.best.candidate;
+    return {input, kind, value, value / value_of(present_, input), candidate, there.best.threads};
   }
 
   /// Examines values that are farther and farther away.
@@ -164,7 +164,7 @@ class TipFinder {
   TipSearch search_;
   const ChooseForInputs& choose_;
   const std::stop_token& stop_;
-  TippedChoice now_;
+  ChoiceThere now_;
   Tips found_;
 };
 

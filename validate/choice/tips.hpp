@@ -33,17 +33,15 @@ struct TipInputs {
 };
 
 /// The choice for some inputs.
-struct TippedChoice {
-  Candidate candidate;
-  int threads = 1;
-  double seconds = 0;  ///< predicted
-  /// Predicted time with the parameters of the present choice. `seconds`, if the technique is another one.
+struct ChoiceThere {
+  Prediction best;
+  /// Predicted time with the parameters of the present choice. That of `best`, if the technique is another one.
   double unchanged_seconds = 0;
   std::vector<Technique> not_ruled_out = {};  ///< techniques that may be faster
 };
 
 /// The choice for some inputs; nothing if there is none.
-using ChooseForInputs = std::function<std::optional<TippedChoice>(const TipInputs&)>;
+using ChooseForInputs = std::function<std::optional<ChoiceThere>(const TipInputs&)>;
 
 /// How far and how closely the inputs are examined.
 struct TipSearch {

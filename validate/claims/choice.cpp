@@ -26,7 +26,7 @@ bool searches_ray_by_ray(Technique technique) {
   return technique == Technique::brute_force || record_of(technique).ray_by_ray;
 }
 
-double share_counted(const model::Ranked& ranked) {
+double share_counted(const Prediction& ranked) {
   return searches_ray_by_ray(ranked.candidate.technique) ? std::min(1.0, most_seconds / ranked.time.total()) : 1;
 }
 
@@ -58,7 +58,7 @@ std::string with_dashes(std::string_view text) {
   return dashed;
 }
 
-std::vector<Finding> candidate_findings(const Experiment& experiment, const model::Ranked& ranked) {
+std::vector<Finding> candidate_findings(const Experiment& experiment, const Prediction& ranked) {
   const sim::Stopwatch clock;
   const auto counted = count_search(experiment, ranked.candidate, share_counted(ranked));
   if (!counted) return {};
@@ -92,7 +92,7 @@ std::vector<Finding> candidate_findings(const Experiment& experiment, const mode
 std::vector<Finding> choice_findings(const Experiment& experiment) {
   std::vector<Finding> findings;
   if (!experiment.choice) return findings;
-  for (const model::Ranked& ranked : model::rank(experiment.choice->workload, built_in_unit_costs())) {
+  for (const Prediction& ranked : model::rank(experiment.choice->workload, built_in_unit_costs())) {
     if (experiment.stop.stop_requested()) break;
     for (Finding& finding : candidate_findings(experiment, ranked)) findings.push_back(std::move(finding));
   }
@@ -102,7 +102,7 @@ std::vector<Finding> choice_findings(const Experiment& experiment) {
 double choice_work(const Experiment& experiment) {
   double work = 0;
   if (!experiment.choice) return work;
-  for (const model::Ranked& ranked : model::rank(experiment.choice->workload, built_in_unit_costs()))
+  for (const Prediction& ranked : model::rank(experiment.choice->workload, built_in_unit_costs()))
     work += 2 * share_counted(ranked) * test_work(ranked.counts) +  // on all sampled rays, and on parts of them
             (1 + batch_count) * build_work(ranked.counts);
   return work;

@@ -14,7 +14,7 @@ double control_offset(const Claim& claim, const Finding& finding, double away) {
   return away * (claim.detectable + one_count) / (1 - away * finding.tolerance);
 }
 
-Claim judge_one(const Finding& finding, const Prediction& prediction, double width) {
+Claim judge_one(const Finding& finding, const FormulaValue& prediction, double width) {
   const auto verdict_on = [&](double value) { return judge(value, finding.observed, finding.tolerance, width); };
   Claim claim{.id = finding.id + "." + std::string(name(prediction.form)),
               .quantity = finding.quantity,
@@ -45,7 +45,7 @@ std::vector<Claim> judge_all(const std::vector<Finding>& findings, double budget
   std::vector<Claim> claims;
   for (const Finding& finding : findings) {
     const double width = finding.batches == 0 ? 0 : interval_width(budget, comparisons, finding.batches);
-    for (const Prediction& prediction : finding.predictions) claims.push_back(judge_one(finding, prediction, width));
+    for (const FormulaValue& prediction : finding.predictions) claims.push_back(judge_one(finding, prediction, width));
   }
   return claims;
 }

@@ -13,7 +13,7 @@
 /// Claims: predictions of formulas, compared with counts.
 namespace detp::validate {
 
-struct Prediction {
+struct FormulaValue {
   Form form;
   std::string source;  ///< equation of the paper, or "our derivation"
   double value = 0;
@@ -25,7 +25,7 @@ struct Finding {
   std::string quantity;         ///< "T_R per ray, t = 1: geometric mean over Q = 0.3, 0.5, 0.65, 0.8"
   std::string technique = {};   ///< "sphere-cache"; empty if the claim is about lines alone
   std::string parameters = {};  ///< "Q 0.65, k 9"; empty if the claim is about several candidates or none
-  std::vector<Prediction> predictions = {};
+  std::vector<FormulaValue> predictions = {};
   Estimate observed = {};
   int batches = 0;       ///< independent batches from which the standard error is computed; 0: `observed` is exact
   double tolerance = 0;  ///< relative difference of prediction and observation that still counts as agreement

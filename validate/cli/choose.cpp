@@ -13,9 +13,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
-#include "detp/sim/technique/searcher.hpp"
 #include "detp/validate/choice/choice_tips.hpp"
-#include "detp/validate/choice/structural_choice.hpp"
 #include "detp/validate/structural/structural.hpp"
 #include "progress_line.hpp"
 #include "unit_cost_option.hpp"
@@ -67,25 +65,17 @@ std::vector<Technique> disabled_techniques(const ChooseOptions& options) {
 
 /// Throws std::invalid_argument if the predicted times cannot be compared. Adds the candidate of the paper's rule.
 void check_ranking(ChooseAnswer& answer, const CostTable& costs, int threads) {
-  const double fastest = answer.ranking.front().time.total();
+  const double fastest = answer.choice.best().time.total();
   if (!(fastest > 0))
     throw std::invalid_argument(fmt::format(
         "with these unit costs {} takes no time, so that nothing can be compared: {} cost 0; give every operation its "
         "cost in seconds, as --help explains",
-        name(answer.ranking.front().candidate.technique),
-        zero_costs(costs[answer.ranking.front().candidate.technique])));
-  if (!std::isfinite(answer.ranking.back().time.total()))
+        name(answer.choice.best().candidate.technique), zero_costs(costs[answer.choice.best().candidate.technique])));
+  if (!std::isfinite(answer.choice.candidates.back().time.total()))
     throw std::invalid_argument(
         fmt::format("with these unit costs the time of {} exceeds 1.8e308 s and cannot be compared; give smaller costs",
-                    name(answer.ranking.back().candidate.technique)));
+                    name(answer.choice.candidates.back().candidate.technique)));
   answer.paper = model::assess(answer.workload, model::paper_rule(answer.workload), costs, threads);
-}
-
-template <class Find>
-void find_tips(ChooseAnswer& answer, const Find& find) {
-  const sim::Stopwatch watch;
-  answer.tips = find();
-  answer.tips_seconds = watch.seconds();
 }
 
 /// The progress if a stop request ended the search for tips, else nothing.
@@ -94,54 +84,31 @@ std::optional<sim::Progress> stopped_tips(const ChooseAnswer& answer) {
   return sim::Progress{answer.tips.inputs, answer.tips.ranges.size(), "inputs examined for tips"};
 }
 
-/// Returns the progress if a stop request ended the ranking or the search for tips, else nothing.
-std::optional<sim::Progress> decide(ChooseAnswer& answer, const CostTable& costs,
-                                    const std::vector<Technique>& disabled, int threads, const std::stop_token& stop) {
+/// Chooses, and finds tips. Returns the progress if a stop request ended the ranking or the search for tips, else nothing.
+/// Throws sim::Stopped if it ended a pilot.
+std::optional<sim::Progress> decide(ChooseAnswer& answer, const validate::Question& question, const CostTable& costs) {
+  answer.choice = validate::choose(question, costs);
+  answer.rigor = answer.choice.rigor;
+  answer.choosing_seconds = answer.evidence_seconds + answer.choice.choosing_seconds;
+  check_ranking(answer, costs, question.threads);
   const sim::Stopwatch watch;
-  answer.ranking = validate::allowed_ranking(answer.workload, costs, disabled, {.threads = threads, .stop = stop});
-  if (answer.ranking.empty()) throw sim::Stopped("stopped before a technique that is not disabled was ranked");
-  answer.choosing_seconds = answer.evidence_seconds + watch.seconds();
-  check_ranking(answer, costs, threads);
-  find_tips(answer, [&] {
-    return validate::tips_of(answer.ranking.front().candidate, answer.workload, costs, disabled,
-                             {.threads = threads, .stop = stop});
+  answer.tips = validate::tips_of(answer.choice, question, costs);
+  answer.tips_seconds = watch.seconds();
+  const auto all = std::ranges::count_if(all_techniques, [&](Technique one) {
+    return record_of(one).exact && model::has_closed_form(one) && question.allows(one);
   });
-  const auto all = std::count_if(all_techniques.begin(), all_techniques.end(), [&](Technique one) {
-    return record_of(one).exact && model::has_closed_form(one) && !is_in(disabled, one);
-  });
-  if (!stop.stop_requested() || std::ssize(answer.ranking) >= all) return stopped_tips(answer);
-  return sim::Progress{answer.ranking.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
+  if (answer.by_sample() || !question.stop.stop_requested() || std::ssize(answer.choice.candidates) >= all)
+    return stopped_tips(answer);
+  return sim::Progress{answer.choice.candidates.size(), static_cast<std::uint64_t>(all), "techniques ranked"};
 }
 
-/// The same for a pilot. Throws sim::Stopped if a stop request ended the pilot.
-std::optional<sim::Progress> decide_by_pilot(ChooseAnswer& answer, const validate::Job& job, const CostTable& costs,
-                                             const std::vector<Technique>& disabled, int threads,
-                                             const std::stop_token& stop) {
-  const bool structural = answer.rigor == Rigor::structural;
-  const sim::Problem problem =
-      structural ? sim::searched_problem(job.discs, {}, job.front_facing, stop) : job.problem(threads, stop);
-  const validate::PilotOptions options{
-      .threads = threads, .workload = job.workload, .disabled = disabled, .stop = stop};
-  answer.pilot =
-      structural ? validate::choose_by_structure(problem, job.workload, costs, options)
-                 : validate::choose_by_pilot(problem, validate::pilot_sample(problem.rays(), problem.discs().size()),
-                                             job.workload.rays, costs, options);
-  for (const validate::Piloted& one : answer.pilot->candidates)
-    answer.ranking.push_back({one.candidate, one.counts, one.time, one.extrapolated, one.threads});
-  if (structural) answer.evidence_seconds = job.observed.seconds;
-  answer.choosing_seconds = answer.evidence_seconds + answer.pilot->pilot_seconds;
-  check_ranking(answer, costs, threads);
-  find_tips(answer, [&] { return validate::tips_of(*answer.pilot, problem, job.workload, costs, options); });
-  return stopped_tips(answer);
-}
-
-model::Ranked priced(const Candidate& candidate, const Counts<double>& counts, const CostTable& costs, int threads) {
+Prediction priced(const Candidate& candidate, const Counts<double>& counts, const CostTable& costs, int threads) {
   const TimeOnThreads fastest = fastest_price(counts, costs, candidate.technique, threads);
-  return {candidate, counts, fastest.time, {}, fastest.threads};
+  return {.candidate = candidate, .counts = counts, .time = fastest.time, .threads = fastest.threads};
 }
 
-model::Ranked assess_structurally(const validate::Job& job, const Candidate& candidate, const CostTable& costs,
-                                  int threads, const std::stop_token& stop) {
+Prediction assess_structurally(const validate::Job& job, const Candidate& candidate, const CostTable& costs,
+                               int threads, const std::stop_token& stop) {
   const Counts<double> counts =
       validate::structural_counts(job.discs, job.workload.rays, candidate, stop, job.front_facing, costs.engine);
   return priced(candidate, counts, costs, threads);
@@ -149,8 +116,8 @@ model::Ranked assess_structurally(const validate::Job& job, const Candidate& can
 
 /// The prediction from structural counts (of isotropic lines) if `structural`, otherwise from the closed form. Returns
 /// nothing if the candidate has no such prediction, if its index does not fit in memory, or if a stop was requested.
-std::optional<model::Ranked> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
-                                       const CostTable& costs, int threads, const std::stop_token& stop) {
+std::optional<Prediction> predicted(const Candidate& candidate, const validate::Job& job, bool structural,
+                                    const CostTable& costs, int threads, const std::stop_token& stop) {
   try {
     return structural ? assess_structurally(job, candidate, costs, threads, stop)
                       : model::assess(job.workload, candidate, costs, threads);
@@ -164,12 +131,12 @@ std::optional<model::Ranked> predicted(const Candidate& candidate, const validat
 }
 
 /// The pilot's prediction of a box tree; of any other candidate that of its closed form.
-std::optional<model::Ranked> predicted_by_pilot(const Candidate& candidate, const validate::PilotChoice& pilot,
-                                                const validate::Job& job, bool structural, const CostTable& costs,
-                                                int threads, const std::stop_token& stop) {
-  if (candidate.technique != Technique::box_tree || !pilot.discs)
+std::optional<Prediction> predicted_by_pilot(const Candidate& candidate, const validate::Choice& choice,
+                                             const validate::Job& job, bool structural, const CostTable& costs,
+                                             int threads, const std::stop_token& stop) {
+  if (candidate.technique != Technique::box_tree || !choice.discs)
     return predicted(candidate, job, structural && job.field == sim::Field::isotropic, costs, threads, stop);
-  const auto counts = pilot.discs->counts(std::get<BoxTreeParameters>(candidate.parameters)).counts;
+  const auto counts = choice.discs->counts(std::get<BoxTreeParameters>(candidate.parameters)).counts;
   return priced(candidate, counts, costs, threads);
 }
 
@@ -224,11 +191,14 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   ChooseAnswer answer;
   if (request.numbers_alone() && rigor == Rigor::pilot)
     throw std::invalid_argument("--rigor pilot needs rays: give a scene or files, or --rigor estimate");
-  answer.rigor = structural || rigor == Rigor::pilot ? *rigor : Rigor::estimate;
+  validate::Question question{.rigor = rigor, .threads = threads, .disabled = disabled, .stop = stop};
+  if (rigor == Rigor::measure) question.rigor.reset();
+  if (request.numbers_alone() && !rigor) question.rigor = Rigor::estimate;
   if (request.numbers_alone() && !analyze && !structural) {
     answer.workload = validate::workload_of_numbers(request);
     answer.effects = sim::effects_of_numbers(answer.workload);
-    result.stopped = decide(answer, costs, disabled, threads, stop);
+    question.workload = answer.workload;
+    result.stopped = decide(answer, question, costs);
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
   } else {
@@ -238,23 +208,21 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     note_all(common, job);
     answer.workload = job.workload;
     answer.effects = job.observed.effects;
-    if (!structural && rigor != Rigor::estimate && engine == Engine::simd &&
-        (!request.numbers_alone() || rigor == Rigor::measure) && !is_in(disabled, Technique::box_tree) &&
-        sim::PilotedDiscs::can_pilot(job.problem()))
-      answer.rigor = Rigor::pilot;
-    if (answer.rigor != Rigor::estimate) {
-      result.stopped = decide_by_pilot(answer, job, costs, disabled, threads, stop);
-    } else {
+    const sim::Problem problem = job.problem(threads, stop);
+    question.problem = &problem;
+    question.workload = job.workload;
+    question.ray_count = job.workload.rays;
+    if (question.rigor.value_or(validate::reachable_rigor(question, costs)) != Rigor::pilot)
       answer.evidence_seconds = job.observed.seconds;
-      result.stopped = decide(answer, costs, disabled, threads, stop);
-    }
+    result.stopped = decide(answer, question, costs);
     if (analyze && !result.stopped) {
       const auto predict = [&](const Candidate& candidate) {
-        return answer.pilot ? predicted_by_pilot(candidate, *answer.pilot, job, structural, costs, threads, stop)
-                            : predicted(candidate, job, false, costs, threads, stop);
+        const CostTable priced = validate::costs_for(question, costs);
+        return answer.by_sample() ? predicted_by_pilot(candidate, answer.choice, job, structural, priced, threads, stop)
+                                  : predicted(candidate, job, false, priced, threads, stop);
       };
       const sim::Stopwatch analysing;
-      answer.analysis = validate::analyse(job.problem(), answer.ranking,
+      answer.analysis = validate::analyse(problem, answer.choice.candidates,
                                           {.disabled = disabled,
                                            .engine = engine,
                                            .threads = threads,

@@ -8,7 +8,7 @@
 namespace detp::cli {
 namespace {
 
-Json cells_of(const model::Ranked& ranked) {
+Json cells_of(const Prediction& ranked) {
   Json cells = candidate_cells(ranked.candidate);
   cells["threads"] = ranked.threads;
   cells.update(count_cells(ranked.counts, "predicted_"));
@@ -24,7 +24,7 @@ Json cells_of(const ChooseAnswer& answer, const ChooseRow& row, const Json& json
   for (const char* name : {"threads", "predicted_seconds_error", "could_still_win", "measured_seconds",
                            "measured_spread", "given_up_after_seconds", "not_run", "why_not"})
     if (json.contains(name)) cells[name] = json[name];
-  if (const validate::Piloted* const one = piloted(answer, row); one != nullptr && !one->closed_form)
+  if (const Prediction* const one = piloted(answer, row); one != nullptr && one->source != Source::closed_form)
     cells.update(count_cells(one->counts_error, "predicted_error_"));
   if (row.run == nullptr) return cells;
   if (row.run->counted) cells.update(count_cells(*row.run->counted, "counted_"));

@@ -22,9 +22,9 @@ std::string why_not(const ChooseAnswer& answer, const ChooseRow& row) {
   }
   if (row.predicted == nullptr) return "not measured, and it has no closed form";
   const CostBreakdown& time = row.predicted->time;
-  if (time.total() < answer.ranking.front().time.total())
+  if (time.total() < answer.choice.best().time.total())
     return "predicted faster, but within the error of closed forms or unit costs";
-  return fmt::format("predicted {:.3g}x slower, mostly {}", time.total() / answer.ranking.front().time.total(),
+  return fmt::format("predicted {:.3g}x slower, mostly {}", time.total() / answer.choice.best().time.total(),
                      largest_part(time));
 }
 
@@ -39,7 +39,8 @@ Json candidate_json(const ChooseAnswer& answer, const ChooseRow& row) {
     json.update(extrapolated_json(row.predicted->extrapolated));
     if (const auto error = error_of(answer, row)) {
       json["predicted_seconds_error"] = *error;
-      if (!piloted(answer, row)->closed_form) json["predicted_error"] = to_json(piloted(answer, row)->counts_error);
+      if (piloted(answer, row)->source != Source::closed_form)
+        json["predicted_error"] = to_json(piloted(answer, row)->counts_error);
       json["could_still_win"] = could_win(answer, row);
     }
   }
@@ -65,12 +66,12 @@ Json choice_json(const ChooseAnswer& answer, const ChooseRow& row) {
 }
 
 /// Why techniques that are not among the candidates were not considered.
-void add_left_out(Json& json, const validate::PilotChoice& pilot) {
+void add_left_out(Json& json, const validate::Choice& choice) {
   json["ruled_out"] = Json::array();
-  for (const validate::RuledOut& one : pilot.ruled_out)
+  for (const validate::RuledOut& one : choice.ruled_out)
     json["ruled_out"].push_back(
         {{"technique", name(one.technique)}, {one.by_bound ? "at_least_seconds" : "predicted_seconds", one.seconds}});
-  json["not_examined"] = names_json(pilot.unexamined);
+  json["not_examined"] = names_json(choice.unexamined);
 }
 
 }  // namespace
@@ -92,10 +93,10 @@ Json to_json(const ChooseAnswer& answer) {
             {"choosing_seconds",
              {{"total", answer.choosing_seconds},
               {"evidence", answer.evidence_seconds},
-              {"pilot", answer.pilot ? answer.pilot->pilot_seconds : 0}}},
-            {"choosing_share", answer.choosing_seconds / answer.ranking.front().time.total()},
+              {"pilot", answer.by_sample() ? answer.choice.choosing_seconds : 0}}},
+            {"choosing_share", answer.choosing_seconds / answer.choice.best().time.total()},
             {"warnings", answer.warnings}};
-  if (answer.pilot) add_left_out(json, *answer.pilot);
+  if (answer.by_sample()) add_left_out(json, answer.choice);
   json["paper_rule"].update(extrapolated_json(answer.paper.extrapolated));
   for (const ChooseRow& row : rows) json["candidates"].push_back(candidate_json(answer, row));
   add_tips(json, answer);

@@ -33,14 +33,14 @@ Json best_of_each(const Candidates& candidates, const Seconds& seconds) {
   return best;
 }
 
-Json predicted_json(const validate::CellPrediction& prediction) {
-  Json json = named_json(prediction.choice().candidate);
-  json["seconds"] = prediction.choice().time.total();
-  if (prediction.rigor == Rigor::pilot) json["seconds_error"] = prediction.error;
-  json["rigor"] = name(prediction.rigor);
+Json predicted_json(const validate::Choice& choice) {
+  Json json = named_json(choice.best().candidate);
+  json["seconds"] = choice.best().time.total();
+  if (choice.rigor == Rigor::pilot) json["seconds_error"] = choice.best().error;
+  json["rigor"] = name(choice.rigor);
   json["techniques"] =
-      best_of_each(prediction.ranking, [](const model::Ranked& one) { return std::optional(one.time.total()); });
-  for (const validate::RuledOut& one : prediction.ruled_out)
+      best_of_each(choice.candidates, [](const Prediction& one) { return std::optional(one.time.total()); });
+  for (const validate::RuledOut& one : choice.ruled_out)
     json["techniques"].push_back(
         {{"technique", name(one.technique)}, {one.by_bound ? "at_least_seconds" : "seconds", one.seconds}});
   return json;
@@ -61,7 +61,7 @@ Json measured_json(const validate::Analysis& analysis) {
 
 Json cell_json(const MapRow& row, const MapCell& cell) {
   Json json{{"rays", whole(cell.rays)}, {"disc_radius", row.workload.disc_radius}, {"x", row.x}};
-  if (cell.prediction) json["predicted"] = predicted_json(*cell.prediction);
+  if (cell.choice) json["predicted"] = predicted_json(*cell.choice);
   json["paper_rule"] = named_json(cell.paper);
   if (!cell.analysis) return json;
   const validate::CellVerdict verdict = validate::verdict_of(cell);
@@ -91,8 +91,8 @@ Json csv_row(const MapRow& row, const MapCell& cell) {
     cells[prefix + "parameters"] = describe(candidate);
   };
   add("paper_", cell.paper);
-  if (cell.prediction) {
-    add("predicted_", cell.prediction->choice().candidate);
+  if (cell.choice) {
+    add("predicted_", cell.choice->best().candidate);
     cells["predicted_seconds"] = json["predicted"]["seconds"];
     if (json["predicted"].contains("seconds_error"))
       cells["predicted_seconds_error"] = json["predicted"]["seconds_error"];

@@ -58,7 +58,7 @@ TextBlock radii(const validate::TechniqueMap& map) {
 }
 
 std::string predicted_code(const MapCell& cell) {
-  return cell.prediction ? validate::code_of(cell.prediction->choice().candidate.technique) + " " : "- ";
+  return cell.choice ? validate::code_of(cell.choice->best().candidate.technique) + " " : "- ";
 }
 
 const Candidate& fastest(const MapCell& cell) {
@@ -86,7 +86,7 @@ std::string codes(const validate::TechniqueMap& map) {
     for (const MapRow& row : map.rows)
       for (const MapCell& cell : row.cells)
         if (cell.paper.technique == technique ||
-            (cell.prediction && cell.prediction->choice().candidate.technique == technique) ||
+            (cell.choice && cell.choice->best().candidate.technique == technique) ||
             (cell.analysis && fastest(cell).technique == technique))
           return true;
     return false;
@@ -133,9 +133,9 @@ std::string paper_line(const validate::TechniqueMap& map, bool measured) {
   std::size_t same = 0;
   for (const MapRow& row : map.rows)
     for (const MapCell& cell : row.cells) {
-      if (measured ? !cell.analysis.has_value() : !cell.prediction.has_value()) continue;
+      if (measured ? !cell.analysis.has_value() : !cell.choice.has_value()) continue;
       ++cells;
-      const Candidate& first = measured ? fastest(cell) : cell.prediction->choice().candidate;
+      const Candidate& first = measured ? fastest(cell) : cell.choice->best().candidate;
       same += cell.paper.technique == first.technique ? 1 : 0;
     }
   return fmt::format("paper     its rule takes the technique that is {} fastest in {} of {} cells",

@@ -8,7 +8,7 @@
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/effects/observe.hpp"
 #include "detp/validate/choice/analysis.hpp"
-#include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/tips.hpp"
 
 namespace detp::cli {
@@ -17,18 +17,20 @@ struct ChooseAnswer {
   std::string title;  ///< first lines of the text: scene and rays
   Workload workload;
   std::vector<sim::EffectReport> effects;
-  std::vector<model::Ranked> ranking;          ///< fastest first
-  std::optional<validate::PilotChoice> pilot;  ///< its candidates are the ranking's, in the same order
-  model::Ranked paper;                         ///< the paper's rule of thumb
-  validate::Tips tips;                         ///< of the predicted choice
-  double tips_seconds = 0;                     ///< for finding the tips; not part of choosing
+  validate::Choice choice;  ///< predicted
+  Prediction paper;         ///< the paper's rule of thumb
+  validate::Tips tips;      ///< of the predicted choice
+  double tips_seconds = 0;  ///< for finding the tips; not part of choosing
   std::optional<validate::Analysis> analysis;
-  Rigor rigor = Rigor::estimate;
+  Rigor rigor = Rigor::estimate;  ///< reached, with the analysis
   CostTable costs;
   std::string costs_origin;     ///< "of each operation: built in, ..."
   double evidence_seconds = 0;  ///< for measuring rays and discs, as far as the choice needs it
   double choosing_seconds = 0;  ///< with evidence and pilot
   std::vector<std::string> warnings;
+
+  /// Counted in a sample of rays, not by closed forms alone.
+  [[nodiscard]] bool by_sample() const { return choice.rigor != Rigor::estimate; }
 };
 
 [[nodiscard]] Json to_json(const ChooseAnswer& answer);

@@ -11,7 +11,7 @@ int threads_of(const ChooseRow& row) { return row.run != nullptr ? row.run->thre
 std::vector<ChooseRow> rows_of(const ChooseAnswer& answer) {
   std::vector<ChooseRow> rows;
   if (!answer.analysis) {
-    for (const model::Ranked& ranked : answer.ranking) rows.push_back({ranked.candidate, &ranked});
+    for (const Prediction& ranked : answer.choice.candidates) rows.push_back({ranked.candidate, &ranked});
     rows.front().chosen = true;
     return rows;
   }
@@ -21,20 +21,20 @@ std::vector<ChooseRow> rows_of(const ChooseAnswer& answer) {
   return rows;
 }
 
-const validate::Piloted* piloted(const ChooseAnswer& answer, const ChooseRow& row) {
-  if (!answer.pilot) return nullptr;
-  for (const validate::Piloted& one : answer.pilot->candidates)
+const Prediction* piloted(const ChooseAnswer& answer, const ChooseRow& row) {
+  if (!answer.by_sample()) return nullptr;
+  for (const Prediction& one : answer.choice.candidates)
     if (one.candidate == row.candidate) return &one;
   return nullptr;
 }
 
 std::optional<double> error_of(const ChooseAnswer& answer, const ChooseRow& row) {
-  const validate::Piloted* const one = piloted(answer, row);
+  const Prediction* const one = piloted(answer, row);
   return one == nullptr ? std::nullopt : std::optional(one->error);
 }
 
 bool could_win(const ChooseAnswer& answer, const ChooseRow& row) {
-  return row.predicted->time.total() < (1 + validate::distinguishable) * answer.ranking.front().time.total();
+  return row.predicted->time.total() < (1 + validate::distinguishable) * answer.choice.best().time.total();
 }
 
 std::string largest_part(const CostBreakdown& time) {

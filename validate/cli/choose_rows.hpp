@@ -11,7 +11,7 @@ namespace detp::cli {
 
 struct ChooseRow {
   Candidate candidate;
-  const model::Ranked* predicted = nullptr;
+  const Prediction* predicted = nullptr;
   const validate::Analysed* run = nullptr;
   bool chosen = false;
 };
@@ -24,7 +24,7 @@ struct ChooseRow {
 [[nodiscard]] int threads_of(const ChooseRow& row);
 
 /// What a pilot predicted of the row, with its errors; null if a pilot did not predict it.
-[[nodiscard]] const validate::Piloted* piloted(const ChooseAnswer& answer, const ChooseRow& row);
+[[nodiscard]] const Prediction* piloted(const ChooseAnswer& answer, const ChooseRow& row);
 
 /// The standard error of the row's time, seconds; nothing if a pilot did not predict it.
 [[nodiscard]] std::optional<double> error_of(const ChooseAnswer& answer, const ChooseRow& row);

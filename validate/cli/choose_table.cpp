@@ -17,19 +17,19 @@ namespace {
 /// row's predicted time. For instance "3.5" and "ray-disc tests".
 std::vector<TextCell> comparison_cells(const ChooseAnswer& answer, const ChooseRow& row) {
   const CostBreakdown& time = row.predicted->time;
-  return {{fmt::format("{:.3g}", time.total() / answer.ranking.front().time.total())}, {largest_part(time)}};
+  return {{fmt::format("{:.3g}", time.total() / answer.choice.best().time.total())}, {largest_part(time)}};
 }
 
 /// "no, 3.4 times", "yes, 2 %", or nothing for the choice.
 std::vector<TextCell> pilot_cells(const ChooseAnswer& answer, const ChooseRow& row) {
   if (row.chosen) return {{}};
-  const double ratio = row.predicted->time.total() / answer.ranking.front().time.total();
+  const double ratio = row.predicted->time.total() / answer.choice.best().time.total();
   const std::string more = ratio < 2 ? fmt::format("{:+.2g} %", 100 * (ratio - 1)) : fmt::format("{:.3g} times", ratio);
   return {{fmt::format("{}, {}", could_win(answer, row) ? "yes" : "no", more)}};
 }
 
 /// Whether closed forms other than those of box trees and brute force are never chosen if they are extrapolated.
-bool is_real(const ChooseAnswer& answer) { return answer.pilot || !model::is_counted_scene(answer.workload); }
+bool is_real(const ChooseAnswer& answer) { return answer.by_sample() || !model::is_counted_scene(answer.workload); }
 
 std::string verdict(const ChooseAnswer& answer, const ChooseRow& row) {
   if (row.chosen) return "<- choice";
@@ -49,7 +49,7 @@ std::string candidate_table(const ChooseAnswer& answer, const Screen& screen) {
                                   {.head = "seconds", .align = Align::left, .group = "predicted"}};
   if (answer.analysis)
     for (const TextColumn& column : measured_table_columns()) columns.push_back(column);
-  else if (answer.pilot)
+  else if (answer.by_sample())
     columns.push_back({.head = "could still win", .align = Align::left});
   else
     columns.insert(columns.end(),
@@ -70,9 +70,9 @@ std::string candidate_table(const ChooseAnswer& answer, const Screen& screen) {
                                    error > 0 ? fmt::format(" ± {:.1g}", error) : "")});
     }
     cells.resize(5);
-    for (const TextCell& cell : answer.analysis ? measured_cells(*row.run)
-                                : answer.pilot  ? pilot_cells(answer, row)
-                                                : comparison_cells(answer, row))
+    for (const TextCell& cell : answer.analysis      ? measured_cells(*row.run)
+                                : answer.by_sample() ? pilot_cells(answer, row)
+                                                     : comparison_cells(answer, row))
       cells.push_back(cell);
     cells.push_back({verdict(answer, row), row.chosen ? Style::good : Style::faint});
     table.add(std::move(cells));
@@ -93,7 +93,7 @@ std::string candidate_notes(const ChooseAnswer& answer, const Screen& screen) {
     text +=
         " ± of measured seconds: half the range of the timed runs; none where there was one run. ! after a ratio: "
         "predicted seconds off by more than a factor of two.";
-  if (answer.pilot)
+  if (answer.by_sample())
     text +=
         " ± of predicted seconds: standard error, of the pilot's counts and of unit costs. Could still win: less than "
         "15 % "

@@ -97,7 +97,7 @@ std::string tips_line(const ChooseAnswer& answer) {
   const validate::Tips& tips = answer.tips;
   std::vector<std::string> texts;
   for (const Tip& tip : tips.tips) texts.push_back(tip_text(tip));
-  const bool all_examined = !answer.pilot || answer.pilot->unexamined.empty();
+  const bool all_examined = !answer.by_sample() || answer.choice.unexamined.empty();
   if (const auto inputs = without_other_technique(tips); !inputs.empty())
     texts.push_back(fmt::format("no other technique{} wins for {}", all_examined ? "" : " that was examined",
                                 fmt::join(inputs, ", for ")));

@@ -121,7 +121,7 @@ std::string choice_text(const std::string& what, const Screen& screen) {
 
 void add_analysis(Json& json, const ChooseAnswer& answer) {
   const validate::Analysis& analysis = *answer.analysis;
-  const model::Ranked& predicted = answer.ranking.front();
+  const Prediction& predicted = answer.choice.best();
   json["predicted_choice"] = {{"technique", name(predicted.candidate.technique)},
                               {"parameters", to_json(predicted.candidate)},
                               {"threads", predicted.threads},

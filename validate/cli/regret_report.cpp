@@ -103,8 +103,8 @@ std::string worst_text(const RegretResult& regret, const Screen& screen) {
         wrapped(fmt::format("{:<10}{}, {}{}: {} takes {}; the best is {}. Reason: {}",
                             number_text(choice.regret.value, choice.regret.at_least), escaped(title_of(row.workload)),
                             row.threads == 1 ? "" : "at most ", threads_text(row.threads), choice.tier,
-                            run(choice.choice.candidate, choice.choice.threads), run(row.best, row.best_threads),
-                            choice.reason),
+                            run(choice.choice.prediction.candidate, choice.choice.prediction.threads),
+                            run(row.best, row.best_threads), choice.reason),
                 screen.text_width(), 10);
   }
   return text + "\n";

@@ -72,7 +72,7 @@ Json summary_json(const RegretSummary& summary) {
 }
 
 Json row_json(const RegretRow& row, const ChoiceRow& choice) {
-  const validate::Choice& chosen = choice.choice;
+  const validate::Chosen& chosen = choice.choice;
   return {{"scene", row.workload.scene},
           {"held_out", row.workload.held_out},
           {"field", name(row.workload.field)},
@@ -81,10 +81,10 @@ Json row_json(const RegretRow& row, const ChoiceRow& choice) {
           {"disc_radius", row.disc_radius},
           {"threads", row.threads},
           {"tier", choice.tier},
-          {"technique", name(chosen.candidate.technique)},
-          {"parameters", to_json(chosen.candidate)},
-          {"chosen_threads", chosen.threads},
-          {"predicted_seconds", chosen.predicted_seconds > 0 ? Json(chosen.predicted_seconds) : Json()},
+          {"technique", name(chosen.prediction.candidate.technique)},
+          {"parameters", to_json(chosen.prediction.candidate)},
+          {"chosen_threads", chosen.prediction.threads},
+          {"predicted_seconds", chosen.predicted_seconds() > 0 ? Json(chosen.predicted_seconds()) : Json()},
           {"choosing_seconds", chosen.choosing_seconds},
           {"seconds", choice.seconds},
           {"abandoned", choice.regret.at_least},
@@ -153,7 +153,7 @@ std::string regret_rows_csv(const RegretResult& regret, const std::vector<Regret
               baseline_columns() + Columns{"reason"});
   for_each_choice(regret, summaries, [&](const RegretRow& row, const ChoiceRow& choice, const Json& cells) {
     Json json = row_json(row, choice);
-    json.update(candidate_cells(choice.choice.candidate));
+    json.update(candidate_cells(choice.choice.prediction.candidate));
     json["best_parameters"] = describe(row.best);
     json.update(cells);
     table.add(json);

@@ -12,10 +12,8 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/files/writing_check.hpp"
-#include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/validate/base/search_work.hpp"
-#include "detp/validate/choice/allowed_ranking.hpp"
-#include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/choice/choice.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"
 #include "run_report.hpp"
@@ -37,7 +35,7 @@ struct RunOptions {
 };
 
 /// A candidate, and the number of threads of its run.
-struct Choice {
+struct Requested {
   Candidate candidate = {};
   int threads = 1;
 };
@@ -53,11 +51,11 @@ int chosen_threads(const Candidate& candidate, const Workload& workload, const C
 
 /// Returns the requested technique on `threads` threads, or the technique that the closed forms predict to be fastest, on
 /// at most so many. The closed forms also choose the parameters that the options leave open.
-Choice complete(const CandidateOptions& options, const Workload& workload, const CostTable& costs, int threads) {
+Requested complete(const CandidateOptions& options, const Workload& workload, const CostTable& costs, int threads) {
   const int most = sim::useful_threads(threads);
   const Technique technique =
       options.technique ? options.technique_or(Technique::brute_force)
-                        : validate::allowed_ranking(workload, costs, {}, {.threads = most}).front().candidate.technique;
+                        : validate::choose({.workload = workload, .threads = most}, costs).best().candidate.technique;
   const model::FixedParameters fixed = options.fixed_parameters(technique);
   auto candidate = model::complete(technique, fixed, workload, costs);
   if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
@@ -140,29 +138,19 @@ bool can_stream(CandidateOptions& options, std::size_t rows) {
   return true;
 }
 
-/// True if the choice is left to the command, the rays are in memory, and a pilot can be made.
-bool is_chosen_by_pilot(const RunOptions& options, const validate::Job& job) {
-  return !options.candidate.technique && options.candidate.engine == Engine::simd && !job.stream &&
-         sim::PilotedDiscs::can_pilot(job.problem());
-}
-
-/// Chooses by a pilot, and runs the choice with what the pilot has sorted.
-void choose_and_run(RunAnswer& answer, const validate::Job& job, sim::RunOptions options,
+/// Chooses, and runs the choice with what choosing has sorted.
+void choose_and_run(RunAnswer& answer, const validate::Question& question, sim::RunOptions options,
                     const sim::ReportPhase& progress) {
-  const sim::Stopwatch watch;
-  const sim::Problem problem = job.problem(options.threads, options.stop);
-  answer.run.prepare_seconds = watch.seconds();
-  answer.run.rays_in_memory = job.rays.size();
-  answer.pilot = validate::choose_by_pilot(
-      problem, answer.costs,
-      {.threads = options.threads, .workload = job.workload, .only_choice = true, .stop = options.stop});
-  answer.candidate = answer.pilot->choice().candidate;
-  answer.threads = options.threads = answer.pilot->choice().threads;
+  const sim::Problem& problem = *question.problem;
+  answer.choice = validate::choose(question, answer.costs);
+  answer.costs = validate::costs_for(question, answer.costs);
+  answer.candidate = answer.choice->best().candidate;
+  answer.threads = options.threads = answer.choice->best().threads;
   if (progress)
     progress({std::string(name(answer.candidate.technique)), 0, 1,
-              validate::search_work(answer.pilot->choice().counts, options.engine)});
+              validate::search_work(answer.choice->best().counts, options.engine)});
   try {
-    answer.run.outcome = sim::run(problem, *validate::build_choice(*answer.pilot, problem, options), options);
+    answer.run.outcome = sim::run(problem, *validate::build_choice(*answer.choice, problem, options), options);
   } catch (const sim::Stopped&) {  // stopped while the index was built
     answer.run.outcome = sim::unsearched_outcome(problem, options);
   }
@@ -170,8 +158,17 @@ void choose_and_run(RunAnswer& answer, const validate::Job& job, sim::RunOptions
 
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
                   const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
-  const bool by_pilot = is_chosen_by_pilot(options, job);
-  const Choice choice = by_pilot ? Choice{} : complete(options.candidate, job.workload, costs, common.threads);
+  std::optional<sim::Problem> problem;  // if the choice is left to the command, and the rays are in memory
+  const sim::Stopwatch watch;
+  if (!options.candidate.technique && !job.stream) problem = job.problem(common.threads, stop);
+  const double prepare_seconds = watch.seconds();
+  const validate::Question question{.problem = problem ? &*problem : nullptr,
+                                    .workload = job.workload,
+                                    .purpose = validate::Purpose::one_search,
+                                    .threads = common.threads,
+                                    .stop = stop};
+  const bool by_pilot = validate::reachable_rigor(question, costs) == Rigor::pilot;
+  const Requested choice = by_pilot ? Requested{} : complete(options.candidate, job.workload, costs, common.threads);
   RunAnswer answer{.candidate = choice.candidate,
                    .threads = choice.threads,
                    .costs = costs,
@@ -186,10 +183,13 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                       .threads = by_pilot ? common.threads : choice.threads};
   run.standard_error = options.standard_error;
   const double share_of_first = 1.0 / (1 + options.repeat);
-  if (by_pilot)
-    choose_and_run(answer, job, run, sim::part_of(progress, 0, share_of_first));
-  else
+  if (by_pilot) {
+    answer.run.prepare_seconds = prepare_seconds;
+    answer.run.rays_in_memory = job.rays.size();
+    choose_and_run(answer, question, run, sim::part_of(progress, 0, share_of_first));
+  } else {
     answer.run = run_job(job, answer.candidate, run, sim::part_of(progress, 0, share_of_first));
+  }
   run.threads = answer.threads;
   run.count = run.pairs = false;
   answer.timing = time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run,

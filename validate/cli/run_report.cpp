@@ -8,7 +8,7 @@
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/validate/choice/error_seconds.hpp"
+#include "detp/validate/calibration/sum_costs.hpp"
 #include "effects_report.hpp"
 #include "measured_report.hpp"
 #include "sphere_stops.hpp"
@@ -38,9 +38,12 @@ double hits_per_disc(const sim::Outcome& outcome) {
   return static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size());
 }
 
+/// The choice has a prediction, not a guess.
+bool is_predicted(const RunAnswer& answer) { return answer.choice && answer.choice->best().source != Source::guess; }
+
 /// The counts that a pilot predicted, or else the closed form; nothing if the candidate has none.
 std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer) {
-  if (answer.pilot && answer.pilot->predicted) return answer.pilot->choice().counts;
+  if (is_predicted(answer)) return answer.choice->best().counts;
   if (!model::has_closed_form(answer.candidate.technique)) return {};
   try {
     return model::predict(workload, answer.candidate, answer.engine);
@@ -116,10 +119,10 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   json["photons"] = job.independent_photons();
   json["counts"] = to_json(outcome.counts);
   json.update(unit_times(as_expected(outcome.counts), answer.candidate.technique));
-  if (answer.pilot) json["choosing_seconds"] = answer.pilot->pilot_seconds;
-  if (answer.pilot && answer.pilot->predicted) {
-    json["predicted_error"] = to_json(answer.pilot->choice().counts_error);
-    json["predicted_seconds_error"] = answer.pilot->choice().error;
+  if (answer.choice) json["choosing_seconds"] = answer.choice->choosing_seconds;
+  if (is_predicted(answer)) {
+    json["predicted_error"] = to_json(answer.choice->best().counts_error);
+    json["predicted_seconds_error"] = answer.choice->best().error;
   }
   if (const auto predicted = prediction(job.workload, answer)) {
     json["predicted"] = to_json(*predicted);
@@ -250,10 +253,10 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   add(fmt::format("technique {}, {} engine, {}", title(answer.candidate), name(answer.engine),
                   threads_text(answer.threads)) +
-      (!answer.pilot             ? ""
-       : answer.pilot->predicted ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays",
-                                               1e3 * answer.pilot->pilot_seconds, answer.pilot->sampled_rays)
-                                 : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
+      (!answer.choice         ? ""
+       : is_predicted(answer) ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays",
+                                            1e3 * answer.choice->choosing_seconds, answer.choice->sampled_rays)
+                              : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
   add(effects_line(job.observed.effects));
   add("hits      " + hits_text(answer));
   add(

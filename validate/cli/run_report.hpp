@@ -3,16 +3,16 @@
 #include <string>
 
 #include "answer_rows.hpp"
-#include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/choice/choice.hpp"
 #include "timed_run.hpp"
 
 namespace detp::cli {
 
 struct RunAnswer {
   Candidate candidate = {};
-  int threads = 1;                                  ///< on which the candidate ran
-  CostTable costs = {};                             ///< with which the candidate was chosen and its time predicted
-  std::optional<validate::PilotChoice> pilot = {};  ///< by which the candidate was chosen
+  int threads = 1;                              ///< on which the candidate ran
+  CostTable costs = {};                         ///< with which the candidate was chosen and its time predicted
+  std::optional<validate::Choice> choice = {};  ///< by which the candidate was chosen, with its rays in memory
   Engine engine = Engine::simd;
   TimedRun run = {};
   Timing timing = {};

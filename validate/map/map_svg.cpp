@@ -44,8 +44,8 @@ struct Panel {
 };
 
 std::optional<Sign> predicted_sign(const MapCell& cell) {
-  if (!cell.prediction) return std::nullopt;
-  const model::Ranked& choice = cell.prediction->choice();
+  if (!cell.choice) return std::nullopt;
+  const Prediction& choice = cell.choice->best();
   const double seconds = choice.time.total();
   return Sign{choice.candidate.technique,
               fmt::format("{}, predicted {}", title(choice.candidate), seconds_label(seconds)), seconds};

@@ -12,7 +12,6 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "detp/sim/technique/piloted_discs.hpp"
 
 namespace detp::validate {
 namespace {
@@ -89,9 +88,7 @@ class MapMaker {
     if (map_.rays.empty()) map_.rays = axes_.rays.empty() ? std::vector{row.workload.rays} : axes_.rays;
     for (const double rays : map_.rays)
       row.cells.push_back({.rays = rays, .paper = model::paper_rule(with(row, rays))});
-    for (MapCell& cell : row.cells)
-      cell.prediction = only_numbers ? predict_by_estimate(with(row, cell.rays), options_.costs, pilot_options())
-                                     : predict(made.job, cell.rays);
+    for (MapCell& cell : row.cells) cell.choice = predict(only_numbers ? nullptr : &made.job, with(row, cell.rays));
     if (!options_.measure) made.job = {};
   }
 
@@ -105,10 +102,6 @@ class MapMaker {
     return workload;
   }
 
-  [[nodiscard]] PilotOptions pilot_options() const {
-    return {.threads = options_.threads, .disabled = options_.disabled, .stop = options_.stop};
-  }
-
   /// The cell's problem: the job's first rays.
   [[nodiscard]] sim::Problem problem_of(const Job& job, double rays) const {
     const auto first = static_cast<std::size_t>(std::min(rays, static_cast<double>(job.rays.size())));
@@ -116,25 +109,26 @@ class MapMaker {
                              options_.stop);
   }
 
-  [[nodiscard]] CellPrediction predict(const Job& job, double rays) const {
-    const auto& disabled = options_.disabled;
-    const sim::Problem problem = problem_of(job, rays);
-    const bool pilot = options_.rigor
-                           ? *options_.rigor == Rigor::pilot
-                           : options_.costs.engine == Engine::simd && !request_.numbers_alone() &&
-                                 sim::PilotedDiscs::can_pilot(problem) &&
-                                 std::find(disabled.begin(), disabled.end(), Technique::box_tree) == disabled.end();
-    if (pilot) return predict_by_pilot(problem, rays, options_.costs, pilot_options());
-    Workload workload = job.workload;
-    workload.rays = rays;
-    return predict_by_estimate(workload, options_.costs, pilot_options());
+  /// `job` is null if only numbers are known.
+  [[nodiscard]] Choice predict(const Job* job, const Workload& workload) const {
+    std::optional<sim::Problem> problem;
+    if (job != nullptr) problem = problem_of(*job, workload.rays);
+    Question question{.problem = problem ? &*problem : nullptr,
+                      .ray_count = workload.rays,
+                      .workload = workload,
+                      .rigor = options_.rigor,
+                      .threads = options_.threads,
+                      .disabled = options_.disabled,
+                      .stop = options_.stop};
+    if (!question.rigor && request_.numbers_alone()) question.rigor = Rigor::estimate;
+    return choose_for_cell(question, options_.costs);
   }
 
   [[nodiscard]] std::size_t predicted() const {
     std::size_t cells = 0;
     for (const Made& one : made_)
       cells += static_cast<std::size_t>(std::count_if(one.row.cells.begin(), one.row.cells.end(),
-                                                      [](const MapCell& cell) { return cell.prediction.has_value(); }));
+                                                      [](const MapCell& cell) { return cell.choice.has_value(); }));
     return cells;
   }
 
@@ -150,7 +144,7 @@ class MapMaker {
     for (Made& one : made_)
       for (MapCell& cell : one.row.cells) {
         constexpr double least = 1e-3;  // a guess; for progress only
-        places.push_back({&cell, &one.job, std::max(least, cell.prediction->choice().time.total())});
+        places.push_back({&cell, &one.job, std::max(least, cell.choice->best().time.total())});
         all += places.back().seconds;
       }
     std::stable_sort(places.begin(), places.end(),
@@ -170,7 +164,7 @@ class MapMaker {
 
   void measure(const Job* job, MapCell& cell, const sim::ReportPhase& progress) const {
     try {
-      Analysis analysis = analyse(problem_of(*job, cell.rays), cell.prediction->ranking,
+      Analysis analysis = analyse(problem_of(*job, cell.rays), cell.choice->candidates,
                                   {.repeats = options_.repeats,
                                    .disabled = options_.disabled,
                                    .engine = options_.costs.engine,

@@ -15,9 +15,9 @@ namespace detp::validate {
 
 struct MapCell {
   double rays = 0;
-  std::optional<CellPrediction> prediction = {};  ///< nothing if a stop request came before
-  std::optional<Analysis> analysis = {};          ///< complete; nothing if the cell was not measured
-  Candidate paper = {};                           ///< of the paper's rule (model::paper_rule)
+  std::optional<Choice> choice = {};      ///< nothing if a stop request came before
+  std::optional<Analysis> analysis = {};  ///< complete; nothing if the cell was not measured
+  Candidate paper = {};                   ///< of the paper's rule (model::paper_rule)
 };
 
 /// The cells of one disc radius.
@@ -58,7 +58,7 @@ struct MapOptions {
 /// that `choose` makes for it. After all predictions the cells are measured, those with the shortest predicted time first, so that
 /// a stop request leaves out the most expensive ones.
 ///
-/// Throws as make_job and choose_by_pilot; std::invalid_argument for axes out of range and for Rigor::structural;
+/// Throws as make_job and choose; std::invalid_argument for axes out of range and for Rigor::structural;
 /// std::length_error for axes that are too long, and if the rays of all rows, which measuring keeps, do not fit in
 /// memory. Does not throw Stopped: after a stop request, the map has the rows so far, maybe none.
 [[nodiscard]] TechniqueMap make_map(const JobRequest& request, const MapAxes& axes, const MapOptions& options);

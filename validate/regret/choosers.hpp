@@ -4,30 +4,34 @@
 #include <string>
 #include <vector>
 
+#include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/job.hpp"
 
 /// The ways to choose a candidate (tiers) whose regret is measured.
 namespace detp::validate {
 
-struct Choice {
-  Candidate candidate;
-  double predicted_seconds = 0;  ///< of a run with the candidate; 0: not predicted
-  double choosing_seconds = 0;   ///< time that choosing took
-  int threads = 1;               ///< of that run
+/// What a tier chose.
+struct Chosen {
+  Prediction prediction;        ///< of a run with the candidate
+  double choosing_seconds = 0;  ///< time that choosing took
+
+  /// 0: not predicted, only guessed.
+  [[nodiscard]] double predicted_seconds() const {
+    return prediction.source == Source::guess ? 0 : prediction.seconds();
+  }
 };
 
 struct Chooser {
   std::string name;  ///< of the tier: "estimate"
-  std::function<Choice(const sim::Problem&, const Job&, int most_threads)> choose;
+  std::function<Chosen(const sim::Problem&, const Job&, int most_threads)> choose;
 };
 
 /// All tiers, one line each in choosers.cpp. `costs` are the unit costs with which they predict times.
 ///
-///     pilot      choose_by_pilot; choosing_seconds do not include sorting the discs, which the run needs anyway
-///     run        the same for the choice only, as in `detp run`: short searches take the usual shape, with no prediction
-///     structural choose_by_structure; choosing_seconds include those of measuring the workload, but not the sorting
-///     estimate   the first candidate of allowed_ranking for the job's workload; choosing_seconds include those of
-///                measuring the workload
+///     pilot      choose, with a prediction; choosing_seconds do not include sorting the discs, which the run needs anyway
+///     run        the same for one search, as in `detp run`: short ones take the usual shape, with no prediction
+///     structural choose with structural rigor; choosing_seconds include those of measuring the workload, but not the sorting
+///     estimate   choose by closed forms; choosing_seconds include those of measuring the workload
 ///     measure    analyse, from the candidates of a pilot; predicted are the measured seconds
 [[nodiscard]] std::vector<Chooser> all_choosers(const CostTable& costs);
 

@@ -12,11 +12,11 @@
 namespace detp::validate {
 namespace {
 
-std::optional<model::Ranked> predicted(const Workload& workload, const CostTable& costs, const Contender& contender) {
+std::optional<Prediction> predicted(const Workload& workload, const CostTable& costs, const Contender& contender) {
   const auto& [candidate, threads] = contender;
   if (!model::has_closed_form(candidate.technique)) return std::nullopt;
   try {
-    model::Ranked ranked = model::assess(workload, candidate, costs);
+    Prediction ranked = model::assess(workload, candidate, costs);
     ranked.threads = threads;
     ranked.time = price(ranked.counts, costs, candidate.technique, threads);
     return ranked;

@@ -66,12 +66,12 @@ class Runner {
 
   bool run(const RegretWorkload& workload, const Job& job, int threads, const sim::ReportPhase& progress) {
     const sim::Problem problem = job.problem(threads, options_.stop);
-    std::vector<Choice> choices;
+    std::vector<Chosen> choices;
     for (const Chooser& chooser : choosers_) choices.push_back(choice_of(chooser, problem, job, threads));
     std::vector<std::vector<Candidate>> options;
     for (const Baseline& baseline : baselines()) options.push_back(baseline.candidates(job.workload));
     std::vector<Contender> asked;
-    for (const Choice& choice : choices) asked.push_back({choice.candidate, choice.threads});
+    for (const Chosen& choice : choices) asked.push_back({choice.prediction.candidate, choice.prediction.threads});
     for (const auto& candidates : options)
       for (const Candidate& candidate : candidates) asked.push_back({candidate, threads});
     ExhaustiveOptions search = options_.search;
@@ -105,10 +105,10 @@ class Runner {
 
   /// The time of choosing is the median of several choices, as runs are judged by medians; one choice is enough if it takes
   /// long. Time that other programs took does not count.
-  static Choice choice_of(const Chooser& chooser, const sim::Problem& problem, const Job& job, int threads) {
+  static Chosen choice_of(const Chooser& chooser, const sim::Problem& problem, const Job& job, int threads) {
     constexpr std::size_t repeats = 3;
     constexpr double long_time = 0.2;  // seconds
-    Choice choice;
+    Chosen choice;
     std::vector<double> seconds;
     while (seconds.empty() || (seconds.size() < repeats && seconds.front() < long_time)) {
       const sim::Stopwatch wall;
@@ -133,12 +133,12 @@ class Runner {
     return Regret{candidate->judged_ratio(found.candidates[*found.best]), candidate->abandoned};
   }
 
-  [[nodiscard]] ChoiceRow choice_row(const std::string& tier, const Choice& choice, const Workload& workload,
+  [[nodiscard]] ChoiceRow choice_row(const std::string& tier, const Chosen& choice, const Workload& workload,
                                      const Exhaustive& found) const {
-    const Timed* chosen = found.find({choice.candidate, choice.threads});
+    const Timed* chosen = found.find({choice.prediction.candidate, choice.prediction.threads});
     if (chosen == nullptr)
       throw std::length_error(
-          fmt::format("{}, the choice of {}, does not fit in memory", title(choice.candidate), tier));
+          fmt::format("{}, the choice of {}, does not fit in memory", title(choice.prediction.candidate), tier));
     return {tier, choice, chosen->judging_seconds(), *regret(found, chosen),
             reason_of_regret(workload, options_.costs, *chosen, found.candidates[*found.best], found.noise)};
   }

@@ -24,7 +24,7 @@ struct Regret {
 /// What a tier chose for a workload.
 struct ChoiceRow {
   std::string tier;
-  Choice choice;
+  Chosen choice;
   double seconds = 0;  ///< judging time; a lower bound if regret.at_least
   Regret regret;
   std::string reason;  ///< reason_of_regret()
@@ -48,8 +48,8 @@ struct RegretRow {
   std::vector<ChoiceRow> choices;      ///< one for each tier
   std::vector<BaselineRow> baselines;  ///< in the order of baselines()
 
-  [[nodiscard]] bool is_best(const Choice& choice) const {
-    return choice.candidate == best && choice.threads == best_threads;
+  [[nodiscard]] bool is_best(const Chosen& choice) const {
+    return choice.prediction.candidate == best && choice.prediction.threads == best_threads;
   }
 };
 

@@ -39,8 +39,8 @@ PredictionFigures prediction_figures(const Rows& rows, std::size_t tier) {
   std::vector<double> errors;
   for (const RegretRow* row : rows) {
     const ChoiceRow& one = row->choices[tier];
-    if (one.choice.predicted_seconds > 0 && !one.regret.at_least)
-      errors.push_back(std::abs(one.choice.predicted_seconds / one.seconds - 1));
+    if (one.choice.predicted_seconds() > 0 && !one.regret.at_least)
+      errors.push_back(std::abs(one.choice.predicted_seconds() / one.seconds - 1));
   }
   if (errors.empty()) return {};
   return {errors.size(), median(errors), quantile(errors, 0.95)};

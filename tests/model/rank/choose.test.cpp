@@ -30,7 +30,7 @@ const UnitCosts costs{.cull_test = 2,
                       .sort = 50,
                       .cull = 20};
 
-bool same(const Ranked& a, const Ranked& b) {
+bool same(const Prediction& a, const Prediction& b) {
   return a.candidate == b.candidate && a.counts == b.counts && a.time.total() == b.time.total();
 }
 
@@ -44,8 +44,8 @@ TEST_SUITE("identity") {
   TEST_CASE("techniques that cannot win are not tuned, and a search for one technique always tunes") {
     const auto ranking = rank(typical, costs);
     CHECK(ranking.front().tuned);
-    CHECK(std::any_of(ranking.begin(), ranking.end(), [](const Ranked& ranked) { return !ranked.tuned; }));
-    for (const Ranked& ranked : ranking) CHECK(best_of(ranked.candidate.technique, typical, costs)->tuned);
+    CHECK(std::any_of(ranking.begin(), ranking.end(), [](const Prediction& ranked) { return !ranked.tuned; }));
+    for (const Prediction& ranked : ranking) CHECK(best_of(ranked.candidate.technique, typical, costs)->tuned);
   }
 
   TEST_CASE("a ranking is sorted, holds each exact technique once, and each entry equals assess()") {
@@ -56,7 +56,7 @@ TEST_SUITE("identity") {
       const auto ranking = rank(w, costs);
       REQUIRE(ranking.size() == 7);
       for (std::size_t i = 0; i < ranking.size(); ++i) {
-        const Ranked& ranked = ranking[i];
+        const Prediction& ranked = ranking[i];
         CHECK(ranked.candidate.technique != Technique::sphere_cache_published);
         CHECK(same(ranked, assess(w, ranked.candidate, costs)));
         const auto alone = best_of(ranked.candidate.technique, w, costs);
@@ -73,7 +73,7 @@ TEST_SUITE("identity") {
   TEST_CASE("an assessment is the prediction, and its price") {
     for (const Candidate& candidate : {Candidate{}, Candidate{Technique::octree, OctreeParameters{5}},
                                        Candidate{Technique::sphere_cache_published, SphereCacheParameters{0.5, 4}}}) {
-      const Ranked ranked = assess(typical, candidate, costs);
+      const Prediction ranked = assess(typical, candidate, costs);
       CHECK(ranked.candidate == candidate);
       CHECK(ranked.counts == predict(typical, candidate));
       CHECK(ranked.time.total() == total(typical, candidate));
@@ -197,7 +197,7 @@ TEST_SUITE("known answer") {
     plain.engine = Engine::plain;
     Workload many = typical;
     many.rays = 1e7;  // many blocks of the simd engine
-    for (const Ranked& ranked : rank(many, plain))
+    for (const Prediction& ranked : rank(many, plain))
       CHECK(ranked.counts == predict(many, ranked.candidate, Engine::plain));
     const Candidate tree{Technique::box_tree, BoxTreeParameters{8, 32}};
     CHECK(assess(many, tree, plain).counts.culls < assess(many, tree, costs).counts.culls);
@@ -206,9 +206,9 @@ TEST_SUITE("known answer") {
   TEST_CASE("the number of threads is ranked, too: the times are those of the fastest number up to the most") {
     CostTable divided(costs);
     divided.threads.fill({.serial_preparing = 1, .serial_search = 0, .start = 10});
-    for (const Ranked& ranked : rank(typical, divided, {.threads = 4})) {
+    for (const Prediction& ranked : rank(typical, divided, {.threads = 4})) {
       CAPTURE(name(ranked.candidate.technique));
-      const Ranked one = assess(typical, ranked.candidate, divided);
+      const Prediction one = assess(typical, ranked.candidate, divided);
       CHECK(one.threads == 1);
       CHECK(ranked.threads == (ranked.candidate.technique == Technique::sphere_tree ? 1 : 4));
       CHECK((ranked.time.total() < one.time.total()) == (ranked.threads == 4));

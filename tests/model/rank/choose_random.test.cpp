@@ -34,7 +34,7 @@ void check_rank(int runs, std::uint64_t seed) {
     const auto cost = [&] { return now_and_then(0.2) ? 0 : now_and_then(0.1) ? 1e200 : random.log_uniform(1e-12, 1); };
     const UnitCosts some{cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost(), cost()};
     CAPTURE(run);
-    for (const Ranked& ranked : rank(w, some)) {
+    for (const Prediction& ranked : rank(w, some)) {
       CAPTURE(name(ranked.candidate.technique));
       for_each_term(ranked.counts, [](std::string_view, double term) { REQUIRE((term >= 0 && term < 1e100)); });
       REQUIRE(ranked.time.total() >= 0);
@@ -107,7 +107,7 @@ void check_against_exhaustive(int runs, std::uint64_t seed) {
     CAPTURE(w.rays);
     CAPTURE(w.samples);
     CHECK(fastest <= 1.01 * exhaustive(w, table));
-    for (const Ranked& ranked : ranking)
+    for (const Prediction& ranked : ranking)
       if (!ranked.tuned) CHECK(best_of(ranked.candidate.technique, w, table)->time.total() >= fastest / 1.01);
   }
 }

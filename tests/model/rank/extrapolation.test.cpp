@@ -94,7 +94,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("a ranking and an assessment report why each candidate is extrapolated") {
     for (const Workload& w : {typical, with(&Workload::samples, 50.0)}) {
-      for (const Ranked& ranked : rank(w, {})) CHECK(ranked.extrapolated == extrapolations(w, ranked.candidate));
+      for (const Prediction& ranked : rank(w, {})) CHECK(ranked.extrapolated == extrapolations(w, ranked.candidate));
       CHECK(assess(w, cache, {}).extrapolated == extrapolations(w, cache));
     }
     CHECK_FALSE(assess(with(&Workload::samples, 50.0), cache, {}).extrapolated.empty());

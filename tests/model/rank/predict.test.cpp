@@ -74,8 +74,8 @@ TEST_SUITE("known answer") {
     w.path_length = 0.1;
     CHECK(predict(w, candidates[0], Engine::plain).segments == typical.rays);
     CHECK(predict(typical, candidates[0], Engine::plain).segments == 0);
-    for (const Ranked& one : rank(w, CostTable(UnitCosts{}))) CHECK(one.counts.segments == typical.rays);
-    for (const Ranked& one : rank(typical, CostTable(UnitCosts{}))) CHECK(one.counts.segments == 0);
+    for (const Prediction& one : rank(w, CostTable(UnitCosts{}))) CHECK(one.counts.segments == typical.rays);
+    for (const Prediction& one : rank(typical, CostTable(UnitCosts{}))) CHECK(one.counts.segments == 0);
   }
 
   TEST_CASE("each technique is predicted by its own formulas, plus the rays") {

@@ -22,14 +22,14 @@ struct Scene {
   [[nodiscard]] sim::Problem problem() const { return sim::make_problem(rays, discs); }
 
   /// A wrong ranking: brute force first, the sphere tree last with a predicted time of 10⁶ s.
-  [[nodiscard]] std::vector<model::Ranked> wrong_ranking() const {
+  [[nodiscard]] std::vector<Prediction> wrong_ranking() const {
     auto ranking = model::rank(sim::observe(problem()).workload, built_in_unit_costs());
     std::reverse(ranking.begin(), ranking.end());
-    for (model::Ranked& ranked : ranking) {
+    for (Prediction& ranked : ranking) {
       ranked.time = {};
       if (ranked.candidate.technique == Technique::brute_force) std::swap(ranked, ranking.front());
     }
-    const auto tree = std::find_if(ranking.begin(), ranking.end(), [](const model::Ranked& ranked) {
+    const auto tree = std::find_if(ranking.begin(), ranking.end(), [](const Prediction& ranked) {
       return ranked.candidate.technique == Technique::sphere_tree;
     });
     std::rotate(tree, tree + 1, ranking.end());

@@ -9,7 +9,7 @@
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
-#include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/choice/choice.hpp"
 
 using namespace detp;
 using doctest::Approx;
@@ -73,18 +73,19 @@ TEST_SUITE("known answer") {
                 costs, Technique::brute_force)
               .total();
       const double preparing = price({.placements = 2e4, .sorted = 2e4}, costs, Technique::box_tree).total();
-      const auto found = validate::choose_by_pilot(large.problem, costs);
-      const auto by_sample = validate::choose_by_pilot(sim::searched_problem(large.discs, {}, false, {}), large.rays,
-                                                       static_cast<double>(rays), costs);
+      const sim::Problem without_rays = sim::searched_problem(large.discs, {}, false, {});
+      const auto found = validate::choose({.problem = &large.problem}, costs);
+      const auto by_sample = validate::choose(
+          {.problem = &without_rays, .rays = large.rays, .ray_count = static_cast<double>(rays)}, costs);
       CAPTURE(rays);
-      CHECK(found.choice().candidate == by_sample.choice().candidate);
+      CHECK(found.best().candidate == by_sample.best().candidate);
       if (seconds > 1.4 * preparing) continue;
-      CHECK(found.choice().candidate.technique == Technique::brute_force);
+      CHECK(found.best().candidate.technique == Technique::brute_force);
       CHECK(found.discs == nullptr);
       decided_by_search = decided_by_search || seconds > preparing;
     }
     CHECK(decided_by_search);
     const Bounded small(20'000, 0.001, 100);
-    CHECK(validate::choose_by_pilot(small.problem, costs).choice().candidate.technique == Technique::box_tree);
+    CHECK(validate::choose({.problem = &small.problem}, costs).best().candidate.technique == Technique::box_tree);
   }
 }

@@ -6,6 +6,7 @@
 #include <stop_token>
 #include <vector>
 
+#include "detp/model/rank/choose.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
@@ -25,12 +26,12 @@ struct Tipping {
         problem(sim::make_problem(lines, discs)),
         workload(cube_workload(count, 2000, radius, 2, 2)) {}
 
-  [[nodiscard]] PilotOptions options() const { return {.threads = 1, .workload = workload}; }
-  [[nodiscard]] PilotChoice pilot() const { return pilot_of(problem, rays); }
-  [[nodiscard]] PilotChoice pilot_of(const sim::Problem& other, double number) const {
-    return choose_by_pilot(other, lines, number, built_in_unit_costs(), options());
+  [[nodiscard]] Question question(double number) const {
+    return {.problem = &problem, .rays = lines, .ray_count = number, .workload = workload};
   }
-  [[nodiscard]] Tips tips() const { return tips_of(pilot(), problem, workload, built_in_unit_costs(), options()); }
+  [[nodiscard]] Choice pilot() const { return pilot_of(rays); }
+  [[nodiscard]] Choice pilot_of(double number) const { return choose(question(number), built_in_unit_costs()); }
+  [[nodiscard]] Tips tips() const { return tips_of(pilot(), question(rays), built_in_unit_costs()); }
 
   double rays;
   std::vector<sim::Disc> discs;
@@ -52,24 +53,21 @@ TEST_SUITE("known answer") {
   TEST_CASE("a pilot with the number of rays of a tip chooses what the tip says; with 5 % more it does not") {
     double first = 0;  // number of rays from which the box tree is chosen
     for (double rays = 4; first == 0; rays *= 2)
-      if (Tipping(1).pilot_of(Tipping(1).problem, rays).choice().candidate.technique == Technique::box_tree)
-        first = rays;
+      if (Tipping(1).pilot_of(rays).best().candidate.technique == Technique::box_tree) first = rays;
     const Tipping example(2 * first);
-    REQUIRE(example.pilot().choice().candidate.technique == Technique::box_tree);
+    REQUIRE(example.pilot().best().candidate.technique == Technique::box_tree);
     const Tips tips = example.tips();
     const Tip* const tip = find(tips, TipInput::rays, TipKind::technique, false);
     REQUIRE(tip != nullptr);
     CHECK(tip->candidate.technique == Technique::brute_force);
-    const auto technique_with = [&](double rays) {
-      return example.pilot_of(example.problem, rays).choice().candidate.technique;
-    };
+    const auto technique_with = [&](double rays) { return example.pilot_of(rays).best().candidate.technique; };
     CHECK(technique_with(std::floor(0.95 * tip->at)) == Technique::brute_force);
     CHECK(technique_with(std::ceil(1.05 * tip->at) + 1) == Technique::box_tree);
   }
 
   TEST_CASE("without a pilot, more rays than those of a tip need one") {
     const Tipping example(1);
-    const PilotChoice pilot = example.pilot();
+    const Choice pilot = example.pilot();
     REQUIRE(pilot.discs == nullptr);
     const Tips tips = example.tips();
     for (const Tip& tip : tips.tips) CHECK(tip.kind != TipKind::technique);  // nobody knows the time of a box tree
@@ -87,7 +85,8 @@ TEST_SUITE("known answer") {
     const auto first = [&](double rays, double radius) {
       return model::rank(cube_workload(rays, 2000, radius, 2), costs).front().candidate;
     };
-    const Tips tips = tips_of(first(300, 0.02), workload, costs, {}, {});
+    const Question question{.workload = workload};
+    const Tips tips = tips_of(choose(question, costs), question, costs);
     const Tip* const tip = find(tips, TipInput::rays, TipKind::technique, false);
     REQUIRE(tip != nullptr);
     CHECK(first(tip->at, 0.02) == tip->candidate);
@@ -98,9 +97,8 @@ TEST_SUITE("known answer") {
   TEST_CASE("disabled techniques are no tips") {
     const Workload workload = cube_workload(300, 2000, 0.02, 2);
     const CostTable costs = built_in_unit_costs();
-    const std::vector disabled{Technique::brute_force};
-    const Candidate choice = allowed_ranking(workload, costs, disabled).front().candidate;
-    for (const Tip& tip : tips_of(choice, workload, costs, disabled, {}).tips)
+    const Question question{.workload = workload, .disabled = {Technique::brute_force}};
+    for (const Tip& tip : tips_of(choose(question, costs), question, costs).tips)
       CHECK(tip.candidate.technique != Technique::brute_force);
   }
 }
@@ -110,7 +108,7 @@ TEST_SUITE("identity") {
     const Tipping example(20'000);
     const auto before = example.pilot();
     auto after = example.pilot();
-    static_cast<void>(tips_of(after, example.problem, example.workload, built_in_unit_costs(), example.options()));
+    static_cast<void>(tips_of(after, example.question(20'000), built_in_unit_costs()));
     REQUIRE(before.candidates.size() == after.candidates.size());
     for (std::size_t i = 0; i < before.candidates.size(); ++i)
       CHECK(before.candidates[i].counts == after.candidates[i].counts);
@@ -128,8 +126,8 @@ TEST_SUITE("degenerate input") {
         CAPTURE(rays);
         const Workload workload = cube_workload(rays, 1000, radius, 2);
         const CostTable costs = built_in_unit_costs();
-        const Candidate choice = model::rank(workload, costs).front().candidate;
-        for (const Tip& tip : tips_of(choice, workload, costs, {}, {}).tips) {
+        const Question question{.workload = workload};
+        for (const Tip& tip : tips_of(choose(question, costs), question, costs).tips) {
           CHECK(tip.at > 0);
           CHECK(std::isfinite(tip.at));
         }
@@ -137,8 +135,10 @@ TEST_SUITE("degenerate input") {
     std::stop_source source;
     source.request_stop();
     const Workload workload = cube_workload(300, 2000, 0.02, 2);
-    const Tips tips =
-        tips_of(default_candidate(Technique::grid), workload, built_in_unit_costs(), {}, {.stop = source.get_token()});
+    Choice grid;
+    grid.candidates = {{.candidate = default_candidate(Technique::grid)}};
+    const Question question{.workload = workload, .stop = source.get_token()};
+    const Tips tips = tips_of(grid, question, built_in_unit_costs());
     CHECK(tips.stopped());
     CHECK(tips.tips.empty());
   }

@@ -1,4 +1,4 @@
-#include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/choice/choice.hpp"
 
 #include <doctest/doctest.h>
 
@@ -37,7 +37,7 @@ TEST_SUITE("identity") {
   TEST_CASE("each exact technique is a candidate, ruled out or not examined") {
     for (const std::size_t rays : {1UL, 300UL, 20'000UL}) {
       const Example example(5000, 0.02, rays);
-      const auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+      const auto found = validate::choose({.problem = &example.problem}, validate::built_in_unit_costs());
       std::map<Technique, int> places;
       for (const auto& one : found.candidates) places[one.candidate.technique] |= 1;
       for (const auto& one : found.ruled_out) places[one.technique] |= 2;
@@ -49,26 +49,26 @@ TEST_SUITE("identity") {
       }
       for (std::size_t i = 2; i < found.candidates.size(); ++i)
         CHECK(found.candidates[i - 1].time.total() <= found.candidates[i].time.total());
-      for (const auto& one : found.ruled_out) CHECK(one.seconds >= found.choice().time.total());
+      for (const auto& one : found.ruled_out) CHECK(one.seconds >= found.best().time.total());
     }
   }
 
   TEST_CASE("rays that end are predicted as segments, by box trees and by brute force") {
     for (const std::size_t rays : {2UL, 5000UL}) {
       Example example(2000, 0.02, rays);
-      const auto lines = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+      const auto lines = validate::choose({.problem = &example.problem}, validate::built_in_unit_costs());
       for (sim::Ray& ray : example.rays) ray.length = 2;
       const sim::Problem of_segments = sim::make_problem(example.rays, example.discs);
-      const auto segments = validate::choose_by_pilot(of_segments, validate::built_in_unit_costs());
-      for (const validate::Piloted& one : lines.candidates) CHECK(one.counts.segments == 0);
-      for (const validate::Piloted& one : segments.candidates) CHECK(one.counts.segments == static_cast<double>(rays));
+      const auto segments = validate::choose({.problem = &of_segments}, validate::built_in_unit_costs());
+      for (const Prediction& one : lines.candidates) CHECK(one.counts.segments == 0);
+      for (const Prediction& one : segments.candidates) CHECK(one.counts.segments == static_cast<double>(rays));
     }
   }
 
   TEST_CASE("the same rays and discs give the same choice and the same predictions") {
     const Example example(5000, 0.02, 5000);
-    const auto one = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
-    const auto again = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+    const auto one = validate::choose({.problem = &example.problem}, validate::built_in_unit_costs());
+    const auto again = validate::choose({.problem = &example.problem}, validate::built_in_unit_costs());
     REQUIRE(one.candidates.size() == again.candidates.size());
     for (std::size_t i = 0; i < one.candidates.size(); ++i) {
       CHECK(one.candidates[i].candidate == again.candidates[i].candidate);
@@ -78,30 +78,32 @@ TEST_SUITE("identity") {
 
   TEST_CASE("if only the choice matters, a short search takes the usual shape without a pilot; a long one is piloted") {
     const Example small(5000, 0.02, 5000);
-    auto choice = validate::choose_by_pilot(small.problem, validate::built_in_unit_costs(), {.only_choice = true});
-    CHECK_FALSE(choice.predicted);
+    auto choice = validate::choose({.problem = &small.problem, .purpose = validate::Purpose::one_search},
+                                   validate::built_in_unit_costs());
+    CHECK(choice.best().source == Source::guess);
     CHECK(choice.sampled_rays == 0);
     CHECK(choice.discs == nullptr);
     REQUIRE(choice.candidates.size() == 1);
-    const Candidate tree = choice.choice().candidate;
+    const Candidate tree = choice.best().candidate;
     CHECK(tree == Candidate{Technique::box_tree, validate::usual_shape(5000, 5000)});
     const auto index = validate::build_choice(choice, small.problem, {});
     CHECK(sim::run(small.problem, *index).hits == sim::run(small.problem, tree).hits);
-    CHECK(validate::choose_by_pilot(small.problem, validate::built_in_unit_costs()).predicted);
+    CHECK(validate::choose({.problem = &small.problem}, validate::built_in_unit_costs()).best().source ==
+          Source::sample);
     const Example large(5000, 0.002, 250'000);
-    const auto piloted =
-        validate::choose_by_pilot(large.problem, validate::built_in_unit_costs(), {.only_choice = true});
-    CHECK(piloted.predicted);
+    const auto piloted = validate::choose({.problem = &large.problem, .purpose = validate::Purpose::one_search},
+                                          validate::built_in_unit_costs());
+    CHECK(piloted.best().source == Source::sample);
     CHECK(piloted.sampled_rays > 0);
   }
 
   TEST_CASE("on more threads, a candidate has the same counts; only its time may be another") {
     const Example example(5000, 0.02, 5000);
-    const auto one = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
-    const auto two = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs(), {.threads = 2});
+    const auto one = validate::choose({.problem = &example.problem}, validate::built_in_unit_costs());
+    const auto two = validate::choose({.problem = &example.problem, .threads = 2}, validate::built_in_unit_costs());
     std::size_t shared = 0;
-    for (const validate::Piloted& candidate : one.candidates)
-      for (const validate::Piloted& other : two.candidates)
+    for (const Prediction& candidate : one.candidates)
+      for (const Prediction& other : two.candidates)
         if (candidate.candidate == other.candidate) {
           ++shared;
           CHECK(candidate.counts == other.counts);
@@ -115,8 +117,10 @@ TEST_SUITE("identity") {
       CAPTURE(rays);
       const Example example(5000, 0.02, rays);
       const auto costs = validate::built_in_unit_costs();
-      const auto first = validate::choose_by_pilot(example.problem, costs, {.threads = 1, .for_replans = true});
-      const auto again = validate::choose_again(first, example.problem, 1, static_cast<double>(rays), costs);
+      const auto first =
+          validate::choose({.problem = &example.problem, .purpose = validate::Purpose::replans, .threads = 1}, costs);
+      const auto again =
+          validate::choose_again(first, {.problem = &example.problem}, 1, static_cast<double>(rays), costs);
       REQUIRE(again.candidates.size() == first.candidates.size());
       for (std::size_t i = 0; i < first.candidates.size(); ++i) {
         CHECK(again.candidates[i].candidate == first.candidates[i].candidate);
@@ -131,8 +135,8 @@ TEST_SUITE("identity") {
 
   TEST_CASE("the choice's index finds the hits of brute force, with the counts of a run of its own") {
     const Example example(5000, 0.02, 5000);
-    auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
-    const Candidate choice = found.choice().candidate;
+    auto found = validate::choose({.problem = &example.problem}, validate::built_in_unit_costs());
+    const Candidate choice = found.best().candidate;
     const auto index = validate::build_choice(found, example.problem, {});
     const sim::Outcome outcome = sim::run(example.problem, *index);
     const sim::Outcome alone = sim::run(example.problem, choice);
@@ -145,9 +149,9 @@ TEST_SUITE("identity") {
 TEST_SUITE("known answer") {
   TEST_CASE("the tests and hits of the choice are predicted within three standard errors") {
     const Example example(20'000, 0.05, 20'000);
-    const auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
+    const auto found = validate::choose({.problem = &example.problem}, validate::built_in_unit_costs());
     CHECK(found.sampled_rays < example.rays.size() / 10);
-    const auto& choice = found.choice();
+    const auto& choice = found.best();
     REQUIRE(choice.candidate.technique == Technique::box_tree);
     const Counts<double> counted = as_expected(sim::run(example.problem, choice.candidate).counts);
     CHECK(choice.error > 0.5 * choice.time.total());  // that of the built-in costs
@@ -161,17 +165,17 @@ TEST_SUITE("known answer") {
   TEST_CASE("if only fronts count, half of the hits of lines are predicted, and as many tests") {
     const Example example(3000, 0.05, 2000);
     const sim::Problem fronts = sim::make_problem(example.rays, example.discs, true);
-    const auto of_both = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
-    const auto of_fronts = validate::choose_by_pilot(fronts, validate::built_in_unit_costs());
-    CHECK(of_fronts.choice().counts.disc_tests == of_both.choice().counts.disc_tests);
-    CHECK(of_fronts.choice().counts.hits == Approx(0.5 * of_both.choice().counts.hits).epsilon(0.35));
+    const auto of_both = validate::choose({.problem = &example.problem}, validate::built_in_unit_costs());
+    const auto of_fronts = validate::choose({.problem = &fronts}, validate::built_in_unit_costs());
+    CHECK(of_fronts.best().counts.disc_tests == of_both.best().counts.disc_tests);
+    CHECK(of_fronts.best().counts.hits == Approx(0.5 * of_both.best().counts.hits).epsilon(0.35));
   }
 
   TEST_CASE("two rays do not pay for sorting: brute force is chosen") {
     const Example example(500, 0.02, 2);
-    const auto found = validate::choose_by_pilot(example.problem, validate::built_in_unit_costs());
-    CHECK(found.choice().candidate.technique == Technique::brute_force);
-    CHECK(found.choice().counts.disc_tests == 1000);
+    const auto found = validate::choose({.problem = &example.problem}, validate::built_in_unit_costs());
+    CHECK(found.best().candidate.technique == Technique::brute_force);
+    CHECK(found.best().counts.disc_tests == 1000);
     CHECK(found.sampled_rays == 0);
     CHECK(found.discs == nullptr);
   }
@@ -182,7 +186,9 @@ TEST_SUITE("known answer") {
     const Example example(5000, 0.02, 1000);
     const int cores = sim::useful_threads(0);
     const auto chosen = [&](double rays, int cap) {
-      return validate::choose_by_pilot(example.problem, example.rays, rays, costs, {.threads = cap}).choice();
+      return validate::choose({.problem = &example.problem, .rays = example.rays, .ray_count = rays, .threads = cap},
+                              costs)
+          .best();
     };
     CHECK(chosen(2, cores).threads == 1);
     CHECK(chosen(1e8, cores).threads == cores);
@@ -193,11 +199,13 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("a sample stands for the number of rays that is given") {
     const Example example(5000, 0.02, 1000);
-    const auto few = validate::choose_by_pilot(example.problem, example.rays, 1e3, validate::built_in_unit_costs());
-    const auto many = validate::choose_by_pilot(example.problem, example.rays, 1e9, validate::built_in_unit_costs());
-    CHECK(many.choice().counts.loaded == 1e9);
-    CHECK(many.choice().counts.hits == Approx(1e6 * few.choice().counts.hits).epsilon(0.2));
-    CHECK(many.choice().time.total() > 1e5 * few.choice().time.total());
+    const auto few = validate::choose({.problem = &example.problem, .rays = example.rays, .ray_count = 1e3},
+                                      validate::built_in_unit_costs());
+    const auto many = validate::choose({.problem = &example.problem, .rays = example.rays, .ray_count = 1e9},
+                                       validate::built_in_unit_costs());
+    CHECK(many.best().counts.loaded == 1e9);
+    CHECK(many.best().counts.hits == Approx(1e6 * few.best().counts.hits).epsilon(0.2));
+    CHECK(many.best().time.total() > 1e5 * few.best().time.total());
   }
 }
 
@@ -212,7 +220,7 @@ TEST_SUITE("degenerate input") {
         std::vector<sim::Disc> discs;
         for (int i = 0; i < 2000; ++i) discs.push_back({.centre = {length * i / 2000, 0, 0}, .radius = radius});
         const sim::Problem problem = sim::make_problem(rays, discs);
-        auto found = validate::choose_by_pilot(problem, validate::built_in_unit_costs());
+        auto found = validate::choose({.problem = &problem}, validate::built_in_unit_costs());
         for (const auto& one : found.candidates) {
           CHECK(one.time.total() > 0);
           CHECK(std::isfinite(one.time.total()));
@@ -230,23 +238,32 @@ TEST_SUITE("bad input") {
   TEST_CASE("no rays, rays too far away for floats, and a stop request") {
     const Example example(500, 0.02, 100);
     const CostTable costs = validate::built_in_unit_costs();
-    CHECK_THROWS_AS(static_cast<void>(validate::choose_by_pilot(example.problem, {}, 1, costs)), std::invalid_argument);
-    const auto piloted = validate::choose_by_pilot(example.problem, costs, {.for_replans = true});
+    validate::Choice nothing;
+    nothing.rigor = Rigor::pilot;
+    const sim::Problem no_rays = sim::make_problem_without_rays(example.discs, 10);
+    CHECK_THROWS_AS(
+        static_cast<void>(validate::choose({.problem = &no_rays, .ray_count = 1, .rigor = Rigor::pilot}, costs)),
+        std::invalid_argument);
+    const auto piloted = validate::choose({.problem = &example.problem, .purpose = validate::Purpose::replans}, costs);
     for (const double ratio : {0.0, -1.0, std::nan("")})
-      CHECK_THROWS_AS(static_cast<void>(validate::choose_again(piloted, example.problem, ratio, 10, costs)),
-                      std::invalid_argument);
-    CHECK_THROWS_AS(static_cast<void>(validate::choose_again(piloted, example.problem, 1, 0, costs)),
+      CHECK_THROWS_AS(
+          static_cast<void>(validate::choose_again(piloted, {.problem = &example.problem}, ratio, 10, costs)),
+          std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(validate::choose_again(piloted, {.problem = &example.problem}, 1, 0, costs)),
                     std::invalid_argument);
-    CHECK_THROWS_AS(static_cast<void>(validate::choose_again({}, example.problem, 1, 10, costs)),
+    CHECK_THROWS_AS(static_cast<void>(validate::choose_again(nothing, {.problem = &example.problem}, 1, 10, costs)),
                     std::invalid_argument);
     std::stop_source source;
     source.request_stop();
-    CHECK_THROWS_AS(static_cast<void>(validate::choose_by_pilot(example.problem, costs, {.stop = source.get_token()})),
-                    sim::Stopped);
+    CHECK_THROWS_AS(
+        static_cast<void>(validate::choose({.problem = &example.problem, .stop = source.get_token()}, costs)),
+        sim::Stopped);
     const std::vector<sim::Ray> far{{.origin = {1e13, 0, 0}, .direction = {-1, 0, 0}}};
     const sim::Problem problem = sim::make_problem(far, example.discs);
-    CHECK_THROWS_AS(static_cast<void>(validate::choose_by_pilot(problem, costs)), std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(validate::choose({.problem = &problem, .rigor = Rigor::pilot}, costs)),
+                    std::invalid_argument);
     const CostTable plain = validate::built_in_unit_costs(Engine::plain);
-    CHECK_THROWS_AS(static_cast<void>(validate::choose_by_pilot(example.problem, plain)), std::invalid_argument);
+    CHECK_THROWS_AS(static_cast<void>(validate::choose({.problem = &example.problem, .rigor = Rigor::pilot}, plain)),
+                    std::invalid_argument);
   }
 }

@@ -23,7 +23,7 @@ struct Coverage {
   int inside = 0;
   int wrong_without_error = 0;
 
-  void add(const validate::Piloted& choice, const Counts<double>& counted) {
+  void add(const Prediction& choice, const Counts<double>& counted) {
     for (const auto term : judged) {
       const double off = std::abs(choice.counts.*term - counted.*term);
       const double error = choice.counts_error.*term;
@@ -45,11 +45,12 @@ void search_sparse(const std::string& mesh, std::uint64_t seed, Coverage& covera
   request.seed = seed;
   const validate::Job job = validate::make_job(request);
   const sim::Problem problem = job.problem();
-  const auto found = validate::choose_by_pilot(problem, validate::built_in_unit_costs(),
-                                               {.workload = job.workload, .disabled = {Technique::brute_force}});
+  const auto found =
+      validate::choose({.problem = &problem, .workload = job.workload, .disabled = {Technique::brute_force}},
+                       validate::built_in_unit_costs());
   CAPTURE(seed);
-  REQUIRE(found.choice().candidate.technique == Technique::box_tree);
-  coverage.add(found.choice(), as_expected(sim::run(problem, found.choice().candidate).counts));
+  REQUIRE(found.best().candidate.technique == Technique::box_tree);
+  coverage.add(found.best(), as_expected(sim::run(problem, found.best().candidate).counts));
 }
 
 }  // namespace
@@ -78,15 +79,19 @@ TEST_SUITE("known answer") {
       request.effects = sim::EffectSelection("none");
       const validate::Job job = validate::make_job(request);
       const sim::Problem problem = job.problem();
-      const validate::PilotOptions options{.workload = job.workload, .disabled = {Technique::brute_force}};
       const auto costs = validate::built_in_unit_costs();
-      const auto with = validate::choose_by_pilot(problem, costs, options);
+      const auto with = validate::choose(
+          {.problem = &problem, .workload = job.workload, .disabled = {Technique::brute_force}}, costs);
       const auto sample = validate::pilot_sample(problem.rays(), problem.discs().size());
       const sim::Problem without_rays = sim::make_problem_without_rays(job.discs, problem.farthest());
-      const auto without =
-          validate::choose_by_pilot(without_rays, sample, static_cast<double>(job.rays.size()), costs, options);
-      CHECK(with.choice().counts_error.disc_tests > 0);
-      larger += without.choice().counts_error.disc_tests > 1.2 * with.choice().counts_error.disc_tests ? 1 : 0;
+      const auto without = validate::choose({.problem = &without_rays,
+                                             .rays = sample,
+                                             .ray_count = static_cast<double>(job.rays.size()),
+                                             .workload = job.workload,
+                                             .disabled = {Technique::brute_force}},
+                                            costs);
+      CHECK(with.best().counts_error.disc_tests > 0);
+      larger += without.best().counts_error.disc_tests > 1.2 * with.best().counts_error.disc_tests ? 1 : 0;
     }
     CHECK(larger >= 2);
   }

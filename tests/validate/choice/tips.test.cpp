@@ -15,10 +15,12 @@ namespace {
 constexpr TipInputs present{.disc_radius = 0.5, .rays = 1000, .threads = 4};
 constexpr TipSearch search{.factor = 4, .steps = 4, .most_threads = 8};
 
-TippedChoice grid_on(int threads) { return {default_candidate(Technique::grid), threads, 1, 1}; }
+ChoiceThere grid_on(int threads) {
+  return {{.candidate = default_candidate(Technique::grid), .time = {.intersect = 1}, .threads = threads}, 1};
+}
 
 /// The same technique for all inputs, on up to 4 threads.
-TippedChoice grid_for(const TipInputs& inputs) { return grid_on(std::min(4, inputs.threads)); }
+ChoiceThere grid_for(const TipInputs& inputs) { return grid_on(std::min(4, inputs.threads)); }
 
 /// The only tip.
 Tip only_tip(const ChooseForInputs& choose) {
@@ -34,9 +36,9 @@ TEST_SUITE("known answer") {
     for (const double limit : {0.13, 0.3, 0.49, 0.51, 1.0, 1.9}) {
       CAPTURE(limit);
       const auto tip = only_tip([&](const TipInputs& inputs) {
-        TippedChoice choice = grid_for(inputs);
+        ChoiceThere choice = grid_for(inputs);
         const bool beyond = limit > present.disc_radius ? inputs.disc_radius >= limit : inputs.disc_radius <= limit;
-        if (beyond) choice.candidate = default_candidate(Technique::octree);
+        if (beyond) choice.best.candidate = default_candidate(Technique::octree);
         return choice;
       });
       CHECK(tip.input == TipInput::disc_radius);
@@ -54,8 +56,8 @@ TEST_SUITE("known answer") {
     const auto choose = [](const TipInputs& inputs) {
       CHECK(inputs.rays == std::round(inputs.rays));
       CHECK(inputs.rays >= 1);
-      TippedChoice choice = grid_on(1);
-      if (inputs.rays < 2.5 || inputs.rays > 6.5) choice.candidate = default_candidate(Technique::octree);
+      ChoiceThere choice = grid_on(1);
+      if (inputs.rays < 2.5 || inputs.rays > 6.5) choice.best.candidate = default_candidate(Technique::octree);
       return choice;
     };
     const Tips found = find_tips(few, {}, choose);
@@ -68,8 +70,8 @@ TEST_SUITE("known answer") {
   TEST_CASE("other parameters are a tip if they are 15 % faster") {
     const double slope = 0.4;
     const auto tip = only_tip([&](const TipInputs& inputs) {
-      TippedChoice choice = grid_for(inputs);
-      choice.candidate.parameters = GridParameters{inputs.rays > 1000 ? 9 : 8};
+      ChoiceThere choice = grid_for(inputs);
+      choice.best.candidate.parameters = GridParameters{inputs.rays > 1000 ? 9 : 8};
       choice.unchanged_seconds = 1 + slope * std::max(0.0, std::log2(inputs.rays / 1000));
       return choice;
     });
@@ -96,7 +98,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("a technique that is ruled out now, but not there, is a tip; one that is never ruled out is none") {
     const auto tip = only_tip([](const TipInputs& inputs) {
-      TippedChoice choice = grid_for(inputs);
+      ChoiceThere choice = grid_for(inputs);
       choice.not_ruled_out = {Technique::bsp};
       if (inputs.disc_radius > 0.8) choice.not_ruled_out.push_back(Technique::ray_map);
       return choice;
@@ -108,8 +110,8 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("behind another technique, other changes are no tips") {
     const Tips found = find_tips(present, search, [](const TipInputs& inputs) {
-      TippedChoice choice = grid_for(inputs);
-      if (inputs.disc_radius > 0.6) choice.candidate = default_candidate(Technique::octree);
+      ChoiceThere choice = grid_for(inputs);
+      if (inputs.disc_radius > 0.6) choice.best.candidate = default_candidate(Technique::octree);
       if (inputs.disc_radius > 0.65) choice.not_ruled_out = {Technique::ray_map};
       return choice;
     });
@@ -133,7 +135,7 @@ TEST_SUITE("degenerate input") {
   }
 
   TEST_CASE("inputs without a choice end the range") {
-    const Tips found = find_tips(present, search, [](const TipInputs& inputs) -> std::optional<TippedChoice> {
+    const Tips found = find_tips(present, search, [](const TipInputs& inputs) -> std::optional<ChoiceThere> {
       if (inputs.disc_radius < 0.3) return std::nullopt;
       return grid_for(inputs);
     });
@@ -148,8 +150,8 @@ TEST_SUITE("degenerate input") {
         present, search,
         [&](const TipInputs& inputs) {
           if (inputs.rays != 1000) source.request_stop();
-          TippedChoice choice = grid_for(inputs);
-          if (inputs.disc_radius < 0.4) choice.candidate = default_candidate(Technique::octree);
+          ChoiceThere choice = grid_for(inputs);
+          if (inputs.disc_radius < 0.4) choice.best.candidate = default_candidate(Technique::octree);
           return choice;
         },
         source.get_token());

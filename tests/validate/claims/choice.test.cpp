@@ -42,7 +42,7 @@ Experiment rays_where_nothing_is() {
 }
 
 /// The finding about this count of the candidate. Fails the test if there is none.
-const Finding& of(const std::vector<Finding>& findings, const model::Ranked& ranked, const std::string& term) {
+const Finding& of(const std::vector<Finding>& findings, const Prediction& ranked, const std::string& term) {
   const std::string id = "choice." + std::string(name(ranked.candidate.technique)) + "." + term;
   CAPTURE(id);
   const auto found = std::find_if(findings.begin(), findings.end(), [&](const Finding& one) { return one.id == id; });
@@ -59,7 +59,7 @@ TEST_SUITE("identity") {
       const sim::Problem problem = sim::make_problem(experiment.choice->rays, experiment.discs);
       const auto ranking = model::rank(experiment.choice->workload, built_in_unit_costs());
       CHECK(ranking.size() >= 5);
-      for (const model::Ranked& ranked : ranking) {
+      for (const Prediction& ranked : ranking) {
         const auto counts = as_expected(sim::run(problem, ranked.candidate).counts);
         const auto check = [&](const char* term, double predicted, double counted) {
           if (predicted == 0 && counted == 0) return;

@@ -12,8 +12,8 @@ inline validate::Analysed measured(Technique technique, double seconds, double s
 /// A cell where box-tree is predicted; the analysis has it first, then `other`.
 inline validate::MapCell cell_of(double rays, double box_tree_seconds, const validate::Analysed& other) {
   validate::MapCell cell{.rays = rays, .paper = default_candidate(Technique::octree)};
-  cell.prediction.emplace();
-  cell.prediction->ranking.push_back({default_candidate(Technique::box_tree), {}, {.intersect = 1e-3}, {}});
+  cell.choice.emplace();
+  cell.choice->candidates.push_back({.candidate = default_candidate(Technique::box_tree), .time = {.intersect = 1e-3}});
   cell.analysis.emplace();
   cell.analysis->candidates = {measured(Technique::box_tree, box_tree_seconds, 0.1), other};
   cell.analysis->best = box_tree_seconds <= *other.seconds ? 0 : 1;

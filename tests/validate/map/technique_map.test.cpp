@@ -48,12 +48,13 @@ TEST_SUITE("identity") {
         own.disc_radius = axes.radii[j];
         const Job job = make_job(own);
         CHECK(job.workload.disc_radius == map.rows[j].workload.disc_radius);
-        const PilotChoice pilot = choose_by_pilot(job.problem(), built_in_unit_costs());
-        REQUIRE(cell.prediction);
-        CHECK(cell.prediction->rigor == Rigor::pilot);
-        CHECK(cell.prediction->choice().candidate == pilot.choice().candidate);
-        CHECK(cell.prediction->choice().time.total() == pilot.choice().time.total());
-        CHECK(cell.prediction->error == pilot.choice().error);
+        const sim::Problem problem = job.problem();
+        const Choice pilot = choose({.problem = &problem}, built_in_unit_costs());
+        REQUIRE(cell.choice);
+        CHECK(cell.choice->rigor == Rigor::pilot);
+        CHECK(cell.choice->best().candidate == pilot.best().candidate);
+        CHECK(cell.choice->best().time.total() == pilot.best().time.total());
+        CHECK(cell.choice->best().error == pilot.best().error);
         CHECK(cell.paper == model::paper_rule(job.workload));
         CHECK_FALSE(cell.analysis);
       }
@@ -65,9 +66,9 @@ TEST_SUITE("identity") {
     CHECK(map.name == "uniform samples in a cube");
     for (const MapCell& cell : map.rows.at(0).cells) {
       const Workload workload = cube_workload(cell.rays, 1e4, 0.01, 2);
-      REQUIRE(cell.prediction);
-      CHECK(cell.prediction->rigor == Rigor::estimate);
-      CHECK(cell.prediction->choice().candidate == model::rank(workload, built_in_unit_costs()).front().candidate);
+      REQUIRE(cell.choice);
+      CHECK(cell.choice->rigor == Rigor::estimate);
+      CHECK(cell.choice->best().candidate == model::rank(workload, built_in_unit_costs()).front().candidate);
     }
   }
 
@@ -90,7 +91,7 @@ TEST_SUITE("identity") {
     CHECK_FALSE(map.stopped);
     for (const MapCell& cell : map.rows.at(0).cells) {
       REQUIRE(cell.analysis);
-      CHECK(cell.analysis->candidates.front().candidate == cell.prediction->choice().candidate);
+      CHECK(cell.analysis->candidates.front().candidate == cell.choice->best().candidate);
       CHECK(cell.analysis->regret);
       for (const Analysed& one : cell.analysis->candidates) CHECK(one.candidate.technique != Technique::bvh);
     }
@@ -115,7 +116,7 @@ TEST_SUITE("identity") {
     CHECK(map.stopped->of == 2);
     REQUIRE(map.rows.size() == 1);
     for (const MapCell& cell : map.rows[0].cells) {
-      CHECK(cell.prediction);
+      CHECK(cell.choice);
       CHECK_FALSE(cell.analysis);
     }
     const TechniqueMap none = make_map(scene_request(), {{20, 40}, {{0.05, true}}}, options);

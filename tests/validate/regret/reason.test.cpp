@@ -17,7 +17,7 @@ const Workload& reason_workload = support::typical;
 
 /// A candidate whose counts and seconds are as predicted.
 Timed as_predicted(const Candidate& candidate) {
-  const model::Ranked ranked = model::assess(reason_workload, candidate, built_in_unit_costs());
+  const Prediction ranked = model::assess(reason_workload, candidate, built_in_unit_costs());
   Timed one{.contender = {candidate}, .judging = {ranked.time.total()}};
   for (const auto& [name, term] : count_terms<double>) {
     for (const auto& [other, counted] : count_terms<std::uint64_t>)

@@ -16,7 +16,7 @@ namespace {
 /// A tier that always chooses the same candidate.
 Chooser always(const Candidate& candidate) {
   return {"always", [candidate](const sim::Problem&, const Job&, int threads) {
-            return validate::Choice{.candidate = candidate, .threads = threads};
+            return Chosen{{.candidate = candidate, .threads = threads}};
           }};
 }
 
@@ -56,13 +56,13 @@ TEST_SUITE("known answer") {
       CHECK(row.tried > 12);
       REQUIRE(row.choices.size() == choosers.size());
       CHECK(row.choices[0].tier == "pilot");
-      CHECK(row.choices[0].choice.predicted_seconds > 0);
+      CHECK(row.choices[0].choice.predicted_seconds() > 0);
       CHECK(row.choices[0].choice.choosing_seconds > 0);
-      CHECK(row.choices.back().choice.candidate == constant);
+      CHECK(row.choices.back().choice.prediction.candidate == constant);
       for (const ChoiceRow& choice : row.choices) {
         if (row.is_best(choice.choice)) CHECK(choice.regret.value == 1);
         CHECK(choice.reason.empty() == row.is_best(choice.choice));
-        CHECK(choice.choice.threads <= row.threads);
+        CHECK(choice.choice.prediction.threads <= row.threads);
       }
       REQUIRE(row.baselines.size() == baselines().size());
       CHECK(row.baselines[0].size() == 6);
@@ -84,9 +84,8 @@ TEST_SUITE("known answer") {
   }
 
   TEST_CASE("a workload that a chooser refuses is skipped, with the reason") {
-    const Chooser refusing{"refusing", [](const sim::Problem&, const Job&, int) -> validate::Choice {
-                             throw std::invalid_argument("too flat");
-                           }};
+    const Chooser refusing{
+        "refusing", [](const sim::Problem&, const Job&, int) -> Chosen { throw std::invalid_argument("too flat"); }};
     const RegretResult result =
         run_regret(std::vector{tiny_workload(false)}, std::vector{refusing}, {.costs = built_in_unit_costs()});
     CHECK(result.rows.empty());

@@ -41,7 +41,8 @@ std::vector<RegretRow> published_regrets() {
     }
     ChoiceRow& choice = rows.back().choices.emplace_back();
     choice.tier = fields.at("tier");
-    choice.choice.predicted_seconds = fields.at("predicted_seconds").empty() ? 0 : number(fields, "predicted_seconds");
+    choice.choice.prediction.time.intersect =
+        fields.at("predicted_seconds").empty() ? 0 : number(fields, "predicted_seconds");
     choice.choice.choosing_seconds = number(fields, "choosing_seconds");
     choice.seconds = number(fields, "seconds");
     choice.regret = {number(fields, "regret"), fields.at("abandoned") == "true"};

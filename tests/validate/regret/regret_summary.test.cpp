@@ -77,7 +77,7 @@ TEST_SUITE("known answer") {
     CHECK(prediction.median_error == doctest::Approx(0.5));
     CHECK(prediction.p95_error == doctest::Approx(0.725));
     rows.resize(1);
-    rows[0].choices[0].choice.predicted_seconds = 0;
+    rows[0].choices[0].choice.prediction.time = {};
     CHECK(summarise(rows, 1).tiers[0].prediction.rows == 0);
   }
 
@@ -92,7 +92,7 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("the worst choices come first, without those that are the best") {
     std::vector<RegretRow> rows{regret_row(2, false), regret_row(8, true), regret_row(3, true), regret_row(1, true)};
-    rows[3].best = rows[3].choices[0].choice.candidate;
+    rows[3].best = rows[3].choices[0].choice.prediction.candidate;
     const auto two = worst_choices(rows, 2);
     REQUIRE(two.size() == 2);
     CHECK(two[0].row == 1);

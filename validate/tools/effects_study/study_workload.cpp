@@ -6,7 +6,7 @@
 #include <stdexcept>
 
 #include "detp/validate/calibration/built_in_costs.hpp"
-#include "detp/validate/choice/allowed_ranking.hpp"
+#include "detp/validate/choice/choice.hpp"
 
 namespace detp::study {
 
@@ -48,7 +48,7 @@ std::string StudyWorkload::row() const {
 }
 
 Candidate chosen_for(const Workload& workload) {
-  return validate::allowed_ranking(workload, validate::built_in_unit_costs(), {}).front().candidate;
+  return validate::choose({.workload = workload}, validate::built_in_unit_costs()).best().candidate;
 }
 
 std::string cell_of(const Candidate& candidate) {

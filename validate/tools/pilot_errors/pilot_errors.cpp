@@ -23,8 +23,8 @@
 #include "detp/validate/base/own_time.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
+#include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/job.hpp"
-#include "detp/validate/choice/pilot.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "sparse_search.hpp"
 #include "stated_errors.hpp"
@@ -43,7 +43,7 @@ std::string_view name_of(double Counts<double>::*term) {
   return "";
 }
 
-double seconds_of(const sim::Problem& problem, const validate::Piloted& choice) {
+double seconds_of(const sim::Problem& problem, const Prediction& choice) {
   constexpr int runs = 5;
   std::vector<double> seconds;
   for (int run = 0; run < runs; ++run) {
@@ -68,9 +68,9 @@ std::vector<study::StatedError> judge(const study::SparseSearch& search, const s
   std::filesystem::remove(mesh_file);
   const sim::Problem problem = job.problem();
   const auto found =
-      validate::choose_by_pilot(problem, costs, {.workload = job.workload, .disabled = {Technique::brute_force}});
-  const validate::Piloted& choice = found.choice();
-  if (choice.closed_form) return {};
+      validate::choose({.problem = &problem, .workload = job.workload, .disabled = {Technique::brute_force}}, costs);
+  const Prediction& choice = found.best();
+  if (choice.source == Source::closed_form) return {};
   const auto counted = as_expected(sim::run(problem, choice.candidate).counts);
   const auto& shape = std::get<BoxTreeParameters>(choice.candidate.parameters);
   const std::string columns =

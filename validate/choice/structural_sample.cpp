@@ -1,17 +1,11 @@
-#include "structural_choice.hpp"
-
-#include <fmt/format.h>
+#include "structural_sample.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
-#include "detp/model/lines/line_measure.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/geometry/ray_box.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/search/problem.hpp"
 
 namespace detp::validate {
 namespace {
@@ -55,24 +49,6 @@ std::vector<sim::Ray> structural_sample(const sim::Sphere& sphere, const Valid<W
     ray.length *= share;
   }
   return sample;
-}
-
-PilotChoice choose_by_structure(const sim::Problem& problem, const Valid<Workload>& workload,
-                                const Valid<CostTable>& costs, const PilotOptions& options) {
-  if (problem.farthest() < problem.enclosing().radius)
-    throw std::invalid_argument(fmt::format(
-        "a structural choice needs a problem for rays that start up to {} from the centre of the discs (got {})",
-        problem.enclosing().radius, problem.farthest()));
-  const sim::Stopwatch watch;
-  const auto sample = structural_sample(problem.enclosing(), workload, pilot_size(workload.rays, workload.samples));
-  PilotOptions by_structure = options;
-  by_structure.independent_sample = true;
-  by_structure.expected_hits = model::expected_hits(workload);
-  by_structure.workload = workload;
-  const double sampling = watch.seconds();
-  PilotChoice found = choose_by_pilot(problem, sample, workload.rays, costs, by_structure);
-  found.pilot_seconds += sampling;
-  return found;
 }
 
 }  // namespace detp::validate

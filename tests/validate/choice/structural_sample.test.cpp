@@ -1,10 +1,12 @@
-#include "detp/validate/choice/structural_choice.hpp"
+#include "detp/validate/choice/structural_sample.hpp"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "detp/model/lines/line_measure.hpp"
@@ -14,6 +16,7 @@
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/choice/choice.hpp"
 
 using namespace detp;
 using doctest::Approx;
@@ -31,9 +34,14 @@ struct FieldExample {
     workload = sim::observe(*problem).workload;
   }
 
-  [[nodiscard]] validate::PilotChoice choose(const validate::PilotOptions& options = {}) const {
-    return validate::choose_by_structure(sim::make_problem_without_rays(discs, 10), workload,
-                                         validate::built_in_unit_costs(), options);
+  [[nodiscard]] validate::Choice choose(validate::Question question = {}) const {
+    return choose(sim::make_problem_without_rays(discs, 10), std::move(question));
+  }
+  [[nodiscard]] validate::Choice choose(const sim::Problem& searched, validate::Question question = {}) const {
+    question.problem = &searched;
+    question.workload = workload;
+    question.rigor = Rigor::structural;
+    return validate::choose(question, validate::built_in_unit_costs());
   }
 
   std::vector<sim::Disc> discs;
@@ -49,7 +57,7 @@ TEST_SUITE("identity") {
     const FieldExample example(5000, 0.02, 5000);
     sim::Problem problem = sim::make_problem_without_rays(example.discs, 10);
     sim::set_rays(problem, example.rays);
-    const auto with_rays = validate::choose_by_structure(problem, example.workload, validate::built_in_unit_costs());
+    const auto with_rays = example.choose(problem);
     const auto without = example.choose();
     REQUIRE(with_rays.candidates.size() == without.candidates.size());
     for (std::size_t i = 0; i < without.candidates.size(); ++i) {
@@ -60,14 +68,14 @@ TEST_SUITE("identity") {
 
   TEST_CASE("hits are not counted: their number is the expected one") {
     const FieldExample example(5000, 0.05, 5000);
-    CHECK(example.choose().choice().counts.hits == model::expected_hits(example.workload));
+    CHECK(example.choose().best().counts.hits == model::expected_hits(example.workload));
   }
 
   TEST_CASE("a run of fewer rays than the sample has an uncertain prediction, too") {
     const FieldExample example(5000, 0.05, 40);
     const auto found = example.choose({.disabled = {Technique::brute_force}});
     REQUIRE(found.sampled_rays > 40);
-    for (const validate::Piloted& one : found.candidates)
+    for (const Prediction& one : found.candidates)
       if (one.candidate.technique == Technique::box_tree) CHECK(one.error > 0);
   }
 }
@@ -76,7 +84,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("for lines, the tests of every box tree are predicted within four standard errors") {
     const FieldExample example(20'000, 0.05, 20'000);
     int compared = 0;
-    for (const validate::Piloted& one : example.choose().candidates) {
+    for (const Prediction& one : example.choose().candidates) {
       if (one.candidate.technique != Technique::box_tree) continue;
       const Counts<double> counted = as_expected(sim::run(*example.problem, one.candidate).counts);
       CHECK(tests(one.counts_error) < 0.2 * tests(counted));
@@ -104,7 +112,7 @@ TEST_SUITE("known answer") {
   TEST_CASE("isotropic segments: the tests of the choice are predicted within a third") {
     const FieldExample example(20'000, 0.03, 200'000, 0.7);
     const auto found = example.choose();
-    const auto& choice = found.choice();
+    const auto& choice = found.best();
     REQUIRE(choice.candidate.technique == Technique::box_tree);
     const Counts<double> counted = as_expected(sim::run(*example.problem, choice.candidate).counts);
     CHECK(std::abs(std::log(tests(choice.counts) / tests(counted))) < std::log(1.33));
@@ -130,8 +138,7 @@ TEST_SUITE("bad input") {
     std::stop_source source;
     source.request_stop();
     CHECK_THROWS_AS(static_cast<void>(example.choose({.stop = source.get_token()})), sim::Stopped);
-    CHECK_THROWS_AS(static_cast<void>(validate::choose_by_structure(sim::make_problem_without_rays(example.discs, 0.1),
-                                                                    example.workload, validate::built_in_unit_costs())),
+    CHECK_THROWS_AS(static_cast<void>(example.choose(sim::make_problem_without_rays(example.discs, 0.1))),
                     std::invalid_argument);
     CHECK_THROWS_AS(static_cast<void>(example.choose({.disabled = {Technique::box_tree}})), std::invalid_argument);
   }

@@ -1,11 +1,12 @@
-#include "other_techniques.hpp"
+#include "comparison.hpp"
 
-#include <algorithm>
 #include <cmath>
+#include <utility>
 
-#include "allowed_ranking.hpp"
 #include "detp/model/rank/choose.hpp"
-#include "detp/sim/effects/observe.hpp"
+#include "detp/model/rank/extrapolation.hpp"
+#include "doubt.hpp"
+#include "evidence.hpp"
 
 namespace detp::validate {
 namespace {
@@ -23,64 +24,56 @@ Counts<double> least_counts(const SearchSize& size, double hits) {
 
 class Comparison {
  public:
-  Comparison(const sim::Problem& problem, const SearchSize& size, const Prices& prices, const PilotOptions& options,
-             PilotChoice& found)
-      : problem_(problem),
+  Comparison(const Question& question, const SearchSize& size, const Prices& prices, bool all, Choice& found)
+      : question_(question),
         size_(size),
         prices_(prices),
-        options_(options),
+        all_(all),
         found_(found),
-        least_(least_counts(size, found.choice().counts.hits)) {}
+        least_(least_counts(size, found.best().counts.hits)) {}
 
   void compare(Technique technique) {
     const double at_least = prices_(least_, technique).time.total();
     if (at_least >= best()) return found_.ruled_out.push_back({technique, at_least, true});
-    if (!model::has_closed_form(technique) || !can_measure() || !(options_.all_closed_forms || worth_finding()))
+    if (!model::has_closed_form(technique) || !can_measure(question_) || !(all_ || worth_finding()))
       return found_.unexamined.push_back(technique);
     const model::SearchLimits limits{.threads = prices_.most_threads,
-                                     .stop = options_.stop,
+                                     .stop = question_.stop,
                                      .fastest = closed_form_doubt * best() * prices_.most_threads};  // on one thread
-    const auto tuned = model::best_of(technique, workload(), prices_.costs, limits);
+    auto tuned = model::best_of(technique, workload(), prices_.costs, limits);
     if (!tuned) return found_.unexamined.push_back(technique);
-    const double seconds = tuned->time.total();
+    const double seconds = tuned->seconds();
     if (seconds >= closed_form_doubt * best()) return found_.ruled_out.push_back({technique, seconds, false});
-    found_.candidates.push_back({.candidate = tuned->candidate,
-                                 .counts = tuned->counts,
-                                 .time = tuned->time,
-                                 .threads = tuned->threads,
-                                 .error = seconds * (closed_form_doubt - 1),
-                                 .closed_form = true,
-                                 .extrapolated = tuned->extrapolated});
+    tuned->error = seconds * (closed_form_doubt - 1);
+    found_.candidates.push_back(std::move(*tuned));
   }
 
+  [[nodiscard]] bool counted_scene() { return workload_ && model::is_counted_scene(*workload_); }
+
  private:
-  [[nodiscard]] double best() const { return found_.choice().time.total(); }
-  [[nodiscard]] bool can_measure() const { return options_.workload || !problem_.rays().empty(); }
+  [[nodiscard]] double best() const { return found_.best().seconds(); }
 
   /// Whether closed forms, and the measurements that they need, take less than some 2 % of the best.
   [[nodiscard]] bool worth_finding() const { return best() > 50 * 0.0025; }
 
   const Workload& workload() {
-    if (!workload_) {
-      workload_ = options_.workload ? *options_.workload : sim::observe(problem_, {}, {}, options_.stop).workload;
-      workload_->rays = size_.rays;
-    }
+    if (!workload_) workload_ = evidence(question_, size_.rays);
     return *workload_;
   }
 
-  const sim::Problem& problem_;
+  const Question& question_;
   SearchSize size_;
   const Prices& prices_;
-  const PilotOptions& options_;
-  PilotChoice& found_;
+  bool all_;
+  Choice& found_;
   Counts<double> least_;
   std::optional<Workload> workload_;
 };
 
 }  // namespace
 
-Piloted priced(const Candidate& candidate, const Counts<double>& counts, const Counts<double>& error,
-               const Prices& prices) {
+Prediction priced(const Candidate& candidate, const Counts<double>& counts, const Counts<double>& error,
+                  const Prices& prices) {
   const auto [threads, time] = prices(counts, candidate.technique);
   Counts<double> more = counts;
   more += error;
@@ -92,20 +85,18 @@ Piloted priced(const Candidate& candidate, const Counts<double>& counts, const C
       .threads = threads,
       .error = std::hypot(
           of_counts, static_cast<const CostTable&>(prices.costs).relative_error_of(candidate.technique) * time.total()),
-      .counts_error = error};
+      .counts_error = error,
+      .source = Source::sample};
 }
 
-bool is_allowed(Technique technique, const PilotOptions& options) {
-  return std::find(options.disabled.begin(), options.disabled.end(), technique) == options.disabled.end();
-}
-
-void compare_others(const sim::Problem& problem, const SearchSize& size, const Prices& prices,
-                    const PilotOptions& options, PilotChoice& found) {
-  Comparison comparison(problem, size, prices, options, found);
+void compare_others(const Question& question, const SearchSize& size, const Prices& prices, bool all, double prepared,
+                    Choice& found) {
+  Comparison comparison(question, size, prices, all, found);
   for (const TechniqueRecord& record : technique_records)
     if (record.exact && record.technique != Technique::box_tree && record.technique != Technique::brute_force &&
-        is_allowed(record.technique, options))
+        question.allows(record.technique))
       comparison.compare(record.technique);
+  put_choice_first(found.candidates, comparison.counted_scene(), prepared);
 }
 
 }  // namespace detp::validate

@@ -1,4 +1,4 @@
-#include "detp/validate/choice/allowed_ranking.hpp"
+#include "detp/validate/choice/closed_form_choice.hpp"
 
 #include <doctest/doctest.h>
 
@@ -35,7 +35,7 @@ TEST_SUITE("known answer") {
     const Workload workload = cube_workload(1e5, 2e4, 0.02, 2);
     const CostTable costs = validate::built_in_unit_costs();
     bool was_untuned = false;
-    for (const model::Ranked& one : model::rank(workload, costs)) {
+    for (const Prediction& one : model::rank(workload, costs)) {
       CAPTURE(one.candidate.technique);
       was_untuned = was_untuned || !one.tuned;
       const auto others = all_but(one.candidate.technique);

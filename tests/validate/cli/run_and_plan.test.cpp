@@ -1,0 +1,40 @@
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/choice/candidate_json.hpp"
+#include "detp/validate/choice/choice.hpp"
+#include "detp/validate/choice/job.hpp"
+#include "detp/validate/choice/plan.hpp"
+#include "support/command.hpp"
+
+using namespace detp;
+
+TEST_SUITE("identity") {
+  TEST_CASE("detp run, a plan that is executed once, and choose(Question) choose the same, with the same prediction") {
+    int piloted = 0;
+    for (const char* scene : {"@cornell", "@tree-coarse", "@interior"})
+      for (const double rays : {20.0, 3000.0, 300'000.0}) {
+        CAPTURE(scene);
+        CAPTURE(rays);
+        const auto run = support::result_of(
+            fmt::format("run {} --rays {} --disc-radius 2% --calibration none --threads 1", scene, rays));
+        validate::JobRequest request;
+        request.scene = scene;
+        request.rays = rays;
+        request.disc_radius = validate::Length{0.02, true};
+        const validate::Job job = validate::make_job(request);
+        const auto plan = validate::plan(job.discs, job.rays, {.once = true});
+        CHECK(run["technique"] == name(plan.candidate().technique));
+        CHECK(run["parameters"] == to_json(plan.candidate()));
+        const sim::Problem problem = job.problem();
+        const auto choice = validate::choose({.problem = &problem, .purpose = validate::Purpose::one_search},
+                                             validate::built_in_unit_costs());
+        CHECK(plan.candidate() == choice.best().candidate);
+        CHECK(plan.threads() == choice.best().threads);
+        CHECK(plan.predicted_seconds() == doctest::Approx(choice.best().seconds()));
+        piloted += choice.sampled_rays > 0 ? 1 : 0;
+      }
+    CHECK(piloted >= 3);
+  }
+}

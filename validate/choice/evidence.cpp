@@ -1,0 +1,25 @@
+#include "evidence.hpp"
+
+namespace detp::validate {
+
+bool can_measure(const Question& question) {
+  return question.workload || !question.rays.empty() ||
+         (question.problem != nullptr && !question.problem->rays().empty());
+}
+
+Workload evidence(const Question& question, double rays) {
+  Workload found;
+  if (question.workload) {
+    found = *question.workload;
+  } else if (question.problem->rays().empty()) {
+    sim::Problem with_rays = *question.problem;
+    sim::set_rays(with_rays, question.rays, question.threads);
+    found = sim::observe(with_rays, {}, question.effects, question.stop).workload;
+  } else {
+    found = sim::observe(*question.problem, {}, question.effects, question.stop).workload;
+  }
+  found.rays = rays;
+  return found;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "choice.hpp"
+
+namespace detp::validate {
+
+/// Whether the question has a workload, or rays on which it can be measured.
+[[nodiscard]] bool can_measure(const Question& question);
+
+/// The question's workload with that number of rays: measured on its rays and discs, unless it has one. Throws as
+/// sim::set_rays and sim::observe.
+[[nodiscard]] Workload evidence(const Question& question, double rays);
+
+}  // namespace detp::validate
