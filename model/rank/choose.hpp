@@ -24,9 +24,8 @@ struct Ranked {
 /// tests/model/rank/choose.test.cpp). After a stop request, the ranking has only the techniques tried before the request,
 /// but at least one.
 ///
-/// Brute force comes first, then the box tree: the leaf from 4 to 256 that a rough estimate (rough_leaf_costs) prefers, and
-/// its neighbours where the estimate is close; fan-outs of 4, 8 and 16 over the binary tree of each leaf. Of the others only
-/// those are tuned that may still win:
+/// Brute force comes first, then the box tree: leaves from 4 to 256, doubled and halved from 32 as long as that pays; fan-outs
+/// of 4, 8 and 16 over the binary tree of each leaf. Of the others only those are tuned that may still win:
 ///
 ///     sphere cache     1 to 8 ratios with their best k (good_ratio_below); tuned (better_ratio_and_stop) if that takes
 ///                      less than 1.5 times as long as the fastest so far, without the costs that Q and k do not change
