@@ -27,7 +27,7 @@ struct Ranked {
 /// Brute force comes first, then the box tree: leaves from 4 to 256, doubled and halved from 32 as long as that pays; fan-outs
 /// of 4, 8 and 16 over the binary tree of each leaf. Of the others only those are tuned that may still win:
 ///
-///     sphere cache     1 to 8 ratios with their best k (good_ratio_below); tuned (better_ratio_and_stop) if that takes
+///     sphere cache     1 to 8 ratios with their best k (good_ratio_below); tuned (best_ratio_and_stop) if that takes
 ///                      less than 1.5 times as long as the fastest so far, without the costs that Q and k do not change
 ///     cell spheres     all depths, until the spheres alone take longer than the best depth
 ///     octree           all depths, until nodes and insertions alone take longer than the best depth

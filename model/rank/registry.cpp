@@ -125,8 +125,6 @@ std::optional<FoundParameters> best_cache(const Valid<Workload>& workload, const
     const BestRatio good = good_ratio_below(workload, costs, others);
     if (good.spheres > 0 && good.time > good_ratio_excess * others)
       return not_tuned(SphereCacheParameters{good.ratio, good.spheres});
-    const BestRatio better = better_ratio_and_stop(workload, costs, good);
-    return FoundParameters{SphereCacheParameters{better.ratio, better.spheres}};
   }
   const BestRatio best = ratio     ? best_stop(workload, costs, {*ratio})
                          : spheres ? best_ratio_for(workload, costs, *spheres)

@@ -74,7 +74,7 @@ void add_choices() {
   };
   add("published::best_ratio", [=](double q) { return published::best_ratio(vary(q), {}).time; });
   add("best_ratio_and_stop", [=](double q) { return best_ratio_and_stop(vary(q), {}).time; });
-  add("good_ratio_and_stop", [=](double q) { return good_ratio_and_stop(vary(q), {}).time; });
+  add("good_ratio_below", [=](double q) { return good_ratio_below(vary(q), {}, 1e300).time; });
   add("best_stop, Q = 0.65", [=](double q) { return best_stop(vary(q), {}, {0.65}).time; });
   add("rank all techniques", [=](double q) { return rank(vary(q), {}).size(); });
 }
