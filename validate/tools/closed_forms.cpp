@@ -49,7 +49,6 @@ void add_formulas() {
   add("published::counts", [](double q) { return published::counts(volume, {q}, 10).cull_tests; });
   add("both_hit_share", [](double q) { return both_hit_share(1, q, 0.5); });
   add("optimal_ratio", [](double q) { return optimal_ratio(2 + q); });
-  add("optimal_ratio_with_copies", [](double q) { return optimal_ratio_with_copies(q); });
   add("uniform_field_deviation", [](double q) { return uniform_field_deviation(1e6, {q}, {2}); });
   add("octree_counts, depth 6", [](double q) {
     Workload w = volume;
