@@ -37,8 +37,9 @@ struct Ranked {
 /// Parameters are those for one thread; then the number of threads is chosen, at most limits.threads (fastest_price). The
 /// counts are those of the costs' engine.
 ///
-/// Cost       2.9 million instructions for D = 2, 1.2 for D = 3, 4.0 for D = 2.4, most of them for the binary
-///            trees of box trees (means over 40 random workloads at the built-in unit costs, valgrind --tool=callgrind).
+/// Cost       4.0 million instructions for D = 2, 2.0 for D = 3, 5.7 for D = 2.4, most of them for the binary trees of box
+///            trees and for the ratio of the sphere cache (means over 40 random workloads at the built-in unit costs,
+///            valgrind --tool=callgrind).
 ///            The first call of a program also makes a table of box_tree_boxes.cpp.
 /// Throws     std::invalid_argument for a workload or a number of threads out of range.
 [[nodiscard]] std::vector<Ranked> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,
