@@ -14,21 +14,8 @@ namespace detp::model {
 ///
 /// Source     our derivation (dT_R/dQ = 0).
 /// Accuracy   1.1e-16 compared with 100 digits, over 10⁶ values of D from 1 to 3, most of them close to 1, 2 or 3 (at
-///            distances down to 1e-17); monotone (tests/model/hard_cases). Needs long double's 64-bit mantissa, as does
-///            the next function.
+///            distances down to 1e-17); monotone (tests/model/hard_cases). Needs long double's 64-bit mantissa.
 /// Throws     std::invalid_argument unless 1 <= D <= 3.
 [[nodiscard]] double optimal_ratio(double dimension);
-
-/// Q* for volumes if copying a kept ray into a list costs c: minimises (1 + γQ²)/(Q²(1 - Q)). The result is the root of
-///
-///     γ Q³ + 3 Q - 2 = 0
-///
-///   where  γ   c/t, the cost of a copy over that of a ray-sphere test, >= 0
-///
-/// Limits     γ = 0: 2/3.  γ → ∞: (2/γ)^{1/3}.
-/// Source     our derivation.
-/// Accuracy   1.1e-16 over 10⁶ γ log-uniform over all doubles; monotone.
-/// Throws     std::invalid_argument unless γ >= 0 and finite.
-[[nodiscard]] double optimal_ratio_with_copies(double copy_over_test);
 
 }  // namespace detp::model

@@ -12,11 +12,10 @@ namespace detp::model {
 /// tests/model/rank/choose.test.cpp). After a stop request, the ranking has only the techniques tried before the request,
 /// but at least one.
 ///
-/// Brute force comes first, then the box tree: the leaf from 4 to 256 that a rough estimate (rough_leaf_costs) prefers, and
-/// its neighbours where the estimate is close; fan-outs of 4, 8 and 16 over the binary tree of each leaf. Of the others only
-/// those are tuned that may still win:
+/// Brute force comes first, then the box tree: leaves from 4 to 256, doubled and halved from 32 as long as that pays; fan-outs
+/// of 4, 8 and 16 over the binary tree of each leaf. Of the others only those are tuned that may still win:
 ///
-///     sphere cache     1 to 8 ratios with their best k (good_ratio_below); tuned (better_ratio_and_stop) if that takes
+///     sphere cache     1 to 8 ratios with their best k (good_ratio_below); tuned (best_ratio_and_stop) if that takes
 ///                      less than 1.5 times as long as the fastest so far, without the costs that Q and k do not change
 ///     cell spheres     all depths, until the spheres alone take longer than the best depth
 ///     octree           all depths, until nodes and insertions alone take longer than the best depth
@@ -26,8 +25,9 @@ namespace detp::model {
 /// Parameters are those for one thread; then the number of threads is chosen, at most limits.threads (fastest_price). The
 /// counts are those of the costs' engine.
 ///
-/// Cost       2.9 million instructions for D = 2, 1.2 for D = 3, 4.0 for D = 2.4, most of them for the binary
-///            trees of box trees (means over 40 random workloads at the built-in unit costs, valgrind --tool=callgrind).
+/// Cost       4.0 million instructions for D = 2, 2.0 for D = 3, 5.7 for D = 2.4, most of them for the binary trees of box
+///            trees and for the ratio of the sphere cache (means over 40 random workloads at the built-in unit costs,
+///            valgrind --tool=callgrind).
 ///            The first call of a program also makes a table of box_tree_boxes.cpp.
 /// Throws     std::invalid_argument for a workload or a number of threads out of range.
 [[nodiscard]] std::vector<Prediction> rank(const Valid<Workload>& workload, const Valid<CostTable>& costs,

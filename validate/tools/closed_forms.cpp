@@ -49,7 +49,6 @@ void add_formulas() {
   add("published::counts", [](double q) { return published::counts(volume, {q}, 10).cull_tests; });
   add("both_hit_share", [](double q) { return both_hit_share(1, q, 0.5); });
   add("optimal_ratio", [](double q) { return optimal_ratio(2 + q); });
-  add("optimal_ratio_with_copies", [](double q) { return optimal_ratio_with_copies(q); });
   add("uniform_field_deviation", [](double q) { return uniform_field_deviation(1e6, {q}, {2}); });
   add("octree_counts, depth 6", [](double q) {
     Workload w = volume;
@@ -74,7 +73,7 @@ void add_choices() {
   };
   add("published::best_ratio", [=](double q) { return published::best_ratio(vary(q), {}).time; });
   add("best_ratio_and_stop", [=](double q) { return best_ratio_and_stop(vary(q), {}).time; });
-  add("good_ratio_and_stop", [=](double q) { return good_ratio_and_stop(vary(q), {}).time; });
+  add("good_ratio_below", [=](double q) { return good_ratio_below(vary(q), {}, 1e300).time; });
   add("best_stop, Q = 0.65", [=](double q) { return best_stop(vary(q), {}, {0.65}).time; });
   add("rank all techniques", [=](double q) { return rank(vary(q), {}).size(); });
 }

@@ -81,8 +81,6 @@ void compare_others(Draw& draw, Ledger& ledger) {
   using namespace model;
   const double dimension = draw.uniform(1, 3);
   const double more_dimension = larger(dimension, 3, draw);
-  const double copy = draw.log_uniform(1e-10, 1e10);
-  const double more_copy = larger(copy, 1e12, draw);
   const double r0 = draw.anywhere();
   const double d = r0 * draw.log_uniform(1e-12, 1);
   const double more_d = larger(d, r0, draw);
@@ -90,14 +88,13 @@ void compare_others(Draw& draw, Ledger& ledger) {
   const double more_rays = std::floor(larger(rays, 1e18, draw));
   const int level = static_cast<int>(draw.whole(0, 300));
   const auto inputs = [&] {
-    return fmt::format("D {:a} {:a}, c/t {:a} {:a}, d {:a} {:a}, r0 {:a}, n {:.17g} {:.17g}, level {}", dimension,
-                       more_dimension, copy, more_copy, d, more_d, r0, rays, more_rays, level);
+    return fmt::format("D {:a} {:a}, d {:a} {:a}, r0 {:a}, n {:.17g} {:.17g}, level {}", dimension, more_dimension, d,
+                       more_d, r0, rays, more_rays, level);
   };
   const auto order = [&](const char* claim, double low, double high) {
     compare_order(claim, low, high, ledger, inputs);
   };
   order("Q* grows with D", optimal_ratio(dimension), optimal_ratio(more_dimension));
-  order("Q* falls with copies", optimal_ratio_with_copies(more_copy), optimal_ratio_with_copies(copy));
   order("P(disc) grows with d", disc_hit_probability({d}, {r0}), disc_hit_probability({more_d}, {r0}));
   order("deviation falls with d", uniform_field_deviation(rays, {more_d}, {r0}),
         uniform_field_deviation(rays, {d}, {r0}));

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "support/random_workload.hpp"
 
@@ -13,8 +12,7 @@ using namespace detp::model;
 
 namespace {
 
-/// Checks for random workloads and costs, from their whole ranges, that rank returns, that all results are finite, and
-/// that the work is bounded.
+/// Checks for random workloads and costs, from their whole ranges, that rank returns, and that all results are finite.
 void check_rank(int runs, std::uint64_t seed) {
   support::RandomNumbers random(seed);
   const auto now_and_then = [&](double share) { return random.uniform(0, 1) < share; };
@@ -40,7 +38,6 @@ void check_rank(int runs, std::uint64_t seed) {
       REQUIRE(ranked.time.total() >= 0);
       REQUIRE(std::isfinite(ranked.time.total()));
     }
-    if (run % 8 == 0) REQUIRE(best_ratio_and_stop(w, some).evaluated_spheres <= most_evaluated_spheres);
   }
 }
 
@@ -121,7 +118,7 @@ TEST_SUITE("identity") {
 }
 
 TEST_SUITE("limit") {
-  TEST_CASE("workloads and costs from their whole ranges: rank returns, all results are finite, the work is bounded") {
+  TEST_CASE("workloads and costs from their whole ranges: rank returns, all results are finite") {
     check_rank(250, 71);
   }
 }
@@ -131,7 +128,7 @@ TEST_SUITE("hard-cases") {
     tbb::parallel_for(0, 10, [](int part) { check_against_exhaustive(40, 172 + static_cast<std::uint64_t>(part)); });
   }
 
-  TEST_CASE("five thousand workloads and costs: rank returns, all results are finite, and the work is bounded") {
+  TEST_CASE("five thousand workloads and costs: rank returns, all results are finite") {
     tbb::parallel_for(0, 10, [](int part) { check_rank(500, 72 + static_cast<std::uint64_t>(part)); });
   }
 }

@@ -130,7 +130,7 @@ TEST_SUITE("valid") {
       run_formula([&](const auto& w) { return published::best_stop(w, costs, {0.6}); });
       run_formula([](const auto& w) { return published::counts(w, {0.6}, 4).culls; });
       run_formula([&](const auto& w) { return best_ratio_and_stop(w, costs).time; });
-      run_formula([&](const auto& w) { return good_ratio_and_stop(w, costs).time; });
+      run_formula([&](const auto& w) { return good_ratio_below(w, costs, 1e300).time; });
       run_formula([&](const auto& w) { return best_stop(w, costs, {0.6}).time; });
       run_formula([&](const auto& w) { return best_ratio_for(w, costs, 4).time; });
       run_formula([&](const auto& w) { return complete(Technique::octree, {}, w, costs); });

@@ -3,11 +3,12 @@
 #include <doctest/doctest.h>
 
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/quadrature/gauss_kronrod.hpp>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 
-#include "detp/model/lines/directed_rays.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
@@ -39,6 +40,28 @@ std::vector<Disc> discs_inside(std::size_t count, double radius) {
   return discs;
 }
 
+/// Of a disc, seen from a point at this height over its plane and this distance from its axis: by quadrature in polar
+/// coordinates around the disc's centre. The inner integral is over the angle.
+double solid_angle(double radius, double height, double offset) {
+  using Quadrature = boost::math::quadrature::gauss_kronrod<double, 61>;
+  const auto ring = [&](double r) {
+    const auto part = [&](double angle) {
+      const double squared = height * height + r * r + offset * offset - 2 * r * offset * std::cos(angle);
+      return height / (squared * std::sqrt(squared));
+    };
+    return r * 2 * Quadrature::integrate(part, 0.0, std::numbers::pi, 10, 1e-8);
+  };
+  return Quadrature::integrate(ring, 0.0, radius, 10, 1e-8);
+}
+
+/// Of a sphere, seen from a point at this distance from its centre.
+double solid_angle_of_sphere(double radius, double distance) {
+  if (distance <= radius) return 4 * std::numbers::pi;
+  return 2 * std::numbers::pi * (1 - std::sqrt(1 - radius * radius / (distance * distance)));
+}
+
+/// Isotropic lines hit by the measure of lines; parallel ones by the area that the disc turns to them; segments from a point
+/// by the disc's solid angle over the sphere's.
 double hit_probability(const FieldMixture& mixture, const Disc& disc) {
   const DiscRadius radius{disc.radius};
   const SphereRadius outer{mixture.sphere.radius};
@@ -46,10 +69,11 @@ double hit_probability(const FieldMixture& mixture, const Disc& disc) {
   const double height = std::abs(glm::dot(to, disc.normal));
   const double offset = glm::length(to - glm::dot(to, disc.normal) * disc.normal);
   const double cosine = glm::dot(glm::normalize(mixture.direction), disc.normal);
-  return mixture.shares.isotropic * model::disc_hit_probability(radius, outer) +
-         mixture.shares.directional * model::parallel_disc_hit_probability(radius, outer, cosine) +
-         mixture.shares.point * model::point_disc_hit_probability(radius, {height, offset}, outer,
-                                                                  glm::distance(mixture.point, mixture.sphere.centre));
+  const double isotropic = model::disc_hit_probability(radius, outer);
+  const double distance = glm::distance(mixture.point, mixture.sphere.centre);
+  return mixture.shares.isotropic * isotropic + mixture.shares.directional * 2 * std::abs(cosine) * isotropic +
+         mixture.shares.point * solid_angle(disc.radius, height, offset) /
+             solid_angle_of_sphere(mixture.sphere.radius, distance);
 }
 
 /// Whether the hits of all discs are what chance explains; false once in 10⁶ times. `scale` multiplies the prediction.
