@@ -78,7 +78,7 @@ std::string how_chosen(const ChooseAnswer& answer) {
   const std::string run =
       answer.rigor == Rigor::measure ? fmt::format("runs of {} candidates, after ", answer.analysis->tried) : "";
   if (!answer.pilot) return run + "closed forms alone";
-  if (!answer.pilot->discs) return run + "no pilot, because sorting the discs would take longer than brute force";
+  if (!answer.pilot->discs) return run + "no pilot: brute force is faster than sorting the discs";
   const std::string sample = answer.rigor == Rigor::structural
                                  ? fmt::format("{} {} of the field, not those of the run", answer.pilot->sampled_rays,
                                                answer.workload.path_length > 0 ? "segments" : "lines")
@@ -89,9 +89,10 @@ std::string how_chosen(const ChooseAnswer& answer) {
 std::string planning_line(const ChooseAnswer& answer) {
   const double seconds = answer.choosing_seconds;
   const double share = seconds / answer.ranking.front().time.total();
-  return fmt::format("planning  {} ({} the predicted run): {}",
-                     seconds < 1 ? fmt::format("{:.2g} ms", 1e3 * seconds) : fmt::format("{:.3g} s", seconds),
-                     share < 1 ? fmt::format("{:.2g} % of", 100 * share) : number_of_times(share), how_chosen(answer));
+  return fmt::format(
+      "planning  {} ({} the predicted run): {}",
+      seconds < 1 ? fmt::format("{:.{}g} ms", 1e3 * seconds, seconds < 0.1 ? 2 : 3) : fmt::format("{:.3g} s", seconds),
+      share < 1 ? fmt::format("{:.2g} % of", 100 * share) : number_of_times(share), how_chosen(answer));
 }
 
 std::string costs_line(const ChooseAnswer& answer, bool verbose) {
@@ -117,19 +118,19 @@ std::string hint(const Screen& screen) {
                 "--verbose shows all candidates, what was ruled out, the paper's rule, evidence of effects, symbols");
 }
 
-std::string with_tips(const ChooseAnswer& answer, const Screen& screen, std::size_t most) {
-  return paragraph(answer.title, screen) + paragraph(short_effects_line(answer.effects), screen) + "\n" +
-         choice_lines(answer, screen) + paragraph(rival_line(answer), screen) +
+std::string with_tips(const ChooseAnswer& answer, const Screen& screen, std::size_t most, bool spaced = true) {
+  return paragraph(answer.title, screen) + paragraph(short_effects_line(answer.effects), screen) +
+         (spaced ? "\n" : "") + choice_lines(answer, screen) + paragraph(rival_line(answer), screen) +
          paragraph(short_tips_line(answer, most), screen) + paragraph(planning_line(answer), screen) +
          paragraph(costs_line(answer, false), screen);
 }
 
-/// With as many tips as fit, and the hint if it fits.
+/// With as many tips as fit, and the hint and the empty line if they fit.
 std::string short_text(const ChooseAnswer& answer, const Screen& screen) {
   const auto lines = [&](std::size_t most) { return lines_of(with_tips(answer, {.width = usual_width}, most)); };
   std::size_t most = answer.tips.tips.size() + 1;
   while (most > 1 && lines(most) > most_lines) --most;
-  return with_tips(answer, screen, most) + (lines(most) < most_lines ? hint(screen) : "");
+  return with_tips(answer, screen, most, lines(most) <= most_lines) + (lines(most) < most_lines ? hint(screen) : "");
 }
 
 std::string analysis_text(const ChooseAnswer& answer, const Screen& screen) {

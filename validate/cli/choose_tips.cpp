@@ -128,13 +128,14 @@ std::string no_other_technique(const ChooseAnswer& answer) {
   const auto inputs = without_other_technique(answer.tips);
   const bool all_examined = !answer.pilot || answer.pilot->unexamined.empty();
   return inputs.empty() ? ""
-                        : fmt::format("no other technique{} wins for {}", all_examined ? "" : " that was examined",
+                        : fmt::format("no other {}technique wins for {}", all_examined ? "" : "examined ",
                                       fmt::join(inputs, ", for "));
 }
 
 std::string joined_tips(const ChooseAnswer& answer, std::vector<std::string> texts) {
   if (answer.tips.stopped()) texts.emplace_back("stopped before all inputs were examined");
-  return fmt::format("tips      {}{}", answer.analysis ? "as predicted, " : "", fmt::join(texts, "; "));
+  return fmt::format("tips      {}{}", answer.analysis && answer.analysis->best ? "as predicted, " : "",
+                     fmt::join(texts, "; "));
 }
 
 }  // namespace

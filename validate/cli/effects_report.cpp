@@ -116,7 +116,7 @@ std::string short_effects_line(const std::vector<sim::EffectReport>& effects) {
     else
       ++off;
   return fmt::format("effects   on{}: {}{}", all_by_hand ? ", by hand" : "", on.empty() ? "none" : on,
-                     on.empty() || off == 0 ? "" : fmt::format("; the other {} {} off", off, off == 1 ? "is" : "are"));
+                     on.empty() || off == 0 ? "" : fmt::format("; {} off", off));
 }
 
 std::vector<double> tests_if_switched(const validate::Job& job, const std::stop_token& stop) {

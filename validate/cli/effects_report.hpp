@@ -28,7 +28,7 @@ namespace detp::cli {
 /// threshold of those that are on; whether those that are off are close to their threshold; whether one was switched by hand.
 [[nodiscard]] std::string effects_line(const std::vector<sim::EffectReport>& effects);
 
-/// "effects   on: finite paths, occlusion (by hand); the other 7 are off".
+/// "effects   on: finite paths, occlusion (by hand); 7 off".
 [[nodiscard]] std::string short_effects_line(const std::vector<sim::EffectReport>& effects);
 
 /// What switching an effect by hand changes: predicted tests of a tree of boxes with the effect switched, over those as

@@ -119,7 +119,7 @@ std::string regret_line(const validate::Analysis& analysis) {
   const bool noise = *predicted.seconds - predicted.spread <= *best.seconds + best.spread;
   return fmt::format("regret    {:.1f} %: {}, the predicted choice, takes {:.3g} s{}", 100 * *analysis.regret,
                      title(predicted.candidate), *predicted.seconds,
-                     noise ? ": right within the noise of the runs" : ": the choice was wrong");
+                     noise ? ": right within the noise" : ": the choice was wrong");
 }
 
 }  // namespace
