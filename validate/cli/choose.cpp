@@ -35,6 +35,7 @@ struct ChooseOptions {
   std::vector<std::string> disable;
   bool analyze = false;
   bool map = false;
+  bool verbose = false;
 };
 
 /// The exact techniques that may not be chosen: those of --disable, and those that --technique does not name. Throws
@@ -178,7 +179,8 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   if (options.map && rigor == Rigor::measure)
     throw std::invalid_argument("--rigor measure chooses for one workload; with --map give --analyze");
   if (options.map)
-    return run_choose_map({options.workload, options.costs, rigor, disabled, engine, options.analyze}, common, stop);
+    return run_choose_map({options.workload, options.costs, rigor, disabled, engine, options.analyze, options.verbose},
+                          common, stop);
   if (options.workload.lists.rows() > 1)
     throw std::invalid_argument("only with --map may --rays and --disc-radius have several values");
   options.workload.lists.choose_row(0);
@@ -249,7 +251,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   answer.costs = costs;
   answer.costs_origin = costs_in_use.origin;
   result.json = to_json(answer);
-  result.text = to_text(answer, common.screen());
+  result.text = to_text(answer, common.screen(), {.verbose = options.verbose, .measured = options.analyze});
   result.csv = to_csv(answer, result.inputs);
   return result;
 }
@@ -278,6 +280,10 @@ Command choose_command(CLI::App& program) {
   app->add_flag("--map", options->map,
                 "the fastest technique for each of several --rays and --disc-radius (lists or ranges; default: 1e2 … "
                 "3e5 and 0.25% … 16%); with --analyze also measured; -o FILE.svg draws it");
+  app->add_flag(
+      "--verbose", options->verbose,
+      "text with all that JSON has: every candidate, what was ruled out, the paper's rule, evidence of effects, "
+      "symbols");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);
           }};

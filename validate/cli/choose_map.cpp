@@ -96,7 +96,7 @@ Result run_choose_map(const ChooseMap& command, const CommonOptions& common, con
   CommonOptions shown = common;
   if (picture) shown.output.reset();  // the text goes to stdout
   const Screen screen = shown.screen();
-  result.text = to_text(map, screen);
+  result.text = to_text(map, screen, command.verbose);
   const auto add = [&](const std::string& line) { result.text += wrapped(line, screen.text_width(), 10); };
   add("costs     " + costs.origin);
   if (picture) add(map.rows.empty() ? "picture   none: nothing is known yet" : "picture   " + *common.output);

@@ -17,6 +17,7 @@ struct ChooseMap {
   std::vector<Technique> disabled;
   Engine engine = Engine::simd;
   bool analyze = false;
+  bool verbose = false;
 };
 
 /// The map over the values of --rays and --disc-radius, or over those of default_map_rays and default_map_radii. If

@@ -7,6 +7,7 @@
 #include "detp/validate/map/agreement.hpp"
 #include "detp/validate/map/map_labels.hpp"
 #include "detp/validate/map/technique_sign.hpp"
+#include "plain_ratio.hpp"
 #include "text_blocks.hpp"
 
 namespace detp::cli {
@@ -73,19 +74,19 @@ std::string measured_code(const MapCell& cell) {
 
 std::string paper_code(const MapCell& cell) { return validate::code_of(cell.paper.technique) + " "; }
 
-std::vector<TextBlock> panels(const validate::TechniqueMap& map, bool measured, std::size_t every) {
+std::vector<TextBlock> panels(const validate::TechniqueMap& map, bool measured, bool paper, std::size_t every) {
   std::vector<TextBlock> blocks{radii(map), panel(map, "predicted", predicted_code, every)};
   if (measured) blocks.push_back(panel(map, "measured", measured_code, every));
-  blocks.push_back(panel(map, "paper's rule", paper_code, every));
+  if (paper) blocks.push_back(panel(map, "paper's rule", paper_code, every));
   return blocks;
 }
 
-/// "bt box-tree, oc octree": the techniques that the map shows.
-std::string codes(const validate::TechniqueMap& map) {
+/// "bt box-tree, oc octree": the techniques that the map shows, with those of the paper's rule if `paper`.
+std::string codes(const validate::TechniqueMap& map, bool paper) {
   const auto shown = [&](Technique technique) {
     for (const MapRow& row : map.rows)
       for (const MapCell& cell : row.cells)
-        if (cell.paper.technique == technique ||
+        if ((paper && cell.paper.technique == technique) ||
             (cell.choice && cell.choice->best().candidate.technique == technique) ||
             (cell.analysis && fastest(cell).technique == technique))
           return true;
@@ -101,6 +102,16 @@ std::string codes(const validate::TechniqueMap& map) {
 std::string times_text(double slower) {
   return slower < 1 ? fmt::format("{:.2g} % longer than", 100 * slower)
                     : fmt::format("{:.3g} times as long as", 1 + slower);
+}
+
+/// In how many cells the prediction was right, and how much slower its choices are.
+std::string agreement_line(const validate::Agreement& agreement) {
+  return fmt::format(
+      "agree     the predicted technique was the fastest measured one in {} of {} cells ({:.0f} %); the predicted "
+      "choice took {} in "
+      "the geometric mean, {} at worst",
+      agreement.agree, agreement.cells, 100 * agreement.share(), as_long(agreement.mean_slowdown),
+      as_long(agreement.worst_slowdown, "the fastest"));
 }
 
 std::string agreement_lines(const validate::Agreement& agreement, const Screen& screen) {
@@ -144,27 +155,35 @@ std::string paper_line(const validate::TechniqueMap& map, bool measured) {
 
 }  // namespace
 
-std::string to_text(const validate::TechniqueMap& map, const Screen& screen) {
+std::string to_text(const validate::TechniqueMap& map, const Screen& screen, bool verbose) {
   if (map.rows.empty()) return "nothing is known yet\n";
   const validate::Agreement agreement = validate::agreement_of(map);
   const bool measured = agreement.cells > 0;
-  std::string text = wrapped("map       " + validate::describe(map), screen.text_width(), 10) + "\n";
+  std::string text = wrapped("map       " + validate::describe(map), screen.text_width(), 10);
+  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
+  if (verbose) text += "\n";
   std::size_t every = 1;
-  std::vector<TextBlock> blocks = panels(map, measured, every);
-  while (is_too_wide(blocks, screen) && every < map.rays.size()) blocks = panels(map, measured, ++every);
+  std::vector<TextBlock> blocks = panels(map, measured, verbose, every);
+  while (is_too_wide(blocks, screen) && every < map.rays.size()) blocks = panels(map, measured, verbose, ++every);
   text += side_by_side(blocks, screen);
+  if (!verbose) text.pop_back();  // the empty line below the panels
   if (every > 1)
     text += wrapped(fmt::format("(one of {} numbers of rays; --format csv or a wider terminal shows all)", every),
                     screen.text_width(), 1);
-  text += legend(screen, codes(map) +
+  const std::string marks = measured ? " !: another technique than the predicted one. ~: the same, within the noise of "
+                                       "the measurement. -: not measured."
+                                     : "";
+  if (!verbose) {
+    text += legend(screen, codes(map, false) + ": the fastest technique, by number of rays and disc radius d." + marks);
+    if (measured) add(agreement_line(agreement));
+    return text;
+  }
+  text += legend(screen, codes(map, true) +
                              ": the fastest technique for each number of rays. d: disc radius. X: distance between "
                              "neighbouring samples over d." +
-                             (measured ? " !: another technique than the predicted one. ~: the same, within the noise "
-                                         "of the measurement. -: not measured."
-                                       : "")) +
+                             marks) +
           "\n";
   if (measured) text += agreement_lines(agreement, screen);
-  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   add(paper_line(map, measured));
   std::string took = fmt::format("took      {:.2g} s for scenes, rays and predictions", map.predicting_seconds);
   if (measured) took += fmt::format(", {:.3g} s for measurements", map.measuring_seconds);

@@ -34,7 +34,15 @@ struct ChooseAnswer {
 };
 
 [[nodiscard]] Json to_json(const ChooseAnswer& answer);
-[[nodiscard]] std::string to_text(const ChooseAnswer& answer, const Screen& screen);
+
+/// What the text has besides the answer.
+struct TextDetail {
+  bool verbose = false;   ///< all candidates, what was ruled out, the paper's rule, evidence of effects, legends
+  bool measured = false;  ///< of an analysis: a short table of the fastest candidate of each technique
+};
+
+/// At most 12 lines of 120 columns without details, for scenes whose name fits on a line. An analysis that is shown begins with its result.
+[[nodiscard]] std::string to_text(const ChooseAnswer& answer, const Screen& screen, const TextDetail& detail = {});
 
 /// A row for each ranked candidate, then for each other candidate that was tried, and for the candidate of the paper's
 /// rule. The workload's columns come from the resolved inputs.

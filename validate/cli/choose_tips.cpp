@@ -25,28 +25,57 @@ double three_digits(double number) {
   return std::round(number / unit) * unit;
 }
 
-/// "above d = 0.31 (2.6 times)", "below 3000 rays (0.03 times)" or "with --threads 1".
+/// "d = 0.31 or more", "3000 rays or fewer" or "1 thread".
 std::string where(const Tip& tip) {
-  if (tip.input == TipInput::threads) return fmt::format("with --threads {:.0f}", tip.at);
-  const char* const side = tip.ratio > 1 ? "above" : "below";
+  if (tip.input == TipInput::threads) return threads_text(static_cast<int>(tip.at));
   if (tip.input == TipInput::rays)
-    return fmt::format("{} {:.0f} rays ({:.3g} times)", side, three_digits(tip.at), tip.ratio);
-  return fmt::format("{} d = {:.3g} ({:.3g} times)", side, tip.at, tip.ratio);
+    return fmt::format("{:.0f} rays or {}", three_digits(tip.at), tip.ratio > 1 ? "more" : "fewer");
+  return fmt::format("d = {:.3g} or {}", tip.at, tip.ratio > 1 ? "more" : "less");
+}
+
+/// " (40 % fewer)", " (4 times as many)": how far from the present value; nothing for threads.
+std::string how_far(const Tip& tip) {
+  if (tip.input == TipInput::threads) return "";
+  const bool rays = tip.input == TipInput::rays;
+  if (tip.ratio >= 1.995) return fmt::format(" ({:.3g} times as {})", tip.ratio, rays ? "many" : "large");
+  return fmt::format(" ({:.0f} % {})", 100 * std::abs(tip.ratio - 1),
+                     tip.ratio > 1 ? (rays ? "more" : "larger") : (rays ? "fewer" : "smaller"));
 }
 
 std::string tip_text(const Tip& tip) {
   const auto technique = name(tip.candidate.technique);
+  const std::string there = where(tip) + how_far(tip);
   switch (tip.kind) {
     case TipKind::technique:
-      return fmt::format("{} overtakes {}", technique, where(tip));
+      return fmt::format("{} is faster with {}", technique, there);
     case TipKind::not_ruled_out:
-      return fmt::format("{} is no longer ruled out {}", technique, where(tip));
+      return fmt::format("{} is no longer ruled out with {}", technique, there);
     case TipKind::parameters:
-      return fmt::format("{} is {:.0f} % faster {}", title(tip.candidate), 100 * validate::distinguishable, where(tip));
+      return fmt::format("{} is {:.0f} % faster with {}", title(tip.candidate), 100 * validate::distinguishable, there);
     case TipKind::threads:
-      return fmt::format("{} {} faster {}", threads_text(tip.threads), tip.threads == 1 ? "is" : "are", where(tip));
+      return fmt::format("{} {} faster with {}", threads_text(tip.threads), tip.threads == 1 ? "is" : "are", there);
   }
   return "";
+}
+
+/// One text for each technique that is or may be faster elsewhere: "ray-map may be faster with d = 0.1 or less, or 1 thread".
+std::vector<std::string> by_technique(const validate::Tips& tips) {
+  std::vector<const Tip*> firsts;
+  std::vector<std::string> texts;
+  for (const Tip& tip : tips.tips) {
+    if (tip.kind != TipKind::technique && tip.kind != TipKind::not_ruled_out) continue;
+    const auto same = std::ranges::find_if(firsts, [&](const Tip* one) {
+      return one->kind == tip.kind && one->candidate.technique == tip.candidate.technique;
+    });
+    if (same != firsts.end()) {
+      texts[static_cast<std::size_t>(same - firsts.begin())] += ", or " + where(tip);
+      continue;
+    }
+    firsts.push_back(&tip);
+    texts.push_back(fmt::format("{} {} faster with {}", name(tip.candidate.technique),
+                                tip.kind == TipKind::technique ? "is" : "may be", where(tip)));
+  }
+  return texts;
 }
 
 /// The inputs for which no tip has another technique, and their ranges: "d from 0.25 to 4 times this one".
@@ -93,16 +122,42 @@ void add_tips(Json& json, const ChooseAnswer& answer) {
   json["tips_seconds"] = answer.tips_seconds;
 }
 
-std::string tips_line(const ChooseAnswer& answer) {
-  const validate::Tips& tips = answer.tips;
-  std::vector<std::string> texts;
-  for (const Tip& tip : tips.tips) texts.push_back(tip_text(tip));
+namespace {
+
+std::string no_other_technique(const ChooseAnswer& answer) {
+  const auto inputs = without_other_technique(answer.tips);
   const bool all_examined = !answer.by_sample() || answer.choice.unexamined.empty();
-  if (const auto inputs = without_other_technique(tips); !inputs.empty())
-    texts.push_back(fmt::format("no other technique{} wins for {}", all_examined ? "" : " that was examined",
-                                fmt::join(inputs, ", for ")));
-  if (tips.stopped()) texts.push_back("stopped before all inputs were examined");
-  return fmt::format("tips      {}{}", answer.analysis ? "as predicted, " : "", fmt::join(texts, "; "));
+  return inputs.empty() ? ""
+                        : fmt::format("no other {}technique wins for {}", all_examined ? "" : "examined ",
+                                      fmt::join(inputs, ", for "));
+}
+
+std::string joined_tips(const ChooseAnswer& answer, std::vector<std::string> texts) {
+  if (answer.tips.stopped()) texts.emplace_back("stopped before all inputs were examined");
+  return fmt::format("tips      {}{}", answer.analysis && answer.analysis->best ? "as predicted, " : "",
+                     fmt::join(texts, "; "));
+}
+
+}  // namespace
+
+std::string tips_line(const ChooseAnswer& answer) {
+  std::vector<std::string> texts;
+  for (const Tip& tip : answer.tips.tips) texts.push_back(tip_text(tip));
+  if (std::string none = no_other_technique(answer); !none.empty()) texts.push_back(std::move(none));
+  return joined_tips(answer, std::move(texts));
+}
+
+std::string short_tips_line(const ChooseAnswer& answer, std::size_t most) {
+  std::vector<std::string> texts = by_technique(answer.tips);
+  if (texts.empty()) {
+    std::string none = no_other_technique(answer);
+    texts.push_back(none.empty() ? "no change that was examined brings another technique" : std::move(none));
+  } else if (texts.size() > most) {
+    const std::size_t more = texts.size() - most;
+    texts.resize(most);
+    texts.push_back(fmt::format("{} more technique{} with --verbose", more, more == 1 ? "" : "s"));
+  }
+  return joined_tips(answer, std::move(texts));
 }
 
 }  // namespace detp::cli

@@ -25,6 +25,13 @@ sim::EffectSelection switched(const std::vector<sim::EffectReport>& effects, con
   return sim::EffectSelection(names.empty() ? "none" : names);
 }
 
+/// When an effect is on: "< 2.9", "differs from 1 by more than 0.05".
+std::string condition_text(const sim::Threshold& threshold) {
+  return threshold.side == sim::Threshold::Side::apart
+             ? fmt::format("differs from {:.4g} by more than {:.4g}", threshold.at, threshold.tolerance)
+             : sim::condition(threshold);
+}
+
 double tests(const Workload& workload) {
   const Counts<double> counts = model::predict(workload, Candidate{Technique::box_tree, BoxTreeParameters{8, 16}});
   return counts.cull_tests + counts.disc_tests;
@@ -88,12 +95,28 @@ std::string effects_line(const std::vector<sim::EffectReport>& effects) {
     else if (report.on && !report.effect->is_input)
       why = fmt::format(" ({:.3g}{} {})", report.value,
                         report.effect->threshold.side == sim::Threshold::Side::apart ? "," : "",
-                        sim::condition(report.effect->threshold));
+                        condition_text(report.effect->threshold));
     else if (report.is_close())
       why = " (close)";
     list += fmt::format("{}{}{}", list.empty() ? "" : ", ", report.effect->name, why);
   }
   return fmt::format("effects   on: {}; off: {}", on.empty() ? "none" : on, off.empty() ? "none" : off);
+}
+
+std::string short_effects_line(const std::vector<sim::EffectReport>& effects) {
+  const auto by_hand = [](const sim::EffectReport& one) { return !one.decided_by_evidence; };
+  const bool all_by_hand =
+      std::ranges::all_of(effects, [&](const sim::EffectReport& one) { return by_hand(one) || one.effect->is_input; });
+  std::string on;
+  std::size_t off = 0;
+  for (const sim::EffectReport& report : effects)
+    if (report.on)
+      on += fmt::format("{}{}{}", on.empty() ? "" : ", ", report.effect->name,
+                        by_hand(report) && !all_by_hand ? " (by hand)" : "");
+    else
+      ++off;
+  return fmt::format("effects   on{}: {}{}", all_by_hand ? ", by hand" : "", on.empty() ? "none" : on,
+                     on.empty() || off == 0 ? "" : fmt::format("; {} off", off));
 }
 
 std::vector<double> tests_if_switched(const validate::Job& job, const std::stop_token& stop) {
@@ -124,7 +147,7 @@ std::string effects_table(const sim::Observed& observed, const std::vector<doubl
     table.add({{std::string(report.effect->name)},
                {std::string(report.effect->evidence)},
                {fmt::format("{:.3g}{}", report.value, error)},
-               {sim::condition(report.effect->threshold)},
+               {condition_text(report.effect->threshold)},
                {report.on ? "on" : "off", report.on ? Style::good : Style::faint},
                {if_switched[i] > 0 ? fmt::format("{:.3g}x", if_switched[i]) : ""},
                {report.is_close() ? "close to its threshold" : ""}});

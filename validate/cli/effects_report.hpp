@@ -24,9 +24,12 @@ namespace detp::cli {
 /// "finite paths, surface samples"; empty if none is on.
 [[nodiscard]] std::string effects_on(const std::vector<sim::EffectReport>& effects);
 
-/// "effects   on: finite paths (0.3, not 1 ± 0.05); off: facing, uneven rays (close)": value and threshold of those that
-/// are on; whether those that are off are close to their threshold; whether one was switched by hand.
+/// "effects   on: finite paths (0.3, differs from 1 by more than 0.05); off: facing, uneven rays (close)": value and
+/// threshold of those that are on; whether those that are off are close to their threshold; whether one was switched by hand.
 [[nodiscard]] std::string effects_line(const std::vector<sim::EffectReport>& effects);
+
+/// "effects   on: finite paths, occlusion (by hand); 7 off".
+[[nodiscard]] std::string short_effects_line(const std::vector<sim::EffectReport>& effects);
 
 /// What switching an effect by hand changes: predicted tests of a tree of boxes with the effect switched, over those as
 /// they are. 0 for an effect that is a meaning of the input. In the order of the job's effects.

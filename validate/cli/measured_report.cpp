@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
+#include "choose_rows.hpp"
 #include "detp/validate/choice/prediction_error.hpp"
+#include "plain_ratio.hpp"
 #include "table.hpp"
 #include "workload_options.hpp"
 
@@ -21,16 +25,31 @@ std::vector<const validate::Analysed*> to_explain(const validate::Analysis& anal
   return runs;
 }
 
+/// "12 % too high: counts 2 % too low, unit costs 14 % too high": seconds and the two causes of their error.
+std::string causes(const validate::PredictionError& error) {
+  return fmt::format("{}: counts {}, unit costs {}", how_far_off(error.seconds), how_far_off(error.counts),
+                     how_far_off(error.unit_costs));
+}
+
+/// The line "predicted": how well the seconds of the predicted choice were predicted.
+std::string predicted_line(const ChooseAnswer& answer) {
+  const validate::Analysed& run = answer.analysis->candidates.front();
+  if (!run.predicted || !run.counted || !run.seconds) return "";
+  const double error = error_of(answer, rows_of(answer).front()).value_or(0);
+  return fmt::format("predicted {:.3g}{} s{}, {}", run.predicted->time.total(),
+                     error > 0 ? fmt::format(" ± {:.1g}", error) : "",
+                     answer.analysis->best == 0U ? "" : " for that choice",
+                     causes(validate::prediction_error(*run.predicted, *run.counted, *run.seconds, answer.costs)));
+}
+
 std::string missed_line(const validate::Analysed& run, const CostTable& costs) {
   const std::string tried = title(run.candidate);
   if (!run.predicted) return fmt::format("missed    {} has no closed form: it was not predicted", tried);
   if (!run.counted || !run.seconds) return "";
   const auto error = validate::prediction_error(*run.predicted, *run.counted, *run.seconds, costs);
   return fmt::format(
-      "missed    {}: predicted {:.3g} times its time = counts {:.3g} times (worst: {} {:.3g} times) x unit costs "
-      "{:.3g} "
-      "times",
-      tried, error.seconds, error.counts, error.worst, error.worst_ratio, error.unit_costs);
+      "missed    {}: predicted seconds {}; the count that matters most: {}, {}", tried, causes(error), error.worst,
+      std::isfinite(error.worst_ratio) ? how_far_off(error.worst_ratio) : "predicted, but never counted");
 }
 
 Json missed_json(const validate::Analysed& run, const CostTable& costs) {
@@ -89,27 +108,49 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
   if (run.given_up_after) json["given_up_after_seconds"] = *run.given_up_after;
 }
 
+namespace {
+
+/// The line "regret": whether the predicted choice was the right one.
+std::string regret_line(const validate::Analysis& analysis) {
+  const validate::Analysed& predicted = analysis.candidates.front();
+  const validate::Analysed& best = analysis.candidates[*analysis.best];
+  if (&predicted == &best) return "regret    0 %: the predicted choice was right";
+  if (!analysis.regret) return "";
+  const bool noise = *predicted.seconds - predicted.spread <= *best.seconds + best.spread;
+  return fmt::format("regret    {:.1f} %: {}, the predicted choice, takes {:.3g} s{}", 100 * *analysis.regret,
+                     title(predicted.candidate), *predicted.seconds,
+                     noise ? ": right within the noise" : ": the choice was wrong");
+}
+
+}  // namespace
+
 std::string measured_lines(const ChooseAnswer& answer, const Screen& screen) {
   const validate::Analysis& analysis = *answer.analysis;
   std::string text;
-  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
+  const auto add = [&](const std::string& line) {
+    if (!line.empty()) text += wrapped(line, screen.text_width(), 10);
+  };
   if (analysis.best) {
     const validate::Analysed& best = analysis.candidates[*analysis.best];
-    text += choice_text(fmt::format("{}, {}: measured {:.3g} s, the fastest of {} tried", title(best.candidate),
-                                    threads_text(best.threads), *best.seconds, analysis.tried),
+    text += choice_text(fmt::format("{}, {}: measured {:.3g}{} s, the fastest of {} tried", title(best.candidate),
+                                    threads_text(best.threads), *best.seconds,
+                                    best.spread > 0 ? fmt::format(" ± {:.1g}", best.spread) : "", analysis.tried),
                         screen);
-    const validate::Analysed& predicted = analysis.candidates.front();
-    if (&predicted == &best)
-      add("regret    0 %: it is the predicted choice");
-    else if (analysis.regret)
-      add(fmt::format("regret    {:.1f} %: {}, the predicted choice, takes {:.3g} s", 100 * *analysis.regret,
-                      title(predicted.candidate), *predicted.seconds));
-    for (const validate::Analysed* run : to_explain(analysis))
-      if (const std::string line = missed_line(*run, answer.costs); !line.empty()) add(line);
+    add(regret_line(analysis));
+    add(predicted_line(answer));
   }
   if (analysis.stopped)
-    add(fmt::format("stopped   after {} of {} candidates: what was not tried may be faster", analysis.tried,
+    add(fmt::format("tried     {} of {} candidates before the stop: the others may be faster", analysis.tried,
                     analysis.candidates.size()));
+  return text;
+}
+
+std::string missed_lines(const ChooseAnswer& answer, const Screen& screen) {
+  std::string text;
+  if (!answer.analysis->best) return text;
+  for (const validate::Analysed* run : to_explain(*answer.analysis))
+    if (const std::string line = missed_line(*run, answer.costs); !line.empty())
+      text += wrapped(line, screen.text_width(), 10);
   return text;
 }
 

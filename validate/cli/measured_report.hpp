@@ -19,9 +19,12 @@ void add_measured(Json& json, const validate::Analysis& analysis, const validate
 /// candidate was not predicted, not counted or not timed.
 [[nodiscard]] Json missed_ratios(const validate::Analysed& run, const CostTable& costs);
 
-/// The lines "choice", "regret" and "missed": the candidate with the shortest measured time, and the prediction's
-/// errors.
+/// The lines "choice", "regret" and "predicted": the candidate with the shortest measured time, whether it was the predicted
+/// choice, and how well its seconds were predicted. After a stop, also how many candidates were tried.
 [[nodiscard]] std::string measured_lines(const ChooseAnswer& answer, const Screen& screen);
+
+/// The lines "missed": the errors of the predictions of the predicted choice and of the fastest candidate.
+[[nodiscard]] std::string missed_lines(const ChooseAnswer& answer, const Screen& screen);
 
 [[nodiscard]] std::string choice_text(const std::string& what, const Screen& screen);
 

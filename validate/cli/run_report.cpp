@@ -143,7 +143,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   return json;
 }
 
-Json cells_of(const Json& inputs, const Candidate& candidate, const Json& json) {
+Json run_cells(const Json& inputs, const Candidate& candidate, const Json& json) {
   Json cells = workload_cells(inputs);
   cells.update(candidate_cells(candidate));
   for (const auto& [name, value] : json.items())
@@ -221,7 +221,7 @@ std::string counts_table(const validate::Job& job, const RunAnswer& answer, cons
 
 AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer) {
   Json json = answer_json(job, answer);
-  Json cells = cells_of(inputs, answer.candidate, json);
+  Json cells = run_cells(inputs, answer.candidate, json);
   return {std::move(inputs), std::move(json), {std::move(cells)}};
 }
 

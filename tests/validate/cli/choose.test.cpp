@@ -94,8 +94,10 @@ TEST_SUITE("end to end") {
     const Json outside = result_of("model " + few + " --ratio 0.65");
     CHECK(outside.at("extrapolated") == true);
     CHECK(outside.at("extrapolated_because") == reasons);
-    CHECK(detp("choose " + few).out.find("~ extrapolated: samples 50 below 1024 (box-tree); samples 50 below 1000 (") !=
+    CHECK(detp("choose " + few + " --verbose")
+              .out.find("~ extrapolated: samples 50 below 1024 (box-tree); samples 50 below 1000 (") !=
           std::string::npos);
+    CHECK(detp("choose " + few).out.find("; extrapolated: samples 50 below 1024\n") != std::string::npos);
     CHECK(detp("model " + few + " --ratio 0.65").out.find("samples 50 below 1000") != std::string::npos);
     const std::string many = "--samples 1e5 --rays 1000 --disc-radius 0.01 --scene-side 2";
     CHECK(result_of("model " + many + " --ratio 0.65").at("extrapolated") == false);

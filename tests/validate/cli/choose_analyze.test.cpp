@@ -1,5 +1,6 @@
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
@@ -62,20 +63,32 @@ TEST_SUITE("end to end") {
     CHECK(json.at("tried").get<int>() >= 10);
     CHECK(json.at("missed").at(0).at("counts_ratio").get<double>() == doctest::Approx(1));
     CHECK(json.at("missed").at(0).at("unit_costs_ratio").get<double>() < 1e-3);
-    const std::string text = detp(line).out;
-    for (const char* said :
-         {"\nchoice    ", " %: brute-force, the predicted choice, takes", "\nmissed    brute-force: predicted"})
-      CHECK(text.find(said) != std::string::npos);
+    for (const std::string detail : {"", " --verbose"}) {
+      const std::string text = detp(line + detail).out;
+      CHECK(text.starts_with("choice    " + json.at("choice").at("technique").get<std::string>()));
+      for (const char* said :
+           {", the fastest of ", "\nregret    ", " %: brute-force, the predicted choice, takes",
+            ": the choice was wrong", "\npredicted ", " too low: counts right within 1 %, unit costs "})
+        CHECK_MESSAGE(text.find(said) != std::string::npos, said, text);
+      CHECK((text.find("\nmissed    brute-force: predicted") != std::string::npos) == !detail.empty());
+    }
+    const std::string table = detp(line).out;
+    CHECK(table.find("<- fastest") != std::string::npos);
+    CHECK(table.find("<- predicted choice") != std::string::npos);
+    CHECK(table.find("<- fastest") < table.find("\nscene     "));
+    CHECK(std::count(table.begin(), table.end(), '\n') < 30);
   }
 
   TEST_CASE("an analysis that is stopped says after how many candidates, and ends with code 3") {
     const std::string line =
         "choose @uniform --samples 100000 --rays 100000 --threads 1 --analyze --costs "
         "t=1,u=1e-18,w=1,v=1,n=1,c=1,b=1,s=1,r=1";  // starts with brute force, which takes more than 1 s
-    const Finished finished = stopped_in_time(
-        line, [](const Finished& one) { return one.out.find("\nstopped   after 0 of ") != std::string::npos; });
+    const Finished finished =
+        stopped_in_time(line, [](const Finished& one) { return one.out.starts_with("stopped   after 0 of "); });
     CHECK(finished.code == 3);
-    CHECK(finished.out.find("\nstopped   after 0 of ") != std::string::npos);
+    CHECK(finished.out.starts_with("stopped   after 0 of "));
+    CHECK(finished.out.find("\ntried     0 of ") != std::string::npos);
+    CHECK(finished.out.find("\nchoice    brute-force") != std::string::npos);
     const Finished json =
         stopped_in_time(line + " --format json", [](const Finished& one) { return one.json().contains("tried"); });
     CHECK(json.code == 3);

@@ -68,6 +68,11 @@ TEST_SUITE("end to end") {
     CHECK(one.out.find("the fastest technique") != std::string::npos);
     CHECK(one.out.find("picture   " + folder.path("one.svg")) != std::string::npos);
     const std::string svg = support::content_of(folder.path("one.svg"));
+    CHECK(one.out.find("paper's rule") == std::string::npos);
+    const std::string verbose = detp(tiny + " --verbose").out;
+    for (const char* const part :
+         {"paper's rule", "\npaper     its rule takes ", "\ntook      ", "neighbouring samples over d."})
+      CHECK(verbose.find(part) != std::string::npos);
     CHECK(svg.find("</svg>\n") != std::string::npos);
     CHECK(svg == support::content_of(folder.path("two.svg")));
     CHECK(folder.entries() == 2);

@@ -64,7 +64,7 @@ TEST_SUITE("end to end") {
         result_of("choose --rays 1e7 --samples 2000 --disc-radius 2% --scene-side 1 --calibration none --threads 2");
     for (const Json& candidate : more.at("candidates"))
       CHECK(candidate.at("threads").get<int>() <= (candidate.at("technique") == "sphere-tree" ? 1 : 2));
-    CHECK(detp("choose" + scene).out.find("threads") != std::string::npos);
+    CHECK(detp("choose" + scene + " --verbose").out.find("threads") != std::string::npos);
     CHECK(detp("choose" + scene + " --format csv").out.find(",engine,threads,") != std::string::npos);
     CHECK(result_of("run" + scene + " --threads 1").at("threads") == 1);
     const Json chosen = result_of("choose" + scene + " --threads 2");

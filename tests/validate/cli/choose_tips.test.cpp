@@ -24,10 +24,13 @@ TEST_SUITE("end to end") {
       CHECK(tip.at("parameters").is_object());
       CHECK(tip.at("at").get<double>() == doctest::Approx(150 * tip.at("ratio").get<double>()));
       CHECK(json.at("tips_seconds") > 0);
-      const std::string text = detp(scene + "150" + rigor).out;
-      CHECK(text.find("\ntips      ") != std::string::npos);
-      CHECK(text.find(fmt::format("brute-force overtakes below {:.0f} rays", tip.at("at").get<double>())) !=
-            std::string::npos);
+      for (const char* const detail : {"", " --verbose"}) {
+        const std::string text =
+            std::regex_replace(detp(scene + "150" + rigor + detail).out, std::regex("\n {10}"), " ");
+        CHECK(text.find("\ntips      ") != std::string::npos);
+        CHECK(text.find("brute-force is faster with ") != std::string::npos);
+        CHECK(text.find(fmt::format("{:.0f} rays or fewer", tip.at("at").get<double>())) != std::string::npos);
+      }
       const auto rays = static_cast<int>(0.9 * tip.at("at").get<double>());
       const Json there = result_of(fmt::format("{}{}{}", scene, rays, rigor));
       CHECK(there.at("choice").at("technique") == "brute-force");

@@ -53,7 +53,8 @@ TEST_SUITE("identities") {
 
 TEST_SUITE("end to end") {
   TEST_CASE("on a terminal text is no wider than it, and what was left out is named") {
-    const std::string line = std::string("choose ") + small_workload;
+    const std::string line = std::string("choose ") + small_workload + " --verbose";
+    CHECK(widest_line(shown_on_terminal(std::string("choose ") + small_workload, 60)) <= 60);
     const std::string narrow = shown_on_terminal(line, 60);
     CHECK(widest_line(narrow) <= 60);
     CHECK(narrow.find("left out of 60 columns") != std::string::npos);

@@ -97,7 +97,7 @@ TEST_SUITE("end to end") {
             CHECK(number(row, column + "_value") == effect.at("value").get<double>());
           }
           if (command == "scene") continue;
-          const std::string text = detp(Arguments{command} + workload).out;
+          const std::string text = detp(Arguments{command, "--verbose"} + workload).out;
           for (const Json& effect : json.at("effects"))
             if (effect.at("on") == true) {
               const std::string first = effect.at("name").get<std::string>() + " (";
