@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::size_t all_subtrees = 1000;
 
-struct Prediction {
-  Prediction(std::size_t samples, double radius, std::size_t count, std::uint64_t seed, sim::Body body)
+struct Piloted {
+  Piloted(std::size_t samples, double radius, std::size_t count, std::uint64_t seed, sim::Body body)
       : discs(sim::uniform_discs(body, 2, samples, radius, seed)),
         rays(sim::LineField(sim::enclosing_sphere(discs), seed).lines(0, count)),
         problem(sim::make_problem(rays, discs)),
@@ -49,7 +49,7 @@ struct Prediction {
 TEST_SUITE("identity") {
   TEST_CASE("a pilot of all rays through the whole tree predicts every count exactly, for every shape") {
     for (const std::size_t samples : {1UL, 5UL, 70UL, 500UL}) {
-      const Prediction all(samples, 0.1, 300, 3, sim::Body::cube_faces);
+      const Piloted all(samples, 0.1, 300, 3, sim::Body::cube_faces);
       const auto pilot = all.pilot(300, all_subtrees);
       for (const int fan_out : {2, 3, 8, 16})
         for (const int leaf : {4, 8, 30, 64, 1000}) {
@@ -69,7 +69,7 @@ TEST_SUITE("identity") {
   }
 
   TEST_CASE("the sample decides nothing about the discs: placements, references and sorted are their number") {
-    const Prediction many(3000, 0.02, 1000, 5, sim::Body::cube);
+    const Piloted many(3000, 0.02, 1000, 5, sim::Body::cube);
     const Counts<double> counts = many.pilot(100, 3).counts({8, 16}).counts;
     CHECK(counts.loaded == 1000);
     CHECK(counts.sorted == 3000);
@@ -81,7 +81,7 @@ TEST_SUITE("identity") {
 TEST_SUITE("known answer") {
   TEST_CASE("a pilot of all rays through all subtrees is off only by the boxes above the subtrees") {
     for (const auto body : {sim::Body::cube, sim::Body::cube_faces}) {
-      const Prediction all(20'000, 0.01, 2000, 7, body);
+      const Piloted all(20'000, 0.01, 2000, 7, body);
       const auto pilot = all.pilot(2000, all_subtrees);
       for (const BoxTreeParameters shape : {BoxTreeParameters{4, 8}, {8, 32}, {16, 128}, {8, 2000}}) {
         CAPTURE(shape.fan_out);
@@ -104,7 +104,7 @@ TEST_SUITE("known answer") {
     double in_errors = 0;
     double visits = 0;
     for (std::uint64_t set = 1; set <= sets; ++set) {
-      const Prediction some(20'000, 0.01, 4000, set, sim::Body::cube_faces);
+      const Piloted some(20'000, 0.01, 4000, set, sim::Body::cube_faces);
       const auto predicted = some.pilot(400, 10).counts({8, 16});
       const Counts<double> counted = some.counted({8, 16});
       const double ratio = tests(predicted.counts) / tests(counted);
@@ -122,7 +122,7 @@ TEST_SUITE("known answer") {
 
 TEST_SUITE("bad input") {
   TEST_CASE("a stop request ends a pilot") {
-    const Prediction some(3000, 0.02, 100, 5, sim::Body::cube);
+    const Piloted some(3000, 0.02, 100, 5, sim::Body::cube);
     std::stop_source source;
     source.request_stop();
     CHECK_THROWS_AS(
