@@ -5,7 +5,7 @@
 #include <stdexcept>
 
 #include "detp/sim/files/number_text.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 #include "scratch.hpp"
 
 namespace {

@@ -65,7 +65,9 @@ class RaceRunner {
       const PeerOutcome outcome = embree_.run(job_.rays, job_.discs, *mode, options_.stop);
       return record_run(result, outcome, time.seconds());
     }
-    const sim::Problem problem = job_.problem(options_.threads, options_.stop);
+    // Checked for each run: its time is that of a program that has rays and discs.
+    const sim::Problem problem =
+        sim::make_problem(job_.paths(), job_.discs, job_.front_facing, options_.threads, options_.stop);
     sim::RunOptions how{.count = false, .stop = options_.stop, .threads = options_.threads};
     if (const auto* candidate = std::get_if<Candidate>(&result.competitor)) {
       const sim::Outcome outcome = sim::run(problem, *candidate, how);

@@ -12,7 +12,7 @@ std::optional<RightHits> right_hits(const Job& job, const Candidate& exact, doub
                                     const std::stop_token& stop) {
   const double pairs = static_cast<double>(job.rays.size()) * static_cast<double>(job.discs.size());
   const Candidate judge = pairs <= checkable ? Candidate{Technique::brute_force, BruteForceParameters{}} : exact;
-  sim::Outcome outcome = sim::run(job.problem(0, stop), judge, {.count = false, .stop = stop, .threads = 0});
+  sim::Outcome outcome = sim::run(job.problem(), judge, {.count = false, .stop = stop, .threads = 0});
   if (outcome.stopped) return std::nullopt;
   return RightHits{judge.technique, std::move(outcome.hits)};
 }

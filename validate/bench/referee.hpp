@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 namespace detp::validate {
 

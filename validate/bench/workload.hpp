@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 /// The workloads of the benchmark.
 namespace detp::validate {

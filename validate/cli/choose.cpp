@@ -210,7 +210,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     note_all(common, job);
     answer.workload = job.workload;
     answer.effects = job.observed.effects;
-    const sim::Problem problem = job.problem(threads, stop);
+    const sim::Problem& problem = job.problem();
     question.problem = &problem;
     question.workload = job.workload;
     question.ray_count = job.workload.rays;

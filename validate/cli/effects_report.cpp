@@ -121,7 +121,7 @@ std::string short_effects_line(const std::vector<sim::EffectReport>& effects) {
 
 std::vector<double> tests_if_switched(const validate::Job& job, const std::stop_token& stop) {
   const auto& effects = job.observed.effects;
-  const sim::Problem problem = job.problem(1, stop);
+  const sim::Problem& problem = job.problem();
   const double as_is = tests(job.observed.workload);
   std::vector<double> ratios;
   for (const sim::EffectReport& report : effects) {

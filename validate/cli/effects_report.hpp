@@ -5,7 +5,7 @@
 
 #include "command.hpp"
 #include "detp/sim/effects/observe.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 #include "screen.hpp"
 #include "table.hpp"
 

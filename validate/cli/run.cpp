@@ -8,7 +8,6 @@
 #include "costs_in_use.hpp"
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/files/writing_check.hpp"
@@ -158,11 +157,8 @@ void choose_and_run(RunAnswer& answer, const validate::Question& question, sim::
 
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
                   const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
-  std::optional<sim::Problem> problem;  // if the choice is left to the command, and the rays are in memory
-  const sim::Stopwatch watch;
-  if (!options.candidate.technique && !job.stream) problem = job.problem(common.threads, stop);
-  const double prepare_seconds = watch.seconds();
-  const validate::Question question{.problem = problem ? &*problem : nullptr,
+  const bool in_memory = !options.candidate.technique && !job.stream;
+  const validate::Question question{.problem = in_memory ? &job.problem() : nullptr,
                                     .workload = job.workload,
                                     .purpose = validate::Purpose::one_search,
                                     .threads = common.threads,
@@ -184,7 +180,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
   run.standard_error = options.standard_error;
   const double share_of_first = 1.0 / (1 + options.repeat);
   if (by_pilot) {
-    answer.run.prepare_seconds = prepare_seconds;
+    answer.run.prepare_seconds = job.check_seconds;
     answer.run.rays_in_memory = job.rays.size();
     choose_and_run(answer, question, run, sim::part_of(progress, 0, share_of_first));
   } else {

@@ -5,7 +5,6 @@
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/rank/registry.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/base/search_work.hpp"
 
@@ -48,10 +47,7 @@ TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim
         job.discs, *job.stream, candidate, {.run = reporting, .front_facing = job.front_facing, .progress = show});
     return {std::move(streamed.outcome), streamed.check_seconds, streamed.read_seconds, streamed.block};
   }
-  const sim::Stopwatch watch;
-  const sim::Problem problem = job.problem(options.threads, options.stop);
-  const double prepare = watch.seconds();
-  return {sim::run(problem, candidate, reporting), prepare, 0, job.rays.size()};
+  return {sim::run(job.problem(), candidate, reporting), job.check_seconds, 0, job.rays.size()};
 }
 
 Timing time_runs(const validate::Job& job, const Candidate& candidate, const TimedRun& counted, int repeat,

@@ -4,7 +4,7 @@
 
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 namespace detp::cli {
 

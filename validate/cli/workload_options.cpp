@@ -178,6 +178,7 @@ std::optional<sim::Up> parse_up(const std::string& text) {
 validate::JobRequest WorkloadOptions::request(const CommonOptions& common, bool complete) const {
   validate::JobRequest request = request_;
   request.seed = common.seed;
+  request.threads = common.threads;
   if (!request.numbers_alone() && (request.sphere_radius || request.scene_side))
     throw std::invalid_argument(
         "--sphere-radius and --scene-side describe a workload in numbers; a scene has its own size");

@@ -8,7 +8,7 @@
 #include "command.hpp"
 #include "detp/model/rank/choose.hpp"
 #include "detp/validate/choice/candidate_json.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 #include "value_lists.hpp"
 
 namespace detp::cli {

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 /// The axes of a map: numbers of rays, and disc radii.
 namespace detp::validate {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "detp/validate/choice/choice.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 /// The ways to choose a candidate (tiers) whose regret is measured.
 namespace detp::validate {

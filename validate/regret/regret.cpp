@@ -65,7 +65,7 @@ class Runner {
   }
 
   bool run(const RegretWorkload& workload, const Job& job, int threads, const sim::ReportPhase& progress) {
-    const sim::Problem problem = job.problem(threads, options_.stop);
+    const sim::Problem& problem = job.problem();
     std::vector<Chosen> choices;
     for (const Chooser& chooser : choosers_) choices.push_back(choice_of(chooser, problem, job, threads));
     std::vector<std::vector<Candidate>> options;

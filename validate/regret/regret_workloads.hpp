@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "awkward_scenes.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 /// The workloads on which choices are judged.
 namespace detp::validate {

@@ -21,7 +21,7 @@
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 #include "detp/validate/regret/exhaustive.hpp"
 #include "detp/validate/regret/timed_rounds.hpp"
 #include "detp/validate/statistics/statistics.hpp"
@@ -123,7 +123,7 @@ int main(int argc, char** argv) {
     request.disc_radius = validate::Length{setting.radius, true};
     request.field = setting.field;
     const validate::Job job = validate::make_job(request);
-    const sim::Problem problem = job.problem();
+    const sim::Problem& problem = job.problem();
     for (const CostTable& table : costs) compare(setting, job, problem, table);
   }
 }

@@ -5,7 +5,7 @@
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/effects/observe.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 using namespace detp;
 
@@ -34,7 +34,7 @@ TEST_SUITE("statistical") {
         request.rays = 20'000;
         request.disc_radius = validate::Length{radius, true};
         const validate::Job job = validate::make_job(request);
-        const sim::Problem problem = job.problem();
+        const sim::Problem& problem = job.problem();
         const auto counted = sim::run(problem, Candidate{Technique::box_tree, BoxTreeParameters{8, 16}}, {}).counts;
         with.push_back(off_by(job, job.workload, counted));
         const sim::EffectSelection two("surface-samples,finite-paths");

@@ -5,8 +5,8 @@
 
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
-#include "detp/validate/choice/job.hpp"
 #include "detp/validate/choice/pilot.hpp"
+#include "detp/validate/job/job.hpp"
 #include "detp/validate/tools/pilot_errors/sparse_scenes.hpp"
 #include "support/scratch_file.hpp"
 
@@ -44,7 +44,7 @@ void search_sparse(const std::string& mesh, std::uint64_t seed, Coverage& covera
   request.effects = sim::EffectSelection("none");
   request.seed = seed;
   const validate::Job job = validate::make_job(request);
-  const sim::Problem problem = job.problem();
+  const sim::Problem& problem = job.problem();
   const auto found =
       validate::choose({.problem = &problem, .workload = job.workload, .disabled = {Technique::brute_force}},
                        validate::built_in_unit_costs());
@@ -78,7 +78,7 @@ TEST_SUITE("known answer") {
       request.disc_radius = validate::Length{0.02, true};
       request.effects = sim::EffectSelection("none");
       const validate::Job job = validate::make_job(request);
-      const sim::Problem problem = job.problem();
+      const sim::Problem& problem = job.problem();
       const auto costs = validate::built_in_unit_costs();
       const auto with = validate::choose(
           {.problem = &problem, .workload = job.workload, .disabled = {Technique::brute_force}}, costs);

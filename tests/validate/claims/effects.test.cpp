@@ -10,8 +10,8 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/choice/job.hpp"
 #include "detp/validate/claims/experiments.hpp"
+#include "detp/validate/job/job.hpp"
 
 using namespace detp;
 using namespace detp::validate;

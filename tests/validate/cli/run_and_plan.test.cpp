@@ -4,8 +4,8 @@
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/choice/candidate_json.hpp"
 #include "detp/validate/choice/choice.hpp"
-#include "detp/validate/choice/job.hpp"
 #include "detp/validate/choice/plan.hpp"
+#include "detp/validate/job/job.hpp"
 #include "support/command.hpp"
 
 using namespace detp;
@@ -27,7 +27,7 @@ TEST_SUITE("identity") {
         const auto plan = validate::plan(job.discs, job.rays, {.once = true});
         CHECK(run["technique"] == name(plan.candidate().technique));
         CHECK(run["parameters"] == to_json(plan.candidate()));
-        const sim::Problem problem = job.problem();
+        const sim::Problem& problem = job.problem();
         const auto choice = validate::choose({.problem = &problem, .purpose = validate::Purpose::one_search},
                                              validate::built_in_unit_costs());
         CHECK(plan.candidate() == choice.best().candidate);

@@ -48,7 +48,7 @@ TEST_SUITE("identity") {
         own.disc_radius = axes.radii[j];
         const Job job = make_job(own);
         CHECK(job.workload.disc_radius == map.rows[j].workload.disc_radius);
-        const sim::Problem problem = job.problem();
+        const sim::Problem& problem = job.problem();
         const Choice pilot = choose({.problem = &problem}, built_in_unit_costs());
         REQUIRE(cell.choice);
         CHECK(cell.choice->rigor == Rigor::pilot);

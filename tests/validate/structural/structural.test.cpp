@@ -9,7 +9,7 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 using namespace detp;
 using namespace detp::validate;

@@ -10,7 +10,7 @@
 #include "detp/model/hierarchy/box_tree.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 #include "detp/validate/structural/structural.hpp"
 
 using namespace detp;

@@ -24,7 +24,7 @@
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/choice/choice.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "sparse_search.hpp"
 #include "stated_errors.hpp"
@@ -66,7 +66,7 @@ std::vector<study::StatedError> judge(const study::SparseSearch& search, const s
   request.seed = search.seed;
   const validate::Job job = validate::make_job(request);
   std::filesystem::remove(mesh_file);
-  const sim::Problem problem = job.problem();
+  const sim::Problem& problem = job.problem();
   const auto found =
       validate::choose({.problem = &problem, .workload = job.workload, .disabled = {Technique::brute_force}}, costs);
   const Prediction& choice = found.best();

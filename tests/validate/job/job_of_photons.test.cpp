@@ -1,4 +1,4 @@
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 #include <doctest/doctest.h>
 

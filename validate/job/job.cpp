@@ -229,8 +229,12 @@ class JobMaker {
       block.resize(sim::default_block(job_.discs.size()));
       job_.stream->read(0, block, stop_);
     }
-    const sim::Problem problem =
-        job_.stream ? sim::make_problem(block, job_.discs, job_.front_facing, 1, stop_) : job_.problem(1, stop_);
+    std::optional<sim::Problem> of_block;
+    if (job_.stream)
+      of_block = sim::make_problem(block, job_.discs, job_.front_facing, request_.threads, stop_);
+    else
+      job_.check_problem(request_.threads, stop_);
+    const sim::Problem& problem = of_block ? *of_block : job_.problem();
     job_.warnings = outlier_warnings(problem, stop_);
     job_.observed = sim::observe(problem, job_.surface, request_.effects, stop_);
     Workload workload = job_.observed.workload;
@@ -262,6 +266,17 @@ class JobMaker {
 };
 
 }  // namespace
+
+void Job::check_problem(int threads, const std::stop_token& stop) {
+  const sim::Stopwatch watch;
+  problem_ = sim::make_problem(paths(), discs, front_facing, threads, stop);
+  check_seconds = watch.seconds();
+}
+
+const sim::Problem& Job::problem() const {
+  if (!problem_) throw std::invalid_argument("the rays are a stream, or were not checked");
+  return *problem_;
+}
 
 Length parse_length(std::string_view text) {
   const bool relative = text.ends_with('%');

@@ -54,6 +54,7 @@ struct JobRequest {
   /// block of rays is made, and the workload is measured on this block. Has no effect on rays from a file.
   bool workload_only = false;
   bool stream = false;  ///< if the rays are not from a file and fill more than a block, do not keep them in memory
+  int threads = 1;      ///< for checking rays and discs; 0: all cores
 
   /// True if the request has neither a scene nor a file, only the numbers of a workload.
   [[nodiscard]] bool numbers_alone() const { return !scene && !disc_file && !ray_file; }
@@ -89,11 +90,13 @@ struct Job {
   bool rays_from_file = false;
   double read_seconds = 0;   ///< time for reading or making the scene and the discs, and for reading rays from a file
   double trace_seconds = 0;  ///< time for making rays: tracing photons, or drawing lines
+  double check_seconds = 0;  ///< time for checking rays and discs, and for S₀
 
-  /// The problem. It refers to this job's rays and discs. Throws std::invalid_argument if the rays are a stream.
-  [[nodiscard]] sim::Problem problem(int threads = 1, const std::stop_token& stop = {}) const {
-    return sim::make_problem(paths(), discs, front_facing, threads, stop);
-  }
+  /// Checks rays and discs, as sim::make_problem; `make_job` has done so. Rays and discs must not change afterwards.
+  void check_problem(int threads = 1, const std::stop_token& stop = {});
+  /// The problem. It refers to this job's rays and discs; moving the job does not change that. Throws std::invalid_argument
+  /// if the rays are a stream.
+  [[nodiscard]] const sim::Problem& problem() const;
   [[nodiscard]] sim::PathRays paths() const { return {rays, photons, landings, photon_count}; }
   /// Rays have the numbers of their photons. If not, each is taken for a photon of its own.
   [[nodiscard]] bool numbered() const { return stream ? stream->numbered() : !photons.empty(); }
@@ -101,6 +104,9 @@ struct Job {
   [[nodiscard]] std::uint64_t independent_photons() const {
     return stream ? stream->photons() : numbered() ? std::max(photon_count, photons.back() + 1) : rays.size();
   }
+
+ private:
+  std::optional<sim::Problem> problem_;
 };
 
 /// Makes and measures what is requested. Throws sim::FileError for a bad file, std::invalid_argument for a bad request,

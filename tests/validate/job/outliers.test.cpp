@@ -1,4 +1,4 @@
-#include "detp/validate/choice/outliers.hpp"
+#include "detp/validate/job/outliers.hpp"
 
 #include <doctest/doctest.h>
 
@@ -7,7 +7,7 @@
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/scene/open/open_scene.hpp"
 #include "detp/sim/scene/open/uniform_discs.hpp"
-#include "detp/validate/choice/job.hpp"
+#include "detp/validate/job/job.hpp"
 
 using namespace detp;
 using namespace detp::validate;
