@@ -102,10 +102,9 @@ std::vector<Prediction> rank(const Valid<Workload>& workload, const Valid<CostTa
   // Brute force needs no search. The box tree is mostly the fastest, so that the others need little search.
   for (const Technique technique : {Technique::brute_force, Technique::box_tree})
     if (ranking.empty() || !limits.stop.stop_requested()) add(technique);
-  for (const Technique technique : all_techniques) {
+  for (const Technique technique : exact_techniques) {
     if (limits.stop.stop_requested()) break;
-    if (record_of(technique).exact && technique != Technique::brute_force && technique != Technique::box_tree)
-      add(technique);
+    if (technique != Technique::brute_force && technique != Technique::box_tree) add(technique);
   }
   std::sort(ranking.begin(), ranking.end(), is_faster);
   return ranking;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <concepts>
 #include <optional>
 #include <span>
@@ -186,7 +187,7 @@ inline constexpr std::array technique_records{
   return technique_records[static_cast<std::size_t>(technique)];
 }
 
-/// Every technique, in the order of the records.
+/// Every technique, in the order of the records. Those that find every hit, and so can be chosen: exact_techniques.
 inline constexpr auto all_techniques = [] {
   std::array<Technique, technique_records.size()> all{};
   for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<Technique>(i);
@@ -197,6 +198,14 @@ static_assert([] {
     if (record_of(technique).technique != technique) return false;
   return true;
 }());
+
+/// The techniques that find every hit, in the order of the records: the candidates of a choice.
+inline constexpr auto exact_techniques = [] {
+  constexpr auto count = std::ranges::count_if(technique_records, &TechniqueRecord::exact);
+  std::array<Technique, count> exact{};
+  std::ranges::copy_if(all_techniques, exact.begin(), [](Technique one) { return record_of(one).exact; });
+  return exact;
+}();
 
 [[nodiscard]] constexpr std::string_view name(Technique technique) { return record_of(technique).name; }
 

@@ -4,7 +4,7 @@
 
 #include "effect.hpp"
 
-/// The effects, one in each source file. A new one is a file and a line in both lists below.
+/// The effects. A new one is a file and a line in both lists below.
 namespace detp::sim {
 
 extern const Effect finite_paths;

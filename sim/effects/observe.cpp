@@ -153,7 +153,7 @@ std::string condition(const Threshold& threshold) {
     case Threshold::Side::apart:
       break;
   }
-  return fmt::format("not {:.4g} ± {:.4g}", threshold.at, threshold.tolerance);
+  return fmt::format("differs from {:.4g} by more than {:.4g}", threshold.at, threshold.tolerance);
 }
 
 }  // namespace detp::sim

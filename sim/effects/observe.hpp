@@ -65,7 +65,7 @@ struct Observed {
 /// The name with hyphens, as options have it.
 [[nodiscard]] std::string option_name(const Effect& effect);
 
-/// "< 0.95", "> 4" or "1 ± 0.05": the values with which it is on.
+/// "< 0.95", "> 4" or "differs from 1 by more than 0.05": the values with which it is on.
 [[nodiscard]] std::string condition(const Threshold& threshold);
 
 }  // namespace detp::sim

@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/scene/mesh.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "support/exact_candidates.hpp"
 #include "support/not_a_length.hpp"

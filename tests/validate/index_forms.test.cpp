@@ -9,8 +9,8 @@
 #include "detp/sim/geometry/ray_box.hpp"
 #include "detp/sim/index/disc_index.hpp"
 #include "detp/sim/index/indexed_search.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "support/indexed.hpp"
 
 // Compares the closed forms of octrees and grids with counts, for all variants of these indices.

@@ -1,8 +1,8 @@
 #include <doctest/doctest.h>
 
 #include "detp/sim/effects/observe.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/validate/bench/bench.hpp"
 #include "detp/validate/claims/experiments.hpp"
 #include "detp/validate/job/job.hpp"

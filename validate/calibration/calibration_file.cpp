@@ -96,8 +96,8 @@ Json to_json(const CostTable& costs) {
 
 Json errors_json(const CostTable& costs) {
   Json json = Json::object();
-  for (const Technique technique : all_techniques)
-    if (record_of(technique).exact) json[std::string(name(technique))] = costs.relative_error_of(technique);
+  for (const Technique technique : exact_techniques)
+    json[std::string(name(technique))] = costs.relative_error_of(technique);
   return json;
 }
 

@@ -5,7 +5,7 @@
 
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/geometry/geometry.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 /// The workloads that a calibration times.
 namespace detp::validate {

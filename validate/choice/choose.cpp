@@ -43,9 +43,10 @@ bool powers_differ(const Question& question) {
   return all_known ? !question.problem->one_power() : differ(question.rays);
 }
 
-Choice by_closed_forms(const Question& question, const Valid<CostTable>& costs) {
+Choice by_closed_forms(const Question& question, const Valid<CostTable>& given) {
   if (!can_measure(question)) throw std::invalid_argument("closed forms need a workload, or rays to measure it on");
   const sim::Stopwatch watch;
+  const Valid<CostTable> costs(costs_for(question, given));
   Choice found;
   found.candidates = allowed_ranking(evidence(question, *question.ray_count), costs, question.disabled,
                                      {.threads = sim::useful_threads(question.threads), .stop = question.stop});
@@ -78,8 +79,7 @@ Choice choose(const Question& question, const Valid<CostTable>& costs) {
   const Question all = completed(question);
   const Rigor rigor = all.rigor.value_or(reachable_rigor(all, costs));
   if (rigor == Rigor::measure) throw std::invalid_argument("a choice by measurement is made by analyse");
-  const Valid<CostTable> priced(costs_for(all, costs));
-  Choice found = rigor == Rigor::estimate ? by_closed_forms(all, priced) : choose_by_sample(all, rigor, priced);
+  Choice found = rigor == Rigor::estimate ? by_closed_forms(all, costs) : choose_by_sample(all, rigor, costs);
   found.rigor = rigor;
   return found;
 }
@@ -95,9 +95,8 @@ Choice choose_again(const Choice& choice, const Question& question, double radiu
     changed.workload->rays = rays;
     changed.workload = with_disc_radius(*changed.workload, radius_ratio * changed.workload->disc_radius);
   }
-  const Valid<CostTable> priced(costs_for(changed, costs));
-  Choice found = choice.rigor == Rigor::estimate ? by_closed_forms(changed, priced)
-                                                 : sample_again(choice, changed, radius_ratio, priced);
+  Choice found = choice.rigor == Rigor::estimate ? by_closed_forms(changed, costs)
+                                                 : sample_again(choice, changed, radius_ratio, costs);
   found.rigor = choice.rigor;
   return found;
 }

@@ -92,10 +92,9 @@ Prediction priced(const Candidate& candidate, const Counts<double>& counts, cons
 void compare_others(const Question& question, const SearchSize& size, const Prices& prices, bool all, double prepared,
                     Choice& found) {
   Comparison comparison(question, size, prices, all, found);
-  for (const TechniqueRecord& record : technique_records)
-    if (record.exact && record.technique != Technique::box_tree && record.technique != Technique::brute_force &&
-        question.allows(record.technique))
-      comparison.compare(record.technique);
+  for (const Technique technique : exact_techniques)
+    if (technique != Technique::box_tree && technique != Technique::brute_force && question.allows(technique))
+      comparison.compare(technique);
   put_choice_first(found.candidates, comparison.counted_scene(), prepared);
 }
 

@@ -30,10 +30,10 @@ void add(std::vector<Candidate>& all, Candidate candidate, const Parameter& para
 
 std::vector<Candidate> techniques_left_out(const std::vector<Candidate>& candidates) {
   std::vector<Candidate> left_out;
-  for (const Technique technique : all_techniques) {
+  for (const Technique technique : exact_techniques) {
     const bool there = std::any_of(candidates.begin(), candidates.end(),
                                    [&](const Candidate& candidate) { return candidate.technique == technique; });
-    if (record_of(technique).exact && !there) left_out.push_back(default_candidate(technique));
+    if (!there) left_out.push_back(default_candidate(technique));
   }
   return left_out;
 }

@@ -27,21 +27,21 @@
 namespace detp::validate {
 namespace {
 
-/// usual_shape with the costs' p/u; where one of these is zero, with the usual one.
-BoxTreeParameters usual_shape_of(const SearchSize& size, const Prices& prices) {
-  const UnitCosts& costs = prices.costs[Technique::box_tree];
-  const bool known = costs.leaf > 0 && costs.disc_test > 0;
-  return usual_shape(size.rays, size.discs, known ? costs.leaf / costs.disc_test : usual_placing);
+/// p/u of the costs; where one of these is zero, the usual one.
+double placing_of(const CostTable& table) {
+  const UnitCosts& costs = table[Technique::box_tree];
+  return costs.leaf > 0 && costs.disc_test > 0 ? costs.leaf / costs.disc_test : usual_placing;
 }
 
 /// Looks for the fastest box tree: halves and doubles leaf and fan-out in turn, as long as that is faster.
 class ShapeSearch {
  public:
-  ShapeSearch(const sim::PilotedDiscs& discs, const SearchSize& size, const Prices& prices, bool for_replans)
-      : discs_(discs), size_(size), prices_(prices), for_replans_(for_replans) {}
+  ShapeSearch(const sim::PilotedDiscs& discs, const Prices& prices, bool for_replans)
+      : discs_(discs), prices_(prices), for_replans_(for_replans) {}
 
-  std::vector<Prediction> run() {
-    consider(usual_shape_of(size_, prices_));
+  /// Begins with `usual`.
+  std::vector<Prediction> run(const BoxTreeParameters& usual) {
+    consider(usual);
     for (BoxTreeParameters before{}; !(before == best());) {
       before = best();
       walk(&BoxTreeParameters::leaf, 4, 1024);
@@ -87,7 +87,6 @@ class ShapeSearch {
   }
 
   const sim::PilotedDiscs& discs_;
-  const SearchSize& size_;
   const Prices& prices_;
   bool for_replans_;
   std::vector<Prediction> tried_;
@@ -110,10 +109,9 @@ Prediction brute_force(const SearchSize& size, double hits, double error_of_hits
 }
 
 /// The usual shape, with a rough guess of its counts, from which the number of threads follows.
-Prediction usual_box_tree(const SearchSize& size, const Prices& prices) {
+Prediction usual_box_tree(const BoxTreeParameters& shape, const SearchSize& size, const Prices& prices) {
   constexpr double culls_of_ray = 40;
   constexpr double leaves_of_ray = 5;
-  const BoxTreeParameters shape = usual_shape_of(size, prices);
   const Counts<double> counts{.loaded = size.rays,
                               .segments = size.segments ? size.rays : 0,
                               .cull_tests = culls_of_ray * size.rays,
@@ -188,12 +186,14 @@ Sample sample_of(const Question& question, Rigor rigor, const sim::Problem& prob
 
 class SampleChoice {
  public:
-  SampleChoice(const Question& question, Rigor rigor, const sim::Problem& problem, const Valid<CostTable>& costs)
+  SampleChoice(const Question& question, Rigor rigor, const sim::Problem& problem, const Valid<CostTable>& costs,
+               double placing)
       : question_(question),
         rigor_(rigor),
         problem_(problem),
         prices_{costs, sim::useful_threads(question.threads)},
         discs_(static_cast<double>(problem.discs().size())),
+        usual_(usual_shape(*question.ray_count, discs_, placing)),
         preparing_(prices_({.placements = discs_, .sorted = discs_}, Technique::box_tree).time.total()) {}
 
   Choice run() && {
@@ -220,7 +220,7 @@ class SampleChoice {
     const SearchSize size = size_of(sample_.rays);
     if (question_.allows(Technique::brute_force) && is_brute_force_faster(size)) return true;
     if (!is_short) return false;
-    found_.candidates = {usual_box_tree(size, prices_)};
+    found_.candidates = {usual_box_tree(usual_, size, prices_)};
     return true;
   }
 
@@ -252,7 +252,7 @@ class SampleChoice {
                                .others = sample_.others},
         subtrees_of(size.rays, size.discs), sim::RunOptions{.stop = question_.stop, .threads = question_.threads});
     found_.sort_seconds = found_.discs->sort_seconds();
-    found_.candidates = ShapeSearch(*found_.discs, size, prices_, question_.purpose == Purpose::replans).run();
+    found_.candidates = ShapeSearch(*found_.discs, prices_, question_.purpose == Purpose::replans).run(usual_);
     if (question_.allows(Technique::brute_force)) {
       const Prediction& tree = found_.best();
       found_.candidates.push_back(brute_force(size, tree.counts.hits, tree.counts_error.hits, prices_));
@@ -267,6 +267,7 @@ class SampleChoice {
   sim::Stopwatch watch_;
   Prices prices_;
   double discs_;
+  BoxTreeParameters usual_;
   double preparing_;
   Sample sample_ = {};
   Choice found_ = {};
@@ -274,7 +275,9 @@ class SampleChoice {
 
 }  // namespace
 
-Choice choose_by_sample(const Question& question, Rigor rigor, const Valid<CostTable>& costs) {
+Choice choose_by_sample(const Question& question, Rigor rigor, const Valid<CostTable>& given) {
+  const Valid<CostTable> costs(costs_for(question, given));
+  const double placing = placing_of(given);  // usual_shape knows no sums of powers
   const std::string_view what = rigor == Rigor::structural ? "a structural choice" : "a pilot";
   if (question.problem == nullptr) throw std::invalid_argument(fmt::format("{} needs discs", what));
   if (!question.allows(Technique::box_tree))
@@ -291,14 +294,15 @@ Choice choose_by_sample(const Question& question, Rigor rigor, const Valid<CostT
         question.problem->enclosing().radius, question.problem->farthest()));
   sim::StopCheck(question.stop, "choosing").now();
   if (rigor == Rigor::pilot || question.problem->rays().empty())
-    return SampleChoice(question, rigor, *question.problem, costs).run();
+    return SampleChoice(question, rigor, *question.problem, costs, placing).run();
   const sim::Problem without_rays =
       sim::searched_problem(question.problem->discs(), {}, question.problem->front_facing(), question.stop);
-  return SampleChoice(question, rigor, without_rays, costs).run();
+  return SampleChoice(question, rigor, without_rays, costs, placing).run();
 }
 
 Choice sample_again(const Choice& choice, const Question& question, double radius_ratio,
-                    const Valid<CostTable>& costs) {
+                    const Valid<CostTable>& given) {
+  const Valid<CostTable> costs(costs_for(question, given));
   const double rays = *question.ray_count;
   const Prices prices{costs, sim::useful_threads(question.threads)};
   const auto discs = static_cast<double>(question.problem->discs().size());

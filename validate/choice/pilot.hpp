@@ -15,7 +15,7 @@ namespace detp::validate {
 /// A stratified sample of the rays, of pilot_size.
 [[nodiscard]] std::vector<sim::Ray> pilot_sample(std::span<const sim::Ray> rays, std::size_t discs);
 
-/// `choose` with rigor pilot or structural; `question` has its rays and their number.
+/// `choose` with rigor pilot or structural; `question` has its rays and their number. `costs` as for `choose`.
 ///
 /// The shapes of box trees are compared by sim::PilotedDiscs, brute force by its exact counts, other techniques by
 /// compare_others. Brute force is chosen if it takes less time than sorting and placing the discs and the least search that

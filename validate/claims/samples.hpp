@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "batches.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 namespace detp::validate {
 

@@ -9,7 +9,7 @@
 #include "detp/sim/files/disc_file.hpp"
 #include "detp/sim/files/mesh_writer.hpp"
 #include "detp/sim/files/ray_file.hpp"
-#include "detp/sim/scene/open/open_scene.hpp"
+#include "detp/sim/open/open_scene.hpp"
 #include "effects_report.hpp"
 #include "outputs.hpp"
 #include "progress_line.hpp"

@@ -65,8 +65,7 @@ nlohmann::ordered_json to_json(const CostTable& costs) {
   if (costs.of_technique == CostTable(costs.of_technique.front()).of_technique)
     return to_json(costs.of_technique.front());
   nlohmann::ordered_json json;
-  for (const Technique technique : all_techniques) {
-    if (!record_of(technique).exact) continue;
+  for (const Technique technique : exact_techniques) {
     nlohmann::ordered_json& of_one = json[std::string(name(technique))] = nlohmann::ordered_json::object();
     for (const UnitCostTerm& one : unit_cost_terms)
       if (const double cost = costs[technique].*one.cost; cost > 0) of_one[std::string(one.symbol)] = cost;

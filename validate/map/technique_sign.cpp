@@ -1,5 +1,6 @@
 #include "technique_sign.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -35,12 +36,8 @@ std::string code_of(Technique technique) {
 }
 
 std::string_view colour_of(Technique technique) {
-  std::size_t place = 0;
-  for (const TechniqueRecord& record : technique_records) {
-    if (record.technique == technique) break;
-    place += record.exact ? 1 : 0;
-  }
-  return colours[place % colours.size()];
+  const auto place = std::ranges::find(exact_techniques, technique) - exact_techniques.begin();
+  return colours[static_cast<std::size_t>(place) % colours.size()];
 }
 
 std::string_view text_colour_on(Technique technique) {

@@ -9,7 +9,7 @@
 #include "detp/model/disc_index/disc_index_published.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/model/sphere_cache/sphere_count.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 namespace detp::validate {
 namespace {

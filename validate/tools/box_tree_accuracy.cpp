@@ -19,7 +19,7 @@
 
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/geometry/random.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/validate/structural/structural.hpp"
 
 namespace {

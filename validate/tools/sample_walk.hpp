@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "detp/sim/geometry/lebesgue.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 /// Samples in the order of the Morton curve, and balls that move along these samples. Used by the parts of
 /// rebuild_law_table.

@@ -22,7 +22,7 @@
 
 #include "detp/sim/geometry/lebesgue.hpp"
 #include "detp/sim/lists/sphere_nodes.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 namespace {
 

@@ -2,7 +2,7 @@
 
 #include <doctest/doctest.h>
 
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 using namespace detp;
 

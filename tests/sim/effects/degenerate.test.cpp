@@ -8,8 +8,8 @@
 
 #include "detp/sim/effects/concave_surfaces.hpp"
 #include "detp/sim/effects/observe.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 
 using namespace detp;
 

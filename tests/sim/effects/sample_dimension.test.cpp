@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "detp/sim/geometry/random.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 using namespace detp::sim;
 

@@ -8,8 +8,8 @@
 #include <numeric>
 #include <vector>
 
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/search/problem.hpp"
 
 using namespace detp::sim;

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "detp/sim/geometry/lebesgue.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/search/problem.hpp"
 
 using namespace detp::sim;

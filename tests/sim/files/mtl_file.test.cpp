@@ -9,8 +9,8 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/mesh_file.hpp"
+#include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
-#include "detp/sim/scene/open/open_scene.hpp"
 #include "support/scratch_file.hpp"
 #include "support/work_log.hpp"
 

@@ -7,7 +7,7 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/geometry/disc_box.hpp"
 #include "detp/sim/index/disc_index.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 using namespace detp;
 using namespace detp::sim;

@@ -7,8 +7,8 @@
 
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 using namespace detp;

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "detp/sim/lists/plain/ray_list.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 using namespace detp;
 using namespace detp::sim;

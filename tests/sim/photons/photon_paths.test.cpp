@@ -1,5 +1,5 @@
 #include "detp/sim/photons/photon_paths.hpp"
-#include "detp/sim/scene/open/open_scene.hpp"
+#include "detp/sim/open/open_scene.hpp"
 
 #include <doctest/doctest.h>
 #include <tbb/global_control.h>

@@ -6,8 +6,8 @@
 #include <numbers>
 
 #include "detp/sim/geometry/random.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/sim/technique/technique.hpp"
 
@@ -53,16 +53,16 @@ std::vector<std::uint64_t> few_rays_each(std::size_t rays) {
   return photons;
 }
 
-const std::vector<Candidate> exact_techniques{{Technique::brute_force, BruteForceParameters{}},
-                                              {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
-                                              {Technique::cell_spheres, CellSpheresParameters{3}},
-                                              {Technique::sphere_tree, SphereTreeParameters{8, 4}},
-                                              {Technique::box_tree, BoxTreeParameters{8, 4}},
-                                              {Technique::octree, OctreeParameters{3}},
-                                              {Technique::grid, GridParameters{8}},
-                                              {Technique::bsp, BspParameters{8, 4}},
-                                              {Technique::bvh, BvhParameters{}},
-                                              {Technique::ray_map, RayMapParameters{}}};
+const std::vector<Candidate> one_of_each{{Technique::brute_force, BruteForceParameters{}},
+                                         {Technique::sphere_cache, SphereCacheParameters{0.6, 4}},
+                                         {Technique::cell_spheres, CellSpheresParameters{3}},
+                                         {Technique::sphere_tree, SphereTreeParameters{8, 4}},
+                                         {Technique::box_tree, BoxTreeParameters{8, 4}},
+                                         {Technique::octree, OctreeParameters{3}},
+                                         {Technique::grid, GridParameters{8}},
+                                         {Technique::bsp, BspParameters{8, 4}},
+                                         {Technique::bvh, BvhParameters{}},
+                                         {Technique::ray_map, RayMapParameters{}}};
 
 }  // namespace
 
@@ -92,7 +92,7 @@ TEST_SUITE("standard error of irradiance") {
           CHECK(std::isfinite(outcome.standard_error[d]) == std::isfinite(expected[d]));
         }
         CHECK(finite > 20);
-        for (const Candidate& candidate : exact_techniques)
+        for (const Candidate& candidate : one_of_each)
           for (const Engine engine : {Engine::simd, Engine::plain})
             for (const int threads : {1, 2}) {
               CAPTURE(name(candidate.technique));
@@ -167,7 +167,7 @@ TEST_SUITE("standard error of irradiance") {
         rays.push_back({{0, 0, 1}, {0, 0, -1}, unbounded, 2});
         photons.push_back(photon);
       }
-    for (const Candidate& candidate : exact_techniques) {
+    for (const Candidate& candidate : one_of_each) {
       const Outcome outcome =
           run(make_problem(PathRays{rays, photons, {}}, discs), candidate, {.standard_error = true});
       CHECK(outcome.hits[1] == 0);

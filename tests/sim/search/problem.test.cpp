@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "detp/sim/geometry/unit_vector.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/exact_candidates.hpp"
 #include "support/not_a_length.hpp"

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/scene/built_in/mesh_pieces.hpp"
-#include "detp/sim/scene/open/open_scene.hpp"
 #include "detp/sim/search/outcome.hpp"
 #include "detp/sim/technique/technique.hpp"
 

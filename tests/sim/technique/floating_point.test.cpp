@@ -6,10 +6,10 @@
 #include <thread>
 #include <vector>
 
+#include "detp/sim/open/open_scene.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/photons/photon_source.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/open_scene.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "support/exact_candidates.hpp"

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "detp/sim/geometry/random.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/allocations.hpp"
 #include "support/exact_candidates.hpp"

@@ -8,7 +8,7 @@
 #include <numeric>
 #include <stdexcept>
 
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 
 using namespace detp;
 using namespace detp::sim;

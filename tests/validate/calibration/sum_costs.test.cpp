@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/validate/choice/choice.hpp"
 
 using namespace detp;

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "detp/sim/effects/observe.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 
 using namespace detp;

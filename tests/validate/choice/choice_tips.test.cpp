@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "detp/model/rank/choose.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 

@@ -9,8 +9,8 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/choice/usual_shape.hpp"

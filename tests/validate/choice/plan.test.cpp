@@ -8,8 +8,8 @@
 #include "detp/model/rank/choose.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/choice/closed_form_choice.hpp"
 

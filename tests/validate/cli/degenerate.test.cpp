@@ -7,8 +7,8 @@
 
 #include "detp/sim/files/disc_file.hpp"
 #include "detp/sim/files/ray_file.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "support/command.hpp"
 
 namespace detp::support {

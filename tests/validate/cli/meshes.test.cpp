@@ -1,6 +1,6 @@
 #include <doctest/doctest.h>
 
-#include "run_support.hpp"
+#include "support/run_support.hpp"
 
 namespace detp::support {
 namespace {

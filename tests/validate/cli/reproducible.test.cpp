@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
-#include "run_support.hpp"
+#include "support/run_support.hpp"
 
 namespace detp::support {
 

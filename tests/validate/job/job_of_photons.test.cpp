@@ -2,8 +2,8 @@
 
 #include <doctest/doctest.h>
 
+#include "detp/sim/open/open_scene.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
-#include "detp/sim/scene/open/open_scene.hpp"
 
 using namespace detp;
 

@@ -4,9 +4,9 @@
 
 #include <string>
 
+#include "detp/sim/open/open_scene.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/open_scene.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/validate/job/job.hpp"
 
 using namespace detp;

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/choice/neighbours.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "detp/model/hierarchy/box_tree.hpp"
 #include "detp/model/rank/predict.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/validate/job/job.hpp"
 #include "detp/validate/structural/structural.hpp"
 

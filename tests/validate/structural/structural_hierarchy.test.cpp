@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "detp/model/rank/predict.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 
 using namespace detp;

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "detp/sim/open/open_scene.hpp"
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/open_scene.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 
 using namespace detp;

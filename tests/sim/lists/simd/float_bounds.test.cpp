@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "support/float_search.hpp"
 #include "support/float_shares.hpp"

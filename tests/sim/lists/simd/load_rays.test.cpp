@@ -7,8 +7,8 @@
 #include <memory_resource>
 #include <vector>
 
+#include "detp/sim/open/uniform_discs.hpp"
 #include "detp/sim/rays/line_field.hpp"
-#include "detp/sim/scene/open/uniform_discs.hpp"
 
 using namespace detp::sim;
 using namespace detp::sim::stream;

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "detp/sim/technique/technique.hpp"
-#include "validate/cli/run_support.hpp"
+#include "support/run_support.hpp"
 
 using namespace detp;
 using namespace detp::validate;

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/costs_in_use.hpp"
+
+/// `bench --regret`.
+namespace detp::cli {
+
+class RegretCommand {
+ public:
+  /// Adds --regret, --costs and --calibration.
+  void add_to(CLI::App& bench);
+
+  /// Whether --regret was given. Throws std::invalid_argument if options were given that it excludes.
+  [[nodiscard]] bool is_wanted() const;
+
+  [[nodiscard]] CostsInUse costs(const CommonOptions& common) const { return costs_.costs(common); }
+
+ private:
+  bool wanted_ = false;
+  CostOptions costs_;
+  const CLI::App* bench_ = nullptr;
+};
+
+/// The regret of the choices over the workloads of the effort: "quick" or "thorough". With a scene or fields, only over
+/// those of them. Throws std::invalid_argument if there are none.
+[[nodiscard]] Result run_bench_regret(const RegretCommand& command, const std::string& effort,
+                                      const std::optional<std::string>& scene, const std::vector<std::string>& fields,
+                                      const CommonOptions& common, const std::stop_token& stop);
+
+}  // namespace detp::cli

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "detp/validate/bench/summary.hpp"
+#include "detp/validate/cli/command.hpp"
+
+namespace detp::cli {
+
+/// The benchmark's results in the three formats. `missing` has the reasons why scenes were left out. The exit code is
+/// `refuted` if one of our techniques found wrong hits, `stopped` if a stop request ended the benchmark.
+[[nodiscard]] Result report_bench(const validate::BenchResult& bench, const validate::BenchOptions& options,
+                                  const std::vector<std::string>& missing, const Screen& screen);
+
+}  // namespace detp::cli

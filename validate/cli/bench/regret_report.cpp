@@ -1,0 +1,150 @@
+#include "regret_report.hpp"
+
+#include <fmt/format.h>
+
+#include "detp/model/vocabulary/quoted.hpp"
+#include "detp/validate/cli/choose/measured_report.hpp"
+#include "detp/validate/cli/text_table.hpp"
+#include "detp/validate/cli/workload_options.hpp"
+#include "regret_rows.hpp"
+
+namespace detp::cli {
+namespace {
+
+using validate::ChoicePlace;
+using validate::ChoiceRow;
+using validate::Figures;
+using validate::RegretFigures;
+using validate::RegretResult;
+using validate::RegretRow;
+using validate::RegretSummary;
+using validate::RegretWorkload;
+using validate::TierSummary;
+
+std::string title_of(const RegretWorkload& workload) {
+  return fmt::format("{}, {}, {:g} rays{}, radius {:g}%", workload.scene, name(workload.field), workload.rays,
+                     workload.samples > 0 ? fmt::format(", {:g} samples", workload.samples) : "",
+                     100 * workload.radius);
+}
+
+std::string number_text(double number, bool at_least) { return fmt::format("{}{:.3g}", at_least ? ">= " : "", number); }
+
+std::vector<TextCell> figure_cells(const Figures& figures) {
+  if (figures.rows == 0) return {{}, {}, {}};
+  const bool at_least = figures.at_least > 0;
+  return {{number_text(figures.geometric_mean, at_least), Style::strong},
+          {number_text(figures.p95, at_least)},
+          {number_text(figures.worst, at_least)}};
+}
+
+std::vector<TextCell> regret_cells(const std::string& what, const std::string& candidate,
+                                   const RegretFigures& figures) {
+  std::vector<TextCell> cells{{what}, {candidate}};
+  for (const Figures& half : {figures.fitted, figures.held_out})
+    for (TextCell& cell : figure_cells(half)) cells.push_back(std::move(cell));
+  return cells;
+}
+
+std::string regret_table(const RegretSummary& summary, const Screen& screen) {
+  const std::string fitted = "fitted scenes";
+  const std::string held_out = "held-out scenes";
+  TextTable table({{.head = "regret of", .align = Align::left},
+                   {.head = "candidate", .align = Align::left, .spare = 1},
+                   {.head = "mean", .group = fitted},
+                   {.head = "p95", .group = fitted},
+                   {.head = "worst", .group = fitted},
+                   {.head = "mean", .group = held_out},
+                   {.head = "p95", .group = held_out},
+                   {.head = "worst", .group = held_out}});
+  for (const TierSummary& tier : summary.tiers) table.add(regret_cells(tier.tier, "", tier.regret));
+  for (std::size_t i = 0; i < summary.baselines.size(); ++i) {
+    const auto candidate = candidate_of(i, summary.baselines[i]);
+    table.add(regret_cells(std::string(validate::baselines()[i].text), candidate ? title(*candidate) : "",
+                           summary.baselines[i].regret));
+  }
+  return table.text(screen);
+}
+
+std::string summary_text(const RegretSummary& summary, const Screen& screen) {
+  std::string text = fmt::format("{}{}, {} workload{}\n", summary.threads == 1 ? "" : "At most ",
+                                 threads_text(summary.threads), summary.rows, summary.rows == 1 ? "" : "s");
+  if (summary.rows == 0) return text;
+  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
+  text += regret_table(summary, screen);
+  add(
+      fmt::format("noise     the best, timed twice as if it were two candidates: factor {:.3g} in the geometric mean, "
+                  "p95 {:.3g}, worst {:.3g}",
+                  summary.noise.geometric_mean, summary.noise.p95, summary.noise.worst));
+  for (const TierSummary& tier : summary.tiers) {
+    if (tier.price.rows > 0)
+      add(
+          fmt::format("price     {}: choosing and run take {} times the best, in the geometric mean of {} workloads "
+                      "whose best takes over {:g} ms",
+                      tier.tier, number_text(tier.price.geometric_mean, tier.price.at_least > 0), tier.price.rows,
+                      1e3 * validate::shortest_priced_run));
+    if (tier.prediction.rows > 0)
+      add(fmt::format("predicted {}: the seconds of the choices are off by {:.0f} % in the median, p95 {:.0f} %",
+                      tier.tier, 100 * tier.prediction.median_error, 100 * tier.prediction.p95_error));
+  }
+  return text + "\n";
+}
+
+std::string worst_text(const RegretResult& regret, const Screen& screen) {
+  const auto places = validate::worst_choices(regret.rows, most_worst_choices);
+  if (places.empty()) return "";
+  std::string text = fmt::format("The {} largest regrets\n", places.size());
+  for (const ChoicePlace& place : places) {
+    const RegretRow& row = regret.rows[place.row];
+    const ChoiceRow& choice = row.choices[place.choice];
+    const auto run = [&](const Candidate& candidate, int threads) {
+      return row.threads == 1 ? title(candidate) : fmt::format("{}, {}", title(candidate), threads_text(threads));
+    };
+    text +=
+        wrapped(fmt::format("{:<10}{}, {}{}: {} takes {}; the best is {}. Reason: {}",
+                            number_text(choice.regret.value, choice.regret.at_least), escaped(title_of(row.workload)),
+                            row.threads == 1 ? "" : "at most ", threads_text(row.threads), choice.tier,
+                            run(choice.choice.prediction.candidate, choice.choice.prediction.threads),
+                            run(row.best, row.best_threads), choice.reason),
+                screen.text_width(), 10);
+  }
+  return text + "\n";
+}
+
+std::string to_text(const RegretResult& regret, const std::vector<RegretSummary>& summaries,
+                    const std::vector<std::string>& missing, const Screen& screen) {
+  std::string text;
+  for (const RegretSummary& summary : summaries) text += summary_text(summary, screen);
+  text += worst_text(regret, screen);
+  text +=
+      legend(screen,
+             "regret: seconds of the candidate over seconds of the best of all that were tried. mean: geometric mean. "
+             "p95: 95 % of the workloads have at most this. >=: at least; some runs were abandoned and count with "
+             "the time after which they were. radius: of the discs, % of the scene's longest side.");
+  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
+  for (const std::string& why : missing) add(fmt::format("left out  {}", why));
+  for (const validate::RegretSkip& skip : regret.skipped)
+    add(fmt::format("skipped   {}: {}", title_of(skip.workload), skip.why));
+  return text;
+}
+
+}  // namespace
+
+Result report_regret(const RegretResult& regret, const std::vector<int>& threads,
+                     const std::vector<std::string>& missing, const Screen& screen) {
+  std::vector<RegretSummary> summaries;
+  for (const int number : threads) summaries.push_back(validate::summarise(regret.rows, number));
+  Json skipped = Json::array();
+  for (const validate::RegretSkip& skip : regret.skipped)
+    skipped.push_back({{"workload", title_of(skip.workload)}, {"why", skip.why}});
+  Result result;
+  result.json = {{"rows", regret_rows_json(regret, summaries)},
+                 {"summary", regret_summary_json(regret, summaries)},
+                 {"skipped", std::move(skipped)},
+                 {"left_out", missing}};
+  result.text = to_text(regret, summaries, missing, screen);
+  result.csv = regret_rows_csv(regret, summaries);
+  if (regret.stopped) result.stopped = {regret.done, regret.workloads, "workloads"};
+  return result;
+}
+
+}  // namespace detp::cli

@@ -1,0 +1,170 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "choose_report.hpp"
+#include "choose_rival.hpp"
+#include "choose_rows.hpp"
+#include "choose_table.hpp"
+#include "choose_tips.hpp"
+#include "detp/validate/cli/effects_report.hpp"
+#include "detp/validate/cli/workload_options.hpp"
+#include "measured_report.hpp"
+#include "plain_ratio.hpp"
+
+namespace detp::cli {
+namespace {
+
+constexpr std::size_t most_lines = 11;    // a stopped answer has one more
+constexpr std::size_t usual_width = 120;  // of which they are lines
+
+/// "0.0172 ± 0.009 s", and what the error does not cover.
+std::string predicted_seconds(const ChooseAnswer& answer) {
+  const auto& choice = answer.choice.best();
+  const double seconds = choice.time.total();
+  double error = 0;
+  const char* note = "";
+  if (answer.by_sample()) {
+    error = answer.choice.best().error;
+  } else {
+    error = seconds * answer.costs.relative_error_of(choice.candidate.technique);
+    note = error > 0 ? " (error of unit costs; that of its closed form is not known)" : " (its error is not known)";
+  }
+  return fmt::format("{:.3g}{} s{}", seconds, error > 0 ? fmt::format(" ± {:.1g}", error) : "", note);
+}
+
+/// Other parameters of the chosen technique whose times cannot be told apart from the choice's: "; 5 other …".
+std::string close_shapes(const ChooseAnswer& answer) {
+  const std::vector<ChooseRow> rows = rows_of(answer);
+  const auto close = std::count_if(rows.begin() + 1, rows.end(), [&](const ChooseRow& row) {
+    return row.candidate.technique == rows.front().candidate.technique && could_win(answer, row);
+  });
+  return close == 0 ? ""
+                    : fmt::format("; {} other {} of it {} within {:.0f} %", close, close == 1 ? "shape" : "shapes",
+                                  close == 1 ? "is" : "are", 100 * validate::distinguishable);
+}
+
+std::string extrapolated(const std::vector<std::string>& reasons) {
+  if (reasons.empty()) return "";
+  const std::size_t others = reasons.size() - 1;
+  return fmt::format("; extrapolated: {}{}", reasons.front(),
+                     others == 0   ? ""
+                     : others == 1 ? ", and 1 more reason"
+                                   : fmt::format(", and {} more reasons", others));
+}
+
+std::string predicted_choice(const ChooseAnswer& answer) {
+  const auto& choice = answer.choice.best();
+  return fmt::format("{}, {}: predicted {}{}{}", title(choice.candidate), threads_text(choice.threads),
+                     predicted_seconds(answer), answer.analysis ? "" : close_shapes(answer),
+                     extrapolated(choice.extrapolated));
+}
+
+std::string ruled_out_line(const validate::Choice& choice) {
+  std::string list;
+  for (const validate::RuledOut& one : choice.ruled_out)
+    list += fmt::format("{}{} ({}{:.2g} s)", list.empty() ? "" : ", ", name(one.technique),
+                        one.by_bound ? "at least " : "", one.seconds);
+  return "ruled out " + (list.empty() ? "none" : list);
+}
+
+std::string not_examined_line(const validate::Choice& choice) {
+  std::string list;
+  for (const Technique technique : choice.unexamined) list += (list.empty() ? "" : ", ") + std::string(name(technique));
+  return "unknown   " + list + ": to find out would take longer than it could save";
+}
+
+std::string how_chosen(const ChooseAnswer& answer) {
+  const std::string run =
+      answer.rigor == Rigor::measure ? fmt::format("runs of {} candidates, after ", answer.analysis->tried) : "";
+  if (!answer.by_sample()) return run + "closed forms alone";
+  if (!answer.choice.discs) return run + "no pilot: brute force is faster than sorting the discs";
+  const std::string sample = answer.rigor == Rigor::structural
+                                 ? fmt::format("{} {} of the field, not those of the run", answer.choice.sampled_rays,
+                                               answer.workload.path_length > 0 ? "segments" : "lines")
+                                 : fmt::format("{} of {:.6g} rays", answer.choice.sampled_rays, answer.workload.rays);
+  return fmt::format("{}a pilot of {}{}", run, sample, run.empty() ? "; the discs that it sorted are kept" : "");
+}
+
+std::string planning_line(const ChooseAnswer& answer) {
+  const double seconds = answer.choosing_seconds;
+  const double share = seconds / answer.choice.best().time.total();
+  return fmt::format(
+      "planning  {} ({} the predicted run): {}",
+      seconds < 1 ? fmt::format("{:.{}g} ms", 1e3 * seconds, seconds < 0.1 ? 2 : 3) : fmt::format("{:.3g} s", seconds),
+      share < 1 ? fmt::format("{:.2g} % of", 100 * share) : number_of_times(share), how_chosen(answer));
+}
+
+std::string costs_line(const ChooseAnswer& answer, bool verbose) {
+  const bool plain = answer.costs.engine == Engine::plain;
+  return fmt::format("costs     {}{}", answer.costs_origin,
+                     verbose || plain ? fmt::format("; engine {}", name(answer.costs.engine)) : "");
+}
+
+std::string choice_lines(const ChooseAnswer& answer, const Screen& screen) {
+  const bool measured = answer.analysis && answer.analysis->best;
+  return (measured ? "" : choice_text(predicted_choice(answer), screen)) +
+         (answer.analysis ? measured_lines(answer, screen) : "");
+}
+
+std::string paragraph(const std::string& text, const Screen& screen) { return wrapped(text, screen.text_width(), 10); }
+
+std::size_t lines_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n'));
+}
+
+std::string hint(const Screen& screen) {
+  return legend(screen,
+                "--verbose shows all candidates, what was ruled out, the paper's rule, evidence of effects, symbols");
+}
+
+std::string with_tips(const ChooseAnswer& answer, const Screen& screen, std::size_t most, bool spaced = true) {
+  return paragraph(answer.title, screen) + paragraph(short_effects_line(answer.effects), screen) +
+         (spaced ? "\n" : "") + choice_lines(answer, screen) + paragraph(rival_line(answer), screen) +
+         paragraph(short_tips_line(answer, most), screen) + paragraph(planning_line(answer), screen) +
+         paragraph(costs_line(answer, false), screen);
+}
+
+/// With as many tips as fit, and the hint and the empty line if they fit.
+std::string short_text(const ChooseAnswer& answer, const Screen& screen) {
+  const auto lines = [&](std::size_t most) { return lines_of(with_tips(answer, {.width = usual_width}, most)); };
+  std::size_t most = answer.tips.tips.size() + 1;
+  while (most > 1 && lines(most) > most_lines) --most;
+  return with_tips(answer, screen, most, lines(most) <= most_lines) + (lines(most) < most_lines ? hint(screen) : "");
+}
+
+std::string analysis_text(const ChooseAnswer& answer, const Screen& screen) {
+  return choice_lines(answer, screen) + measured_table(answer, screen) + "\n" + paragraph(answer.title, screen) +
+         paragraph(short_effects_line(answer.effects), screen) + paragraph(planning_line(answer), screen) +
+         paragraph(costs_line(answer, false), screen) + hint(screen);
+}
+
+std::string verbose_text(const ChooseAnswer& answer, const Screen& screen) {
+  std::string text;
+  const auto add = [&](const std::string& line) { text += paragraph(line, screen); };
+  if (answer.analysis) text += choice_lines(answer, screen) + missed_lines(answer, screen) + "\n";
+  add(answer.title);
+  add(effects_line(answer.effects));
+  text += candidate_table(answer, screen) + candidate_notes(answer, screen) + "\n";
+  if (!answer.analysis) text += choice_lines(answer, screen);
+  add(rival_line(answer));
+  if (answer.by_sample()) add(ruled_out_line(answer.choice));
+  if (answer.by_sample() && !answer.choice.unexamined.empty()) add(not_examined_line(answer.choice));
+  add(tips_line(answer));
+  add(fmt::format("paper     its rule takes {}: predicted {:.3g} s, {}", title(answer.paper.candidate),
+                  answer.paper.time.total(),
+                  as_long(answer.paper.time.total() / answer.choice.best().time.total(), "the predicted choice")));
+  add(planning_line(answer));
+  add(fmt::format("rigor     {}", name(answer.rigor)));
+  add(costs_line(answer, true));
+  return text;
+}
+
+}  // namespace
+
+std::string to_text(const ChooseAnswer& answer, const Screen& screen, const TextDetail& detail) {
+  if (detail.verbose) return verbose_text(answer, screen);
+  return detail.measured && answer.analysis ? analysis_text(answer, screen) : short_text(answer, screen);
+}
+
+}  // namespace detp::cli

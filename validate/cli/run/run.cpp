@@ -1,0 +1,295 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "detp/model/optimum/best_ratio.hpp"
+#include "detp/model/rank/choose.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/files/output_file.hpp"
+#include "detp/sim/files/writing_check.hpp"
+#include "detp/validate/base/search_work.hpp"
+#include "detp/validate/choice/choice.hpp"
+#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/costs_in_use.hpp"
+#include "detp/validate/cli/outputs.hpp"
+#include "detp/validate/cli/progress_line.hpp"
+#include "detp/validate/cli/sphere_stops.hpp"
+#include "detp/validate/cli/workload_options.hpp"
+#include "run_report.hpp"
+#include "timed_run.hpp"
+
+namespace detp::cli {
+namespace {
+
+struct RunOptions {
+  WorkloadOptions workload;
+  CandidateOptions candidate;
+  CostOptions costs;
+  int repeat = 0;
+  std::optional<std::string> per_disc;
+  bool standard_error = false;
+  std::optional<std::string> pairs;
+};
+
+/// A candidate, and the number of threads of its run.
+struct Requested {
+  Candidate candidate = {};
+  int threads = 1;
+};
+
+/// The number of threads, at most `most_threads`, on which the closed form predicts the candidate to be fastest.
+int chosen_threads(const Candidate& candidate, const Workload& workload, const CostTable& costs, int most_threads) {
+  try {
+    return model::assess(workload, candidate, costs, most_threads).threads;
+  } catch (const std::invalid_argument&) {  // no closed form for these parameters
+    return most_threads;
+  }
+}
+
+/// Returns the requested technique on `threads` threads, or the technique that the closed forms predict to be fastest, on
+/// at most so many. The closed forms also choose the parameters that the options leave open.
+Requested complete(const CandidateOptions& options, const Workload& workload, const CostTable& costs, int threads) {
+  const int most = sim::useful_threads(threads);
+  const Technique technique =
+      options.technique ? options.technique_or(Technique::brute_force)
+                        : validate::choose({.workload = workload, .threads = most}, costs).best().candidate.technique;
+  const model::FixedParameters fixed = options.fixed_parameters(technique);
+  auto candidate = model::complete(technique, fixed, workload, costs);
+  if (!candidate) throw std::length_error(fmt::format("{} would not fit in memory on this workload", name(technique)));
+  if (auto* cache = std::get_if<SphereCacheParameters>(&candidate->parameters);
+      cache != nullptr && options.stop == SphereStop::max)
+    cache->spheres = sphere_stops(workload, costs[technique], Form::corrected, {cache->ratio}).max;
+  return {*candidate,
+          options.technique ? sim::thread_count(threads) : chosen_threads(*candidate, workload, costs, most)};
+}
+
+/// `order`: numbers of the rays in their file; empty if they have the file's order.
+void write_pairs(const std::string& path, const std::vector<sim::Pair>& found, const std::vector<std::uint32_t>& order,
+                 const std::stop_token& stop) {
+  std::vector<sim::Pair> pairs = found;
+  if (!order.empty()) {
+    for (sim::Pair& pair : pairs) pair.ray = order[pair.ray];
+    std::ranges::sort(pairs);
+  }
+  sim::WritingCheck check(path, pairs.size(), "pairs", stop);
+  sim::OutputFile file(path);
+  file.write("ray,disc\n");
+  for (const sim::Pair& pair : pairs) {
+    check.next();
+    file.write(fmt::format("{},{}\n", pair.ray, pair.disc));
+  }
+  file.commit();
+}
+
+void write_per_disc(const std::string& path, const sim::Outcome& outcome, const std::stop_token& stop) {
+  sim::WritingCheck check(path, outcome.hits.size(), "discs", stop);
+  sim::OutputFile file(path);
+  const bool errors = !outcome.standard_error.empty();
+  file.write(errors ? "disc,hits,irradiance,standard_error,upper_bound\n" : "disc,hits,irradiance\n");
+  for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc) {
+    check.next();
+    const std::string error = !errors ? ""
+                              : std::isfinite(outcome.standard_error[disc])
+                                  ? fmt::format(",{},", outcome.standard_error[disc])
+                                  : fmt::format(",,{}", outcome.upper_bound[disc]);
+    file.write(fmt::format("{},{},{}{}\n", disc, outcome.hits[disc], outcome.irradiance[disc], error));
+  }
+  file.commit();
+}
+
+void check_files(const RunOptions& options, const CommonOptions& common, std::size_t rows) {
+  if (rows > 1 && (options.per_disc || options.pairs))
+    throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
+  if (options.standard_error && !options.per_disc)
+    throw std::invalid_argument("--standard-error is a column of --per-disc FILE; give that too");
+  check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
+}
+
+/// Returns the progress if a stop request ended the run, the writing or the timed runs; else nothing.
+std::optional<sim::Progress> write_hits(const RunOptions& options, const validate::Job& job, const RunAnswer& answer,
+                                        const CommonOptions& common, const std::stop_token& stop) {
+  const sim::Outcome& outcome = answer.run.outcome;
+  if (outcome.stopped && (options.per_disc || options.pairs))
+    note(common, "stopped before the end: --per-disc and --pairs are not written, because they would be partial");
+  if (outcome.stopped) return outcome.progress;
+  try {
+    if (options.per_disc) write_per_disc(*options.per_disc, outcome, stop);
+    if (options.pairs) write_pairs(*options.pairs, outcome.pairs, job.file_order, stop);
+  } catch (const sim::Stopped& stopped) {
+    note(common, fmt::format("{}; the file is not kept", stopped.what()));
+    return stopped.progress();
+  }
+  const std::size_t timed = answer.timing.all.size();
+  if (options.repeat > 0 && timed < static_cast<std::size_t>(options.repeat))
+    return sim::Progress{timed, static_cast<std::uint64_t>(options.repeat), "timed runs"};
+  return std::nullopt;
+}
+
+/// True if all rows can read their rays in blocks. The photon map needs all rays in memory, because it accesses them in
+/// any order.
+bool can_stream(CandidateOptions& options, std::size_t rows) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    options.lists.choose_row(row);
+    if (options.technique_or(Technique::brute_force) == Technique::photon_map) return false;
+  }
+  return true;
+}
+
+/// Chooses, and runs the choice with what choosing has sorted.
+void choose_and_run(RunAnswer& answer, const validate::Question& question, sim::RunOptions options,
+                    const sim::ReportPhase& progress) {
+  const sim::Problem& problem = *question.problem;
+  answer.choice = validate::choose(question, answer.costs);
+  answer.costs = validate::costs_for(question, answer.costs);
+  answer.candidate = answer.choice->best().candidate;
+  answer.threads = options.threads = answer.choice->best().threads;
+  if (progress)
+    progress({std::string(name(answer.candidate.technique)), 0, 1,
+              validate::search_work(answer.choice->best().counts, options.engine)});
+  try {
+    answer.run.outcome = sim::run(problem, *validate::build_choice(*answer.choice, problem, options), options);
+  } catch (const sim::Stopped&) {  // stopped while the index was built
+    answer.run.outcome = sim::unsearched_outcome(problem, options);
+  }
+}
+
+RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
+                  const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
+  const bool in_memory = !options.candidate.technique && !job.stream;
+  const validate::Question question{.problem = in_memory ? &job.problem() : nullptr,
+                                    .workload = job.workload,
+                                    .purpose = validate::Purpose::one_search,
+                                    .threads = common.threads,
+                                    .stop = stop};
+  const bool by_pilot = validate::reachable_rigor(question, costs) == Rigor::pilot;
+  const Requested choice = by_pilot ? Requested{} : complete(options.candidate, job.workload, costs, common.threads);
+  RunAnswer answer{.candidate = choice.candidate,
+                   .threads = choice.threads,
+                   .costs = costs,
+                   .engine = options.candidate.engine,
+                   .repeat = options.repeat,
+                   .standard_error = options.standard_error,
+                   .random_rays = !options.workload.request(common).ray_file};
+  const Engine engine = options.candidate.engine;
+  sim::RunOptions run{.pairs = options.pairs.has_value(),
+                      .engine = engine,
+                      .stop = stop,
+                      .threads = by_pilot ? common.threads : choice.threads};
+  run.standard_error = options.standard_error;
+  const double share_of_first = 1.0 / (1 + options.repeat);
+  if (by_pilot) {
+    answer.run.prepare_seconds = job.check_seconds;
+    answer.run.rays_in_memory = job.rays.size();
+    choose_and_run(answer, question, run, sim::part_of(progress, 0, share_of_first));
+  } else {
+    answer.run = run_job(job, answer.candidate, run, sim::part_of(progress, 0, share_of_first));
+  }
+  run.threads = answer.threads;
+  run.count = run.pairs = false;
+  answer.timing = time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run,
+                            sim::part_of(progress, share_of_first, 1));
+  return answer;
+}
+
+/// Divides the progress among the rows of a table. A scene with its rays is expected to take a constant time (for scene
+/// and index) plus a term proportional to the number of rays.
+class RowProgress {
+ public:
+  RowProgress(RunOptions& options, const CommonOptions& common) : candidates_(options.candidate.lists.rows()) {
+    ValueLists& problems = options.workload.lists;
+    for (std::size_t i = 0; i < problems.rows(); ++i) {
+      problems.choose_row(i);
+      ends_.push_back((ends_.empty() ? 0 : ends_.back()) + options.workload.request(common).rays.value_or(1e5) + 3e4);
+    }
+  }
+
+  sim::ReportPhase job(sim::ReportPhase whole) {
+    const double begin = row_ < candidates_ ? 0 : ends_[row_ / candidates_ - 1];
+    const double length = ends_[row_ / candidates_] - begin;
+    after_job_ = begin + length * share_of_job;
+    return sim::part_of(std::move(whole), begin / ends_.back(), after_job_ / ends_.back());
+  }
+
+  sim::ReportPhase next(sim::ReportPhase whole) {
+    const double each = (ends_[row_ / candidates_] - after_job_) / static_cast<double>(candidates_);
+    const double begin = after_job_ + each * static_cast<double>(row_++ % candidates_);
+    return sim::part_of(std::move(whole), begin / ends_.back(), (begin + each) / ends_.back());
+  }
+
+ private:
+  static constexpr double share_of_job = 0.3;
+
+  std::size_t candidates_;
+  std::vector<double> ends_;  ///< for each problem: the sum of the expected times up to its end
+  std::size_t row_ = 0;
+  double after_job_ = 0;
+};
+
+Result run_run(RunOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  require_count("--repeat", options.repeat, 0, 10000);
+  ValueLists& problems = options.workload.lists;
+  ValueLists& candidates = options.candidate.lists;
+  const std::size_t expected = rows_in(problems, candidates);
+  check_files(options, common, expected);
+  const bool stream = can_stream(options.candidate, candidates.rows());
+  const CostsInUse costs = options.costs.costs(common);
+  const ProgressLine progress(common);
+  RowProgress rows(options, common);
+  Json inputs;
+  std::string text;
+  std::optional<sim::Progress> stopped;
+  const auto prepare = [&] {
+    validate::JobRequest request = options.workload.request(common);
+    request.stream = stream;
+    validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
+    note_all(common, job);
+    if (options.standard_error && request.ray_file && !job.numbered())
+      note(common, "standard errors: the rays have no column photon, so each ray counts as a photon of its own");
+    inputs = to_json(job, request);
+    return job;
+  };
+  const auto answer = [&](const validate::Job& job) {
+    const RunAnswer found =
+        run_one(options, job, costs.of(options.candidate.engine), common, stop, rows.next(progress.report()));
+    stopped = write_hits(options, job, found, common, stop);
+    inputs["engine"] = name(options.candidate.engine);
+    inputs["threads"] = sim::thread_count(common.threads);  // a cap if the command chooses
+    inputs["repeat"] = options.repeat;
+    if (expected == 1) text = to_text(job, found, common.screen());
+    return run_row(inputs, job, found);
+  };
+  Result result = result_of(answer_all(problems, candidates, stop, prepare, answer), expected, run_columns(),
+                            run_text_columns(common.screen()));
+  if (expected == 1) {
+    result.text = text;
+    result.stopped = stopped;
+  }
+  return result;
+}
+
+}  // namespace
+
+Command run_command(CLI::App& program) {
+  CLI::App* app = program.add_subcommand("run", "The hits and the irradiance, by one technique");
+  app->footer(
+      "Numbers and names may be lists, numbers ranges, as 1%,2%,4% and 0.3:0.9:0.05: every combination makes a row.\n"
+      "Example: detp run @tree --rays 100000 --technique octree --per-disc irradiance.csv");
+  const auto options = std::make_shared<RunOptions>();
+  options->workload.add_to(*app, Values::many);
+  options->candidate.add_to(*app, Values::many, SphereStop::best);
+  options->costs.add_calibration_to(*app);
+  add_number(*app, "--repeat", options->repeat,
+             "time that many further runs, which do not count; the median is shown; default: 0");
+  app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");
+  app->add_flag("--standard-error", options->standard_error,
+                "add to --per-disc the standard error of each irradiance, for independent photons; where too few "
+                "photons hit a disc (fewer than 10), an upper bound (95 %) of the irradiance instead");
+  app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
+  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+            return run_run(*options, common, stop);
+          }};
+}
+
+}  // namespace detp::cli

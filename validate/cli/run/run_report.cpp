@@ -1,0 +1,270 @@
+#include "run_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <stdexcept>
+
+#include "detp/model/rank/predict.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/validate/calibration/sum_costs.hpp"
+#include "detp/validate/cli/choose/measured_report.hpp"
+#include "detp/validate/cli/effects_report.hpp"
+#include "detp/validate/cli/sphere_stops.hpp"
+#include "detp/validate/cli/text_table.hpp"
+#include "detp/validate/cli/workload_options.hpp"
+
+namespace detp::cli {
+namespace {
+
+Json seconds_json(const Timing& timing, int repeat) {
+  Json json{{"total", timing.total()},
+            {"prepare", timing.prepare},
+            {"order", timing.phases.order},
+            {"build", timing.phases.build},
+            {"search", timing.phases.search}};
+  if (repeat > 0) json["all"] = timing.all;
+  return json;
+}
+
+double mean_irradiance(const sim::Outcome& outcome) {
+  double sum = 0;
+  for (const double irradiance : outcome.irradiance) sum += irradiance;
+  return sum / static_cast<double>(outcome.irradiance.size());
+}
+
+double hits_per_disc(const sim::Outcome& outcome) {
+  return static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size());
+}
+
+/// The choice has a prediction, not a guess.
+bool is_predicted(const RunAnswer& answer) { return answer.choice && answer.choice->best().source != Source::guess; }
+
+/// The counts that a pilot predicted, or else the closed form; nothing if the candidate has none.
+std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer) {
+  if (is_predicted(answer)) return answer.choice->best().counts;
+  if (!model::has_closed_form(answer.candidate.technique)) return {};
+  try {
+    return model::predict(workload, answer.candidate, answer.engine);
+  } catch (const std::invalid_argument&) {  // no closed form for these parameters: another order, tree or traversal
+    return {};
+  }
+}
+
+void add_stops(const Workload& workload, const Candidate& candidate, const CostTable& costs, Json& json) {
+  const auto* cache = std::get_if<SphereCacheParameters>(&candidate.parameters);
+  if (cache == nullptr) return;
+  const auto form = candidate.technique == Technique::sphere_cache ? Form::corrected : Form::published;
+  const SphereStops stops = sphere_stops(workload, costs[candidate.technique], form, {cache->ratio});
+  json["k"] = cache->spheres;
+  json["k_max"] = stops.max;
+  json["k_best"] = stops.best;
+  json["k_published"] = own_spheres(workload, Form::published, {cache->ratio});
+  json["k_corrected"] = own_spheres(workload, Form::corrected, {cache->ratio});
+}
+
+/// T_R and T_I at unit costs of 1, under the names that `model` gives them.
+Json unit_times(const Counts<double>& counts, Technique technique, const std::string& prefix = "") {
+  const CostBreakdown times = price(counts, UnitCosts{}, technique);
+  return {{prefix + "rebuild_time", times.rebuild}, {prefix + "intersect_time", times.intersect}};
+}
+
+/// The estimated hits of all rays; nothing if no ray is finished, or if the finished rays do not represent all rays.
+std::optional<sim::HitEstimate> estimate(const RunAnswer& answer) {
+  const sim::Outcome& outcome = answer.run.outcome;
+  if (!answer.random_rays || outcome.batches.rays == 0) return std::nullopt;
+  return sim::estimate_hits(outcome.batches, outcome.progress.of);
+}
+
+Json hits_so_far(const RunAnswer& answer) {
+  Json json{{"hits", nullptr},
+            {"hits_per_disc", nullptr},
+            {"mean_irradiance", nullptr},
+            {"hits_so_far", answer.run.outcome.total_hits},
+            {"hits_estimate", nullptr}};
+  if (const auto all = estimate(answer)) {
+    json["hits_estimate"] = {{"value", all->hits}, {"standard_error", nullptr}};
+    if (all->standard_error) json["hits_estimate"]["standard_error"] = *all->standard_error;
+  }
+  return json;
+}
+
+std::string hits_text(const RunAnswer& answer) {
+  const sim::Outcome& outcome = answer.run.outcome;
+  if (!outcome.stopped)
+    return fmt::format("{}, {:.4g} a disc; mean irradiance {:.6g}", outcome.total_hits, hits_per_disc(outcome),
+                       mean_irradiance(outcome));
+  std::string text =
+      fmt::format("{} of the {} {} done", outcome.total_hits, outcome.progress.done, outcome.progress.unit);
+  if (const auto all = estimate(answer)) {
+    text += fmt::format("; of all rays an estimated {:.5g}", all->hits);
+    text += all->standard_error ? fmt::format(" ± {:.2g}", *all->standard_error) : " (error not known)";
+  }
+  return text;
+}
+
+Json answer_json(const validate::Job& job, const RunAnswer& answer) {
+  const sim::Outcome& outcome = answer.run.outcome;
+  Json json{{"technique", name(answer.candidate.technique)},
+            {"parameters", to_json(answer.candidate)},
+            {"engine", name(answer.engine)},
+            {"threads", answer.threads}};
+  add_stops(job.workload, answer.candidate, answer.costs, json);
+  json.update(outcome.stopped ? hits_so_far(answer)
+                              : Json{{"hits", outcome.total_hits},
+                                     {"hits_per_disc", hits_per_disc(outcome)},
+                                     {"mean_irradiance", mean_irradiance(outcome)}});
+  json["rays"] = whole(job.workload.rays);
+  json["photons"] = job.independent_photons();
+  json["counts"] = to_json(outcome.counts);
+  json.update(unit_times(as_expected(outcome.counts), answer.candidate.technique));
+  if (answer.choice) json["choosing_seconds"] = answer.choice->choosing_seconds;
+  if (is_predicted(answer)) {
+    json["predicted_error"] = to_json(answer.choice->best().counts_error);
+    json["predicted_seconds_error"] = answer.choice->best().error;
+  }
+  if (const auto predicted = prediction(job.workload, answer)) {
+    json["predicted"] = to_json(*predicted);
+    json.update(unit_times(*predicted, answer.candidate.technique, "predicted_"));
+    const double search =
+        price(*predicted, answer.costs, answer.candidate.technique, sim::useful_threads(answer.threads)).total();
+    const double errors =
+        answer.standard_error ? validate::standard_error_seconds(predicted->hits, job.numbered(), answer.costs) : 0;
+    json["predicted_seconds"] = search + errors;
+  }
+  json.update({{"seconds", seconds_json(answer.timing, answer.repeat)},
+               {"read_seconds", job.read_seconds},
+               {"trace_seconds", job.trace_seconds + answer.run.trace_seconds},
+               {"rays_in_memory", answer.run.rays_in_memory},
+               {"effects", to_json(job.observed.effects)},
+               {"warnings", job.warnings},
+               {"stopped", outcome.stopped}});
+  return json;
+}
+
+Json run_cells(const Json& inputs, const Candidate& candidate, const Json& json) {
+  Json cells = workload_cells(inputs);
+  cells.update(candidate_cells(candidate));
+  for (const auto& [name, value] : json.items())
+    if (!value.is_structured()) cells[name] = value;
+  cells.update(effect_cells(json["effects"]));
+  cells.update(count_cells(json["counts"]));
+  cells["hits"] = json["hits"];
+  if (json.contains("hits_estimate") && !json["hits_estimate"].is_null()) {
+    cells["hits_estimate"] = json["hits_estimate"]["value"];
+    cells["hits_estimate_error"] = json["hits_estimate"]["standard_error"];
+  }
+  if (json.contains("predicted")) {
+    const Json predicted = count_cells(json["predicted"]);
+    for (const auto& [name, value] : predicted.items()) cells["predicted_" + name] = value;
+  }
+  const Json& seconds = json["seconds"];
+  cells["seconds"] = seconds["total"];
+  for (const char* phase : {"prepare", "order", "build", "search"})
+    cells[std::string(phase) + "_seconds"] = seconds[phase];
+  cells["timed_runs"] = seconds.contains("all") ? seconds["all"].size() : 1;
+  return cells;
+}
+
+/// Empty if there were fewer than two timed runs.
+std::string repeats_text(const Timing& timing) {
+  if (timing.all.size() < 2) return "";
+  const auto [least, most] = std::minmax_element(timing.all.begin(), timing.all.end());
+  return fmt::format("; median of {} runs, ± {:.1g} (half their range)", timing.all.size(), 0.5 * (*most - *least));
+}
+
+std::string_view meaning(std::string_view term) {
+  static const std::map<std::string_view, std::string_view> meanings{
+      {"loaded", "rays brought into the search"},
+      {"segments", "of these, rays in a search in which some rays end"},
+      {"cull_tests", "tests of a ray in a list against a sphere or box: rebuild_time, T_R at t = 1"},
+      {"culls", "lists made, one for each sphere or box"},
+      {"listed", "rays put into these lists"},
+      {"visits", "discs tested with a list"},
+      {"disc_tests", "tests of a ray against a disc: intersect_time, T_I at u = 1"},
+      {"doubtful", "of these, decided again in double precision"},
+      {"steps", "cells visited by a ray"},
+      {"nodes", "nodes of a tree visited"},
+      {"references", "disc references stored in the index"},
+      {"placements", "discs put into cells or nodes while building"},
+      {"made", "nodes of a tree of boxes or spheres made"},
+      {"sorted", "discs sorted along a curve"},
+      {"hits", "pairs of a ray and a disc that it hits"}};
+  return meanings.at(term);
+}
+
+std::string counts_table(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
+  const auto predicted = prediction(job.workload, answer);
+  TextTable table({{.head = "count", .align = Align::left},
+                   {.head = "counted"},
+                   {.head = "predicted"},
+                   {.head = "predicted / counted", .spare = 2},
+                   {.head = "meaning", .align = Align::left, .spare = 1}});
+  for (const auto& [term, count] : count_terms<std::uint64_t>) {
+    const auto counted = static_cast<double>(answer.run.outcome.counts.*count);
+    if (counted == 0) continue;
+    double expected = 0;
+    if (predicted && !answer.run.outcome.stopped)
+      for (const auto& [other, value] : count_terms<double>)
+        if (other == term) expected = (*predicted).*value;
+    table.add({{std::string(term)},
+               {fmt::format("{:.0f}", counted)},
+               {expected > 0 ? fmt::format("{:.4g}", expected) : ""},
+               {expected > 0 ? fmt::format("{:.2f}", expected / counted) : ""},
+               {std::string(meaning(term))}});
+  }
+  return table.text(screen);
+}
+
+}  // namespace
+
+AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer) {
+  Json json = answer_json(job, answer);
+  Json cells = run_cells(inputs, answer.candidate, json);
+  return {std::move(inputs), std::move(json), {std::move(cells)}};
+}
+
+Columns run_columns() {
+  return workload_columns() + Columns{"engine", "threads"} + candidate_columns() +
+         Columns{"k", "k_max", "k_best", "k_published", "k_corrected", "photons", "hits_per_disc", "mean_irradiance"} +
+         count_columns() + count_columns("predicted_") +
+         Columns{"rebuild_time", "intersect_time", "predicted_rebuild_time", "predicted_intersect_time"} +
+         Columns{"predicted_seconds",  "predicted_seconds_error", "choosing_seconds", "seconds",     "prepare_seconds",
+                 "order_seconds",      "build_seconds",           "search_seconds",   "timed_runs",  "read_seconds",
+                 "trace_seconds",      "rays_in_memory",          "stopped",          "hits_so_far", "hits_estimate",
+                 "hits_estimate_error"} +
+         effect_columns();
+}
+
+TextColumns run_text_columns(const Screen& screen) {
+  return {{"scene", "field", "ray_file", "front_facing", "rays", "samples", "disc_radius", "engine", "technique",
+           "parameters"},
+          {"hits", "rebuild_time", "predicted_rebuild_time", "intersect_time", "predicted_intersect_time", "seconds",
+           "predicted_seconds"},
+          screen,
+          "rebuild_time: T_R at t = 1, tests of rays against spheres or boxes. intersect_time: T_I at u = 1, tests "
+          "against discs. Both as in detp model, whose unit costs are 1."};
+}
+
+std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
+  const Timing& timing = answer.timing;
+  std::string text = wrapped(describe(job), screen.text_width(), 10);
+  const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
+  add(fmt::format("technique {}, {} engine, {}", title(answer.candidate), name(answer.engine),
+                  threads_text(answer.threads)) +
+      (!answer.choice         ? ""
+       : is_predicted(answer) ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays",
+                                            1e3 * answer.choice->choosing_seconds, answer.choice->sampled_rays)
+                              : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
+  add(effects_line(job.observed.effects));
+  add("hits      " + hits_text(answer));
+  add(
+      fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}; not included: "
+                  "reading {:.3g}, making rays {:.3g}",
+                  timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
+                  repeats_text(timing), job.read_seconds, job.trace_seconds + answer.run.trace_seconds));
+  return text + "\n" + counts_table(job, answer, screen);
+}
+
+}  // namespace detp::cli
