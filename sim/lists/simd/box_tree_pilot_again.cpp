@@ -16,7 +16,7 @@ constexpr double wanted_error = 0.1;   ///< with a second sample
 constexpr double least_error = 0.02;   ///< of a node that gets a second sample
 constexpr std::size_t most_regions = 16;
 constexpr double most_rays = 64;  ///< in the second sample for each ray of the first one
-constexpr std::size_t rays_at_once = 2048;
+constexpr std::size_t rays_in_turn = 2048;
 
 }  // namespace
 
@@ -78,8 +78,8 @@ void BoxTreePilot::draw_second_sample(const Sample& first, std::span<const Ray> 
   const auto drawn = stratified_sample(others.size(), static_cast<std::size_t>(rays), 2, Stream::pilot);
   Problem problem = first.block.problem;
   std::vector<Ray> part;
-  for (std::size_t from = 0; from < drawn.size(); from += rays_at_once) {
-    const std::size_t count = std::min(rays_at_once, drawn.size() - from);
+  for (std::size_t from = 0; from < drawn.size(); from += rays_in_turn) {
+    const std::size_t count = std::min(rays_in_turn, drawn.size() - from);
     part.resize(count);
     for (std::size_t i = 0; i < count; ++i) part[i] = others[drawn[from + i]];
     set_rays(problem, part);
