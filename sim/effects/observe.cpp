@@ -18,13 +18,13 @@ const Effect& effect_named(std::string_view name) {
     if (name == effect->name || name == option_name(*effect)) {
       if (effect->is_input)
         throw std::invalid_argument(
-            fmt::format("the effect {} is a meaning of the input; it cannot be switched", quoted(name)));
+            fmt::format("the effect {} is a meaning of the input; it cannot be switched", detp::quoted(name)));
       return *effect;
     }
     if (!effect->is_input) known += fmt::format("{}{}", known.empty() ? "" : ", ", option_name(*effect));
   }
   throw std::invalid_argument(
-      fmt::format("there is no effect {}; there are auto, none, all, or a list of {}", quoted(name), known));
+      fmt::format("there is no effect {}; there are auto, none, all, or a list of {}", detp::quoted(name), known));
 }
 
 std::string reason_for(const EffectReport& report, const EffectSelection& selection) {

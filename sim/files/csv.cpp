@@ -60,7 +60,7 @@ class CsvReader {
       const auto known = std::find_if(row_.columns().begin(), row_.columns().end(),
                                       [name](const TableColumn& column) { return column.name == name; });
       if (known == row_.columns().end())
-        lines_.fail(fmt::format("unknown column {}; known are {}", quoted(name), known_names()));
+        lines_.fail(fmt::format("unknown column {}; known are {}", detp::quoted(name), known_names()));
       const auto column = static_cast<std::size_t>(known - row_.columns().begin());
       if (is_given(column)) lines_.fail(fmt::format("column {} appears twice", name));
       order_.push_back(column);
@@ -85,7 +85,7 @@ class CsvReader {
     if (field.empty() && column.empty) return *column.empty;
     if (field.empty()) lines_.fail(fmt::format("{} is empty; a number is needed", column.name));
     if (const auto value = number_in(field)) return *value;
-    lines_.fail(fmt::format("{} is {}, which is not a number", column.name, quoted(field)));
+    lines_.fail(fmt::format("{} is {}, which is not a number", column.name, detp::quoted(field)));
   }
 
   InputFile file_;

@@ -172,8 +172,8 @@ class ObjReader {
     long long index = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), index);
     if (error == std::errc{} && end == digits.data() + digits.size()) return index;
-    if (error == std::errc::result_out_of_range) lines_.fail("an index of " + quoted(word) + " is out of range");
-    lines_.fail(quoted(word) + " is not a corner of a face; expected a corner such as 1, 1/2, 1//3 or 1/2/3");
+    if (error == std::errc::result_out_of_range) lines_.fail("an index of " + detp::quoted(word) + " is out of range");
+    lines_.fail(detp::quoted(word) + " is not a corner of a face; expected a corner such as 1, 1/2, 1//3 or 1/2/3");
   }
 
   /// Converts an index of the file to an index from 0. In the file, positive indices count from 1, negative indices

@@ -61,16 +61,16 @@ class BodyReader {
 
   double number(const PlyElement& element, const PlyProperty& property, PlyType type) {
     const auto value = source_.next(type);
-    if (!value) fail(element, source_.missing_number_reason(quoted(property.name)));
+    if (!value) fail(element, source_.missing_number_reason(detp::quoted(property.name)));
     return *value;
   }
 
   double length(const PlyElement& element, const PlyProperty& property, double count) const {
     if (!(count >= 0) || std::floor(count) != count)
-      fail(element, "its " + quoted(property.name) + " has no valid length");
+      fail(element, "its " + detp::quoted(property.name) + " has no valid length");
     const auto rest = source_.rest();
     if (rest && count * static_cast<double>(Source::least_size(property.type)) > static_cast<double>(*rest))
-      fail(element, "the file ends early, within " + quoted(property.name));
+      fail(element, "the file ends early, within " + detp::quoted(property.name));
     return count;
   }
 

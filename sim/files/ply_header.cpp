@@ -94,7 +94,7 @@ class HeaderReader {
     if (count.empty() || stop != count.data() + count.size() || error != std::errc{})
       fail("expected \"element NAME COUNT\" with a whole number COUNT >= 0");
     for (const PlyElement& element : header_.elements)
-      if (element.name == name) fail("a second element " + quoted(name));
+      if (element.name == name) fail("a second element " + detp::quoted(name));
     header_.elements.push_back({.name = name, .rows = rows, .properties = {}});
   }
 
@@ -111,14 +111,15 @@ class HeaderReader {
     property.name = cut_word(words);
     if (property.name.empty()) fail("a property without a name");
     for (const PlyProperty& other : header_.elements.back().properties)
-      if (other.name == property.name) fail("a second property " + quoted(property.name) + " of the same element");
+      if (other.name == property.name)
+        fail("a second property " + detp::quoted(property.name) + " of the same element");
     header_.elements.back().properties.push_back(std::move(property));
   }
 
   [[nodiscard]] PlyType type_named(std::string_view name) const {
     for (std::size_t i = 0; i < types.size(); ++i)
       if (name == types[i].old_name || name == types[i].sized_name) return static_cast<PlyType>(i);
-    fail(quoted(name) + " is not a type; known types are char, uchar, short, ushort, int, uint, float, double");
+    fail(detp::quoted(name) + " is not a type; known types are char, uchar, short, ushort, int, uint, float, double");
   }
 
   InputFile& file_;

@@ -71,7 +71,7 @@ std::string_view Statements::joined() {
 }
 
 void Statements::count_unknown() {
-  if (++unknown_ == 1) first_unknown_ = quoted(keyword_) + " in line " + std::to_string(number_);
+  if (++unknown_ == 1) first_unknown_ = detp::quoted(keyword_) + " in line " + std::to_string(number_);
   if (unknown_ > unknown_allowed + known_)
     fail(fmt::format("most lines so far have keywords unknown to {0}, the first {1}; is this an {0} file?",
                      format_.name, first_unknown_));
@@ -89,7 +89,7 @@ double Statements::number(std::string_view word) const {
   if (const auto value = number_in(word)) return *value;
   if (word.find("1.#") != std::string_view::npos) return std::numeric_limits<double>::quiet_NaN();
   if (word.empty()) fail("has too few numbers, 3 are needed");
-  fail(quoted(word) + " is not a number");
+  fail(detp::quoted(word) + " is not a number");
 }
 
 }  // namespace detp::sim

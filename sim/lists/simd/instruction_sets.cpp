@@ -38,7 +38,7 @@ OnlyInstructionSet::OnlyInstructionSet(const std::string& name) {
       use_targets(target);
       return;
     }
-  throw std::invalid_argument("the kernels cannot use the instruction set " + quoted(name) + " here");
+  throw std::invalid_argument("the kernels cannot use the instruction set " + detp::quoted(name) + " here");
 }
 
 OnlyInstructionSet::~OnlyInstructionSet() { use_targets(0); }
