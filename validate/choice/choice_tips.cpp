@@ -49,6 +49,7 @@ Tips tips_of(const Choice& choice, const Question& question, const Valid<CostTab
   const Workload& workload = question.workload.value();
   const Candidate present = choice.best().candidate;
   const Choice counted = with_growth(choice);
+  const CostTable priced = costs_for(question, costs);
   const auto choose = [&](const TipInputs& inputs) -> std::optional<ChoiceThere> {
     try {
       Question changed = question;
@@ -57,7 +58,7 @@ Tips tips_of(const Choice& choice, const Question& question, const Valid<CostTab
           choose_again(counted, changed, inputs.disc_radius / workload.disc_radius, inputs.rays, costs);
       Workload with_inputs = with_disc_radius(workload, inputs.disc_radius);
       with_inputs.rays = inputs.rays;
-      return choice_there(there, seconds_in(there, present, with_inputs, costs, inputs.threads));
+      return choice_there(there, seconds_in(there, present, with_inputs, priced, inputs.threads));
     } catch (const std::invalid_argument&) {  // no workload has this radius
       return std::nullopt;
     } catch (const sim::Stopped&) {

@@ -44,7 +44,8 @@ bool powers_differ(const Question& question) {
 }
 
 Choice by_closed_forms(const Question& question, const Valid<CostTable>& given) {
-  if (!can_measure(question)) throw std::invalid_argument("closed forms need a workload, or rays to measure it on");
+  if (!can_measure(question))
+    throw std::invalid_argument("closed forms need a workload, or discs and rays to measure it on");
   const sim::Stopwatch watch;
   const Valid<CostTable> costs(costs_for(question, given));
   Choice found;

@@ -3,8 +3,8 @@
 namespace detp::validate {
 
 bool can_measure(const Question& question) {
-  return question.workload || !question.rays.empty() ||
-         (question.problem != nullptr && !question.problem->rays().empty());
+  return question.workload ||
+         (question.problem != nullptr && !(question.rays.empty() && question.problem->rays().empty()));
 }
 
 Workload evidence(const Question& question, double rays) {

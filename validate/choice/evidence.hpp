@@ -4,7 +4,7 @@
 
 namespace detp::validate {
 
-/// Whether the question has a workload, or rays on which it can be measured.
+/// Whether the question has a workload, or discs and rays on which it can be measured.
 [[nodiscard]] bool can_measure(const Question& question);
 
 /// The question's workload with that number of rays: measured on its rays and discs, unless it has one. Throws as

@@ -302,6 +302,7 @@ Choice choose_by_sample(const Question& question, Rigor rigor, const Valid<CostT
 
 Choice sample_again(const Choice& choice, const Question& question, double radius_ratio,
                     const Valid<CostTable>& given) {
+  if (question.problem == nullptr) throw std::invalid_argument("a choice after a pilot needs the pilot's discs");
   const Valid<CostTable> costs(costs_for(question, given));
   const double rays = *question.ray_count;
   const Prices prices{costs, sim::useful_threads(question.threads)};

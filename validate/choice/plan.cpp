@@ -81,6 +81,7 @@ class Plan::Planner {
                       .threads = options_.threads,
                       .stop = options_.stop};
     const Rigor rigor = reachable_rigor(question, options_.costs);
+    const sim::Stopwatch watch;
     report(rigor == Rigor::pilot ? "sorting the discs, and a pilot" : "measuring discs and rays", 0.1, 0.6);
     Choice choice = with_all_rays_checked([&] {
       if (rigor == Rigor::estimate) question.workload = basis_->workload = evidence(question, basis_->rays);
@@ -88,7 +89,7 @@ class Plan::Planner {
     });
     basis_->candidates = choice.candidates;
     basis_->options.costs = costs_for(question, options_.costs);
-    seconds_ = choice.choosing_seconds;
+    seconds_ = watch.seconds() - choice.sort_seconds;
     report("building the index", 0.6, 1);
     if (choice.discs) basis_->order = choice.discs->order();
     const Candidate& best = choice.best().candidate;

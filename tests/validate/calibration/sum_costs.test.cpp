@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <stdexcept>
 #include <vector>
 
 #include "detp/sim/open/uniform_discs.hpp"
@@ -24,6 +25,13 @@ TEST_SUITE("identity") {
     CHECK(of_sums > equal);
     rays[1234].power = 2;
     CHECK(seconds(costs) == of_sums);
+  }
+
+  TEST_CASE("a workload cannot be measured on rays without discs: a clear error") {
+    const std::vector<sim::Ray> rays(10);
+    CHECK_THROWS_AS(
+        static_cast<void>(validate::choose({.rays = rays, .rigor = Rigor::estimate}, validate::built_in_unit_costs())),
+        std::invalid_argument);
   }
 
   TEST_CASE("techniques that search ray by ray, and the plain engine, add powers anyway") {

@@ -90,7 +90,7 @@ std::optional<sim::Progress> decide(ChooseAnswer& answer, const validate::Questi
   answer.choice = validate::choose(question, costs);
   answer.rigor = answer.choice.rigor;
   answer.choosing_seconds = answer.evidence_seconds + answer.choice.choosing_seconds;
-  check_ranking(answer, costs, question.threads);
+  check_ranking(answer, validate::costs_for(question, costs), question.threads);
   const sim::Stopwatch watch;
   answer.tips = validate::tips_of(answer.choice, question, costs);
   answer.tips_seconds = watch.seconds();
@@ -216,8 +216,8 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
       answer.evidence_seconds = job.observed.seconds;
     result.stopped = decide(answer, question, costs);
     if (analyze && !result.stopped) {
+      const CostTable priced = validate::costs_for(question, costs);
       const auto predict = [&](const Candidate& candidate) {
-        const CostTable priced = validate::costs_for(question, costs);
         return answer.by_sample() ? predicted_by_pilot(candidate, answer.choice, job, structural, priced, threads, stop)
                                   : predicted(candidate, job, false, priced, threads, stop);
       };

@@ -138,11 +138,10 @@ bool can_stream(CandidateOptions& options, std::size_t rows) {
 }
 
 /// Chooses, and runs the choice with what choosing has sorted.
-void choose_and_run(RunAnswer& answer, const validate::Question& question, sim::RunOptions options,
-                    const sim::ReportPhase& progress) {
+void choose_and_run(RunAnswer& answer, const validate::Question& question, const CostTable& costs,
+                    sim::RunOptions options, const sim::ReportPhase& progress) {
   const sim::Problem& problem = *question.problem;
-  answer.choice = validate::choose(question, answer.costs);
-  answer.costs = validate::costs_for(question, answer.costs);
+  answer.choice = validate::choose(question, costs);
   answer.candidate = answer.choice->best().candidate;
   answer.threads = options.threads = answer.choice->best().threads;
   if (progress)
@@ -157,17 +156,17 @@ void choose_and_run(RunAnswer& answer, const validate::Question& question, sim::
 
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
                   const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
-  const bool in_memory = !options.candidate.technique && !job.stream;
-  const validate::Question question{.problem = in_memory ? &job.problem() : nullptr,
+  const validate::Question question{.problem = job.stream ? nullptr : &job.problem(),
                                     .workload = job.workload,
                                     .purpose = validate::Purpose::one_search,
                                     .threads = common.threads,
                                     .stop = stop};
-  const bool by_pilot = validate::reachable_rigor(question, costs) == Rigor::pilot;
-  const Requested choice = by_pilot ? Requested{} : complete(options.candidate, job.workload, costs, common.threads);
+  const bool by_pilot = !options.candidate.technique && validate::reachable_rigor(question, costs) == Rigor::pilot;
+  const CostTable priced = validate::costs_for(question, costs);
+  const Requested choice = by_pilot ? Requested{} : complete(options.candidate, job.workload, priced, common.threads);
   RunAnswer answer{.candidate = choice.candidate,
                    .threads = choice.threads,
-                   .costs = costs,
+                   .costs = priced,
                    .engine = options.candidate.engine,
                    .repeat = options.repeat,
                    .standard_error = options.standard_error,
@@ -182,7 +181,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
   if (by_pilot) {
     answer.run.prepare_seconds = job.check_seconds;
     answer.run.rays_in_memory = job.rays.size();
-    choose_and_run(answer, question, run, sim::part_of(progress, 0, share_of_first));
+    choose_and_run(answer, question, costs, run, sim::part_of(progress, 0, share_of_first));
   } else {
     answer.run = run_job(job, answer.candidate, run, sim::part_of(progress, 0, share_of_first));
   }

@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
-#include "detp/validate/calibration/built_in_costs.hpp"
+#include "detp/validate/calibration/sum_costs.hpp"
 #include "detp/validate/choice/candidate_json.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/plan.hpp"
@@ -36,5 +36,18 @@ TEST_SUITE("identity") {
         piloted += choice.sampled_rays > 0 ? 1 : 0;
       }
     CHECK(piloted >= 3);
+  }
+
+  TEST_CASE("predicted seconds of a given technique contain what summing different powers costs, too") {
+    const auto run = support::result_of(
+        "run @interior --rays 3000 --disc-radius 2% --technique box-tree --fan-out 8 --leaf 8 --threads 1 "
+        "--calibration none");
+    Counts<double> counts;
+    for (const auto& [name, term] : count_terms<double>)
+      if (run["predicted"].contains(name)) counts.*term = run["predicted"][std::string(name)];
+    const CostTable costs = validate::built_in_unit_costs();
+    const double with_sums = price(counts, validate::costs_of_sums(costs), Technique::box_tree).total();
+    CHECK(run["predicted_seconds"] == doctest::Approx(with_sums));
+    CHECK(with_sums > 1.01 * price(counts, costs, Technique::box_tree).total());
   }
 }
