@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
 
 #include "detp/model/sphere_cache/sphere_count.hpp"
 #include "detp/sim/geometry/lebesgue.hpp"
@@ -15,12 +17,47 @@ namespace {
 
 constexpr double side = 1;
 
+bool is_clustered(std::size_t place) { return place % 3 == 2; }
+bool has_pieces(std::size_t place) { return place % 8 == 4 || place % 8 == 5; }
+bool has_paths(std::size_t place) { return place % 8 == 6 || place % 8 == 7; }
+
 /// Those whose runs are short even with many discs or many rays.
 std::vector<Candidate> candidates_of_large(const TimedWorkload& workload, std::size_t place) {
   const int leaf = workload.rays > workload.samples ? 8 : place % 2 == 0 ? 64 : 256;
   return {{Technique::brute_force, BruteForceParameters{}},
           {Technique::box_tree, BoxTreeParameters{8, leaf}},
           {Technique::box_tree, BoxTreeParameters{16, 2 * leaf}}};
+}
+
+/// Moves the samples of each of some parts of space towards a centre, so that they lie in clusters of different density, as
+/// the vertices of most meshes do.
+void gather(std::vector<sim::Disc>& discs, std::size_t place) {
+  constexpr std::uint64_t clusters = 24;
+  for (std::size_t i = 0; i < discs.size(); ++i) {
+    const auto cluster =
+        static_cast<std::uint64_t>(clusters * sim::uniform4(place + 1, sim::Stream::structure, i, 1)[0]);
+    const auto centre = sim::uniform4(place + 1, sim::Stream::structure, cluster, 2);
+    const double size = 0.05 * std::pow(10.0, centre[3]);  // of the part of space that the cluster fills
+    discs[i].centre = side * glm::dvec3(centre[0], centre[1], centre[2]) + size * discs[i].centre;
+  }
+}
+
+/// From one sample to another and a little further, as the pieces of a photon's path from surface to surface.
+std::vector<sim::Ray> rays_between(const std::vector<sim::Disc>& discs, std::size_t count, std::size_t place) {
+  std::vector<sim::Ray> rays(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto random = sim::uniform4(place + 1, sim::Stream::structure, i);
+    const auto sample = [&](double uniform) {
+      return discs[std::min(discs.size() - 1, static_cast<std::size_t>(uniform * static_cast<double>(discs.size())))]
+          .centre;
+    };
+    const glm::dvec3 from = sample(random[0]);
+    const glm::dvec3 way = sample(random[1]) - from + 1e-3 * side * glm::dvec3(random[2], random[3], 0.5);
+    rays[i].origin = from + 1e-5 * way;
+    rays[i].direction = glm::normalize(way);
+    rays[i].length = 1.0001 * glm::length(way);
+  }
+  return rays;
 }
 
 }  // namespace
@@ -59,6 +96,7 @@ std::vector<TimedWorkload> timed_workloads() {
 
 std::vector<sim::Disc> discs_of(const TimedWorkload& workload, std::size_t place) {
   std::vector<sim::Disc> discs = sim::uniform_discs(workload.body, side, workload.samples, workload.radius, place + 1);
+  if (is_clustered(place)) gather(discs, place);
   if (place / 2 % 2 == 0) return discs;
   sim::Box box;
   for (const sim::Disc& disc : discs) box.include(disc.centre);
@@ -69,9 +107,10 @@ std::vector<sim::Disc> discs_of(const TimedWorkload& workload, std::size_t place
 }
 
 std::vector<sim::Ray> rays_of(const TimedWorkload& workload, const std::vector<sim::Disc>& discs, std::size_t place) {
+  if (has_paths(place)) return rays_between(discs, workload.rays, place);
   const sim::Sphere enclosing = sim::enclosing_sphere(discs);
   std::vector<sim::Ray> rays = sim::LineField(enclosing, place + 1).lines(0, workload.rays);
-  if (place / 4 % 2 == 0) return rays;
+  if (!has_pieces(place)) return rays;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const auto random = sim::uniform4(place + 1, sim::Stream::structure, i);
     rays[i].origin += (2 * random[0] - 1) * enclosing.radius * rays[i].direction;

@@ -31,10 +31,13 @@ inline constexpr std::size_t least_workloads = 16;  ///< measured even if that t
 [[nodiscard]] std::vector<TimedWorkload> timed_workloads();
 
 /// `place` is the number of the workload. On every second pair of workloads, the discs follow each other along a curve, as
-/// the vertices of many meshes nearly do; on the others, in random order.
+/// the vertices of many meshes nearly do; on the others, in random order. On every third workload they lie in clusters of
+/// different density.
 [[nodiscard]] std::vector<sim::Disc> discs_of(const TimedWorkload& workload, std::size_t place);
 
-/// Isotropic lines; on every second four workloads pieces of them, from 0.1 to 0.5 of the side long.
+/// Isotropic lines; on two of eight workloads pieces of them, from 0.1 to 0.5 of the side long; on two pieces of paths, from
+/// one sample to another. Uniform samples and lines alone gave costs by which photon paths in scenes, and lines through sparse
+/// ones, were predicted 0.83 times as long as measured (median of 58 searches, their counts right); with clusters and paths 0.9.
 [[nodiscard]] std::vector<sim::Ray> rays_of(const TimedWorkload& workload, const std::vector<sim::Disc>& discs,
                                             std::size_t place);
 
