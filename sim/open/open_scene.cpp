@@ -28,7 +28,8 @@ const std::vector<BuiltIn>& built_ins() {
                                         {"@courtyard", built_in::courtyard},
                                         {"@cornell", built_in::cornell},
                                         {"@caustic", built_in::caustic},
-                                        {"@interior", built_in::interior}};
+                                        {"@interior", built_in::interior},
+                                        {"@furnace", built_in::furnace}};
   return all;
 }
 

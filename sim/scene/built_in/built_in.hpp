@@ -39,6 +39,10 @@ struct LitMesh {
 /// lamp at the ceiling, one in a corner, a spot on the shelf, the sky and the sun outside of the windows.
 [[nodiscard]] LitMesh interior();
 
+/// A closed box of side 1. All walls emit a radiance of 1 diffusely and reflect half of the light: the irradiance is 2π
+/// everywhere on them, E = π + E/2.
+[[nodiscard]] LitMesh furnace();
+
 /// `count` points uniform in the cube [-1, 1]³ with isotropic normals. Each sample is a function of the seed and of its
 /// number. Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed,
