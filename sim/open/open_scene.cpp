@@ -94,6 +94,7 @@ Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
   built_in::LitMesh lit_mesh = known.make();
   scene.mesh = std::move(lit_mesh.mesh);
   scene.lights = std::move(lit_mesh.lights);
+  if (request.lights.empty()) scene.known_irradiance = lit_mesh.known_irradiance;
   add_samples(scene, request, stop);
   scene.box = box_of(scene);
   add_lights(scene, request, request.up.value_or(Up{}), stop);

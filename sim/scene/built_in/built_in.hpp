@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "detp/sim/scene/scene.hpp"
@@ -14,6 +15,7 @@ namespace detp::sim::built_in {
 struct LitMesh {
   Mesh mesh;
   std::vector<Light> lights;
+  std::optional<double> known_irradiance = {};  ///< on all surfaces, by these lights
 };
 
 /// A broad tree on uneven ground: 72 500 triangles, edges 1 % of the scene's length on the tree, 2 % on the ground, as

@@ -18,6 +18,7 @@ LitMesh furnace() {
   mesh.materials.all = {{.name = "wall", .diffuse = 0.5, .emitted = 1}};
   paint(mesh, 0);
   lit_mesh.lights = {{SurfaceLight{}, 6 * std::numbers::pi}};
+  lit_mesh.known_irradiance = 2 * std::numbers::pi;
   return lit_mesh;
 }
 
