@@ -7,6 +7,7 @@
 #include "detp/sim/effects/all_effects.hpp"
 #include "detp/sim/effects/observe.hpp"
 #include "detp/sim/effects/self_shadow.hpp"
+#include "detp/sim/estimate/surface.hpp"
 #include "detp/sim/photons/photon_paths.hpp"
 #include "detp/sim/photons/photon_walk.hpp"
 
@@ -45,12 +46,24 @@ sim::Outcome ReplicateMaker::estimate(const sim::Paths& paths, std::span<const s
                                       const AccuracySetting& setting, bool standard_error) const {
   const auto discs = discs_at(samples, uses_radius(setting.estimator) ? setting.radius : 1);
   const sim::Problem problem = sim::make_problem(paths, discs, front_facing_, sim::thread_count(threads_), stop_);
-  const sim::EstimateRequest request{
-      .estimator = setting.estimator, .candidate = usual_search, .nearest = setting.nearest, .mesh = &scene_.mesh};
-  sim::Outcome outcome = sim::estimate(
-      problem, request, {.count = false, .standard_error = standard_error, .stop = stop_, .threads = threads_});
+  const sim::RunOptions options{.count = false, .standard_error = standard_error, .stop = stop_, .threads = threads_};
+  sim::Outcome outcome =
+      sim::record_of(setting.estimator).needs_mesh
+          ? sim::run(problem, surfaces(problem, setting.estimator), options)
+          : sim::estimate(problem,
+                          {.estimator = setting.estimator, .candidate = usual_search, .nearest = setting.nearest},
+                          options);
   if (outcome.stopped) throw sim::Stopped("stopped during a run");
   return outcome;
+}
+
+const sim::Index& ReplicateMaker::surfaces(const sim::Problem& problem, sim::Estimator estimator) const {
+  const bool area = estimator == sim::Estimator::area_corrected;
+  std::unique_ptr<const sim::Index>& index = area ? area_corrected_ : triangle_hits_;
+  if (index == nullptr)
+    index = area ? sim::prepare_area_corrected(problem, scene_.mesh, {.stop = stop_})
+                 : sim::prepare_triangle_hits(problem, scene_.mesh, {.stop = stop_});
+  return *index;
 }
 
 std::vector<sim::Disc> discs_at(std::span<const sim::Sample> samples, double radius) {

@@ -10,6 +10,7 @@
 #include "detp/sim/geometry/paths.hpp"
 #include "detp/sim/photons/ray_caster.hpp"
 #include "detp/sim/scene/scene.hpp"
+#include "detp/sim/search/index.hpp"
 
 /// Runs of one setting with their own seeds: the spread is the noise.
 namespace detp::validate {
@@ -42,12 +43,16 @@ class ReplicateMaker {
 
  private:
   [[nodiscard]] bool goes_on(double radius);
+  [[nodiscard]] const sim::Index& surfaces(const sim::Problem& problem, sim::Estimator estimator) const;
 
   sim::Scene& scene_;
   bool front_facing_;
   int threads_;
   std::stop_token stop_;
   std::shared_ptr<const sim::RayCaster> caster_;
+  /// Of area-corrected and triangle-hits: built once, they depend on the mesh alone.
+  mutable std::unique_ptr<const sim::Index> area_corrected_;
+  mutable std::unique_ptr<const sim::Index> triangle_hits_;
   std::vector<std::pair<double, bool>> known_;  ///< radii, and whether their paths go on
 };
 
