@@ -11,7 +11,6 @@
 
 using namespace detp;
 using namespace detp::model;
-using std::numbers::pi;
 
 TEST_SUITE("identity") {
   TEST_CASE("even light: the noise of discs is that of one disc in a smooth density") {
@@ -24,13 +23,13 @@ TEST_SUITE("identity") {
 
   TEST_CASE("triangle hits have the noise of discs of nine triangles' area") {
     const SceneLight light{.mean = 2, .mean_square = 5};
-    CHECK(triangle_noise_squared(light, 0.01, pi / 9) ==
+    CHECK(triangle_noise_squared(light, 0.01, std::numbers::pi / 9) ==
           doctest::Approx(disc_noise_squared(light, 0.01, 1)).epsilon(1e-14));
   }
 
   TEST_CASE("clumping is 1 without reflection; of many walls it counts all pieces but the next") {
     CHECK(room_clumping(0, 0.1, 6, 6) == 1);
-    const double q = pi * 0.01 / 6;
+    const double q = std::numbers::pi * 0.01 / 6;
     CHECK(room_clumping(0.5, 0.1, 6, 1e18) == doctest::Approx(1 + 2 * q * 0.25 / 0.5).epsilon(1e-14));
     // by the sum over pieces, of a cube
     double expected = 0;
@@ -47,7 +46,7 @@ TEST_SUITE("identity") {
     double integral = 0;
     for (int i = 0; i < steps; ++i) {
       const double t = (i + 0.5) / steps;
-      integral += std::pow((std::acos(t) - t * std::sqrt(1 - t * t)) / pi, 2) / steps;
+      integral += std::pow((std::acos(t) - t * std::sqrt(1 - t * t)) / std::numbers::pi, 2) / steps;
     }
     CHECK(bias_of_edges(1, 1) == doctest::Approx(integral).epsilon(1e-8));
     CHECK(bias_of_edges(3, 2) == doctest::Approx(1.5 * integral).epsilon(1e-8));

@@ -9,11 +9,11 @@ using namespace detp::hard_cases;
 
 namespace {
 
-struct Inputs {
+struct SceneErrorInputs {
   double mean, mean_square, photon, radius, clumping, area, reflected, walls, edges, laplacian;
 };
 
-void compare(const Inputs& x, Ledger& ledger) {
+void compare_scene_error(const SceneErrorInputs& x, Ledger& ledger) {
   const auto inputs = [&] {
     return fmt::format("mean {:a}, mean square {:a}, photon {:a}, d {:a}, c {:a}, A {:a}, rho {:a}, n {:g}, L {:a}",
                        x.mean, x.mean_square, x.photon, x.radius, x.clumping, x.area, x.reflected, x.walls, x.edges);
@@ -39,31 +39,31 @@ void compare(const Inputs& x, Ledger& ledger) {
                  x.mean + x.edges * d + x.laplacian * d * d * d * d, inputs);
 }
 
-void compare_random(Draw& draw, Ledger& ledger) {
-  compare({draw.factor(), draw.factor(), draw.factor(), draw.factor(), std::max(1.0, draw.factor()), draw.factor(),
-           std::min(1 - 0x1p-53, draw.log_uniform(1e-300, 1)), std::max(2.0, draw.rays_or_samples()), draw.factor(),
-           draw.factor()},
-          ledger);
+void compare_random_scene_error(Draw& draw, Ledger& ledger) {
+  compare_scene_error({draw.factor(), draw.factor(), draw.factor(), draw.factor(), std::max(1.0, draw.factor()),
+                       draw.factor(), std::min(1 - 0x1p-53, draw.log_uniform(1e-300, 1)),
+                       std::max(2.0, draw.rays_or_samples()), draw.factor(), draw.factor()},
+                      ledger);
 }
 
-void compare_limits(Ledger& ledger) {
+void compare_limits_of_scene_error(Ledger& ledger) {
   for (const double extreme : {5e-324, 1.0, 1.79e308})
     for (const double radius : {5e-324, 1e-160, 1.0, 1.79e308})
       for (const double reflected : {0.0, 5e-324, 0.5, 1 - 0x1p-53})
         for (const double walls : {2.0, 6.0, 1e18})
-          compare({extreme, 1, 1, radius, 1, 1.79e308, reflected, walls, extreme, extreme}, ledger);
+          compare_scene_error({extreme, 1, 1, radius, 1, 1.79e308, reflected, walls, extreme, extreme}, ledger);
 }
 
 }  // namespace
 
 TEST_SUITE("reference value") {
   TEST_CASE("hard cases of errors over a scene: every argument up to both limits of the doubles") {
-    Ledger ledger = on_random_inputs(8, few, compare_random);
-    compare_limits(ledger);
+    Ledger ledger = on_random_inputs(8, few, compare_random_scene_error);
+    compare_limits_of_scene_error(ledger);
     require_right(ledger);
   }
 }
 
 TEST_SUITE("hard-cases") {
-  TEST_CASE("errors over a scene") { require_right_and_print(on_random_inputs(8, many, compare_random)); }
+  TEST_CASE("errors over a scene") { require_right_and_print(on_random_inputs(8, many, compare_random_scene_error)); }
 }

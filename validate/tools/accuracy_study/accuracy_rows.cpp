@@ -53,7 +53,9 @@ const AccuracyRow* best(const std::vector<AccuracyRow>& rows, const Error& error
 }
 
 std::string cell(const AccuracyRow* row, double total) {
-  return row == nullptr ? "" : fmt::format("{:.1f} % ({})", 100 * total, row->setting());
+  if (row == nullptr) return "";
+  const std::string setting = row->setting();
+  return fmt::format("{:.1f} %{}", 100 * total, setting.empty() ? "" : fmt::format(" ({})", setting));
 }
 
 }  // namespace
