@@ -15,9 +15,9 @@
 #include <fstream>
 #include <set>
 
-#include "accuracy_rows.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/open/open_scene.hpp"
+#include "detp/validate/accuracy/accuracy_rows.hpp"
 #include "detp/validate/accuracy/error_split.hpp"
 #include "detp/validate/accuracy/reference.hpp"
 #include "detp/validate/accuracy/replicates.hpp"
@@ -52,7 +52,7 @@ class Study {
     distance_ = sim::mean_edge_length(scene_.mesh);
   }
 
-  void run(std::vector<study::AccuracyRow>& all) {
+  void run(std::vector<validate::AccuracyRow>& all) {
     const bool done = std::ranges::count_if(all, [&](const auto& row) { return row.scene == label_; }) >=
                       static_cast<std::ptrdiff_t>(all_rays.size() * rows_of_rays());
     if (done) return;
@@ -62,8 +62,8 @@ class Study {
                reference.seconds);
     validate::ReplicateMaker maker(scene_, false, 0);
     for (const std::size_t rays : all_rays)
-      for (const double share : study::radii_over_distance) {
-        const auto settings = settings_of(share * distance_, share == study::radii_over_distance.front());
+      for (const double share : validate::radii_over_distance) {
+        const auto settings = settings_of(share * distance_, share == validate::radii_over_distance.front());
         std::vector<std::vector<std::vector<double>>> found(settings.size());
         std::vector<Times> times(settings.size());
         double photons = 0;
@@ -87,16 +87,16 @@ class Study {
                                  validate::split_error(found[i], reference.values()), times[i], reference));
       }
     std::ofstream csv(table_);
-    csv << study::accuracy_header();
-    for (const study::AccuracyRow& row : all) csv << csv_row(row);
+    csv << validate::accuracy_header();
+    for (const validate::AccuracyRow& row : all) csv << csv_row(row);
   }
 
  private:
-  static std::size_t rows_of_rays() { return 3 * study::radii_over_distance.size() + 4; }
+  static std::size_t rows_of_rays() { return 3 * validate::radii_over_distance.size() + 4; }
 
-  [[nodiscard]] study::AccuracyRow row_of(const validate::AccuracySetting& setting, double share, double rays,
-                                          double photons, const validate::ErrorSplit& split, const Times& times,
-                                          const validate::Reference& reference) const {
+  [[nodiscard]] validate::AccuracyRow row_of(const validate::AccuracySetting& setting, double share, double rays,
+                                             double photons, const validate::ErrorSplit& split, const Times& times,
+                                             const validate::Reference& reference) const {
     const auto noise = validate::root_of(split.noise_squared, runs);
     const auto bias = validate::root_of(split.bias_squared, runs);
     const auto total = validate::root_of(split.total_squared, runs);
@@ -141,10 +141,10 @@ int main(int argc, char** argv) {
   app.add_option("--scenes", scenes, "built-in scenes and meshes")->delimiter(',')->capture_default_str();
   CLI11_PARSE(app, argc, argv);
   try {
-    std::vector<study::AccuracyRow> rows;
-    if (std::ifstream before(table); before) rows = study::read_accuracy_rows(before);
+    std::vector<validate::AccuracyRow> rows;
+    if (std::ifstream before(table); before) rows = validate::read_accuracy_rows(before);
     for (const std::string& scene : scenes) Study(scene, table).run(rows);
-    fmt::print("{}", study::accuracy_summary(rows));
+    fmt::print("{}", validate::accuracy_summary(rows));
   } catch (const std::exception& error) {
     fmt::print(stderr, "{}\n", error.what());
     return 1;

@@ -5,7 +5,8 @@
 #include <string>
 #include <vector>
 
-namespace detp::study {
+/// The table of tools/accuracy_study.
+namespace detp::validate {
 
 /// Radii of discs, over the mean distance of neighbouring samples: the mean edge of the mesh.
 inline constexpr std::array radii_over_distance{0.25, 0.5, 1.0, 2.0};
@@ -47,4 +48,4 @@ struct AccuracyRow {
 /// half the sample distance beside them.
 [[nodiscard]] std::string accuracy_summary(const std::vector<AccuracyRow>& rows);
 
-}  // namespace detp::study
+}  // namespace detp::validate

@@ -9,33 +9,33 @@
 #include <sstream>
 #include <stdexcept>
 
-namespace detp::study {
+namespace detp::validate {
 namespace {
 
-struct NumberColumn {
+struct AccuracyColumn {
   const char* name;
   double AccuracyRow::*value;
 };
 
-constexpr std::array numbers{NumberColumn{"radius_over_distance", &AccuracyRow::radius},
-                             NumberColumn{"nearest", &AccuracyRow::nearest},
-                             NumberColumn{"rays", &AccuracyRow::rays},
-                             NumberColumn{"photons", &AccuracyRow::photons},
-                             NumberColumn{"noise", &AccuracyRow::noise},
-                             NumberColumn{"noise_low", &AccuracyRow::noise_low},
-                             NumberColumn{"noise_high", &AccuracyRow::noise_high},
-                             NumberColumn{"bias", &AccuracyRow::bias},
-                             NumberColumn{"bias_low", &AccuracyRow::bias_low},
-                             NumberColumn{"bias_high", &AccuracyRow::bias_high},
-                             NumberColumn{"total", &AccuracyRow::total},
-                             NumberColumn{"total_low", &AccuracyRow::total_low},
-                             NumberColumn{"total_high", &AccuracyRow::total_high},
-                             NumberColumn{"within_5_percent", &AccuracyRow::within},
-                             NumberColumn{"error_95", &AccuracyRow::error_95},
-                             NumberColumn{"worst", &AccuracyRow::worst},
-                             NumberColumn{"trace_seconds", &AccuracyRow::trace_seconds},
-                             NumberColumn{"estimate_seconds", &AccuracyRow::estimate_seconds},
-                             NumberColumn{"reference_error", &AccuracyRow::reference_error}};
+constexpr std::array accuracy_numbers{AccuracyColumn{"radius_over_distance", &AccuracyRow::radius},
+                                      AccuracyColumn{"nearest", &AccuracyRow::nearest},
+                                      AccuracyColumn{"rays", &AccuracyRow::rays},
+                                      AccuracyColumn{"photons", &AccuracyRow::photons},
+                                      AccuracyColumn{"noise", &AccuracyRow::noise},
+                                      AccuracyColumn{"noise_low", &AccuracyRow::noise_low},
+                                      AccuracyColumn{"noise_high", &AccuracyRow::noise_high},
+                                      AccuracyColumn{"bias", &AccuracyRow::bias},
+                                      AccuracyColumn{"bias_low", &AccuracyRow::bias_low},
+                                      AccuracyColumn{"bias_high", &AccuracyRow::bias_high},
+                                      AccuracyColumn{"total", &AccuracyRow::total},
+                                      AccuracyColumn{"total_low", &AccuracyRow::total_low},
+                                      AccuracyColumn{"total_high", &AccuracyRow::total_high},
+                                      AccuracyColumn{"within_5_percent", &AccuracyRow::within},
+                                      AccuracyColumn{"error_95", &AccuracyRow::error_95},
+                                      AccuracyColumn{"worst", &AccuracyRow::worst},
+                                      AccuracyColumn{"trace_seconds", &AccuracyRow::trace_seconds},
+                                      AccuracyColumn{"estimate_seconds", &AccuracyRow::estimate_seconds},
+                                      AccuracyColumn{"reference_error", &AccuracyRow::reference_error}};
 
 constexpr double many_rays = 1e6;
 constexpr double some_seconds = 1;
@@ -67,13 +67,13 @@ std::string AccuracyRow::setting() const {
 
 std::string accuracy_header() {
   std::string header = "scene,estimator,reference";
-  for (const NumberColumn& column : numbers) header += fmt::format(",{}", column.name);
+  for (const AccuracyColumn& column : accuracy_numbers) header += fmt::format(",{}", column.name);
   return header + "\n";
 }
 
 std::string csv_row(const AccuracyRow& row) {
   std::string text = fmt::format("{},{},{}", row.scene, row.estimator, row.reference);
-  for (const NumberColumn& column : numbers) text += fmt::format(",{:.6g}", row.*column.value);
+  for (const AccuracyColumn& column : accuracy_numbers) text += fmt::format(",{:.6g}", row.*column.value);
   return text + "\n";
 }
 
@@ -86,12 +86,13 @@ std::vector<AccuracyRow> read_accuracy_rows(std::istream& csv) {
     std::vector<std::string> fields;
     std::istringstream text(line);
     for (std::string field; std::getline(text, field, ',');) fields.push_back(field);
-    if (fields.size() != 3 + numbers.size()) throw std::invalid_argument("not a row of the accuracy study: " + line);
+    if (fields.size() != 3 + accuracy_numbers.size())
+      throw std::invalid_argument("not a row of the accuracy study: " + line);
     AccuracyRow row;
     row.scene = fields[0];
     row.estimator = fields[1];
     row.reference = fields[2];
-    for (std::size_t i = 0; i < numbers.size(); ++i) row.*numbers[i].value = std::stod(fields[3 + i]);
+    for (std::size_t i = 0; i < accuracy_numbers.size(); ++i) row.*accuracy_numbers[i].value = std::stod(fields[3 + i]);
     rows.push_back(std::move(row));
   }
   return rows;
@@ -133,4 +134,4 @@ std::string accuracy_summary(const std::vector<AccuracyRow>& rows) {
                [](const AccuracyRow& row) { return total_in(row, some_seconds); });
 }
 
-}  // namespace detp::study
+}  // namespace detp::validate
