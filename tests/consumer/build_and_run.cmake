@@ -21,6 +21,21 @@ foreach(formulas_only OFF ON)
   run(${tree}/consumer)
 endforeach()
 
+# The formulas alone are built without the packages that the other parts need.
+set(disabled)
+foreach(package embree glm hwy TBB nlohmann_json Eigen3 nanoflann CLI11 doctest)
+  list(APPEND disabled -D CMAKE_DISABLE_FIND_PACKAGE_${package}=ON)
+endforeach()
+set(tree ${BUILD}/consumer/only-model)
+run(${CMAKE_COMMAND} -S ${SOURCE}/../.. -B ${tree} -G ${GENERATOR} -D CMAKE_BUILD_TYPE=Release -D CMAKE_UNITY_BUILD=ON
+    -D CMAKE_CXX_COMPILER=${COMPILER} -D DETP_ONLY_MODEL=ON ${disabled})
+run(${CMAKE_COMMAND} --build ${tree})
+run(${CMAKE_COMMAND} --install ${tree} --prefix ${tree}/prefix)
+run(${CMAKE_COMMAND} -S ${SOURCE} -B ${tree}/formulas -G ${GENERATOR} -D CMAKE_PREFIX_PATH=${tree}/prefix
+    -D CMAKE_BUILD_TYPE=Release -D CMAKE_CXX_COMPILER=${COMPILER} -D FORMULAS_ONLY=ON -D DETP_HEADERS=${tree}/prefix/include)
+run(${CMAKE_COMMAND} --build ${tree}/formulas)
+run(${tree}/formulas/consumer)
+
 find_program(PKG_CONFIG pkg-config REQUIRED)
 file(GLOB_RECURSE packages ${prefix}/detp.pc)
 get_filename_component(folder ${packages} DIRECTORY)

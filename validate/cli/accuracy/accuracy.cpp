@@ -81,12 +81,18 @@ std::string repeated_options(const AccuracyOptions& options) {
   return text;
 }
 
-/// Pilots of four times as many rays each, until the bias is known well enough, or the next one would exceed the price.
-void plan(AccuracyAnswer& answer, sim::Scene& scene, validate::AccuracyPilotOptions& options,
+/// Pilots of four times as many rays each, until the bias is known well enough, or the next one would exceed the price. Returns false
+/// if a stop request ended one of them: the answer is that of the one before. Throws sim::Stopped if there was none.
+bool plan(AccuracyAnswer& answer, sim::Scene& scene, validate::AccuracyPilotOptions& options,
           const validate::AccuracyTarget& target, double most_rays) {
   const sim::Stopwatch watch;
   for (options.rays = first_pilot;; options.rays *= 4) {
-    answer.pilot = validate::make_accuracy_pilot(scene, options);
+    try {
+      answer.pilot = validate::make_accuracy_pilot(scene, options);
+    } catch (const sim::Stopped&) {
+      if (options.rays == first_pilot) throw;
+      return false;
+    }
     answer.plan = validate::plan_accuracy(answer.pilot, target, most_rays);
     const validate::AccuracyPoint& best = answer.plan.answer;
     const double bias_error = (best.bias_high * best.bias_high - best.bias * best.bias) / 2;
@@ -94,7 +100,8 @@ void plan(AccuracyAnswer& answer, sim::Scene& scene, validate::AccuracyPilotOpti
         std::pow(target.kind == validate::AccuracyTarget::Kind::seconds ? best.total : target.value, 2);
     const double next = 4 * answer.pilot.seconds;
     const double most_seconds = std::max(least_price, price * best.seconds);
-    if (bias_error <= enough_resolution * square || watch.seconds() + next > most_seconds || options.rays > 1e7) return;
+    if (bias_error <= enough_resolution * square || watch.seconds() + next > most_seconds || options.rays > 1e7)
+      return true;
   }
 }
 
@@ -123,14 +130,16 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
                         .no_check = {},
                         .in_time = {}};
   answer.side = scene.box.longest_side();
-  plan(answer, scene, pilot, target, most_rays);
+  std::optional<sim::Progress> stopped;
+  if (!plan(answer, scene, pilot, target, most_rays)) stopped = sim::Progress{1, 3, "steps"};
   const validate::AccuracyPoint& best = answer.plan.answer;
   answer.in_time =
       validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
           .answer;
   constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
-  std::optional<sim::Progress> stopped;
-  if (best.seconds > longest_check || best.rays * bytes_of_a_ray > sim::memory_budget())
+  if (stopped)
+    answer.no_check = "Stopped before the check.";
+  else if (best.seconds > longest_check || best.rays * bytes_of_a_ray > sim::memory_budget())
     answer.no_check = "Not run to check: too long, or too large for the memory.";
   else
     try {
@@ -138,7 +147,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       answer.check = validate::check_accuracy(scene, best, answer.pilot.mean_square, pilot);
     } catch (const sim::Stopped&) {
       answer.no_check = "Stopped before the check.";
-      stopped = sim::Progress{1, 2, "steps"};
+      stopped = sim::Progress{2, 3, "steps"};
     }
   answer.seconds = watch.seconds();
   Result result;
