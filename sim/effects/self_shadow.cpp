@@ -19,7 +19,7 @@ constexpr std::uint64_t most_photons = 2048;
 constexpr double still_in_plane = 0.05;  // below the surface's plane, in disc radii
 
 /// A piece of a path that goes on through the surface where it ends.
-struct Landing {
+struct LandedAt {
   double distance;    ///< from the piece's start to the surface
   glm::dvec3 normal;  ///< of the surface, on the side from which the photon came
 };
@@ -28,7 +28,7 @@ struct Landing {
 struct Landings {
   const Mesh& mesh;
   std::vector<Ray> rays = {};
-  std::vector<Landing> landings = {};
+  std::vector<LandedAt> landings = {};
 
   void piece(const Ray& ray, double) { last = ray; }
   void met(std::uint32_t triangle, double, bool) {

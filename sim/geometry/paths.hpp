@@ -2,12 +2,16 @@
 
 #include <concepts>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "geometry.hpp"
 
 namespace detp::sim {
+
+/// Instead of the number of a triangle: the photon met none.
+inline constexpr std::uint32_t no_triangle = std::numeric_limits<std::uint32_t>::max();
 
 /// Rays as pieces of photon paths. What the search for pairs does not need is in arrays of its own, beside the rays.
 struct PathRays {
@@ -17,6 +21,8 @@ struct PathRays {
   std::span<const std::uint64_t> photons = {};
   /// Distance from each ray's origin to the surface that the photon met; `unbounded` if it met none. Empty: each ray's end.
   std::span<const double> landings = {};
+  /// Number of the triangle that the photon met there; no_triangle if it met none. Empty: not known.
+  std::span<const std::uint32_t> triangles = {};
   /// Photons emitted, with those that gave no ray. 0: up to the last ray's photon.
   std::uint64_t photon_count = 0;
 
@@ -26,8 +32,8 @@ struct PathRays {
   requires std::convertible_to<const Rays&, std::span<const Ray>> PathRays(const Rays& of) : rays(of) {}
   PathRays(const Ray* first, std::size_t count) : rays(first, count) {}
   PathRays(std::span<const Ray> of, std::span<const std::uint64_t> photon_numbers, std::span<const double> landing,
-           std::uint64_t emitted = 0)
-      : rays(of), photons(photon_numbers), landings(landing), photon_count(emitted) {}
+           std::uint64_t emitted = 0, std::span<const std::uint32_t> triangle = {})
+      : rays(of), photons(photon_numbers), landings(landing), triangles(triangle), photon_count(emitted) {}
 };
 
 /// The same, with its arrays.
@@ -35,9 +41,10 @@ struct Paths {
   std::vector<Ray> rays;
   std::vector<std::uint64_t> photons = {};
   std::vector<double> landings = {};
+  std::vector<std::uint32_t> triangles = {};
   std::uint64_t photon_count = 0;
 
-  operator PathRays() const { return {rays, photons, landings, photon_count}; }
+  operator PathRays() const { return {rays, photons, landings, photon_count, triangles}; }
 };
 
 }  // namespace detp::sim

@@ -19,7 +19,8 @@ enum class Stream : std::uint64_t {
   tests,
   pilot,
   evidence,
-  structure
+  structure,
+  reference
 };
 
 /// Four independent uniform numbers in [0, 1) with 53 bits.

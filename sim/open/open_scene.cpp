@@ -28,7 +28,8 @@ const std::vector<BuiltIn>& built_ins() {
                                         {"@courtyard", built_in::courtyard},
                                         {"@cornell", built_in::cornell},
                                         {"@caustic", built_in::caustic},
-                                        {"@interior", built_in::interior}};
+                                        {"@interior", built_in::interior},
+                                        {"@furnace", built_in::furnace}};
   return all;
 }
 
@@ -93,6 +94,7 @@ Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
   built_in::LitMesh lit_mesh = known.make();
   scene.mesh = std::move(lit_mesh.mesh);
   scene.lights = std::move(lit_mesh.lights);
+  if (request.lights.empty()) scene.known_irradiance = lit_mesh.known_irradiance;
   add_samples(scene, request, stop);
   scene.box = box_of(scene);
   add_lights(scene, request, request.up.value_or(Up{}), stop);

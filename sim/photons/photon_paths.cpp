@@ -39,6 +39,7 @@ void append(const PhotonPieces& pieces, std::size_t count, Paths& paths) {
   add(pieces.rays, paths.rays);
   add(pieces.photons, paths.photons);
   add(pieces.landings, paths.landings);
+  add(pieces.triangles, paths.triangles);
 }
 
 }  // namespace

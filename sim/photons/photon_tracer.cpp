@@ -16,8 +16,9 @@ struct Pieces {
   void piece(const Ray& ray, double landing) {
     kept.rays.push_back(ray);
     kept.landings.push_back(landing);
+    kept.triangles.push_back(no_triangle);
   }
-  void met(std::uint32_t, double, bool) {}
+  void met(std::uint32_t triangle, double, bool) { kept.triangles.back() = triangle; }
   void escaped(double) {}
   void cut_off(double) {}
 };

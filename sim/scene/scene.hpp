@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct Scene {
   /// How far pieces of photon paths go on through the surface where they end, at most up to the next surface, so that no
   /// surface shadows its own discs (photon_paths.hpp). Unbounded: always up to the second intersection.
   double overshoot = 0;
+  /// Irradiance at all surfaces, where it is known.
+  std::optional<double> known_irradiance = {};
   Notices notices;
 };
 

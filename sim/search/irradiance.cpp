@@ -23,6 +23,19 @@ void resize_results(std::size_t discs, bool errors, Outcome& outcome) {
   outcome.upper_bound.resize(errors ? discs : 0);
 }
 
+PowerError error_of_power(double power, double squares, const PhotonSums& sums, double heaviest, double photons) {
+  const bool in_range = squares > 0 && squares < unbounded;  // not so if powers are extreme, or if nothing hits
+  if (!in_range || squares * (1 + 1e-9) < fewest_photons * sums.largest * sums.largest) {
+    const double as_heavy = in_range ? squares / (heaviest * heaviest) : sums.photons;
+    const double most = fewest_photons - 1;
+    const auto k = static_cast<std::size_t>(std::min(most, std::ceil(as_heavy - 1e-9)));
+    return {unbounded, power + heaviest * more_photons[k]};
+  }
+  const double variance = std::max(0.0, squares - power * power / photons) * photons / (photons - 1);
+  const double error = std::sqrt(variance);
+  return {error, power + one_sided * error};
+}
+
 void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, const DiscTotals& sums,
                  const PhotonSums* photons, double heaviest, Outcome& outcome) {
   const double area = std::numbers::pi * disc.radius * disc.radius;
@@ -30,20 +43,10 @@ void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, con
   outcome.hits[number] = sums.hits;
   outcome.irradiance[number] = power / area;
   if (photons == nullptr) return;
-  const double squares = totals.squares(number, *photons);
-  const bool in_range = squares > 0 && squares < unbounded;  // not so if powers are extreme, or if nothing hits
-  if (!in_range || squares * (1 + 1e-9) < fewest_photons * photons->largest * photons->largest) {
-    const double as_heavy = in_range ? squares / (heaviest * heaviest) : photons->photons;
-    const double most = fewest_photons - 1;
-    const auto k = static_cast<std::size_t>(std::min(most, std::ceil(as_heavy - 1e-9)));
-    outcome.standard_error[number] = unbounded;
-    outcome.upper_bound[number] = (power + heaviest * more_photons[k]) / area;
-    return;
-  }
-  const auto n = static_cast<double>(totals.photons());
-  const double variance = std::max(0.0, squares - power * power / n) * n / (n - 1);
-  outcome.standard_error[number] = std::sqrt(variance) / area;
-  outcome.upper_bound[number] = outcome.irradiance[number] + one_sided * outcome.standard_error[number];
+  const PowerError error = error_of_power(power, totals.squares(number, *photons), *photons, heaviest,
+                                          static_cast<double>(totals.photons()));
+  outcome.standard_error[number] = error.standard_error / area;
+  outcome.upper_bound[number] = error.upper_bound / area;
 }
 
 double heaviest_photon(std::span<const PhotonSums> discs, double largest_power) {

@@ -45,6 +45,17 @@ void finish(const Totals& totals, std::span<const Disc> discs, Outcome& outcome)
 void finish_disc(const Totals& totals, const Disc& disc, std::size_t number, const DiscTotals& sums,
                  const PhotonSums* photons, double heaviest, Outcome& outcome);
 
+/// A standard error and a one-sided bound of 95 %, by the rules of `finish`, in the unit of the power.
+struct PowerError {
+  double standard_error = unbounded;  ///< infinite: not known
+  double upper_bound = 0;
+};
+
+/// Of the sum P of what `photons` emitted photons bring. `squares` is Σ x², `sums` has the largest x and the number of photons that
+/// brought something, `heaviest` is w.
+[[nodiscard]] PowerError error_of_power(double power, double squares, const PhotonSums& sums, double heaviest,
+                                        double photons);
+
 /// w, from the sums of all discs and the largest power of a ray.
 [[nodiscard]] double heaviest_photon(std::span<const PhotonSums> discs, double largest_power);
 

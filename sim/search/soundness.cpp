@@ -167,6 +167,7 @@ void check_paths(const PathRays& paths, std::uint64_t first, StopCheck& check) {
   };
   require_size("photon numbers", paths.photons.size());
   require_size("landings", paths.landings.size());
+  require_size("triangles", paths.triangles.size());
   std::uint64_t before = 0;
   for_each_checked(0, paths.photons.size(), check, [&](std::size_t i) {
     if (paths.photons[i] < before)

@@ -39,7 +39,8 @@ std::vector<Finding> all_findings(const Experiment& experiment, const sim::Repor
                              Step{"lines against spheres and discs", line_hit_findings, line_hit_work, 1},
                              Step{"sphere cache", sphere_cache_findings, sphere_cache_work, 1},
                              Step{"hierarchies of spheres and boxes", hierarchy_findings, hierarchy_work, 2.2},
-                             Step{"index of discs", disc_index_findings, disc_index_work, 7.5}};
+                             Step{"index of discs", disc_index_findings, disc_index_work, 7.5},
+                             Step{"errors of estimates", accuracy_findings, accuracy_work, 1}};
   std::array<double, steps.size()> work{};
   double whole = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {

@@ -34,6 +34,9 @@ namespace detp::validate {
 /// missing. Returns nothing if experiment.choice is not set.
 [[nodiscard]] std::vector<Finding> effect_findings(const Experiment& experiment);
 
+/// Noise of discs and of triangle hits, bias of discs at edges, and how a photon's pieces clump, in @furnace.
+[[nodiscard]] std::vector<Finding> accuracy_findings(const Experiment& experiment);
+
 /// Predicted work of each experiment, in units of sim::StopCheck, for a display of progress.
 [[nodiscard]] double line_hit_work(const Experiment& experiment);
 [[nodiscard]] double sphere_cache_work(const Experiment& experiment);
@@ -41,6 +44,7 @@ namespace detp::validate {
 [[nodiscard]] double disc_index_work(const Experiment& experiment);
 [[nodiscard]] double choice_work(const Experiment& experiment);
 [[nodiscard]] double effect_work(const Experiment& experiment);
+[[nodiscard]] double accuracy_work(const Experiment& experiment);
 
 /// The findings of all experiments, or of the experiments that were finished before a stop request. Sets `done`, if not
 /// null, to the number of finished experiments.

@@ -22,5 +22,6 @@ struct Command {
 [[nodiscard]] Command scene_command(CLI::App& program);
 [[nodiscard]] Command bench_command(CLI::App& program);
 [[nodiscard]] Command calibrate_command(CLI::App& program);
+[[nodiscard]] Command accuracy_command(CLI::App& program);
 
 }  // namespace detp::cli

@@ -96,7 +96,7 @@ int run(const Command& command, const CommonOptions& common, Interruption& inter
   } else {
     print(common.format == "csv" ? result.csv : safe_text(result.text, common.screen().colour), output);
   }
-  return static_cast<int>(result.code);
+  return static_cast<int>(result.not_reached ? ExitCode::stopped : result.code);
 }
 
 int guarded_main(int argc, char** argv) {

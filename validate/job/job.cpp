@@ -86,6 +86,7 @@ class JobMaker {
     (job_.rays_from_file ? job_.read_seconds : job_.trace_seconds) += watch.lap();
     progress_.measure(job_.rays.size(), job_.discs.size());
     sim::in_memory("measuring rays and discs", [&] { measure_workload(); });
+    if (request_.keep_mesh && scene_) job_.mesh = std::move(scene_->mesh);
     return std::move(job_);
   }
 
@@ -155,8 +156,8 @@ class JobMaker {
     progress_.make_rays(job_.field, made, stream, job_.discs.size());
     if (stream) return make_stream(static_cast<std::uint64_t>(rays));
     const bool paths = job_.field == sim::Field::photons;
-    const std::size_t count =
-        count_in_memory("rays", made, sizeof(sim::Ray) + (paths ? sizeof(std::uint64_t) + sizeof(double) : 0));
+    const std::size_t count = count_in_memory(
+        "rays", made, sizeof(sim::Ray) + (paths ? sizeof(std::uint64_t) + sizeof(double) + sizeof(std::uint32_t) : 0));
     if (job_.field != sim::Field::photons) {
       read_rays(*field_of_rays(count));
       return;
@@ -169,6 +170,7 @@ class JobMaker {
     job_.rays = std::move(paths.rays);
     job_.photons = std::move(paths.photons);
     job_.landings = std::move(paths.landings);
+    job_.triangles_met = std::move(paths.triangles);
     job_.photon_count = paths.photon_count;
   }
 

@@ -53,8 +53,9 @@ struct JobRequest {
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
   /// block of rays is made, and the workload is measured on this block. Has no effect on rays from a file.
   bool workload_only = false;
-  bool stream = false;  ///< if the rays are not from a file and fill more than a block, do not keep them in memory
-  int threads = 1;      ///< for checking rays and discs; 0: all cores
+  bool stream = false;     ///< if the rays are not from a file and fill more than a block, do not keep them in memory
+  bool keep_mesh = false;  ///< the job keeps the scene's triangles, for estimators that look at them
+  int threads = 1;         ///< for checking rays and discs; 0: all cores
 
   /// True if the request has neither a scene nor a file, only the numbers of a workload.
   [[nodiscard]] bool numbers_alone() const { return !scene && !disc_file && !ray_file; }
@@ -70,14 +71,16 @@ struct JobRequest {
 struct Job {
   std::string name;  ///< "@tree", a file, or "uniform samples in a cube"
   std::vector<sim::Disc> discs;
-  std::vector<sim::Ray> rays;                    ///< all rays; empty if they are a stream; see workload_only
-  std::vector<std::uint64_t> photons;            ///< numbers of the rays' photons, as in sim::PathRays
-  std::vector<double> landings;                  ///< where the photons met a surface, as in sim::PathRays
-  std::uint64_t photon_count = 0;                ///< photons emitted; 0: one for each ray
-  std::vector<std::uint32_t> file_order;         ///< as sim::RayFile::order
-  std::unique_ptr<const sim::RaySource> stream;  ///< makes ray number i for any i; null if all rays are in memory
+  std::vector<sim::Ray> rays;                     ///< all rays; empty if they are a stream; see workload_only
+  std::vector<std::uint64_t> photons;             ///< numbers of the rays' photons, as in sim::PathRays
+  std::vector<double> landings;                   ///< where the photons met a surface, as in sim::PathRays
+  std::vector<std::uint32_t> triangles_met = {};  ///< as sim::PathRays::triangles
+  std::uint64_t photon_count = 0;                 ///< photons emitted; 0: one for each ray
+  std::vector<std::uint32_t> file_order;          ///< as sim::RayFile::order
+  std::unique_ptr<const sim::RaySource> stream;   ///< makes ray number i for any i; null if all rays are in memory
   sim::Field field = sim::Field::isotropic;
   std::size_t triangles = 0;
+  sim::Mesh mesh = {};             ///< of the scene, if it was to be kept
   std::vector<sim::Light> lights;  ///< of the scene
   sim::Up up;                      ///< by which lights were placed
   Workload workload;               ///< measured on discs and rays (the path length of a stream on its first block)
@@ -97,7 +100,7 @@ struct Job {
   /// The problem. It refers to this job's rays and discs; moving the job does not change that. Throws std::invalid_argument
   /// if the rays are a stream.
   [[nodiscard]] const sim::Problem& problem() const;
-  [[nodiscard]] sim::PathRays paths() const { return {rays, photons, landings, photon_count}; }
+  [[nodiscard]] sim::PathRays paths() const { return {rays, photons, landings, photon_count, triangles_met}; }
   /// Rays have the numbers of their photons. If not, each is taken for a photon of its own.
   [[nodiscard]] bool numbered() const { return stream ? stream->numbered() : !photons.empty(); }
   /// Photons of all rays, independent of one another.

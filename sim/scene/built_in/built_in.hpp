@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "detp/sim/scene/scene.hpp"
@@ -14,6 +15,7 @@ namespace detp::sim::built_in {
 struct LitMesh {
   Mesh mesh;
   std::vector<Light> lights;
+  std::optional<double> known_irradiance = {};  ///< on all surfaces, by these lights
 };
 
 /// A broad tree on uneven ground: 72 500 triangles, edges 1 % of the scene's length on the tree, 2 % on the ground, as
@@ -38,6 +40,10 @@ struct LitMesh {
 /// A furnished room, 6 m by 5 m, closed but for two windows: table, chairs, shelf, sofa, a mirror, a glass. Five lights: a
 /// lamp at the ceiling, one in a corner, a spot on the shelf, the sky and the sun outside of the windows.
 [[nodiscard]] LitMesh interior();
+
+/// A closed box of side 1. All walls emit a radiance of 1 diffusely and reflect half of the light: the irradiance is 2π
+/// everywhere on them, E = π + E/2.
+[[nodiscard]] LitMesh furnace();
 
 /// `count` points uniform in the cube [-1, 1]³ with isotropic normals. Each sample is a function of the seed and of its
 /// number. Throws Stopped if a stop was requested.

@@ -35,7 +35,7 @@ bool in_order_among(const std::vector<Sample>& some, const std::vector<Sample>& 
 TEST_SUITE("known answer") {
   TEST_CASE("every built-in scene opens, with samples in its box, and a light where its rays are photons") {
     for (const std::string name :
-         {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior"}) {
+         {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior", "@furnace"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});
       CHECK(scene.name == name);
@@ -138,7 +138,7 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_WITH_AS(
         (void)open_scene({.name = "@forest", .samples = {}}),
         "there is no built-in scene @forest; known scenes are @uniform, @tree, @tree-coarse, @courtyard, "
-        "@cornell, @caustic, @interior",
+        "@cornell, @caustic, @interior, @furnace",
         std::invalid_argument);
   }
 

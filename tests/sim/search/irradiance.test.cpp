@@ -216,14 +216,11 @@ TEST_SUITE("standard error of irradiance") {
     CHECK(covered / 2000.0 < 0.97);
   }
 
-  TEST_CASE("A search of some of the rays, and a photon map, refuse it") {
+  TEST_CASE("A search of some of the rays refuses it") {
     const std::vector<Disc> discs{{{0, 0, 0}, {0, 0, 1}, 1}};
     const std::vector<Ray> rays{{{0, 0, 1}, {0, 0, -1}, 1}};
     Totals totals;
     CHECK_THROWS_WITH_AS((void)run(make_problem(rays, discs), box_tree, {.standard_error = true, .totals = &totals}),
                          doctest::Contains("Totals::keep_errors"), std::invalid_argument);
-    const Candidate photon_map{Technique::photon_map, PhotonMapParameters{3}};
-    CHECK_THROWS_WITH_AS((void)run(make_problem(rays, discs), photon_map, {.standard_error = true}),
-                         doctest::Contains("photon-map has no standard error"), std::invalid_argument);
   }
 }

@@ -6,6 +6,8 @@
 
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/model/rank/choose.hpp"
+#include "detp/model/vocabulary/nearest_name.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/sim/files/writing_check.hpp"
@@ -28,12 +30,39 @@ namespace {
 struct RunOptions {
   WorkloadOptions workload;
   CandidateOptions candidate;
+  std::optional<std::string> estimator;
   CostOptions costs;
   int repeat = 0;
   std::optional<std::string> per_disc;
   bool standard_error = false;
   std::optional<std::string> pairs;
 };
+
+sim::Estimator parse_estimator(const std::string& text) {
+  std::vector<std::string_view> names;
+  for (const sim::EstimatorRecord& one : sim::estimators) {
+    if (text == one.name) return one.estimator;
+    names.push_back(one.name);
+  }
+  throw std::invalid_argument(fmt::format("there is no estimator {}; there are {}{}", detp::quoted(text),
+                                          fmt::join(names, ", "), did_you_mean(text, names)));
+}
+
+/// The estimator of a row. The technique photon-map is another name of the estimator `nearest`, which gets its parameters.
+/// Throws std::invalid_argument for an estimator with the technique of another.
+sim::Estimator estimator_of(const RunOptions& options) {
+  const bool photon_map = options.candidate.technique_or(Technique::brute_force) == Technique::photon_map;
+  if (!options.estimator) return photon_map ? sim::Estimator::nearest : sim::Estimator::disc;
+  const sim::Estimator estimator = parse_estimator(*options.estimator);
+  const bool searches = sim::record_of(estimator).finds_pairs;
+  if (options.candidate.technique && searches == photon_map && !(photon_map && estimator == sim::Estimator::nearest))
+    throw std::invalid_argument(fmt::format("the estimator {} does not use {}: leave out --technique or --estimator",
+                                            name(estimator), *options.candidate.technique));
+  if (options.candidate.technique && !searches && estimator != sim::Estimator::nearest)
+    throw std::invalid_argument(
+        fmt::format("the estimator {} searches no pairs: leave out --technique", name(estimator)));
+  return estimator;
+}
 
 /// A candidate, and the number of threads of its run.
 struct Requested {
@@ -67,6 +96,22 @@ Requested complete(const CandidateOptions& options, const Workload& workload, co
           options.technique ? sim::thread_count(threads) : chosen_threads(*candidate, workload, costs, most)};
 }
 
+/// The same for any estimator: those that search no pairs have no technique, and run on `threads` threads.
+Requested requested(const CandidateOptions& options, sim::Estimator estimator, const Workload& workload,
+                    const CostTable& costs, int threads) {
+  if (sim::record_of(estimator).finds_pairs) return complete(options, workload, costs, threads);
+  if (estimator != sim::Estimator::nearest) return {{}, sim::thread_count(threads)};
+  auto candidate =
+      model::complete(Technique::photon_map, options.fixed_parameters(Technique::photon_map), workload, costs);
+  return {*candidate, sim::thread_count(threads)};
+}
+
+sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& job) {
+  sim::EstimateRequest request{.estimator = answer.estimator, .candidate = answer.candidate, .mesh = &job.mesh};
+  if (const auto* map = std::get_if<PhotonMapParameters>(&answer.candidate.parameters)) request.nearest = map->nearest;
+  return request;
+}
+
 /// `order`: numbers of the rays in their file; empty if they have the file's order.
 void write_pairs(const std::string& path, const std::vector<sim::Pair>& found, const std::vector<std::uint32_t>& order,
                  const std::stop_token& stop) {
@@ -92,10 +137,11 @@ void write_per_disc(const std::string& path, const sim::Outcome& outcome, const 
   file.write(errors ? "disc,hits,irradiance,standard_error,upper_bound\n" : "disc,hits,irradiance\n");
   for (std::size_t disc = 0; disc < outcome.hits.size(); ++disc) {
     check.next();
-    const std::string error = !errors ? ""
-                              : std::isfinite(outcome.standard_error[disc])
-                                  ? fmt::format(",{},", outcome.standard_error[disc])
-                                  : fmt::format(",,{}", outcome.upper_bound[disc]);
+    const std::string error =
+        !errors                                       ? ""
+        : std::isfinite(outcome.standard_error[disc]) ? fmt::format(",{},", outcome.standard_error[disc])
+        : std::isfinite(outcome.upper_bound[disc])    ? fmt::format(",,{}", outcome.upper_bound[disc])
+                                                      : ",,";  // no surface near the sample
     file.write(fmt::format("{},{},{}{}\n", disc, outcome.hits[disc], outcome.irradiance[disc], error));
   }
   file.commit();
@@ -129,14 +175,21 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
   return std::nullopt;
 }
 
-/// True if all rows can read their rays in blocks. The photon map needs all rays in memory, because it accesses them in
-/// any order.
-bool can_stream(CandidateOptions& options, std::size_t rows) {
+/// What the estimators of all rows need.
+struct Needs {
+  bool all_rays = false;  ///< in memory: of estimators that need more than the pairs of a block of rays
+  bool mesh = false;
+};
+
+Needs needs_of(RunOptions& options, std::size_t rows) {
+  Needs needs;
   for (std::size_t row = 0; row < rows; ++row) {
-    options.lists.choose_row(row);
-    if (options.technique_or(Technique::brute_force) == Technique::photon_map) return false;
+    options.candidate.lists.choose_row(row);
+    const sim::Estimator estimator = estimator_of(options);
+    needs.all_rays = needs.all_rays || estimator != sim::Estimator::disc;
+    needs.mesh = needs.mesh || sim::record_of(estimator).needs_mesh;
   }
-  return true;
+  return needs;
 }
 
 /// Chooses, and runs the choice with what choosing has sorted.
@@ -149,6 +202,10 @@ void choose_and_run(RunAnswer& answer, const validate::Question& question, const
   if (progress)
     progress({std::string(name(answer.candidate.technique)), 0, 1,
               validate::search_work(answer.choice->best().counts, options.engine)});
+  if (answer.estimator != sim::Estimator::disc) {
+    answer.run.outcome = sim::estimate(problem, {answer.estimator, answer.candidate}, options);
+    return;
+  }
   try {
     answer.run.outcome = sim::run(problem, *validate::build_choice(*answer.choice, problem, options), options);
   } catch (const sim::Stopped&) {  // stopped while the index was built
@@ -163,10 +220,15 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                                     .purpose = validate::Purpose::one_search,
                                     .threads = common.threads,
                                     .stop = stop};
-  const bool by_pilot = !options.candidate.technique && validate::reachable_rigor(question, costs) == Rigor::pilot;
+  const sim::Estimator estimator = estimator_of(options);
+  const bool searches = sim::record_of(estimator).finds_pairs;
+  const bool by_pilot =
+      searches && !options.candidate.technique && validate::reachable_rigor(question, costs) == Rigor::pilot;
   const CostTable priced = validate::costs_for(question, costs);
-  const Requested choice = by_pilot ? Requested{} : complete(options.candidate, job.workload, priced, common.threads);
+  const Requested choice =
+      by_pilot ? Requested{} : requested(options.candidate, estimator, job.workload, priced, common.threads);
   RunAnswer answer{.candidate = choice.candidate,
+                   .estimator = estimator,
                    .threads = choice.threads,
                    .costs = priced,
                    .engine = options.candidate.engine,
@@ -185,12 +247,12 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
     answer.run.rays_in_memory = job.rays.size();
     choose_and_run(answer, question, costs, run, sim::part_of(progress, 0, share_of_first));
   } else {
-    answer.run = run_job(job, answer.candidate, run, sim::part_of(progress, 0, share_of_first));
+    answer.run = run_job(job, request_of(answer, job), run, sim::part_of(progress, 0, share_of_first));
   }
   run.threads = answer.threads;
   run.count = run.pairs = false;
-  answer.timing = time_runs(job, answer.candidate, answer.run, answer.run.outcome.stopped ? 0 : options.repeat, run,
-                            sim::part_of(progress, share_of_first, 1));
+  answer.timing = time_runs(job, request_of(answer, job), answer.run, answer.run.outcome.stopped ? 0 : options.repeat,
+                            run, sim::part_of(progress, share_of_first, 1));
   return answer;
 }
 
@@ -234,7 +296,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   ValueLists& candidates = options.candidate.lists;
   const std::size_t expected = rows_in(problems, candidates);
   check_files(options, common, expected);
-  const bool stream = can_stream(options.candidate, candidates.rows());
+  const Needs needs = needs_of(options, candidates.rows());
   const CostsInUse costs = options.costs.costs(common);
   const ProgressLine progress(common.quiet);
   RowProgress rows(options, common);
@@ -243,7 +305,8 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   std::optional<sim::Progress> stopped;
   const auto prepare = [&] {
     validate::JobRequest request = options.workload.request(common);
-    request.stream = stream;
+    request.stream = !needs.all_rays;
+    request.keep_mesh = needs.mesh;
     validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
     note_all(common, job);
     if (options.standard_error && request.ray_file && !job.numbered())
@@ -280,6 +343,14 @@ Command run_command(CLI::App& program) {
   const auto options = std::make_shared<RunOptions>();
   options->workload.add_to(*app, Values::many);
   options->candidate.add_to(*app, Values::many, SphereStop::best);
+  options->candidate.lists.add(
+      *app, "--estimator", Values::many, ValueLists::Kind::words,
+      [raw = options.get()](const std::string& text) { raw->estimator = text; },
+      "disc: rays through discs, found by a technique; variable-radius: the same, with a radius for each disc from the "
+      "rays "
+      "nearby; nearest: the nearest photons (--nearest); area-corrected: photons near a sample, over the area of the "
+      "surfaces "
+      "there; triangle-hits: photons of a triangle, over its area; default: disc");
   options->costs.add_calibration_to(*app);
   add_number(*app, "--repeat", options->repeat,
              "time that many further runs, which do not count; the median is shown; default: 0");

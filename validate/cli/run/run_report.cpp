@@ -38,11 +38,14 @@ double hits_per_disc(const sim::Outcome& outcome) {
 }
 
 /// The choice has a prediction, not a guess.
-bool is_predicted(const RunAnswer& answer) { return answer.choice && answer.choice->best().source != Source::guess; }
+bool is_predicted(const RunAnswer& answer) {
+  return answer.estimator == sim::Estimator::disc && answer.choice && answer.choice->best().source != Source::guess;
+}
 
 /// The counts that a pilot predicted, or else the closed form; nothing if the candidate has none.
 std::optional<Counts<double>> prediction(const Workload& workload, const RunAnswer& answer) {
   if (is_predicted(answer)) return answer.choice->best().counts;
+  if (answer.estimator != sim::Estimator::disc) return {};
   if (!model::has_closed_form(answer.candidate.technique)) return {};
   try {
     return model::predict(workload, answer.candidate, answer.engine);
@@ -105,11 +108,16 @@ std::string hits_text(const RunAnswer& answer) {
 
 Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   const sim::Outcome& outcome = answer.run.outcome;
-  Json json{{"technique", name(answer.candidate.technique)},
-            {"parameters", to_json(answer.candidate)},
+  Json json{{"estimator", name(answer.estimator)},
+            {"technique", nullptr},
+            {"parameters", Json::object()},
             {"engine", name(answer.engine)},
             {"threads", answer.threads}};
-  add_stops(job.workload, answer.candidate, answer.costs, json);
+  if (has_technique(answer)) {
+    json["technique"] = name(answer.candidate.technique);
+    json["parameters"] = to_json(answer.candidate);
+    add_stops(job.workload, answer.candidate, answer.costs, json);
+  }
   json.update(outcome.stopped ? hits_so_far(answer)
                               : Json{{"hits", outcome.total_hits},
                                      {"hits_per_disc", hits_per_disc(outcome)},
@@ -142,9 +150,9 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   return json;
 }
 
-Json run_cells(const Json& inputs, const Candidate& candidate, const Json& json) {
+Json run_cells(const Json& inputs, const RunAnswer& answer, const Json& json) {
   Json cells = workload_cells(inputs);
-  cells.update(candidate_cells(candidate));
+  if (has_technique(answer)) cells.update(candidate_cells(answer.candidate));
   for (const auto& [name, value] : json.items())
     if (!value.is_structured()) cells[name] = value;
   cells.update(effect_cells(json["effects"]));
@@ -220,12 +228,12 @@ std::string counts_table(const validate::Job& job, const RunAnswer& answer, cons
 
 AnswerRow run_row(Json inputs, const validate::Job& job, const RunAnswer& answer) {
   Json json = answer_json(job, answer);
-  Json cells = run_cells(inputs, answer.candidate, json);
+  Json cells = run_cells(inputs, answer, json);
   return {std::move(inputs), std::move(json), {std::move(cells)}};
 }
 
 Columns run_columns() {
-  return workload_columns() + Columns{"engine", "threads"} + candidate_columns() +
+  return workload_columns() + Columns{"estimator", "engine", "threads"} + candidate_columns() +
          Columns{"k", "k_max", "k_best", "k_published", "k_corrected", "photons", "hits_per_disc", "mean_irradiance"} +
          count_columns() + count_columns("predicted_") +
          Columns{"rebuild_time", "intersect_time", "predicted_rebuild_time", "predicted_intersect_time"} +
@@ -237,8 +245,8 @@ Columns run_columns() {
 }
 
 TextColumns run_text_columns(const Screen& screen) {
-  return {{"scene", "field", "ray_file", "front_facing", "rays", "samples", "disc_radius", "engine", "technique",
-           "parameters"},
+  return {{"scene", "field", "ray_file", "front_facing", "rays", "samples", "disc_radius", "estimator", "engine",
+           "technique", "parameters"},
           {"hits", "rebuild_time", "predicted_rebuild_time", "intersect_time", "predicted_intersect_time", "seconds",
            "predicted_seconds"},
           screen,
@@ -250,12 +258,16 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
   const Timing& timing = answer.timing;
   std::string text = wrapped(describe(job), screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
-  add(fmt::format("technique {}, {} engine, {}", title(answer.candidate), name(answer.engine),
-                  threads_text(answer.threads)) +
-      (!answer.choice         ? ""
-       : is_predicted(answer) ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays",
-                                            1e3 * answer.choice->choosing_seconds, answer.choice->sampled_rays)
-                              : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
+  if (answer.estimator != sim::Estimator::disc)
+    add(fmt::format("estimator {}{}", name(answer.estimator),
+                    has_technique(answer) ? "" : fmt::format(", {}", threads_text(answer.threads))));
+  if (has_technique(answer))
+    add(fmt::format("technique {}, {} engine, {}", title(answer.candidate), name(answer.engine),
+                    threads_text(answer.threads)) +
+        (!answer.choice         ? ""
+         : is_predicted(answer) ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays",
+                                              1e3 * answer.choice->choosing_seconds, answer.choice->sampled_rays)
+                                : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
   add(effects_line(job.observed.effects));
   add("hits      " + hits_text(answer));
   add(

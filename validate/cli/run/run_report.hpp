@@ -9,8 +9,9 @@
 namespace detp::cli {
 
 struct RunAnswer {
-  Candidate candidate = {};
-  int threads = 1;                              ///< on which the candidate ran
+  Candidate candidate = {};  ///< of an estimator that uses none, without meaning
+  sim::Estimator estimator = sim::Estimator::disc;
+  int threads = 1;                              ///< on which it ran
   CostTable costs = {};                         ///< with which the candidate was chosen and its time predicted
   std::optional<validate::Choice> choice = {};  ///< by which the candidate was chosen, with its rays in memory
   Engine engine = Engine::simd;
@@ -20,6 +21,11 @@ struct RunAnswer {
   bool standard_error = false;  ///< requested
   bool random_rays = false;     ///< true for rays of a random field: the first rays are representative of all rays
 };
+
+/// Whether a technique found the pairs, or the nearest photons.
+[[nodiscard]] inline bool has_technique(const RunAnswer& answer) {
+  return sim::record_of(answer.estimator).finds_pairs || answer.estimator == sim::Estimator::nearest;
+}
 
 /// Hits, counts and seconds, and the predictions of the candidate's closed form if it has one. A stopped run has no
 /// `hits` and no irradiance. It has `hits_so_far`, the hits of the finished rays or discs, and if random rays were

@@ -25,37 +25,40 @@ double predicted_work(const Workload& workload, const Candidate& candidate, Engi
 
 }  // namespace
 
-TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim::RunOptions& options,
+TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, const sim::RunOptions& options,
                  const sim::ReportPhase& progress) {
-  const double work = progress ? predicted_work(job.workload, candidate, options.engine) : 0;
+  const Candidate& candidate = request.candidate;
+  const bool pairs = record_of(request.estimator).finds_pairs;
+  const std::string doing(pairs ? name(candidate.technique) : name(request.estimator));
+  const double work = progress && pairs ? predicted_work(job.workload, candidate, options.engine) : 0;
   const double block = job.stream ? static_cast<double>(sim::default_block(job.discs.size())) : job.workload.rays;
   const double each = std::min(1.0, block / job.workload.rays);  // a block's share of the rays
   double begun = 0;                                              // share of the rays before the current block
   const auto show = [&](double done) {
     begun = done;
-    if (progress) progress({std::string(name(candidate.technique)), done, std::min(1.0, done + each), each * work});
+    if (progress) progress({doing, done, std::min(1.0, done + each), each * work});
   };
   show(0);
   sim::RunOptions reporting = options;
   if (progress && work == 0)
     reporting.progress = [&](double share) {
       const double now = std::min(1.0, begun + each * share);
-      progress({std::string(name(candidate.technique)), now, now});
+      progress({doing, now, now});
     };
   if (job.stream) {
     sim::StreamedOutcome streamed = sim::run_streamed(
         job.discs, *job.stream, candidate, {.run = reporting, .front_facing = job.front_facing, .progress = show});
     return {std::move(streamed.outcome), streamed.check_seconds, streamed.read_seconds, streamed.block};
   }
-  return {sim::run(job.problem(), candidate, reporting), job.check_seconds, 0, job.rays.size()};
+  return {sim::estimate(job.problem(), request, reporting), job.check_seconds, 0, job.rays.size()};
 }
 
-Timing time_runs(const validate::Job& job, const Candidate& candidate, const TimedRun& counted, int repeat,
+Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted, int repeat,
                  const sim::RunOptions& options, const sim::ReportPhase& progress) {
   std::vector<Timing> timings;
   const double each = 1.0 / std::max(1, repeat);
   for (int i = 0; i < repeat; ++i) {
-    const TimedRun run = run_job(job, candidate, options, sim::part_of(progress, i * each, (i + 1) * each));
+    const TimedRun run = run_job(job, request, options, sim::part_of(progress, i * each, (i + 1) * each));
     if (run.outcome.stopped) break;
     timings.push_back({run.outcome.seconds, run.prepare_seconds, {}});
   }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "detp/sim/base/phase.hpp"
+#include "detp/sim/estimate/estimate.hpp"
 #include "detp/sim/technique/technique.hpp"
 #include "detp/validate/job/job.hpp"
 
@@ -16,8 +17,9 @@ struct TimedRun {
   std::size_t rays_in_memory = 0;  ///< maximum number of rays in memory at a time
 };
 
-[[nodiscard]] TimedRun run_job(const validate::Job& job, const Candidate& candidate, const sim::RunOptions& options,
-                               const sim::ReportPhase& progress);
+/// Runs the estimator; the rays of a stream by its technique, which finds pairs.
+[[nodiscard]] TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request,
+                               const sim::RunOptions& options, const sim::ReportPhase& progress);
 
 /// Times from discs and rays in memory to irradiance in memory, in seconds.
 struct Timing {
@@ -31,7 +33,7 @@ struct Timing {
 /// Times `repeat` runs without counting; if `repeat` is 0, or a stop request ended the first of them, returns the times
 /// of the counting run. The phases returned are those of the run with the median time, or for an even number of runs,
 /// of the slower of the two middle runs.
-[[nodiscard]] Timing time_runs(const validate::Job& job, const Candidate& candidate, const TimedRun& counted,
+[[nodiscard]] Timing time_runs(const validate::Job& job, const sim::EstimateRequest& request, const TimedRun& counted,
                                int repeat, const sim::RunOptions& options, const sim::ReportPhase& progress);
 
 }  // namespace detp::cli

@@ -23,6 +23,7 @@ struct Result {
   ExitCode code = ExitCode::done;
   std::string schema = {};         ///< in JSON, after "detp."; empty: the command's name
   bool output_is_written = false;  ///< the command itself wrote the file of --output; the result goes to stdout
+  bool not_reached = false;        ///< the result is complete, and says that the target is out of reach: exit code 3
   bool answers_at_limit = false;   ///< the result is complete even if the time limit ended the work
   /// the progress if a stop request ended the command, so that the result is partial; else nothing
   std::optional<sim::Progress> stopped = {};

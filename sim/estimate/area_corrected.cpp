@@ -1,0 +1,134 @@
+#include <glm/geometric.hpp>
+
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/geometry/closest_point.hpp"
+#include "detp/sim/geometry/predicates.hpp"
+#include "detp/sim/geometry/triangle_in_sphere.hpp"
+#include "detp/sim/search/run_memory.hpp"
+#include "landing_tree.hpp"
+#include "near_sums.hpp"
+#include "near_triangles.hpp"
+#include "surface.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr double least_cosine = 0.5;  ///< between the normals of a disc and of a triangle that faces as the disc does
+
+/// Collects the landings of a disc for nanoflann.
+template <class Counts>
+class LandingsWithin {
+ public:
+  using DistanceType = double;
+
+  LandingsWithin(double radius, const Counts& counts, const LandingCloud& cloud, Near& near)
+      : square_(radius * radius), counts_(counts), cloud_(cloud), near_(near) {}
+
+  bool addPoint(double square, std::uint32_t landing) {
+    const std::uint32_t ray = cloud_.landings[landing].ray;
+    if (square <= square_ && counts_(ray)) near_.landed.push_back({ray, 1});
+    return true;
+  }
+  [[nodiscard]] double worstDist() const { return square_; }
+  [[nodiscard]] bool full() const { return true; }
+
+ private:
+  double square_;
+  const Counts& counts_;
+  const LandingCloud& cloud_;
+  Near& near_;
+};
+
+class AreaCorrected {
+ public:
+  AreaCorrected(const Problem& problem, const NearTriangles& triangles, const std::stop_token& stop)
+      : problem_(problem),
+        triangles_(triangles),
+        check_(stop, "sorting photons"),
+        cloud_{landings_of(problem, check_), &check_} {
+    cloud_.building = nullptr;
+  }
+
+  [[nodiscard]] std::size_t landings() const { return cloud_.landings.size(); }
+
+  void find(std::uint32_t number, Near& near) const {
+    const Disc& disc = problem_.discs()[number];
+    const double side = measure(disc, near);
+    if (!(near.area > 0)) return;
+    const auto counts = [&](std::uint32_t ray) {
+      const std::uint32_t triangle = problem_.triangles()[ray];
+      if (!triangles_.is_met(triangle) || !faces(triangle, disc, side)) return false;
+      return !problem_.front_facing() || arrives_in_front(problem_.rays()[ray], disc);
+    };
+    LandingsWithin within(disc.radius, counts, cloud_, near);
+    const double point[3]{disc.centre.x, disc.centre.y, disc.centre.z};
+    tree_.findNeighbors(within, point, nanoflann::SearchParams());
+  }
+
+ private:
+  [[nodiscard]] bool faces(std::uint32_t triangle, const Disc& disc, double side) const {
+    return side * glm::dot(triangles_.facet(triangle).normal, disc.normal) >= least_cosine;
+  }
+
+  /// Sets the area. Returns 1, or -1 if the nearest triangle is turned round.
+  double measure(const Disc& disc, Near& near) const {
+    double areas[2]{};  // of triangles that face as the disc does, and the other way
+    double least = unbounded;
+    std::uint32_t nearest = no_triangle;
+    bool turned = false;
+    triangles_.visit(disc.centre, disc.radius, [&](std::uint32_t triangle) {
+      const bool facing = faces(triangle, disc, 1);
+      if (!facing && !faces(triangle, disc, -1)) return;
+      const Facet& facet = triangles_.facet(triangle);
+      const glm::dvec3 a = facet.corner - disc.centre;
+      const glm::dvec3 b = a + facet.first;
+      const glm::dvec3 c = a + facet.second;
+      areas[facing ? 0 : 1] += area_in_sphere(a, b, c, disc.radius);
+      const glm::dvec3 weights = closest_point_weights(a, b, c);
+      const double distance = glm::length(weights.x * a + weights.y * b + weights.z * c);
+      if (distance < least || (distance == least && triangle < nearest)) {
+        least = distance;
+        nearest = triangle;
+        turned = !facing;
+      }
+    });
+    near.area = areas[turned ? 1 : 0];
+    return turned ? -1 : 1;
+  }
+
+  const Problem& problem_;
+  const NearTriangles& triangles_;
+  StopCheck check_;
+  LandingCloud cloud_;
+  LandingKdTree tree_{3, cloud_};
+};
+
+class AreaCorrectedIndex final : public Index {
+ public:
+  AreaCorrectedIndex(const Mesh& mesh, const std::stop_token& stop) : triangles_(mesh, stop) {
+    built_.seconds.build = watch_.seconds();
+  }
+
+  void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
+    add_checked_bytes("photons near discs", landing_tree_bytes(problem) + near_bytes(problem, options), problem,
+                      outcome);
+    Stopwatch watch;
+    const AreaCorrected estimates(problem, triangles_, options.stop);
+    outcome.seconds.build = watch.lap();
+    sum_near(
+        problem, options, [&](std::uint32_t disc, Near& near) { estimates.find(disc, near); }, outcome);
+    if (options.count) outcome.counts.references = estimates.landings();
+  }
+
+ private:
+  Stopwatch watch_;
+  NearTriangles triangles_;
+};
+
+}  // namespace
+
+std::unique_ptr<Index> prepare_area_corrected(const Problem&, const Mesh& mesh, const RunOptions& options) {
+  return std::make_unique<AreaCorrectedIndex>(mesh, options.stop);
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,28 @@
+#pragma once
+
+#include "detp/sim/scene/mesh.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "estimator.hpp"
+
+/// Estimates the irradiance at the samples of a problem's discs.
+namespace detp::sim {
+
+struct EstimateRequest {
+  Estimator estimator = Estimator::disc;
+  /// Of disc and variable-radius: the exact technique that finds the pairs.
+  Candidate candidate = {Technique::brute_force, BruteForceParameters{}};
+  int nearest = 50;  ///< of nearest: k, as PhotonMapParameters
+  /// Of area-corrected and triangle-hits: the mesh in which the photon paths were traced.
+  const Mesh* mesh = nullptr;
+};
+
+/// The irradiance by any estimator, in an outcome as `run` has: hits are the rays or photons that count for a disc. Standard
+/// errors and bounds, if requested, are those of whole photons (irradiance.hpp). Results do not depend on the number of threads.
+///
+/// Throws as `run`; std::invalid_argument if the estimator needs what there is not: nearest, area-corrected and triangle-hits
+/// need photons that met a surface, area-corrected and triangle-hits a mesh, triangle-hits the triangles that the photons met
+/// (PathRays::triangles), variable-radius two photons; for options that the estimator does not have (pairs and totals: disc
+/// alone; pairs: also nearest). Does not throw Stopped: if a stop was requested, the outcome has `stopped` set and is partial.
+[[nodiscard]] Outcome estimate(const Problem& problem, const EstimateRequest& request, const RunOptions& options = {});
+
+}  // namespace detp::sim

@@ -1,0 +1,157 @@
+#include "backward_paths.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <optional>
+
+#include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/parallel.hpp"
+#include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/random.hpp"
+#include "detp/sim/photons/photon_walk.hpp"
+#include "detp/sim/photons/scatter.hpp"
+#include "seen_lights.hpp"
+
+namespace detp::sim {
+namespace {
+
+constexpr std::uint64_t most_bounces = 1000;  // as a photon has
+constexpr std::uint64_t paths_in_a_round = 64;
+
+/// The random numbers of one path: four for each of its decisions.
+class PathNumbers {
+ public:
+  PathNumbers(std::uint64_t seed, std::uint64_t sample, std::uint64_t path, bool front)
+      : seed_(seed), path_((sample << 33) | (path << 1) | (front ? 1 : 0)) {}
+
+  std::array<double, 4> next() { return uniform4(seed_, Stream::reference, path_, decision_++); }
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t path_;
+  std::uint64_t decision_ = 0;
+};
+
+/// Place on a surface, in the caster's own coordinates.
+struct Place {
+  glm::dvec3 point;
+  std::optional<std::uint32_t> triangle = {};
+};
+
+}  // namespace
+
+struct BackwardPaths::Walk {
+  const Scene& scene;
+  std::uint64_t seed;
+  std::shared_ptr<const RayCaster> caster;
+  SeenLights lights;
+
+  Walk(const Scene& of, std::uint64_t with_seed, const std::stop_token& stop)
+      : scene(of), seed(with_seed), caster(caster_for(of, stop)), lights(of) {}
+
+  /// Straight from one light, on the side of the normal.
+  [[nodiscard]] double from_light(const Place& place, const glm::dvec3& normal,
+                                  const std::array<double, 4>& random) const {
+    const SeenLight light = lights.sample(caster->to_scene(place.point), random);
+    const double cosine = glm::dot(normal, light.direction);
+    if (!(cosine > 0 && light.irradiance > 0)) return 0;
+    if (light.triangle && light.triangle == place.triangle) return 0;
+    const auto hit = caster->first_intersection(place.point, light.direction, place.triangle);
+    constexpr double at_light = 1 - 1e-7;  // of the distance; behind, or on, the light
+    const bool free = !hit || (light.triangle && hit->triangle == *light.triangle) ||
+                      hit->distance * caster->scale() >= at_light * light.distance;
+    if (!free) return 0;
+    const double by_path = light.density > 0 ? cosine * std::numbers::inv_pi / light.density : 0;
+    return cosine * light.irradiance / (1 + by_path);
+  }
+
+  /// π L of a direction by the cosine law.
+  [[nodiscard]] double from_surfaces(Place place, const glm::dvec3& normal, PathNumbers& numbers) const {
+    const auto first = numbers.next();
+    SeenLights::Look look{.direction = cosine_direction(normal, first[0], first[1])};
+    look.density = glm::dot(normal, look.direction) * std::numbers::inv_pi;
+    double weight = std::numbers::pi;
+    double sum = 0;
+    for (std::uint64_t bounce = 0; bounce < most_bounces; ++bounce) {
+      look.origin = caster->to_scene(place.point);
+      const auto hit = caster->first_intersection(place.point, look.direction, place.triangle);
+      const double distance = hit ? hit->distance * caster->scale() : unbounded;
+      sum += weight * lights.radiance_on_the_way(look, distance);
+      if (!hit) return sum + weight * lights.environment();
+      sum += weight * lights.radiance_of(hit->triangle, look, distance);
+      const Material& material = scene.mesh.materials.of(hit->triangle);
+      const auto random = numbers.next();
+      const auto next = scattered(material, hit->normal, look.direction, random);
+      if (!next) return sum;
+      const bool on_front = glm::dot(hit->normal, look.direction) < 0;
+      const glm::dvec3 side = on_front ? hit->normal : -hit->normal;
+      place = {place.point + hit->distance * look.direction, hit->triangle};
+      look.direction = *next;
+      look.density = unbounded;
+      if (random[0] < material.diffuse) {
+        sum += weight * std::numbers::inv_pi * from_light(place, side, numbers.next());
+        look.density = glm::dot(side, *next) * std::numbers::inv_pi;
+      } else if (glm::dot(*next, side) < 0) {
+        weight /= std::pow(on_front ? material.index : 1 / material.index, 2);
+      }
+    }
+    return sum;
+  }
+};
+
+BackwardPaths::BackwardPaths(const Scene& scene, std::uint64_t seed, const std::stop_token& stop) {
+  const DefaultFloatingPoint mode;
+  walk_ = std::make_unique<const Walk>(scene, seed, stop);
+}
+
+BackwardPaths::~BackwardPaths() = default;
+
+double BackwardPaths::irradiance(const Sample& sample, std::uint64_t number, std::uint64_t path, bool front) const {
+  PathNumbers numbers(walk_->seed, number, path, front);
+  const glm::dvec3 normal = front ? sample.normal : -sample.normal;
+  const Place place{walk_->caster->to_caster(sample.position)};
+  const double straight = walk_->from_light(place, normal, numbers.next());
+  return straight + walk_->from_surfaces(place, normal, numbers);
+}
+
+bool misses_light(const Scene& scene) {
+  const bool narrow = std::ranges::any_of(scene.lights, [](const Light& light) {
+    const LightKind kind = kind_of(light);
+    return kind == LightKind::point || kind == LightKind::spot || kind == LightKind::directional;
+  });
+  const auto& materials = scene.mesh.materials.all;
+  return narrow &&
+         std::ranges::any_of(materials, [](const Material& one) { return one.specular > 0 || one.glass > 0; });
+}
+
+double PathSums::variance() const {
+  const auto n = static_cast<double>(paths);
+  const auto of = [n](double sum, double squares) {
+    return std::max(0.0, squares / n - sum / n * (sum / n)) / (n - 1);
+  };
+  return of(front, front_squares) + of(back, back_squares);
+}
+
+void add_backward_paths(const BackwardPaths& walk, std::span<const Sample> samples, std::uint64_t paths,
+                        bool front_facing, std::span<PathSums> sums, const std::stop_token& stop) {
+  sim::parallel_for(ParallelRange(0, samples.size(), 1), [&](const ParallelRange& part) {
+    for (std::size_t i = part.begin(); i != part.end(); ++i)
+      while (sums[i].paths < paths) {
+        if (stop.stop_requested()) return;
+        PathSums more = sums[i];
+        for (std::uint64_t k = 0; k < paths_in_a_round; ++k, ++more.paths)
+          for (const bool front : {true, false}) {
+            if (!front && front_facing) continue;
+            const double one = walk.irradiance(samples[i], i, more.paths, front);
+            (front ? more.front : more.back) += one;
+            (front ? more.front_squares : more.back_squares) += one * one;
+          }
+        sums[i] = more;
+      }
+  });
+}
+
+}  // namespace detp::sim

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "detp/sim/photons/ray_caster.hpp"
+#include "detp/sim/scene/scene.hpp"
+
+namespace detp::sim {
+
+/// Irradiance at samples by paths that start at the samples and look for the lights. Nothing is blurred: the estimate has no bias,
+/// only variance. A photon's path and a backward path pass the same surfaces with the same probabilities (scatter.hpp), so both
+/// estimate the same irradiance: that of both faces, or of the front.
+///
+///     E = Σ over sides  E_light + π L(ω),  ω by the cosine law
+///     L(ω) = E_light(y)/π + L(ω')   at a diffuse surface y      L(ω) = radiance there + L(ω')/n²   else
+///
+///   where  E_light   irradiance straight from the lights: one point of one light at a time (SeenLights)
+///          n         index of refraction behind the surface over that before it, if the path passes through; else 1
+///
+/// Weak where light comes from points, spots or the sun by way of mirrors, glosses or glass: no backward path meets them, so this light is
+/// missing (misses_light).
+class BackwardPaths {
+ public:
+  /// The scene must outlive this. Throws as PhotonTracer does.
+  BackwardPaths(const Scene& scene, std::uint64_t seed, const std::stop_token& stop = {});
+  ~BackwardPaths();
+
+  /// Path number `path` of sample number `number`, on the side of its normal or on the other.
+  [[nodiscard]] double irradiance(const Sample& sample, std::uint64_t number, std::uint64_t path, bool front) const;
+
+ private:
+  struct Walk;
+  std::unique_ptr<const Walk> walk_;
+};
+
+/// Whether some light reaches surfaces on ways that no backward path finds.
+[[nodiscard]] bool misses_light(const Scene& scene);
+
+/// Sums of the paths of one sample.
+struct PathSums {
+  std::uint64_t paths = 0;  ///< on each side
+  double front = 0;
+  double back = 0;
+  double front_squares = 0;
+  double back_squares = 0;
+
+  [[nodiscard]] double irradiance() const { return (front + back) / static_cast<double>(paths); }
+  /// Of the mean of the paths.
+  [[nodiscard]] double variance() const;
+};
+
+/// Adds paths up to number `paths` - 1 of each sample, on all threads of the caller's arena. Samples that a stop request came before
+/// keep their sums; each sample has whole rounds of 64 paths. With front_facing, only the front counts.
+void add_backward_paths(const BackwardPaths& walk, std::span<const Sample> samples, std::uint64_t paths,
+                        bool front_facing, std::span<PathSums> sums, const std::stop_token& stop = {});
+
+}  // namespace detp::sim

@@ -1,0 +1,147 @@
+#include "detp/validate/accuracy/accuracy_plan.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+
+#include "detp/sim/open/open_scene.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double per_ray = 1e-6;
+
+/// Discs with noise² = 0.2/(r² rays) and bias² = c r, radii 0.01 … 0.08; tracing and searching take 1 µs each for a ray.
+AccuracyPilot made_pilot(double bias_per_radius, double bias_error = 0) {
+  EstimatorPilot discs{.estimator = sim::Estimator::disc, .settings = {}, .rays_of_run = 1000};
+  for (const double radius : {0.01, 0.02, 0.04, 0.08})
+    discs.settings.push_back({.setting = {sim::Estimator::disc, radius},
+                              .scale = radius,
+                              .noise_squared_times_rays = {0.2 / (radius * radius), 0},
+                              .bias_squared = {bias_per_radius * radius, bias_error},
+                              .seconds = 1000 * per_ray});
+  AccuracyPilot pilot;
+  pilot.estimators = {discs};
+  pilot.trace_seconds_per_ray = per_ray;
+  pilot.photons_per_ray = 0.5;
+  pilot.mean_square = 1;
+  return pilot;
+}
+
+using Kind = AccuracyTarget::Kind;
+
+}  // namespace
+
+TEST_SUITE("plans of accuracy") {
+  TEST_CASE("noise: the largest radius whose bias is below it, with the rays that the noise needs") {
+    const AccuracyPlan plan = plan_accuracy(made_pilot(0.1), {Kind::noise, 0.05});
+    CHECK(plan.reached);
+    CHECK(plan.answer.noise == doctest::Approx(0.05).epsilon(1e-6));
+    CHECK(plan.answer.radius == doctest::Approx(0.025).epsilon(0.05));  // 0.1 r = 0.05²
+    CHECK(plan.answer.bias <= 0.05);
+    CHECK(plan.answer.rays == doctest::Approx(0.2 / std::pow(plan.answer.radius * 0.05, 2)).epsilon(1e-3));
+    CHECK(plan.answer.seconds == doctest::Approx(2 * per_ray * plan.answer.rays));
+    CHECK(plan.answer.photons == doctest::Approx(0.5 * plan.answer.rays));
+  }
+
+  TEST_CASE("total: no other radius is faster, and noise and bias add up to the target") {
+    const AccuracyPilot pilot = made_pilot(0.1);
+    const AccuracyPlan plan = plan_accuracy(pilot, {Kind::total, 0.05});
+    CHECK(plan.reached);
+    CHECK(plan.answer.total == doctest::Approx(0.05).epsilon(1e-6));
+    for (double radius = 0.01; radius < 0.024; radius *= 1.02) {
+      const double rays = 0.2 / (radius * radius) / (0.05 * 0.05 - 0.1 * radius);
+      CHECK(2 * per_ray * rays >= 0.99 * plan.answer.seconds);
+    }
+    CHECK(plan.answer.radius == doctest::Approx(0.0167).epsilon(0.05));  // r² (e² - c r) is largest at 2e²/3c
+  }
+
+  TEST_CASE("a total below the least bias is not reached; the plan says what gets nearest, and the floor") {
+    const AccuracyPlan plan = plan_accuracy(made_pilot(1), {Kind::total, 0.05});
+    CHECK_FALSE(plan.reached);
+    CHECK(plan.floor == doctest::Approx(0.1));
+    CHECK(plan.answer.radius == doctest::Approx(0.01));
+    CHECK(plan.answer.total == doctest::Approx(0.1 * std::sqrt(1.05)).epsilon(1e-3));
+    CHECK_FALSE(plan_accuracy(made_pilot(0), {Kind::total, 0.001}, 1e6).reached);
+  }
+
+  TEST_CASE("seconds: the most accurate setting in that time; twice the time without bias halves the square") {
+    const AccuracyPlan one = plan_accuracy(made_pilot(0.1), {Kind::seconds, 0.2});
+    CHECK(one.answer.seconds == doctest::Approx(0.2).epsilon(1e-3));
+    for (double radius = 0.01; radius <= 0.08; radius *= 1.02)
+      CHECK(std::sqrt(0.2 / (radius * radius * 1e5) + 0.1 * radius) >= 0.998 * one.answer.total);
+    const AccuracyPlan without = plan_accuracy(made_pilot(0), {Kind::seconds, 0.2});
+    const AccuracyPlan twice = plan_accuracy(made_pilot(0), {Kind::seconds, 0.4});
+    CHECK(without.answer.radius == doctest::Approx(0.08));
+    CHECK(twice.answer.total * std::sqrt(2.0) == doctest::Approx(without.answer.total).epsilon(1e-4));
+  }
+
+  TEST_CASE("a point is on the frontier unless another is faster and more accurate beyond both intervals") {
+    AccuracyPilot pilot = made_pilot(0.1);
+    EstimatorPilot slow = pilot.estimators.front();
+    slow.estimator = sim::Estimator::variable_radius;
+    for (SettingPilot& setting : slow.settings) {
+      setting.setting.estimator = slow.estimator;
+      setting.seconds *= 50;
+    }
+    pilot.estimators.push_back(slow);
+    const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.05});
+    CHECK(plan.answer.estimator == sim::Estimator::disc);
+    REQUIRE(plan.rivals.size() == 1);
+    CHECK(plan.rivals[0].seconds > 10 * plan.answer.seconds);
+    int dominated = 0;
+    for (const AccuracyPoint& point : plan.points) {
+      if (point.estimator == sim::Estimator::disc) CHECK(point.on_frontier);
+      dominated += point.on_frontier ? 0 : 1;
+    }
+    CHECK(dominated >= 4);
+    // the same with biases that are hardly known: nothing dominates
+    for (EstimatorPilot& one : pilot.estimators)
+      for (SettingPilot& setting : one.settings) setting.bias_squared.standard_error = 1;
+    for (const AccuracyPoint& point : plan_accuracy(pilot, {Kind::noise, 0.05}).points) CHECK(point.on_frontier);
+  }
+
+  TEST_CASE("@furnace: noise and time of the answer come true, and discs are found to lose light at edges") {
+    sim::Scene furnace = sim::open_scene({.name = "@furnace", .samples = {}});
+    const AccuracyPilotOptions options{.estimators = {sim::Estimator::disc, sim::Estimator::triangle_hits},
+                                       .rays = 100'000};
+    const AccuracyPilot pilot = make_accuracy_pilot(furnace, options);
+    CHECK(pilot.mean_square == doctest::Approx(std::pow(6.2832, 2)).epsilon(0.03));
+    for (const SettingPilot& setting : pilot.estimators[0].settings)
+      CHECK(setting.bias_squared.mean > 3 * setting.bias_squared.standard_error);
+    const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.1});
+    const AccuracyCheck check = check_accuracy(furnace, plan.answer, pilot.mean_square, options);
+    CHECK(check.noise == doctest::Approx(0.1).epsilon(0.15));
+    CHECK(plan.answer.estimator == sim::Estimator::triangle_hits);
+  }
+}
+
+TEST_SUITE("identity") {
+  TEST_CASE("area weights add up to 1, and those of a furnished mesh follow its triangles") {
+    const sim::Scene cornell = sim::open_scene({.name = "@cornell", .samples = {}});
+    const std::vector<double> weights = area_weights(cornell);
+    CHECK(weights.size() == cornell.samples.size());
+    CHECK(std::accumulate(weights.begin(), weights.end(), 0.0) == doctest::Approx(1).epsilon(1e-12));
+    const auto [least, most] = std::minmax_element(weights.begin(), weights.end());
+    CHECK(*least > 0);
+    CHECK(*most > 3 * *least);  // a corner has one or two triangles, the inside six
+    const std::vector<double> equal = area_weights(sim::open_scene({.name = "@cornell", .samples = 6000}));
+    CHECK(equal.front() == doctest::Approx(1.0 / 6000));
+  }
+}
+
+TEST_SUITE("bad input") {
+  TEST_CASE("targets and numbers of rays out of range, and scenes without light on the samples are refused") {
+    const AccuracyPilot pilot = made_pilot(0.1);
+    CHECK_THROWS_AS((void)plan_accuracy(pilot, {Kind::noise, 0}), std::invalid_argument);
+    CHECK_THROWS_AS((void)plan_accuracy(pilot, {Kind::total, 1.5}), std::invalid_argument);
+    CHECK_THROWS_AS((void)plan_accuracy(pilot, {Kind::seconds, -1}), std::invalid_argument);
+    CHECK_THROWS_AS((void)plan_accuracy(pilot, {Kind::noise, 0.1}, 0), std::invalid_argument);
+    sim::Scene uniform = sim::open_scene({.name = "@uniform", .samples = 100});
+    CHECK_THROWS_AS((void)make_accuracy_pilot(uniform, {}), std::invalid_argument);
+  }
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,62 @@
+#include <doctest/doctest.h>
+
+#include <sstream>
+
+#include "support/run_support.hpp"
+
+namespace detp::support {
+
+TEST_SUITE("accuracy") {
+  TEST_CASE("an answer has setting, errors, seconds and a command; running the command gives about the noise") {
+    const Json json = result_of("accuracy @cornell --target-noise 10% --estimators disc,triangle-hits");
+    const Json& answer = json["answer"];
+    CHECK(answer["noise"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
+    CHECK(answer["measured_noise"].get<double>() == doctest::Approx(0.1).epsilon(0.2));
+    CHECK(answer["error"].get<double>() >= answer["noise"].get<double>());
+    CHECK(answer["error_interval"][0].get<double>() <= answer["error"].get<double>());
+    CHECK(answer["measured_seconds"].get<double>() > 0);
+    CHECK(json["points"].size() > 6);
+    CHECK(json["stopped"] == false);
+    const std::string command = answer["command"];
+    REQUIRE(command.starts_with("detp run @cornell --rays "));
+    const Json run = result_of(command.substr(5));
+    CHECK(run["estimator"] == answer["estimator"]);
+    CHECK(run["rays"].get<double>() == doctest::Approx(answer["rays"].get<double>()).epsilon(0.01));
+  }
+
+  TEST_CASE("the text has at most 25 lines, and the CSV a row for each point") {
+    const Finished text = detp("accuracy @cornell --target-noise 10% --quiet");
+    CHECK(text.code == 0);
+    CHECK(std::ranges::count(text.out, '\n') <= 25);
+    CHECK(text.out.starts_with("answer    10 % noise takes "));
+    const Finished csv = detp("accuracy @cornell --target-noise 10% --estimators disc --format csv");
+    CHECK(csv.code == 0);
+    CHECK(std::ranges::count(csv.out, '\n') > 4);
+  }
+
+  TEST_CASE("an error below every estimator's bias ends with 3, and says what gets nearest") {
+    const Finished finished = detp("accuracy @cornell --target-error 1% --estimators disc --rays 1M");
+    CHECK(finished.code == 3);
+    CHECK(finished.out.find("is not reached: the least bias") != std::string::npos);
+    CHECK(finished.out.find("partial") == std::string::npos);
+  }
+
+  TEST_CASE("a time budget is kept, and gives the most accurate setting") {
+    const Json json = result_of("accuracy @furnace --time-budget 0.3");
+    CHECK(json["answer"]["predicted_seconds"].get<double>() == doctest::Approx(0.3).epsilon(0.01));
+    CHECK(json["inputs"]["time_budget"] == 0.3);
+  }
+
+  TEST_CASE("bad requests are refused with the reason") {
+    check_refused({{"accuracy @uniform", "has no triangles"},
+                   {"accuracy @cornell --target-noise 5% --target-error 5%", "give one of"},
+                   {"accuracy @cornell --target-noise 0", "target error"},
+                   {"accuracy @cornell --target-error 200%", "target error"},
+                   {"accuracy @cornell --time-budget -1", "time budget"},
+                   {"accuracy @cornell --estimators discs", "there is no estimator"},
+                   {"accuracy @cornell --rays 10", "--rays"},
+                   {"accuracy missing.obj", "missing.obj"}});
+  }
+}
+
+}  // namespace detp::support

@@ -1,0 +1,317 @@
+#include "accuracy_pilot.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+#include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr std::size_t runs = 6;
+constexpr std::size_t most_samples = 2000;  // of the runs; times are taken with all
+constexpr std::array radii_over_distance{0.25, 0.5, 1.0, 2.0};
+constexpr std::array nearest_of_run{5, 10, 20, 40};  // k in a run of the pilot
+constexpr double fewest_near = 2;                    // photons within the reference's radius, on average
+
+using Runs = std::vector<std::vector<double>>;
+
+double squared(double x) { return x * x; }
+
+/// Weighted sums over the samples of all runs but number `without`.
+struct Sums {
+  double noise = 0;   ///< Σ w s²
+  double square = 0;  ///< Σ w (m² - s²/R)
+};
+
+Sums sums_of(const Runs& all, const std::vector<double>& weights, std::size_t without) {
+  Sums sums;
+  const auto count = static_cast<double>(all.size() - (without < all.size() ? 1 : 0));
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    double mean = 0;
+    for (std::size_t r = 0; r < all.size(); ++r) mean += r == without ? 0 : all[r][i] / count;
+    double squares = 0;
+    for (std::size_t r = 0; r < all.size(); ++r) squares += r == without ? 0 : squared(all[r][i] - mean);
+    const double variance = squares / (count - 1);
+    sums.noise += weights[i] * variance;
+    sums.square += weights[i] * (mean * mean - variance / count);
+  }
+  return sums;
+}
+
+/// With the standard error of the jackknife over the runs.
+Estimate jackknife(const Runs& all, const std::vector<double>& weights, double Sums::*value) {
+  const auto count = static_cast<double>(all.size());
+  std::vector<double> left_out;
+  for (std::size_t r = 0; r < all.size(); ++r) left_out.push_back(sums_of(all, weights, r).*value);
+  double mean = 0;
+  for (const double one : left_out) mean += one / count;
+  double squares = 0;
+  for (const double one : left_out) squares += squared(one - mean);
+  return {sums_of(all, weights, all.size()).*value, std::sqrt((count - 1) / count * squares)};
+}
+
+Estimate scaled(const Estimate& one, double factor) { return {one.mean * factor, one.standard_error * factor}; }
+
+Runs difference(const Runs& one, const Runs& other) {
+  Runs all = one;
+  for (std::size_t r = 0; r < all.size(); ++r)
+    for (std::size_t i = 0; i < all[r].size(); ++i) all[r][i] -= other[r][i];
+  return all;
+}
+
+class PilotMaker {
+ public:
+  PilotMaker(sim::Scene& scene, const AccuracyPilotOptions& options)
+      : scene_(scene),
+        options_(options),
+        maker_(scene, options.front_facing, options.threads, options.stop),
+        samples_(scene.samples),
+        weights_(area_weights(scene)) {
+    take_some_samples();
+    pilot_.sample_distance = sim::mean_edge_length(scene.mesh, options.stop);
+    if (!(pilot_.sample_distance > 0))
+      throw std::invalid_argument("accuracy needs a mesh with triangles; " + scene.name + " has none with edges");
+    rays_of_run_ = std::max<std::size_t>(200, static_cast<std::size_t>(options.rays / runs));
+    const auto all = [&](sim::Estimator one) {
+      return options.estimators.empty() || std::ranges::find(options.estimators, one) != options.estimators.end();
+    };
+    for (const sim::EstimatorRecord& record : sim::estimators)
+      if (all(record.estimator)) pilot_.estimators.push_back(with_settings(record.estimator));
+  }
+
+  AccuracyPilot make() && {
+    trace();
+    const Runs reference = reference_runs();
+    const Estimate mean_square = jackknife(reference, weights_, &Sums::square);
+    pilot_.mean_square = mean_square.mean;
+    if (!(mean_square.mean > 2 * mean_square.standard_error))
+      throw std::invalid_argument("the pilot's photons hardly meet the samples of " + scene_.name +
+                                  ": give more rays (--rays), or other samples");
+    for (EstimatorPilot& one : pilot_.estimators) measure(one, reference);
+    pilot_.rays = static_cast<double>(runs * rays_of_run_);
+    pilot_.seconds = watch_.seconds();
+    return std::move(pilot_);
+  }
+
+ private:
+  /// One of every so many samples: neighbours in the array are often neighbours in space.
+  void take_some_samples() {
+    const std::size_t step = samples_.size() / most_samples + 1;
+    if (step == 1) return;
+    std::size_t kept = 0;
+    double sum = 0;
+    for (std::size_t i = step / 2; i < samples_.size(); i += step) {
+      samples_[kept] = samples_[i];
+      weights_[kept] = weights_[i];
+      sum += weights_[kept++];
+    }
+    samples_.resize(kept);
+    weights_.resize(kept);
+    for (double& weight : weights_) weight /= sum;
+  }
+
+  [[nodiscard]] EstimatorPilot with_settings(sim::Estimator estimator) const {
+    EstimatorPilot pilot{.estimator = estimator, .settings = {}};
+    if (uses_radius(estimator)) {
+      for (const double share : radii_over_distance) {
+        const double radius = share * pilot_.sample_distance;
+        pilot.settings.push_back(
+            {.setting = {estimator, radius}, .scale = radius, .noise_squared_times_rays = {}, .bias_squared = {}});
+      }
+    } else if (estimator == sim::Estimator::nearest) {
+      for (const int k : nearest_of_run)
+        pilot.settings.push_back({.setting = {.estimator = estimator, .nearest = k},
+                                  .scale = k / static_cast<double>(rays_of_run_),
+                                  .noise_squared_times_rays = {},
+                                  .bias_squared = {}});
+    } else {
+      pilot.settings.push_back(
+          {.setting = {.estimator = estimator}, .noise_squared_times_rays = {}, .bias_squared = {}});
+    }
+    return pilot;
+  }
+
+  void report(const char* doing) {
+    if (options_.progress) options_.progress({doing, 0, 1});
+  }
+
+  /// Makes the paths of all runs; a longer run measures the time.
+  void trace() {
+    report("pilot: tracing");
+    double photons = 0;
+    double seconds = 0;
+    for (std::size_t run = 0; run < runs; ++run) {
+      sim::Stopwatch watch;
+      paths_.push_back(maker_.trace(rays_of_run_, seed(run), pilot_.sample_distance));
+      seconds += watch.seconds() / runs;
+      photons += static_cast<double>(paths_.back().photon_count);
+    }
+    sim::Stopwatch watch;
+    long_paths_ = maker_.trace(4 * rays_of_run_, seed(runs), pilot_.sample_distance);
+    set_times(seconds, watch.seconds(), pilot_.trace_fixed_seconds, pilot_.trace_seconds_per_ray);
+    pilot_.photons_per_ray = photons / static_cast<double>(runs * rays_of_run_);
+  }
+
+  [[nodiscard]] std::uint64_t seed(std::size_t run) const {
+    return options_.seed * 0x9e3779b97f4a7c15ULL + 7919 * (run + 1);
+  }
+
+  /// From the times with n and with 4n rays.
+  void set_times(double with_one, double with_four, double& fixed, double& per_ray) const {
+    const auto n = static_cast<double>(rays_of_run_);
+    per_ray = std::max(with_four - with_one, 0.1 * with_four) / (3 * n);
+    fixed = std::max(0.0, with_one - per_ray * n);
+  }
+
+  Runs runs_of(const AccuracySetting& setting) const {
+    Runs all;
+    for (const sim::Paths& paths : paths_) all.push_back(maker_.estimate(paths, samples_, setting).irradiance);
+    return all;
+  }
+
+  /// Photons that count for a sample, on average over the samples by area, in all runs together.
+  [[nodiscard]] double photons_near(const AccuracySetting& setting) const {
+    const sim::Outcome outcome = maker_.estimate(paths_.front(), samples_, setting);
+    double sum = 0;
+    for (std::size_t i = 0; i < weights_.size(); ++i) sum += weights_[i] * static_cast<double>(outcome.hits[i]);
+    return runs * sum;
+  }
+
+  /// Chooses the reference's radius, and finds its own bias.
+  Runs reference_runs() {
+    report("pilot: reference");
+    using enum sim::Estimator;
+    const double distance = pilot_.sample_distance;
+    pilot_.reference_radius = 0.5 * distance;
+    if (photons_near({area_corrected, pilot_.reference_radius}) < fewest_near) pilot_.reference_radius = distance;
+    Runs reference = runs_of({area_corrected, pilot_.reference_radius});
+    const Runs wider = runs_of({area_corrected, 2 * pilot_.reference_radius});
+    own_bias_ = jackknife(difference(wider, reference), weights_, &Sums::square);
+    return reference;
+  }
+
+  void measure(EstimatorPilot& one, const Runs& reference) {
+    report("pilot: estimators");
+    for (SettingPilot& setting : one.settings) {
+      sim::Stopwatch watch;
+      const Runs found = runs_of(setting.setting);
+      setting.seconds = watch.seconds() / runs;
+      const double square = pilot_.mean_square;
+      setting.noise_squared_times_rays =
+          scaled(jackknife(found, weights_, &Sums::noise), static_cast<double>(rays_of_run_) / square);
+      const Estimate away = jackknife(difference(found, reference), weights_, &Sums::square);
+      constexpr double third = 1.0 / 3;
+      const double own = third * std::max(0.0, own_bias_.mean);
+      setting.bias_squared =
+          scaled({away.mean + own, std::hypot(away.standard_error, third * own_bias_.standard_error, own)}, 1 / square);
+    }
+    set_seconds(one);
+  }
+
+  /// Times with all samples: those of the middle setting with n and with 4n rays; the others in proportion to the times of the runs.
+  void set_seconds(EstimatorPilot& one) const {
+    const SettingPilot& middle = one.settings[one.settings.size() / 2];
+    sim::Stopwatch watch;
+    static_cast<void>(maker_.estimate(paths_.front(), scene_.samples, middle.setting));
+    const double with_one = watch.lap();
+    static_cast<void>(maker_.estimate(long_paths_, scene_.samples, middle.setting));
+    double fixed = 0;
+    double per_ray = 0;
+    set_times(with_one, watch.lap(), fixed, per_ray);
+    one.rays_of_run = static_cast<double>(rays_of_run_);
+    one.fixed_share = std::clamp(fixed / with_one, 0.0, 1.0);
+    const double scale = with_one / middle.seconds;
+    for (SettingPilot& setting : one.settings) setting.seconds *= scale;
+  }
+
+  sim::Scene& scene_;
+  const AccuracyPilotOptions& options_;
+  sim::Stopwatch watch_;
+  ReplicateMaker maker_;
+  std::vector<sim::Sample> samples_;  ///< of the runs: some of the scene's
+  std::vector<double> weights_;       ///< of these
+  AccuracyPilot pilot_;
+  std::size_t rays_of_run_ = 0;
+  std::vector<sim::Paths> paths_;
+  sim::Paths long_paths_;
+  Estimate own_bias_;
+};
+
+/// The settings on both sides of the scale, and the share of the upper one.
+struct Between {
+  const SettingPilot& low;
+  const SettingPilot& high;
+  double share;
+};
+
+Between between(const std::vector<SettingPilot>& settings, double scale) {
+  if (settings.size() == 1 || scale <= settings.front().scale) return {settings.front(), settings.front(), 0};
+  for (std::size_t i = 1; i < settings.size(); ++i)
+    if (scale <= settings[i].scale) {
+      const double step = std::log(settings[i].scale / settings[i - 1].scale);
+      return {settings[i - 1], settings[i], std::log(scale / settings[i - 1].scale) / step};
+    }
+  return {settings.back(), settings.back(), 0};
+}
+
+}  // namespace
+
+double EstimatorPilot::seconds_of_run(double scale) const {
+  const auto [low, high, share] = between(settings, scale);
+  return std::exp((1 - share) * std::log(std::max(low.seconds, 1e-9)) + share * std::log(std::max(high.seconds, 1e-9)));
+}
+
+double EstimatorPilot::noise_squared(double scale, double rays) const {
+  const auto [low, high, share] = between(settings, scale);
+  const auto log_of = [](const SettingPilot& one) {
+    return std::log(std::max(one.noise_squared_times_rays.mean, 1e-300));
+  };
+  return std::exp((1 - share) * log_of(low) + share * log_of(high)) / rays;
+}
+
+Estimate EstimatorPilot::bias_squared(double scale) const {
+  const auto [low, high, share] = between(settings, scale);
+  const auto mixed = [share = share](double a, double b) { return (1 - share) * a + share * b; };
+  const Estimate& a = low.bias_squared;
+  const Estimate& b = high.bias_squared;
+  const bool known = a.mean > a.standard_error && b.mean > b.standard_error;
+  return {known ? std::exp(mixed(std::log(a.mean), std::log(b.mean))) : mixed(a.mean, b.mean),
+          mixed(a.standard_error, b.standard_error)};
+}
+
+AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options) {
+  const sim::DefaultFloatingPoint mode;
+  return PilotMaker(scene, options).make();
+}
+
+std::vector<double> area_weights(const sim::Scene& scene) {
+  const sim::Mesh& mesh = scene.mesh;
+  std::vector<double> around(mesh.positions.size());
+  double all = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const double area =
+        0.5 * glm::length(glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
+    all += area;
+    for (const std::uint32_t corner : {a, b, c}) around[corner] += area / 3;
+  }
+  std::vector<double> weights;
+  std::size_t vertex = 0;
+  for (const sim::Sample& sample : scene.samples) {
+    while (vertex < around.size() && (mesh.positions[vertex] != sample.position || !(around[vertex] > 0))) ++vertex;
+    weights.push_back(vertex < around.size() ? around[vertex++] : 0);
+  }
+  const auto others = static_cast<double>(std::ranges::count(weights, 0.0));
+  if (others > 0)  // samples between the vertices: each stands for the same area
+    std::ranges::fill(weights, 1.0);
+  double sum = 0;
+  for (const double weight : weights) sum += weight;
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,71 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "accuracy_pilot.hpp"
+
+/// What accuracy costs: how many rays and which setting reach an error, and what error a time buys.
+namespace detp::validate {
+
+struct AccuracyTarget {
+  enum class Kind { noise, total, seconds };
+  Kind kind = Kind::noise;
+  double value = 0.05;  ///< relative error, or seconds
+};
+
+/// One way to estimate, with its errors over the samples by area, relative to the root mean square irradiance.
+struct AccuracyPoint {
+  sim::Estimator estimator = sim::Estimator::disc;
+  double rays = 0;
+  double photons = 0;
+  double radius = 0;  ///< scene units; 0: not used
+  int nearest = 0;    ///< k; 0: not used
+  double noise = 0;
+  double bias = 0;
+  double bias_high = 0;  ///< upper bound of the bias, 95 %
+  double total = 0;      ///< √(noise² + bias²)
+  double total_low = 0;  ///< interval of 95 %
+  double total_high = 0;
+  double trace_seconds = 0;
+  double seconds = 0;        ///< predicted, tracing included
+  bool on_frontier = false;  ///< no other point is more accurate and faster, their intervals apart
+
+  [[nodiscard]] AccuracySetting setting() const { return {estimator, radius, nearest}; }
+};
+
+struct AccuracyPlan {
+  AccuracyTarget target;
+  /// The fastest way to the target; if none reaches it, the most accurate one.
+  AccuracyPoint answer;
+  bool reached = true;
+  double floor = 0;                   ///< least bias of any estimator
+  std::vector<AccuracyPoint> points;  ///< for each estimator from few to many rays, each with its best setting
+  std::vector<AccuracyPoint> rivals;  ///< the best way of each other estimator, the fastest first
+};
+
+/// Throws std::invalid_argument unless an error is in (0, 1), seconds are > 0, and there may be from 1 to 1e18 rays.
+void check(const AccuracyTarget& target, double most_rays);
+
+/// From a pilot, by closed forms: noise² falls as 1/rays, bias does not change, seconds grow in proportion.
+///
+/// target noise: of each estimator the largest setting whose bias is below the noise (if there is none, that of the least bias); among
+/// those the fastest. target total: the fastest setting with noise² + bias² = target². target seconds: the setting with the least
+/// total error in that time. At most `most_rays` rays. Throws std::invalid_argument for a target or a number of rays out of range.
+[[nodiscard]] AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& target,
+                                         double most_rays = 1e9);
+
+/// A run of a plan's answer, in two halves with their own photons: what it really takes.
+struct AccuracyCheck {
+  double noise = 0;    ///< of both halves together, from their difference
+  double seconds = 0;  ///< tracing and estimating
+  double trace_seconds = 0;
+  double rays = 0;
+};
+
+/// Throws as sim::estimate; sim::Stopped on a stop request.
+[[nodiscard]] AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
+                                           const AccuracyPilotOptions& options);
+
+}  // namespace detp::validate

@@ -1,0 +1,76 @@
+#include "replicates.hpp"
+
+#include <utility>
+
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/effects/all_effects.hpp"
+#include "detp/sim/effects/observe.hpp"
+#include "detp/sim/effects/self_shadow.hpp"
+#include "detp/sim/estimate/surface.hpp"
+#include "detp/sim/photons/photon_paths.hpp"
+#include "detp/sim/photons/photon_walk.hpp"
+
+namespace detp::validate {
+namespace {
+
+/// A box tree of a usual shape: all exact techniques find the same pairs.
+const Candidate usual_search{Technique::box_tree, BoxTreeParameters{8, 16}};
+
+}  // namespace
+
+ReplicateMaker::ReplicateMaker(sim::Scene& scene, bool front_facing, int threads, std::stop_token stop)
+    : scene_(scene),
+      front_facing_(front_facing),
+      threads_(threads),
+      stop_(std::move(stop)),
+      caster_(sim::caster_for(scene, stop_)) {}
+
+bool ReplicateMaker::goes_on(double radius) {
+  if (radius == 0) return false;
+  for (const auto& [known, on] : known_)
+    if (known == radius) return on;
+  const auto discs = discs_at(scene_.samples, radius);
+  const sim::Finding shadow = sim::self_shadow(scene_, caster_, discs, front_facing_, 1, stop_);
+  const bool on = sim::EffectSelection{}.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error);
+  known_.emplace_back(radius, on);
+  return on;
+}
+
+sim::Paths ReplicateMaker::trace(std::size_t rays, std::uint64_t seed, double radius) {
+  scene_.overshoot = goes_on(radius) ? sim::overshoot_over_radius * radius : 0;
+  return sim::photon_paths(scene_, rays, seed, caster_, stop_);
+}
+
+sim::Outcome ReplicateMaker::estimate(const sim::Paths& paths, std::span<const sim::Sample> samples,
+                                      const AccuracySetting& setting, bool standard_error) const {
+  const auto discs = discs_at(samples, uses_radius(setting.estimator) ? setting.radius : 1);
+  const sim::Problem problem = sim::make_problem(paths, discs, front_facing_, sim::thread_count(threads_), stop_);
+  const sim::RunOptions options{.count = false, .standard_error = standard_error, .stop = stop_, .threads = threads_};
+  sim::Outcome outcome =
+      sim::record_of(setting.estimator).needs_mesh
+          ? sim::run(problem, surfaces(problem, setting.estimator), options)
+          : sim::estimate(problem,
+                          {.estimator = setting.estimator, .candidate = usual_search, .nearest = setting.nearest},
+                          options);
+  if (outcome.stopped) throw sim::Stopped("stopped during a run");
+  return outcome;
+}
+
+const sim::Index& ReplicateMaker::surfaces(const sim::Problem& problem, sim::Estimator estimator) const {
+  const bool area = estimator == sim::Estimator::area_corrected;
+  std::unique_ptr<const sim::Index>& index = area ? area_corrected_ : triangle_hits_;
+  if (index == nullptr)
+    index = area ? sim::prepare_area_corrected(problem, scene_.mesh, {.stop = stop_})
+                 : sim::prepare_triangle_hits(problem, scene_.mesh, {.stop = stop_});
+  return *index;
+}
+
+std::vector<sim::Disc> discs_at(std::span<const sim::Sample> samples, double radius) {
+  std::vector<sim::Disc> discs;
+  discs.reserve(samples.size());
+  for (const sim::Sample& sample : samples) discs.push_back({sample.position, sample.normal, radius});
+  return discs;
+}
+
+}  // namespace detp::validate

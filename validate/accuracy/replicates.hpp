@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include "detp/sim/estimate/estimate.hpp"
+#include "detp/sim/geometry/paths.hpp"
+#include "detp/sim/photons/ray_caster.hpp"
+#include "detp/sim/scene/scene.hpp"
+#include "detp/sim/search/index.hpp"
+
+/// Runs of one setting with their own seeds: the spread is the noise.
+namespace detp::validate {
+
+/// An estimator, and what it is set to.
+struct AccuracySetting {
+  sim::Estimator estimator = sim::Estimator::disc;
+  double radius = 0;  ///< of the discs, scene units; not used by nearest and triangle-hits
+  int nearest = 50;   ///< of nearest: k
+};
+
+/// Whether the radius matters to the estimator.
+[[nodiscard]] constexpr bool uses_radius(sim::Estimator estimator) {
+  return estimator != sim::Estimator::nearest && estimator != sim::Estimator::triangle_hits;
+}
+
+/// Makes photon paths of a scene and estimates from them, as `detp run` does. The scene must outlive this; its overshoot is set.
+class ReplicateMaker {
+ public:
+  /// `front_facing`: light that arrives from behind does not count.
+  ReplicateMaker(sim::Scene& scene, bool front_facing, int threads, std::stop_token stop = {});
+
+  /// At least so many pieces of paths. `radius` says how far they go on beyond the surfaces where they end, if the discs of this
+  /// radius would shadow themselves otherwise (sim/effects/self_shadow.hpp); 0: not at all.
+  [[nodiscard]] sim::Paths trace(std::size_t rays, std::uint64_t seed, double radius);
+
+  /// Throws as sim::estimate; sim::Stopped if a stop request came.
+  [[nodiscard]] sim::Outcome estimate(const sim::Paths& paths, std::span<const sim::Sample> samples,
+                                      const AccuracySetting& setting, bool standard_error = false) const;
+
+ private:
+  [[nodiscard]] bool goes_on(double radius);
+  [[nodiscard]] const sim::Index& surfaces(const sim::Problem& problem, sim::Estimator estimator) const;
+
+  sim::Scene& scene_;
+  bool front_facing_;
+  int threads_;
+  std::stop_token stop_;
+  std::shared_ptr<const sim::RayCaster> caster_;
+  /// Of area-corrected and triangle-hits: built once, they depend on the mesh alone.
+  mutable std::unique_ptr<const sim::Index> area_corrected_;
+  mutable std::unique_ptr<const sim::Index> triangle_hits_;
+  std::vector<std::pair<double, bool>> known_;  ///< radii, and whether their paths go on
+};
+
+/// Discs of one radius at samples.
+[[nodiscard]] std::vector<sim::Disc> discs_at(std::span<const sim::Sample> samples, double radius);
+
+}  // namespace detp::validate

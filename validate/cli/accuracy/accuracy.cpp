@@ -1,0 +1,197 @@
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "accuracy_report.hpp"
+#include "detp/model/vocabulary/quoted.hpp"
+#include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/sim/base/memory.hpp"
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/open/open_scene.hpp"
+#include "detp/validate/cli/options/number_option.hpp"
+#include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
+
+namespace detp::cli {
+namespace {
+
+struct AccuracyOptions {
+  std::string scene;
+  std::optional<std::string> noise;
+  std::optional<std::string> error;
+  std::optional<double> seconds;
+  std::optional<double> rays;
+  std::optional<double> samples;
+  std::vector<std::string> estimators;
+  std::optional<std::string> lights;
+  std::optional<std::string> up;
+  bool front_facing = false;
+};
+
+constexpr double first_pilot = 160'000;    // rays
+constexpr double price = 2;                // pilots may take so many times as long as the answer
+constexpr double least_price = 1.5;        // seconds that they may always take
+constexpr double longest_check = 60;       // seconds; a longer answer is not run
+constexpr double enough_resolution = 0.5;  // of the target's square, for the standard error of bias²
+
+validate::AccuracyTarget target_of(const AccuracyOptions& options) {
+  const int given = (options.noise ? 1 : 0) + (options.error ? 1 : 0) + (options.seconds ? 1 : 0);
+  if (given > 1) throw std::invalid_argument("give one of --target-noise, --target-error and --time-budget");
+  using Kind = validate::AccuracyTarget::Kind;
+  if (options.error) return {Kind::total, parse_share("--target-error", *options.error)};
+  if (options.seconds) return {Kind::seconds, *options.seconds};
+  return {Kind::noise, options.noise ? parse_share("--target-noise", *options.noise) : 0.05};
+}
+
+std::vector<sim::Estimator> estimators_of(const AccuracyOptions& options) {
+  std::vector<sim::Estimator> chosen;
+  for (const std::string& text : options.estimators) {
+    const auto found = std::ranges::find(sim::estimators, std::string_view(text), &sim::EstimatorRecord::name);
+    if (found == sim::estimators.end()) {
+      std::vector<std::string_view> names;
+      for (const sim::EstimatorRecord& one : sim::estimators) names.push_back(one.name);
+      throw std::invalid_argument(
+          fmt::format("there is no estimator {}; there are {}", detp::quoted(text), fmt::join(names, ", ")));
+    }
+    chosen.push_back(found->estimator);
+  }
+  return chosen;
+}
+
+sim::Scene scene_of(const AccuracyOptions& options, std::uint64_t seed, const std::stop_token& stop) {
+  sim::SceneRequest request{.name = options.scene, .samples = {}, .seed = seed};
+  if (options.samples) {
+    require_count("--samples", *options.samples, 1, 1e9);
+    request.samples = static_cast<std::size_t>(*options.samples);
+  }
+  if (options.lights) request.lights = parse_lights(*options.lights);
+  if (options.up) request.up = parse_up(*options.up);
+  return sim::open_scene(request, stop);
+}
+
+std::string repeated_options(const AccuracyOptions& options) {
+  std::string text;
+  if (options.samples) text += fmt::format(" --samples {:.9g}", *options.samples);
+  if (options.lights) text += " --light " + *options.lights;
+  if (options.up) text += " --up " + *options.up;
+  if (options.front_facing) text += " --front-facing";
+  return text;
+}
+
+/// Pilots of four times as many rays each, until the bias is known well enough, or the next one would exceed the price. Returns false
+/// if a stop request ended one of them: the answer is that of the one before. Throws sim::Stopped if there was none.
+bool plan(AccuracyAnswer& answer, sim::Scene& scene, validate::AccuracyPilotOptions& options,
+          const validate::AccuracyTarget& target, double most_rays) {
+  const sim::Stopwatch watch;
+  for (options.rays = first_pilot;; options.rays *= 4) {
+    try {
+      answer.pilot = validate::make_accuracy_pilot(scene, options);
+    } catch (const sim::Stopped&) {
+      if (options.rays == first_pilot) throw;
+      return false;
+    }
+    answer.plan = validate::plan_accuracy(answer.pilot, target, most_rays);
+    const validate::AccuracyPoint& best = answer.plan.answer;
+    const double bias_error = (best.bias_high * best.bias_high - best.bias * best.bias) / 2;
+    const double square =
+        std::pow(target.kind == validate::AccuracyTarget::Kind::seconds ? best.total : target.value, 2);
+    const double next = 4 * answer.pilot.seconds;
+    const double most_seconds = std::max(least_price, price * best.seconds);
+    if (bias_error <= enough_resolution * square || watch.seconds() + next > most_seconds || options.rays > 1e7)
+      return true;
+  }
+}
+
+Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+  const sim::Stopwatch watch;
+  const validate::AccuracyTarget target = target_of(options);
+  const double most_rays = options.rays.value_or(1e9);
+  require_count("--rays", most_rays, 1000, 1e12);
+  validate::check(target, most_rays);
+  const ProgressLine progress(common);
+  sim::Scene scene = scene_of(options, common.seed, stop);
+  validate::AccuracyPilotOptions pilot{.estimators = estimators_of(options),
+                                       .front_facing = options.front_facing,
+                                       .seed = common.seed,
+                                       .threads = common.threads,
+                                       .stop = stop,
+                                       .progress = progress.report()};
+  if (scene.mesh.triangles.empty())
+    throw std::invalid_argument(
+        fmt::format("accuracy needs photon paths in a mesh; {} has no triangles", options.scene));
+  AccuracyAnswer answer{.scene = options.scene,
+                        .options = repeated_options(options),
+                        .pilot = {},
+                        .plan = {},
+                        .check = {},
+                        .no_check = {},
+                        .in_time = {}};
+  answer.side = scene.box.longest_side();
+  std::optional<sim::Progress> stopped;
+  if (!plan(answer, scene, pilot, target, most_rays)) stopped = sim::Progress{1, 3, "steps"};
+  const validate::AccuracyPoint& best = answer.plan.answer;
+  answer.in_time =
+      validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
+          .answer;
+  constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
+  if (stopped)
+    answer.no_check = "Stopped before the check.";
+  else if (best.seconds > longest_check || best.rays * bytes_of_a_ray > sim::memory_budget())
+    answer.no_check = "Not run to check: too long, or too large for the memory.";
+  else
+    try {
+      pilot.seed = common.seed + 1000;
+      answer.check = validate::check_accuracy(scene, best, answer.pilot.mean_square, pilot);
+    } catch (const sim::Stopped&) {
+      answer.no_check = "Stopped before the check.";
+      stopped = sim::Progress{2, 3, "steps"};
+    }
+  answer.seconds = watch.seconds();
+  Result result;
+  result.inputs = {
+      {"scene", options.scene},
+      {"target_noise", target.kind == validate::AccuracyTarget::Kind::noise ? Json(target.value) : Json()},
+      {"target_error", target.kind == validate::AccuracyTarget::Kind::total ? Json(target.value) : Json()},
+      {"time_budget", target.kind == validate::AccuracyTarget::Kind::seconds ? Json(target.value) : Json()},
+      {"estimators", options.estimators},
+      {"most_rays", most_rays},
+      {"samples", scene.samples.size()},
+      {"front_facing", options.front_facing}};
+  result.json = to_json(answer);
+  result.text = to_text(answer, common.screen());
+  result.csv = csv_of(answer);
+  result.stopped = stopped;
+  result.not_reached = !answer.plan.reached;
+  return result;
+}
+
+}  // namespace
+
+Command accuracy_command(CLI::App& program) {
+  CLI::App* app =
+      program.add_subcommand("accuracy", "What accuracy costs in time: rays, setting and estimator for an error");
+  app->footer("Example: detp accuracy @cornell --target-noise 5%\nExample: detp accuracy @cornell --time-budget 2");
+  const auto options = std::make_shared<AccuracyOptions>();
+  app->add_option("SCENE", options->scene, "a mesh (.obj, .ply) or a built-in scene with lights")->required();
+  app->add_option("--target-noise", options->noise,
+                  "noise to reach, as 5% or 0.05; the setting is the largest whose bias is below; default: 5%");
+  app->add_option("--target-error", options->error, "noise and bias together to reach, as 5% or 0.05");
+  add_number(*app, "--time-budget", options->seconds,
+             "seconds that a run may take, tracing included: the most accurate");
+  app->add_option("--estimators", options->estimators,
+                  "a list of disc, variable-radius, nearest, area-corrected, triangle-hits; default: all")
+      ->delimiter(',');
+  add_count(*app, "--rays", options->rays, "at most so many pieces of photon paths, as 10M; default: 1e9");
+  add_count(*app, "--samples", options->samples, "how many samples; default: the scene's vertices");
+  app->add_option("--light", options->lights, "lights placed in the scene, as of run");
+  app->add_option("--up", options->up, "which way is up, as of run");
+  app->add_flag("--front-facing", options->front_facing, "light that arrives from behind does not count");
+  return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
+            return run_accuracy(*options, common, stop);
+          }};
+}
+
+}  // namespace detp::cli

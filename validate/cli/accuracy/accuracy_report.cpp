@@ -1,0 +1,238 @@
+#include "accuracy_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "detp/validate/cli/text/messages.hpp"
+#include "detp/validate/cli/text/table.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
+
+namespace detp::cli {
+namespace {
+
+using validate::AccuracyPoint;
+using validate::AccuracyTarget;
+
+std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+
+std::string setting_words(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  if (point.radius > 0) return fmt::format("d = {:.2g} %", 100 * point.radius / answer.side);
+  return point.nearest > 0 ? fmt::format("k = {}", point.nearest) : "";
+}
+
+std::string rays_words(double rays) { return fmt::format("{:.2g}", rays); }
+
+/// "340 000 photon paths with discs of radius 0.021 (2.1 % of the scene), estimator disc".
+std::string way(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  std::string text = fmt::format("{:.3g} photon paths ({:.3g} pieces)", point.photons, point.rays);
+  if (point.radius > 0)
+    text += fmt::format(" with radius {:.3g} ({:.2g} % of the scene)", point.radius, 100 * point.radius / answer.side);
+  if (point.nearest > 0) text += fmt::format(" with k = {}", point.nearest);
+  return text + fmt::format(", estimator {}", name(point.estimator));
+}
+
+/// Relative standard error of predicted seconds: what the check runs have shown so far.
+constexpr double seconds_error = 0.2;
+
+std::string bias_words(const AccuracyPoint& best) {
+  if (best.bias_high > 2 * best.bias)
+    return fmt::format("The bias is at most {}, the total at most {}. ", percent(best.bias_high),
+                       percent(best.total_high));
+  return fmt::format("The bias is about {} (at most {}), so the total is {}. ", percent(best.bias),
+                     percent(best.bias_high), percent(best.total));
+}
+
+std::string answer_words(const AccuracyAnswer& answer) {
+  const AccuracyPoint& best = answer.plan.answer;
+  const AccuracyTarget& target = answer.plan.target;
+  std::string text;
+  if (!answer.plan.reached) {
+    text =
+        fmt::format("{} {} is not reached: the least bias of the estimators tried is {}. Nearest: {} in {:.2g} s, {}. ",
+                    percent(target.value), target.kind == AccuracyTarget::Kind::noise ? "noise" : "error",
+                    percent(answer.plan.floor), percent(best.total), best.seconds, way(answer, best));
+  } else if (target.kind == AccuracyTarget::Kind::seconds) {
+    text = fmt::format("in {:.3g} s: {} total ({} to {}), of which {} noise and {} bias: {}. ", target.value,
+                       percent(best.total), percent(best.total_low), percent(best.total_high), percent(best.noise),
+                       percent(best.bias), way(answer, best));
+  } else {
+    text = fmt::format("{} {} takes {}: {:.2g} s ({:.2g} to {:.2g}), of which {:.2g} s traces photons. ",
+                       percent(target.value), target.kind == AccuracyTarget::Kind::noise ? "noise" : "error",
+                       way(answer, best), best.seconds, (1 - seconds_error) * best.seconds,
+                       (1 + seconds_error) * best.seconds, best.trace_seconds);
+    text += bias_words(best);
+  }
+  if (answer.check)
+    text += fmt::format("Run once to check: {} noise, {:.2g} s. ", percent(answer.check->noise), answer.check->seconds);
+  else
+    text += answer.no_check + " ";
+  return text + command_of(answer, best);
+}
+
+std::string rivals_words(const AccuracyAnswer& answer) {
+  std::string text = fmt::format("{} is best", name(answer.plan.answer.estimator));
+  const AccuracyTarget& target = answer.plan.target;
+  for (const AccuracyPoint& rival : answer.plan.rivals) {
+    text += fmt::format("; {}", name(rival.estimator));
+    const bool misses = target.kind == AccuracyTarget::Kind::total && rival.total > 1.02 * target.value;
+    if (target.kind == AccuracyTarget::Kind::seconds || !answer.plan.reached)
+      text += fmt::format(" has {}", percent(rival.total));
+    else if (misses)
+      text += fmt::format(" cannot: its bias is {}", percent(rival.bias));
+    else
+      text += fmt::format(" takes {:.2g} times as long (bias {})", rival.seconds / answer.plan.answer.seconds,
+                          percent(rival.bias));
+  }
+  return text;
+}
+
+Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  return {{"axis", "estimator"},
+          {"estimator", name(point.estimator)},
+          {"setting", setting_words(answer, point)},
+          {"disc_radius", point.radius > 0 ? Json(point.radius) : Json()},
+          {"nearest", point.nearest > 0 ? Json(point.nearest) : Json()},
+          {"rays", std::round(point.rays)},
+          {"photons", std::round(point.photons)},
+          {"command", command_of(answer, point)},
+          {"noise", point.noise},
+          {"bias", point.bias},
+          {"error", point.total},
+          {"error_interval", {point.total_low, point.total_high}},
+          {"variance", point.noise * point.noise},
+          {"predicted_seconds", point.seconds},
+          {"measured_seconds", nullptr},
+          {"processor_seconds", nullptr},
+          {"on_frontier", point.on_frontier},
+          {"cut_off", false}};
+}
+
+}  // namespace
+
+std::string command_of(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  std::string text =
+      fmt::format("detp run {} --rays {:.3g} --estimator {}", answer.scene, point.rays, name(point.estimator));
+  if (point.radius > 0) text += fmt::format(" --disc-radius {:.4g}", point.radius);
+  if (point.nearest > 0) text += fmt::format(" --nearest {}", point.nearest);
+  return text + answer.options;
+}
+
+Json to_json(const AccuracyAnswer& answer) {
+  const AccuracyPoint& best = answer.plan.answer;
+  Json chosen = point_json(answer, best);
+  chosen.erase("axis");
+  chosen.erase("on_frontier");
+  chosen.erase("cut_off");
+  chosen["technique"] = nullptr;
+  if (sim::record_of(best.estimator).finds_pairs) chosen["technique"] = "box-tree";
+  if (best.estimator == sim::Estimator::nearest) chosen["technique"] = "photon-map";
+  chosen["reached"] = answer.plan.reached;
+  chosen["bias_interval"] = {0.0, best.bias_high};
+  chosen["trace_seconds"] = best.trace_seconds;
+  if (answer.check) {
+    chosen["measured_seconds"] = answer.check->seconds;
+    chosen["measured_noise"] = answer.check->noise;
+  }
+  chosen["text"] = answer_words(answer);
+  Json points = Json::array();
+  for (const AccuracyPoint& point : answer.plan.points) points.push_back(point_json(answer, point));
+  return {{"answer", chosen},
+          {"floor", answer.plan.floor},
+          {"points", points},
+          {"reference",
+           {{"kind", "area-corrected estimates of the pilot"},
+            {"radius", answer.pilot.reference_radius},
+            {"photons", std::round(answer.pilot.rays * answer.pilot.photons_per_ray)},
+            {"error", nullptr},
+            {"seconds", answer.pilot.seconds}}},
+          {"planning_seconds", answer.seconds},
+          {"pilot_rays", answer.pilot.rays}};
+}
+
+std::string csv_of(const AccuracyAnswer& answer) {
+  Table table({"scene", "estimator", "setting", "disc_radius", "nearest", "rays", "photons", "noise", "bias", "error",
+               "error_low", "error_high", "predicted_seconds", "on_frontier", "is_answer", "measured_noise",
+               "measured_seconds", "command"});
+  const auto add = [&](const AccuracyPoint& point, bool is_answer) {
+    Json cells = point_json(answer, point);
+    cells["scene"] = answer.scene;
+    cells["error_low"] = cells["error_interval"][0];
+    cells["error_high"] = cells["error_interval"][1];
+    cells["is_answer"] = is_answer;
+    if (is_answer && answer.check) {
+      cells["measured_noise"] = answer.check->noise;
+      cells["measured_seconds"] = answer.check->seconds;
+    }
+    for (const char* other : {"axis", "error_interval", "variance", "processor_seconds", "cut_off"}) cells.erase(other);
+    table.add(cells);
+  };
+  add(answer.plan.answer, true);
+  for (const AccuracyPoint& point : answer.plan.points) add(point, false);
+  return table.csv();
+}
+
+std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
+  std::string text = wrapped("answer    " + answer_words(answer), screen.text_width(), 10);
+  text += wrapped(
+      "          " + fmt::format("In {:.2g} s, twice the time: {} total ({} noise, {} bias): {}.",
+                                 answer.in_time.seconds, percent(answer.in_time.total), percent(answer.in_time.noise),
+                                 percent(answer.in_time.bias), way(answer, answer.in_time)),
+      screen.text_width(), 10);
+  text += wrapped("estimator " + rivals_words(answer), screen.text_width(), 10) + "\n";
+  TextTable table({{.head = "total"},
+                   {.head = "noise"},
+                   {.head = "bias"},
+                   {.head = "pieces"},
+                   {.head = "setting", .align = Align::left},
+                   {.head = "estimator", .align = Align::left},
+                   {.head = "seconds"},
+                   {.head = "", .align = Align::left}});
+  const auto add = [&](const AccuracyPoint& point, const std::string& remark) {
+    table.add({{percent(point.total)},
+               {percent(point.noise)},
+               {percent(point.bias)},
+               {rays_words(point.rays)},
+               {setting_words(answer, point)},
+               {std::string(name(point.estimator))},
+               {fmt::format("{:.2g}", point.seconds)},
+               {remark}});
+  };
+  std::vector<AccuracyPoint> shown;
+  for (const AccuracyPoint& point : answer.plan.points)
+    if (point.on_frontier) shown.push_back(point);
+  std::ranges::sort(shown, {}, &AccuracyPoint::seconds);
+  // of points that are equally fast, the most accurate one
+  std::vector<AccuracyPoint> best;
+  for (const AccuracyPoint& point : shown)
+    if (best.empty() || point.total < best.back().total) best.push_back(point);
+  // those around the answer
+  constexpr std::size_t rows_shown = 7;
+  const auto distance = [&](const AccuracyPoint& point) {
+    return std::abs(std::log(point.seconds / answer.plan.answer.seconds));
+  };
+  while (best.size() > rows_shown)
+    best.erase(distance(best.front()) > distance(best.back()) ? best.begin() : best.end() - 1);
+  bool answered = false;
+  for (const AccuracyPoint& point : best) {
+    if (!answered && point.seconds >= answer.plan.answer.seconds) {
+      add(answer.plan.answer, "<- answer");
+      answered = true;
+    }
+    add(point, "");
+  }
+  if (!answered) add(answer.plan.answer, "<- answer");
+  text += table.text(screen) + "\n";
+  text += wrapped(
+      fmt::format(
+          "noise, bias, total: root mean square over the samples by area, relative to the root mean square "
+          "irradiance. Bias: against area-corrected estimates of radius {:.2g} %, photons alike; a bias that all "
+          "estimators share is not seen.",
+          100 * answer.pilot.reference_radius / answer.side),
+      screen.text_width(), 0);
+  return text + fmt::format("planning  {:.2g} s: a pilot of {:.2g} pieces{}\n", answer.seconds, answer.pilot.rays,
+                            answer.check ? ", one check" : "");
+}
+
+}  // namespace detp::cli

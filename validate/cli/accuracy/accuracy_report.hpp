@@ -1,0 +1,30 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "detp/validate/accuracy/accuracy_plan.hpp"
+#include "detp/validate/cli/command.hpp"
+
+namespace detp::cli {
+
+struct AccuracyAnswer {
+  std::string scene;    ///< as the user wrote it
+  double side = 1;      ///< longest side of the scene's box
+  std::string options;  ///< that `detp run` needs to repeat a point, as " --light sun"
+  validate::AccuracyPilot pilot;
+  validate::AccuracyPlan plan;
+  std::optional<validate::AccuracyCheck> check;
+  std::string no_check;             ///< why the answer was not run
+  validate::AccuracyPoint in_time;  ///< the best way in twice the answer's time
+  double seconds = 0;               ///< that planning took, the check included
+};
+
+/// "detp run @cornell --rays 3.4e5 --estimator disc --disc-radius 0.021".
+[[nodiscard]] std::string command_of(const AccuracyAnswer& answer, const validate::AccuracyPoint& point);
+
+[[nodiscard]] Json to_json(const AccuracyAnswer& answer);
+[[nodiscard]] std::string csv_of(const AccuracyAnswer& answer);
+[[nodiscard]] std::string to_text(const AccuracyAnswer& answer, const Screen& screen);
+
+}  // namespace detp::cli
