@@ -4,8 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "command.hpp"
-
 /// Reads CSV results according to RFC 4180.
 namespace detp::support {
 

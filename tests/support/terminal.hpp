@@ -4,8 +4,6 @@
 
 #include <cstdlib>
 
-#include "command.hpp"
-
 /// Runs the command on a terminal of its own.
 namespace detp::support {
 

@@ -2,11 +2,11 @@
 
 #include "command.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
+#include "detp/validate/cli/options/number_option.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
+#include "detp/validate/cli/text/table.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
 #include "detp/validate/statistics/statistics.hpp"
-#include "number_option.hpp"
-#include "progress_line.hpp"
-#include "table.hpp"
-#include "text_table.hpp"
 
 namespace detp::cli {
 namespace {
@@ -195,7 +195,7 @@ std::string to_csv(const validate::Calibration& calibration) {
 
 Result run_calibrate(const CalibrateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   require_positive("--seconds", options.seconds);
-  const ProgressLine progress(common);
+  const ProgressLine progress(common.quiet);
   const validate::Calibration calibration = validate::calibrate(
       {.seconds = options.seconds, .threads = common.threads, .stop = stop, .progress = progress.report()});
   const Saved saved = save(calibration, common);

@@ -13,7 +13,7 @@
 #include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/threads.hpp"
-#include "number_option.hpp"
+#include "detp/validate/cli/options/number_option.hpp"
 
 namespace detp::cli {
 namespace {

@@ -13,9 +13,9 @@
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
+#include "detp/validate/cli/options/outputs.hpp"
+#include "detp/validate/cli/text/messages.hpp"
 #include "interruption.hpp"
-#include "messages.hpp"
-#include "outputs.hpp"
 #include "program.hpp"
 #include "stop_report.hpp"
 

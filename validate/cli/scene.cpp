@@ -10,11 +10,13 @@
 #include "detp/sim/files/mesh_writer.hpp"
 #include "detp/sim/files/ray_file.hpp"
 #include "detp/sim/open/open_scene.hpp"
-#include "effects_report.hpp"
-#include "outputs.hpp"
-#include "progress_line.hpp"
-#include "table.hpp"
-#include "workload_options.hpp"
+#include "detp/validate/cli/options/outputs.hpp"
+#include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/report/effects_report.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
+#include "detp/validate/cli/text/table.hpp"
 
 namespace detp::cli {
 namespace {
@@ -94,7 +96,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
                  {"--write-mesh", options.mesh_file},
                  {"--write-discs", options.disc_file},
                  {"--write-rays", options.ray_file}});
-  const ProgressLine progress(common);
+  const ProgressLine progress(common.quiet);
   const validate::JobRequest request = options.workload.request(common);
   const bool writes = options.disc_file || options.ray_file;
   if (options.mesh_file) write_mesh(*options.mesh_file, request, stop);

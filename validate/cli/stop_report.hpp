@@ -1,7 +1,9 @@
 #pragma once
 
-#include "command.hpp"
+#include <CLI/CLI.hpp>
+
 #include "detp/sim/base/stopped.hpp"
+#include "detp/validate/cli/text/result.hpp"
 
 /// Results of commands that a stop request ended.
 namespace detp::cli {

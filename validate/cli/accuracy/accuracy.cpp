@@ -11,9 +11,9 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/open/open_scene.hpp"
-#include "detp/validate/cli/number_option.hpp"
-#include "detp/validate/cli/progress_line.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/options/number_option.hpp"
+#include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
 
 namespace detp::cli {
 namespace {

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "detp/validate/cli/messages.hpp"
-#include "detp/validate/cli/table.hpp"
-#include "detp/validate/cli/text_table.hpp"
+#include "detp/validate/cli/text/messages.hpp"
+#include "detp/validate/cli/text/table.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
 
 namespace detp::cli {
 namespace {

@@ -7,9 +7,9 @@
 #include "bench_regret.hpp"
 #include "bench_report.hpp"
 #include "detp/validate/cli/command.hpp"
-#include "detp/validate/cli/progress_line.hpp"
-#include "detp/validate/cli/value_lists.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/options/candidate_options.hpp"
+#include "detp/validate/cli/options/value_lists.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
 
 namespace detp::cli {
 namespace {
@@ -107,7 +107,7 @@ Json inputs_json(const BenchCommand& command, const validate::BenchSet& set, con
 Result run_command_bench(const BenchCommand& command, const CommonOptions& common, const std::stop_token& stop) {
   if (command.regret.is_wanted())
     return run_bench_regret(command.regret, command.effort, command.scene, command.fields, common, stop);
-  const ProgressLine progress(common);
+  const ProgressLine progress(common.quiet);
   const validate::BenchOptions options = options_of(command, common, stop, progress);
   const char* folder = std::getenv("DETP_SCENES");
   const auto effort = command.effort == "thorough" ? validate::BenchEffort::thorough : validate::BenchEffort::quick;

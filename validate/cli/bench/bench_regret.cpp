@@ -10,9 +10,9 @@
 
 #include "detp/model/vocabulary/nearest_name.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/validate/cli/progress_line.hpp"
-#include "detp/validate/cli/unit_cost_option.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/options/unit_cost_option.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
 #include "regret_report.hpp"
 
 namespace detp::cli {
@@ -80,7 +80,7 @@ Result run_bench_regret(const RegretCommand& command, const std::string& effort,
   if (scene) keep_scene(set.workloads, *scene);
   if (!fields.empty()) keep_fields(set.workloads, fields);
   const CostsInUse costs = command.costs(common);
-  const ProgressLine progress(common);
+  const ProgressLine progress(common.quiet);
   validate::RegretOptions options{.costs = costs.simd,
                                   .threads = std::max(1, common.threads),
                                   .seed = common.seed,

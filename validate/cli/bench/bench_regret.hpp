@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "detp/validate/cli/command.hpp"
-#include "detp/validate/cli/costs_in_use.hpp"
+#include "detp/validate/cli/options/common_options.hpp"
+#include "detp/validate/cli/options/costs_in_use.hpp"
+#include "detp/validate/cli/text/result.hpp"
 
 /// `bench --regret`.
 namespace detp::cli {

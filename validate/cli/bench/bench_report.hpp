@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "detp/validate/bench/summary.hpp"
-#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/text/result.hpp"
 
 namespace detp::cli {
 

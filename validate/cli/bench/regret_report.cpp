@@ -3,9 +3,8 @@
 #include <fmt/format.h>
 
 #include "detp/model/vocabulary/quoted.hpp"
-#include "detp/validate/cli/choose/measured_report.hpp"
-#include "detp/validate/cli/text_table.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
 #include "regret_rows.hpp"
 
 namespace detp::cli {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/text/result.hpp"
 #include "detp/validate/regret/regret_summary.hpp"
 
 namespace detp::cli {

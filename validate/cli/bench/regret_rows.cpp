@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "detp/validate/cli/table.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/table.hpp"
 
 namespace detp::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/text/result.hpp"
 #include "detp/validate/regret/regret_summary.hpp"
 
 /// The rows and summaries of `bench --regret` as JSON and CSV.

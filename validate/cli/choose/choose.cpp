@@ -13,10 +13,13 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 #include "detp/validate/choice/choice_tips.hpp"
-#include "detp/validate/cli/costs_in_use.hpp"
-#include "detp/validate/cli/progress_line.hpp"
-#include "detp/validate/cli/unit_cost_option.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/options/candidate_options.hpp"
+#include "detp/validate/cli/options/costs_in_use.hpp"
+#include "detp/validate/cli/options/unit_cost_option.hpp"
+#include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/structural/structural.hpp"
 
 namespace detp::cli {
@@ -202,7 +205,7 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     result.inputs = numbers_json(answer.workload);
     answer.title = describe_numbers(answer.workload);
   } else {
-    const ProgressLine progress(common);
+    const ProgressLine progress(common.quiet);
     const double share_of_job = analyze ? 0.3 : 1;  // a guess
     const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);

@@ -1,8 +1,9 @@
 #include "choose_report.hpp"
 #include "choose_rows.hpp"
-#include "detp/validate/cli/effects_report.hpp"
-#include "detp/validate/cli/table.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/report/effects_report.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/table.hpp"
 #include "measured_report.hpp"
 
 namespace detp::cli {

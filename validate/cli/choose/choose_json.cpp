@@ -5,9 +5,9 @@
 #include "choose_report.hpp"
 #include "choose_rows.hpp"
 #include "choose_tips.hpp"
-#include "detp/validate/cli/effects_report.hpp"
-#include "detp/validate/cli/extrapolated.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/effects_report.hpp"
+#include "detp/validate/cli/report/extrapolated.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
 #include "measured_report.hpp"
 
 namespace detp::cli {

@@ -7,8 +7,8 @@
 #include "choose_map_report.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
-#include "detp/validate/cli/progress_line.hpp"
-#include "detp/validate/cli/unit_cost_option.hpp"
+#include "detp/validate/cli/options/unit_cost_option.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/map/map_svg.hpp"
 
 namespace detp::cli {
@@ -71,7 +71,7 @@ Result run_choose_map(const ChooseMap& command, const CommonOptions& common, con
   if (!axes.radii.empty()) request.disc_radius = axes.radii.front();
   if (request.numbers_alone()) require_numbers(request);
   const CostsInUse costs = command.costs.costs(common);
-  const ProgressLine progress(common);
+  const ProgressLine progress(common.quiet);
   const validate::TechniqueMap map = validate::make_map(request, axes,
                                                         {.costs = costs.of(command.engine),
                                                          .rigor = command.rigor,

@@ -3,9 +3,10 @@
 #include <optional>
 #include <vector>
 
-#include "detp/validate/cli/command.hpp"
-#include "detp/validate/cli/costs_in_use.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/options/common_options.hpp"
+#include "detp/validate/cli/options/costs_in_use.hpp"
+#include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/text/result.hpp"
 
 /// `choose --map`.
 namespace detp::cli {

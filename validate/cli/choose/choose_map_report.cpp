@@ -1,7 +1,8 @@
 #include "choose_map_report.hpp"
 
-#include "detp/validate/cli/table.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/table.hpp"
 #include "detp/validate/map/agreement.hpp"
 
 namespace detp::cli {

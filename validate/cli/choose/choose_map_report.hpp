@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/text/result.hpp"
 #include "detp/validate/map/technique_map.hpp"
 
 namespace detp::cli {

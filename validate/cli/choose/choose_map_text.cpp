@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "choose_map_report.hpp"
-#include "detp/validate/cli/text_blocks.hpp"
+#include "detp/validate/cli/text/text_blocks.hpp"
 #include "detp/validate/map/agreement.hpp"
 #include "detp/validate/map/map_labels.hpp"
 #include "detp/validate/map/technique_sign.hpp"

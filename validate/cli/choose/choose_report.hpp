@@ -9,7 +9,7 @@
 #include "detp/validate/choice/analysis.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/tips.hpp"
-#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/text/result.hpp"
 
 namespace detp::cli {
 

@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "choose_rows.hpp"
-#include "detp/validate/cli/workload_options.hpp"
 #include "plain_ratio.hpp"
 
 namespace detp::cli {

@@ -8,9 +8,8 @@
 
 #include "choose_rows.hpp"
 #include "detp/model/rank/extrapolation.hpp"
-#include "detp/validate/cli/extrapolated.hpp"
-#include "detp/validate/cli/text_table.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/extrapolated.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
 #include "measured_report.hpp"
 #include "plain_ratio.hpp"
 

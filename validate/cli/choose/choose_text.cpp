@@ -7,8 +7,8 @@
 #include "choose_rows.hpp"
 #include "choose_table.hpp"
 #include "choose_tips.hpp"
-#include "detp/validate/cli/effects_report.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/effects_report.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
 #include "measured_report.hpp"
 #include "plain_ratio.hpp"
 

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
 #include "measured_report.hpp"
 
 namespace detp::cli {

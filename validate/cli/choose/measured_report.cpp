@@ -6,8 +6,8 @@
 
 #include "choose_rows.hpp"
 #include "detp/validate/choice/prediction_error.hpp"
-#include "detp/validate/cli/table.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/table.hpp"
 #include "plain_ratio.hpp"
 
 namespace detp::cli {
@@ -61,8 +61,6 @@ Json missed_json(const validate::Analysed& run, const CostTable& costs) {
 }
 
 }  // namespace
-
-std::string threads_text(int threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }
 
 Json missed_ratios(const validate::Analysed& run, const CostTable& costs) {
   if (!run.predicted || !run.counted || !run.seconds) return Json::object();

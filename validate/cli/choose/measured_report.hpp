@@ -1,12 +1,9 @@
 #pragma once
 
 #include "choose_report.hpp"
-#include "detp/validate/cli/text_table.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
 
 namespace detp::cli {
-
-/// "1 thread", "2 threads".
-[[nodiscard]] std::string threads_text(int threads);
 
 /// The columns that follow the predictions in the table of candidates: counted, measured, predicted / measured.
 [[nodiscard]] std::vector<TextColumn> measured_table_columns();

@@ -6,11 +6,14 @@
 
 #include "detp/model/rank/extrapolation.hpp"
 #include "detp/model/rank/registry.hpp"
-#include "detp/validate/cli/answer_rows.hpp"
 #include "detp/validate/cli/command.hpp"
-#include "detp/validate/cli/extrapolated.hpp"
-#include "detp/validate/cli/unit_cost_option.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/options/candidate_options.hpp"
+#include "detp/validate/cli/options/sphere_stops.hpp"
+#include "detp/validate/cli/options/unit_cost_option.hpp"
+#include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/report/answer_rows.hpp"
+#include "detp/validate/cli/report/extrapolated.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
 #include "model_outlook.hpp"
 
 namespace detp::cli {

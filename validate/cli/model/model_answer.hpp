@@ -1,8 +1,8 @@
 #pragma once
 
 #include "detp/model/vocabulary/form.hpp"
-#include "detp/validate/cli/command.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/options/candidate_options.hpp"
+#include "detp/validate/cli/text/result.hpp"
 
 /// The results of the closed forms for each technique, as the `model` command shows them.
 namespace detp::cli {

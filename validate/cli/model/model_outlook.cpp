@@ -7,7 +7,7 @@
 #include "detp/model/accuracy/nearest_photons.hpp"
 #include "detp/model/lines/line_measure.hpp"
 #include "detp/model/optimum/growth.hpp"
-#include "detp/validate/cli/number_option.hpp"
+#include "detp/validate/cli/options/number_option.hpp"
 
 namespace detp::cli {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "detp/validate/cli/table.hpp"
+#include "detp/validate/cli/text/table.hpp"
 #include "model_answer.hpp"
 
 /// Results of the closed forms in addition to counts and times: how the time grows with the number of samples, and how

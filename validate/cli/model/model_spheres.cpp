@@ -11,7 +11,8 @@
 #include "detp/model/sphere_cache/rebuild_law.hpp"
 #include "detp/model/sphere_cache/sphere_cache.hpp"
 #include "detp/model/sphere_cache/sphere_cache_published.hpp"
-#include "detp/validate/cli/sphere_stops.hpp"
+#include "detp/validate/cli/options/sphere_stops.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
 #include "model_answer.hpp"
 
 namespace detp::cli {

@@ -14,11 +14,13 @@
 #include "detp/validate/base/search_work.hpp"
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/command.hpp"
-#include "detp/validate/cli/costs_in_use.hpp"
-#include "detp/validate/cli/outputs.hpp"
-#include "detp/validate/cli/progress_line.hpp"
-#include "detp/validate/cli/sphere_stops.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/options/candidate_options.hpp"
+#include "detp/validate/cli/options/costs_in_use.hpp"
+#include "detp/validate/cli/options/outputs.hpp"
+#include "detp/validate/cli/options/sphere_stops.hpp"
+#include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
 #include "run_report.hpp"
 #include "timed_run.hpp"
 
@@ -296,7 +298,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   check_files(options, common, expected);
   const Needs needs = needs_of(options, candidates.rows());
   const CostsInUse costs = options.costs.costs(common);
-  const ProgressLine progress(common);
+  const ProgressLine progress(common.quiet);
   RowProgress rows(options, common);
   Json inputs;
   std::string text;

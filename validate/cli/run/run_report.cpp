@@ -9,11 +9,10 @@
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/calibration/sum_costs.hpp"
-#include "detp/validate/cli/choose/measured_report.hpp"
-#include "detp/validate/cli/effects_report.hpp"
-#include "detp/validate/cli/sphere_stops.hpp"
-#include "detp/validate/cli/text_table.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/options/sphere_stops.hpp"
+#include "detp/validate/cli/report/effects_report.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
 
 namespace detp::cli {
 namespace {

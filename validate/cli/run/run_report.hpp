@@ -3,7 +3,7 @@
 #include <string>
 
 #include "detp/validate/choice/choice.hpp"
-#include "detp/validate/cli/answer_rows.hpp"
+#include "detp/validate/cli/report/answer_rows.hpp"
 #include "timed_run.hpp"
 
 namespace detp::cli {

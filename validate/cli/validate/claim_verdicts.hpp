@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "detp/validate/claims/claim.hpp"
-#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/text/result.hpp"
 
 /// What the verdicts on claims come to.
 namespace detp::cli {

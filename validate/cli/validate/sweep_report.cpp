@@ -6,9 +6,8 @@
 #include <tuple>
 
 #include "detp/sim/files/output_file.hpp"
-
-#include "detp/validate/cli/text_table.hpp"
-#include "detp/validate/cli/workload_options.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
 
 namespace detp::cli {
 namespace {

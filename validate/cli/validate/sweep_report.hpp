@@ -1,7 +1,7 @@
 #pragma once
 
-#include "detp/validate/cli/command.hpp"
-#include "detp/validate/cli/table.hpp"
+#include "detp/validate/cli/text/result.hpp"
+#include "detp/validate/cli/text/table.hpp"
 #include "detp/validate/sweep/sweep.hpp"
 
 namespace detp::cli {

@@ -1,20 +1,20 @@
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/claims/experiments.hpp"
 #include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/options/outputs.hpp"
+#include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/report/effects_report.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
+#include "sweep_report.hpp"
+#include "validate_summary.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
-
-#include "detp/sim/technique/technique.hpp"
-#include "detp/validate/claims/experiments.hpp"
-#include "detp/validate/cli/effects_report.hpp"
-#include "detp/validate/cli/outputs.hpp"
-#include "detp/validate/cli/progress_line.hpp"
-#include "detp/validate/cli/text_table.hpp"
-#include "detp/validate/cli/workload_options.hpp"
-#include "sweep_report.hpp"
-#include "validate_summary.hpp"
 
 namespace detp::cli {
 namespace {
@@ -230,7 +230,7 @@ void sweep(const ValidateOptions& options, const CommonOptions& common, const st
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   check_effort(options, options.workload.request(common, false));
   check_files(options, common, stop);
-  const ProgressLine progress(common);
+  const ProgressLine progress(common.quiet);
   Result result;
   const validate::Experiment experiment =
       make_experiment(options.workload.request(common, false), common, stop, result);

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "claim_verdicts.hpp"
-#include "detp/validate/cli/screen.hpp"
+#include "detp/validate/cli/text/screen.hpp"
 
 namespace detp::cli {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "command.hpp"
-#include "detp/model/vocabulary/vocabulary.hpp"
+#include "result.hpp"
+#include "screen.hpp"
 
 /// Results as a table with declared columns.
 namespace detp::cli {
@@ -38,35 +38,10 @@ class Table {
 [[nodiscard]] std::string aligned_text(const std::vector<Json>& rows, const Columns& inputs, const Columns& answers,
                                        const Screen& screen);
 
-/// The first columns of every table: rays and discs.
-[[nodiscard]] const Columns& workload_columns();
-
-/// `technique`, `parameters` as text, and one column for each parameter of any technique.
-[[nodiscard]] const Columns& candidate_columns();
-
-/// One column for each term of Counts, and `tests`, each after the prefix ("predicted_").
-[[nodiscard]] Columns count_columns(const std::string& prefix = "");
-
 /// The number, or null if it is not finite. A relative error, for instance, is not finite if all observations are zero.
 [[nodiscard]] inline Json known(double number) { return std::isfinite(number) ? Json(number) : Json(); }
 
 /// A list of texts as one cell, separated by "; ".
 [[nodiscard]] std::string joined(const std::vector<std::string>& texts);
-
-/// The cells of the workload's columns, from a command's resolved inputs.
-[[nodiscard]] Json workload_cells(const Json& inputs);
-
-[[nodiscard]] Json candidate_cells(const Candidate& candidate);
-
-template <class T>
-[[nodiscard]] Json count_cells(const Counts<T>& counts, const std::string& prefix = "") {
-  Json cells;
-  for_each_term(counts, [&](std::string_view term, T value) { cells[prefix + std::string(term)] = value; });
-  cells[prefix + "tests"] = tests(counts);
-  return cells;
-}
-
-/// The cells of the columns of counts, from counts in JSON.
-[[nodiscard]] Json count_cells(const Json& counts);
 
 }  // namespace detp::cli

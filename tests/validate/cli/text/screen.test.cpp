@@ -1,8 +1,7 @@
-#include "detp/validate/cli/screen.hpp"
+#include "detp/validate/cli/text/screen.hpp"
+#include "support/terminal.hpp"
 
 #include <doctest/doctest.h>
-
-#include "support/terminal.hpp"
 
 namespace detp::support {
 namespace {

@@ -1,9 +1,10 @@
 #pragma once
 
+#include <CLI/CLI.hpp>
 #include <optional>
 #include <string>
 
-#include "command.hpp"
+#include "common_options.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
 
 /// The unit costs of a command: given by the user, calibrated on this machine, or built in.

@@ -1,8 +1,7 @@
-#include "detp/validate/cli/progress_line.hpp"
+#include "detp/validate/cli/text/progress_line.hpp"
+#include "support/terminal.hpp"
 
 #include <doctest/doctest.h>
-
-#include "support/terminal.hpp"
 
 namespace detp::support {
 namespace {

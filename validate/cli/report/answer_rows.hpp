@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "detp/sim/base/stopped.hpp"
-#include "table.hpp"
-#include "value_lists.hpp"
+#include "detp/validate/cli/options/value_lists.hpp"
+#include "detp/validate/cli/text/table.hpp"
 
 namespace detp::cli {
 

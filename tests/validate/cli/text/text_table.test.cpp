@@ -1,4 +1,4 @@
-#include "detp/validate/cli/text_table.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
 
 #include <doctest/doctest.h>
 

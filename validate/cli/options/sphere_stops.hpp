@@ -4,6 +4,12 @@
 
 namespace detp::cli {
 
+/// The number of spheres k of a sphere cache if --spheres is not a number.
+enum class SphereStop {
+  max,  ///< SphereStops::max
+  best  ///< SphereStops::best
+};
+
 /// Two numbers of spheres k for a sphere cache of ratio Q.
 struct SphereStops {
   std::int64_t max = 0;   ///< number of spheres that can hold a disc, by the published or the corrected form

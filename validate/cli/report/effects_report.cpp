@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "detp/model/rank/predict.hpp"
-#include "text_table.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
 
 namespace detp::cli {
 namespace {

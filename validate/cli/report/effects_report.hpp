@@ -3,11 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "command.hpp"
 #include "detp/sim/effects/observe.hpp"
+#include "detp/validate/cli/text/result.hpp"
+#include "detp/validate/cli/text/screen.hpp"
+#include "detp/validate/cli/text/table.hpp"
 #include "detp/validate/job/job.hpp"
-#include "screen.hpp"
-#include "table.hpp"
 
 /// The effects in JSON, CSV and text.
 namespace detp::cli {

@@ -1,4 +1,4 @@
-#include "detp/validate/cli/text_blocks.hpp"
+#include "detp/validate/cli/text/text_blocks.hpp"
 
 #include <doctest/doctest.h>
 

@@ -111,8 +111,8 @@ class ProgressLine::Display {
   std::jthread drawing_;
 };
 
-ProgressLine::ProgressLine(const CommonOptions& common) {
-  if (!common.quiet && isatty(STDERR_FILENO) == 1) display_ = std::make_unique<Display>();
+ProgressLine::ProgressLine(bool quiet) {
+  if (!quiet && isatty(STDERR_FILENO) == 1) display_ = std::make_unique<Display>();
 }
 
 ProgressLine::~ProgressLine() = default;

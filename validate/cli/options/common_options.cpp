@@ -1,8 +1,9 @@
+#include "common_options.hpp"
+
 #include <unistd.h>
 
-#include "command.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
-#include "messages.hpp"
+#include "detp/validate/cli/text/messages.hpp"
 
 namespace detp::cli {
 

@@ -3,7 +3,6 @@
 #include <memory>
 #include <string>
 
-#include "command.hpp"
 #include "detp/sim/base/phase.hpp"
 
 /// The progress line on a terminal.
@@ -13,14 +12,14 @@ namespace detp::cli {
 [[nodiscard]] std::string duration_text(double seconds);
 
 /// Shows the current phase, the share of the work done and the time left on the last line of a terminal. Shows nothing
-/// if stderr is not a terminal, or with --quiet. The destructor erases the line. Several threads may use one object.
+/// if stderr is not a terminal, or if `quiet`. The destructor erases the line. Several threads may use one object.
 ///
 /// Between reports of phases, the share advances with the work that StopCheck counts. The time left is computed from
 /// the speed in the second half of the elapsed time, so errors in the predicted work of earlier phases soon have no
 /// effect.
 class ProgressLine {
  public:
-  explicit ProgressLine(const CommonOptions& common);
+  explicit ProgressLine(bool quiet);
   ~ProgressLine();
   ProgressLine(const ProgressLine&) = delete;
   ProgressLine& operator=(const ProgressLine&) = delete;

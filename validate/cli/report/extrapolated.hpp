@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "command.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
+#include "detp/validate/cli/text/result.hpp"
 
 /// Marks extrapolated predictions in results (detp/model/rank/extrapolation.hpp).
 namespace detp::cli {

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "command.hpp"
+#include "result.hpp"
 
 /// Output to the standard streams, and its errors.
 namespace detp::cli {

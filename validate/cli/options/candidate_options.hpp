@@ -1,0 +1,61 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "detp/model/rank/choose.hpp"
+#include "sphere_stops.hpp"
+#include "value_lists.hpp"
+
+namespace detp::cli {
+
+/// The help of --engine.
+inline constexpr const char* engine_help =
+    "simd: vectors of floats, with exact decisions; plain: in double, one ray and one disc at a time; the hits are the "
+    "same; default: simd";
+
+/// Throws std::invalid_argument for an unknown name.
+[[nodiscard]] Engine parse_engine(const std::string& text);
+
+/// Throws std::invalid_argument for an unknown name, listing the known names.
+[[nodiscard]] Technique parse_technique(const std::string& text);
+
+/// The options for a technique and its parameters. Commands choose what is not set. The parser keeps pointers to this
+/// object.
+class CandidateOptions {
+ public:
+  CandidateOptions() = default;
+  CandidateOptions(const CandidateOptions&) = delete;
+  CandidateOptions& operator=(const CandidateOptions&) = delete;
+
+  void add_to(CLI::App& command, Values values, SphereStop default_stop);
+
+  ValueLists lists;  ///< of the options that may have many values
+  std::optional<std::string> technique;
+  std::optional<SphereStop> stop;  ///< used instead of the number of spheres
+  Engine engine = Engine::simd;
+
+  /// The technique that the option names, or `otherwise` if it is not set. Throws as parse_technique.
+  [[nodiscard]] Technique technique_or(Technique otherwise) const {
+    return technique ? parse_technique(*technique) : otherwise;
+  }
+
+  /// The parameters that are set. Throws std::invalid_argument for a parameter that the technique does not have.
+  [[nodiscard]] model::FixedParameters fixed_parameters(Technique technique) const;
+
+  /// The value of the parameter, which has the type T, or nothing if it is not set.
+  template <class T>
+  [[nodiscard]] std::optional<T> given(std::string_view parameter) const {
+    const auto found = given_.find(parameter);
+    return found == given_.end() ? std::nullopt : std::optional(std::get<T>(found->second));
+  }
+
+ private:
+  void set(const Parameter& parameter, const std::string& text);
+
+  std::map<std::string_view, ParameterValue> given_;
+};
+
+}  // namespace detp::cli

@@ -1,0 +1,136 @@
+#include "workload_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "detp/model/vocabulary/quoted.hpp"
+
+namespace detp::cli {
+namespace {
+
+/// 100000 as "100 000".
+std::string spaced(double count) {
+  std::string digits = fmt::format("{:.0f}", count);
+  for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
+    digits.insert(static_cast<std::size_t>(place), " ");
+  return digits;
+}
+
+/// "; lights: area, spot (up: y)"; empty if the rays are not from lights.
+std::string lights_of(const validate::Job& job) {
+  if (job.lights.empty() || job.field != sim::Field::photons || job.rays_from_file) return "";
+  std::vector<std::string_view> kinds;
+  for (const sim::Light& light : job.lights) kinds.push_back(name(sim::kind_of(light)));
+  return fmt::format("; light{}: {} (up: {})", kinds.size() == 1 ? "" : "s", fmt::join(kinds, ", "), sim::name(job.up));
+}
+
+bool has_ends(const sim::Ray& ray) { return ray.length != sim::unbounded; }
+
+/// What the rays are, whatever the effects are: "pieces of photon paths".
+std::string_view rays_of(const validate::Job& job) {
+  if (job.rays_from_file) return std::ranges::any_of(job.rays, has_ends) ? "segments from a file" : "lines from a file";
+  if (job.field == sim::Field::mixed) return "of a mixed field: isotropic lines, parallel lines, segments from a point";
+  return job.field == sim::Field::photons ? "pieces of photon paths" : "isotropic lines";
+}
+
+/// ", 40 123 photons"; empty if each ray is a photon of its own.
+std::string photons_of(const validate::Job& job) {
+  return job.numbered() ? fmt::format(", {} photons", spaced(static_cast<double>(job.independent_photons()))) : "";
+}
+
+/// ", mean length 0.30 of the scene's side", or that predictions neglect the ends; empty for lines.
+std::string lengths_of(const validate::Job& job) {
+  const bool end = job.rays_from_file ? std::ranges::any_of(job.rays, has_ends) : job.field == sim::Field::photons;
+  if (!end) return "";
+  if (job.workload.path_length > 0)
+    return fmt::format(", mean length {:.2f} of the scene's side", job.workload.path_length / scene_side(job.workload));
+  return ", predicted as if they were lines (effect finite paths: off)";
+}
+
+}  // namespace
+
+std::string_view name(sim::Field field) {
+  if (field == sim::Field::mixed) return "mixed";
+  return field == sim::Field::isotropic ? "isotropic" : "photons";
+}
+
+Json names_json(const std::vector<Technique>& techniques) {
+  Json names = Json::array();
+  for (const Technique technique : techniques) names.push_back(name(technique));
+  return names;
+}
+
+Json to_json(const Workload& workload) {
+  return {{"rays", whole(workload.rays)},
+          {"samples", whole(workload.samples)},
+          {"disc_radius", workload.disc_radius},
+          {"sphere_radius", workload.sphere_radius},
+          {"scene_side", scene_side(workload)},
+          {"box", workload.box},
+          {"dimension", workload.dimension},
+          {"sample_extent", sample_extent(workload)},
+          {"sample_distance", sample_distance(workload)},
+          {"path_length", workload.path_length}};
+}
+
+Json numbers_json(const Workload& workload) {
+  Json json{{"scene", validate::name_of_numbers(workload)},
+            {"field", name(sim::Field::isotropic)},
+            {"front_facing", workload.front_facing}};
+  json.update(to_json(workload));
+  return json;
+}
+
+Json origin_json(const validate::JobRequest& request, const std::string& scene, sim::Field field) {
+  Json json{{"scene", scene}};
+  if (request.disc_file) json["discs"] = *request.disc_file;
+  if (request.ray_file)
+    json["ray_file"] = *request.ray_file;
+  else
+    json["field"] = name(field);
+  json["front_facing"] = request.front_facing;
+  json["seed"] = request.seed;
+  return json;
+}
+
+Json lights_json(const std::vector<sim::Light>& lights) {
+  Json json = Json::array();
+  for (const sim::Light& light : lights) json.push_back({{"kind", name(sim::kind_of(light))}, {"flux", light.flux}});
+  return json;
+}
+
+Json to_json(const validate::Job& job, const validate::JobRequest& request) {
+  Json json = origin_json(request, job.name, job.field);
+  if (job.field == sim::Field::mixed && !request.ray_file)
+    json["shares"] = {{"isotropic", request.shares.isotropic},
+                      {"directional", request.shares.directional},
+                      {"point", request.shares.point}};
+  if (!job.lights.empty() && job.field == sim::Field::photons && !request.ray_file) {
+    json["light"] = lights_json(job.lights);
+    json["up"] = sim::name(job.up);
+  }
+  json.update(to_json(job.workload));
+  return json;
+}
+
+void note_all(const CommonOptions& common, const validate::Job& job) {
+  for (const std::string& notice : job.notices) note(common, notice);
+  for (const std::string& warning : job.warnings) note(common, "warning: " + warning);
+}
+
+std::string describe(const validate::Job& job) {
+  const Workload& w = job.workload;
+  const double x = sample_distance(w) / w.disc_radius;
+  std::string text = fmt::format("scene     {}: ", shown_path(job.name));
+  if (job.triangles > 0) text += fmt::format("{} triangles, ", spaced(static_cast<double>(job.triangles)));
+  text += fmt::format("{} discs of radius d = {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n",
+                      spaced(w.samples), w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
+  return text + fmt::format("rays      {} {}{}{}{}\n", spaced(w.rays), rays_of(job), photons_of(job), lengths_of(job),
+                            lights_of(job));
+}
+
+std::string threads_text(int threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }
+
+}  // namespace detp::cli
