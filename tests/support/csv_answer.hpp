@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "command.hpp"
+
 /// Reads CSV results according to RFC 4180.
 namespace detp::support {
 

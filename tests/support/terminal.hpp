@@ -4,6 +4,8 @@
 
 #include <cstdlib>
 
+#include "command.hpp"
+
 /// Runs the command on a terminal of its own.
 namespace detp::support {
 

@@ -69,7 +69,9 @@ TEST_SUITE("claims about errors") {
     const Finding& clumping = named(findings, "accuracy.clumping");
     CHECK(refutes(clumping, 1 / clumping.predictions[0].value));
   }
+}
 
+TEST_SUITE("long") {
   TEST_CASE("@furnace: away from edges every estimator is unbiased, and mutated ones are found out") {
     sim::Scene furnace = sim::open_scene({.name = "@furnace", .samples = {}});
     ReplicateMaker maker(furnace, false, 0);

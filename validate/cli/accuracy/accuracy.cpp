@@ -111,7 +111,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   const double most_rays = options.rays.value_or(1e9);
   require_count("--rays", most_rays, 1000, 1e12);
   validate::check(target, most_rays);
-  const ProgressLine progress(common);
+  const ProgressLine progress(common.quiet);
   sim::Scene scene = scene_of(options, common.seed, stop);
   validate::AccuracyPilotOptions pilot{.estimators = estimators_of(options),
                                        .front_facing = options.front_facing,

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "detp/validate/cli/text/result.hpp"
+#include "detp/validate/cli/text/screen.hpp"
 #include "detp/validate/regret/regret_summary.hpp"
 
 namespace detp::cli {

@@ -7,6 +7,8 @@
 #include "detp/model/disc_index/disc_index.hpp"
 #include "detp/model/disc_index/disc_index_published.hpp"
 #include "detp/model/disc_index/index_memory.hpp"
+#include "detp/validate/cli/report/columns.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
 #include "model_answer.hpp"
 
 namespace detp::cli {

@@ -3,6 +3,7 @@
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
+#include "detp/validate/cli/report/columns.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"

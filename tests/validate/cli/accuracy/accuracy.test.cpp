@@ -24,27 +24,11 @@ TEST_SUITE("accuracy") {
     CHECK(run["rays"].get<double>() == doctest::Approx(answer["rays"].get<double>()).epsilon(0.01));
   }
 
-  TEST_CASE("the text has at most 25 lines, and the CSV a row for each point") {
-    const Finished text = detp("accuracy @cornell --target-noise 10% --quiet");
-    CHECK(text.code == 0);
-    CHECK(std::ranges::count(text.out, '\n') <= 25);
-    CHECK(text.out.starts_with("answer    10 % noise takes "));
-    const Finished csv = detp("accuracy @cornell --target-noise 10% --estimators disc --format csv");
-    CHECK(csv.code == 0);
-    CHECK(std::ranges::count(csv.out, '\n') > 4);
-  }
-
   TEST_CASE("an error below every estimator's bias ends with 3, and says what gets nearest") {
     const Finished finished = detp("accuracy @cornell --target-error 1% --estimators disc --rays 1M");
     CHECK(finished.code == 3);
     CHECK(finished.out.find("is not reached: the least bias") != std::string::npos);
     CHECK(finished.out.find("partial") == std::string::npos);
-  }
-
-  TEST_CASE("a time budget is kept, and gives the most accurate setting") {
-    const Json json = result_of("accuracy @furnace --time-budget 0.3");
-    CHECK(json["answer"]["predicted_seconds"].get<double>() == doctest::Approx(0.3).epsilon(0.01));
-    CHECK(json["inputs"]["time_budget"] == 0.3);
   }
 
   TEST_CASE("bad requests are refused with the reason") {
@@ -56,6 +40,24 @@ TEST_SUITE("accuracy") {
                    {"accuracy @cornell --estimators discs", "there is no estimator"},
                    {"accuracy @cornell --rays 10", "--rays"},
                    {"accuracy missing.obj", "missing.obj"}});
+  }
+}
+
+TEST_SUITE("long") {
+  TEST_CASE("the text has at most 25 lines, and the CSV a row for each point") {
+    const Finished text = detp("accuracy @cornell --target-noise 10% --quiet");
+    CHECK(text.code == 0);
+    CHECK(std::ranges::count(text.out, '\n') <= 25);
+    CHECK(text.out.starts_with("answer    10 % noise takes "));
+    const Finished csv = detp("accuracy @cornell --target-noise 10% --estimators disc --format csv");
+    CHECK(csv.code == 0);
+    CHECK(std::ranges::count(csv.out, '\n') > 4);
+  }
+
+  TEST_CASE("a time budget is kept, and gives the most accurate setting") {
+    const Json json = result_of("accuracy @furnace --time-budget 0.3");
+    CHECK(json["answer"]["predicted_seconds"].get<double>() == doctest::Approx(0.3).epsilon(0.01));
+    CHECK(json["inputs"]["time_budget"] == 0.3);
   }
 }
 
