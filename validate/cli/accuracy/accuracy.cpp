@@ -105,6 +105,23 @@ bool plan(AccuracyAnswer& answer, sim::Scene& scene, validate::AccuracyPilotOpti
   }
 }
 
+/// If the check had clearly another noise than the pilot predicted: the rays that it says are needed, and their time.
+void correct(AccuracyAnswer& answer) {
+  constexpr double clearly = 0.1;
+  validate::AccuracyPoint& best = answer.plan.answer;
+  const double ratio = answer.check->noise / best.noise;
+  if (answer.plan.target.kind != validate::AccuracyTarget::Kind::noise || !answer.plan.reached || !(ratio > 0) ||
+      std::abs(ratio - 1) < clearly)
+    return;
+  answer.correction = ratio * ratio;
+  best.rays *= answer.correction;
+  best.photons *= answer.correction;
+  best.seconds = answer.check->seconds * answer.correction;
+  best.trace_seconds = answer.check->trace_seconds * answer.correction;
+  if (best.nearest > 0)
+    best.nearest = static_cast<int>(std::clamp(std::round(best.nearest * answer.correction), 3.0, 1e9));
+}
+
 Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   const validate::AccuracyTarget target = target_of(options);
@@ -145,6 +162,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
     try {
       pilot.seed = common.seed + 1000;
       answer.check = validate::check_accuracy(scene, best, answer.pilot.mean_square, pilot);
+      correct(answer);
     } catch (const sim::Stopped&) {
       answer.no_check = "Stopped before the check.";
       stopped = sim::Progress{2, 3, "steps"};

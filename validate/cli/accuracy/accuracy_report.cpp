@@ -64,7 +64,10 @@ std::string answer_words(const AccuracyAnswer& answer) {
                        (1 + seconds_error) * best.seconds, best.trace_seconds);
     text += bias_words(best);
   }
-  if (answer.check)
+  if (answer.check && answer.correction != 1)
+    text += fmt::format("Corrected: {:.3g} pieces, predicted by the pilot, had {} noise and took {:.2g} s. ",
+                        answer.check->rays, percent(answer.check->noise), answer.check->seconds);
+  else if (answer.check)
     text += fmt::format("Run once to check: {} noise, {:.2g} s. ", percent(answer.check->noise), answer.check->seconds);
   else
     text += answer.no_check + " ";
@@ -134,6 +137,8 @@ Json to_json(const AccuracyAnswer& answer) {
   if (answer.check) {
     chosen["measured_seconds"] = answer.check->seconds;
     chosen["measured_noise"] = answer.check->noise;
+    chosen["measured_rays"] = answer.check->rays;
+    chosen["correction"] = answer.correction;
   }
   chosen["text"] = answer_words(answer);
   Json points = Json::array();

@@ -15,6 +15,7 @@ struct AccuracyAnswer {
   validate::AccuracyPilot pilot;
   validate::AccuracyPlan plan;
   std::optional<validate::AccuracyCheck> check;
+  double correction = 1;            ///< of the answer's rays, because the check had another noise
   std::string no_check;             ///< why the answer was not run
   validate::AccuracyPoint in_time;  ///< the best way in twice the answer's time
   double seconds = 0;               ///< that planning took, the check included
