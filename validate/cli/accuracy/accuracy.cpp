@@ -150,9 +150,6 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   std::optional<sim::Progress> stopped;
   if (!plan(answer, scene, pilot, target, most_rays)) stopped = sim::Progress{1, 3, "steps"};
   const validate::AccuracyPoint& best = answer.plan.answer;
-  answer.in_time =
-      validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
-          .answer;
   constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
   if (stopped)
     answer.no_check = "Stopped before the check.";
@@ -167,6 +164,9 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       answer.no_check = "Stopped before the check.";
       stopped = sim::Progress{2, 3, "steps"};
     }
+  answer.in_time =
+      validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
+          .answer;
   answer.seconds = watch.seconds();
   Result result;
   result.inputs = {

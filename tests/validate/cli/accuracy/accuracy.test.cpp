@@ -12,6 +12,8 @@ TEST_SUITE("accuracy") {
     const Json& answer = json["answer"];
     CHECK(answer["noise"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
     CHECK(answer["measured_noise"].get<double>() == doctest::Approx(0.1).epsilon(0.2));
+    const double corrected = answer["measured_rays"].get<double>() * answer["correction"].get<double>();
+    CHECK(answer["rays"].get<double>() == doctest::Approx(corrected).epsilon(0.01));
     CHECK(answer["error"].get<double>() >= answer["noise"].get<double>());
     CHECK(answer["error_interval"][0].get<double>() <= answer["error"].get<double>());
     CHECK(answer["measured_seconds"].get<double>() > 0);
