@@ -292,11 +292,9 @@ AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions&
 std::vector<double> area_weights(const sim::Scene& scene) {
   const sim::Mesh& mesh = scene.mesh;
   std::vector<double> around(mesh.positions.size());
-  double all = 0;
   for (const auto& [a, b, c] : mesh.triangles) {
     const double area =
         0.5 * glm::length(glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
-    all += area;
     for (const std::uint32_t corner : {a, b, c}) around[corner] += area / 3;
   }
   std::vector<double> weights;
