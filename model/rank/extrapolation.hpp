@@ -35,13 +35,11 @@ class Reasons {
   std::vector<std::string> reasons_;
 };
 
-/// Adds the reasons of one technique; for the registry.
-void uncounted_cache(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_cells(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_sphere_tree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_box_tree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_octree(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
-void uncounted_grid(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons);
+/// Adds reasons that apply to every technique: workloads outside the sweep.
+void uncounted_scene(const Valid<Workload>& workload, Reasons& reasons);
+
+/// Adds a reason if the number of samples or the radius of the discs is outside the sweep of most techniques.
+void range_of_samples(const Valid<Workload>& workload, Reasons& reasons);
 
 /// Whether the workload is of the kind that was compared with counts: isotropic lines, samples uniform in a cube or on its
 /// faces. Its numbers may be out of range.

@@ -49,8 +49,6 @@ struct FoundParameters {
 };
 
 struct TechniqueModel {
-  Technique technique;
-
   /// Expected counts of a search by that engine. Null where there is no closed form.
   Counts<double> (*predict)(const Valid<Workload>&, const Valid<Candidate>&, Engine) = nullptr;
 
@@ -63,6 +61,10 @@ struct TechniqueModel {
   void (*uncounted)(const Valid<Workload>&, const Parameters&, Reasons&) = nullptr;
 };
 
+/// A function in the technique's file in model/techniques.
+using DescribeTechnique = TechniqueModel();
+
+/// The technique's model; without functions if the technique has no closed forms.
 [[nodiscard]] const TechniqueModel& model_of(Technique technique);
 
 /// Whether closed forms predict the technique's counts, so that it can be chosen without a run.

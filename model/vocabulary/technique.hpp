@@ -10,8 +10,7 @@
 
 #include "parameters.hpp"
 
-/// The techniques, one record each. A new technique is a record here, a line in each registry (model, sim, validate)
-/// and a file in sim/technique.
+/// The techniques, one record each. CONTRIBUTING.md says what a new technique needs.
 namespace detp {
 
 enum class Technique {

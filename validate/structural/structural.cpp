@@ -29,7 +29,7 @@ Counts<double> structural_counts(const sim::Problem& problem, double rays, const
                                  const std::stop_token& stop, bool front_facing, Engine engine) {
   const sim::DefaultFloatingPoint mode;
   require_count("number of rays", rays, 1, 1e18);
-  const StructuralModel& model = structural_model(candidate.technique);
+  const StructuralModel model = structural_model(candidate.technique);
   if (model.counts == nullptr)
     throw std::invalid_argument(
         fmt::format("{} has no structural counts: {}", name(candidate.technique), model.why_none));

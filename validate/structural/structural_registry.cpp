@@ -1,7 +1,5 @@
 #include "structural_registry.hpp"
 
-#include <array>
-
 namespace detp::validate {
 
 // Defined in the files structural_*.cpp.
@@ -10,9 +8,8 @@ StructuralCounts structural_brute_force, structural_sphere_cache, structural_cel
 
 namespace {
 
-constexpr std::string_view only_run = "it can only be run";
-
-constexpr std::array<StructuralModel, all_techniques.size()> registry{{
+/// A technique that is not in the list can only be run.
+constexpr StructuralModel registry[]{
     {Technique::brute_force, structural_brute_force},
     {Technique::sphere_cache, structural_sphere_cache},
     {Technique::sphere_cache_published, nullptr, "its walk loses rays"},
@@ -22,13 +19,14 @@ constexpr std::array<StructuralModel, all_techniques.size()> registry{{
     {Technique::octree, structural_octree},
     {Technique::grid, structural_grid},
     {Technique::bsp, structural_bsp},
-    {Technique::bvh, nullptr, only_run},
-    {Technique::ray_map, nullptr, only_run},
-    {Technique::photon_map, nullptr, only_run},
-}};
+};
 
 }  // namespace
 
-const StructuralModel& structural_model(Technique technique) { return registry[static_cast<std::size_t>(technique)]; }
+StructuralModel structural_model(Technique technique) {
+  for (const StructuralModel& model : registry)
+    if (model.technique == technique) return model;
+  return {technique, nullptr, "it can only be run"};
+}
 
 }  // namespace detp::validate

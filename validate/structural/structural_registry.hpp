@@ -31,6 +31,6 @@ struct StructuralModel {
   std::string_view why_none = {};  ///< reason why `counts` is null
 };
 
-[[nodiscard]] const StructuralModel& structural_model(Technique technique);
+[[nodiscard]] StructuralModel structural_model(Technique technique);
 
 }  // namespace detp::validate

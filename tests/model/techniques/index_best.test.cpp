@@ -1,12 +1,12 @@
-#include "detp/model/rank/index_best.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
 
 #include "detp/model/disc_index/disc_index.hpp"
+#include "detp/model/rank/registry.hpp"
 #include "support/random_workload.hpp"
 
 using namespace detp;
@@ -24,6 +24,20 @@ double octree_time(const Workload& workload, int depth, const UnitCosts& costs) 
 
 double grid_time(const Workload& workload, int cells, const UnitCosts& costs) {
   return price(grid_counts(workload, {cells}), costs, Technique::grid).total();
+}
+
+template <class P>
+P best(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits = {}) {
+  constexpr Technique technique = std::is_same_v<P, GridParameters> ? Technique::grid : Technique::octree;
+  return std::get<P>(model_of(technique).best(workload, costs, {}, limits).value().parameters);
+}
+
+int best_octree_depth(const Workload& workload, const UnitCosts& costs, const SearchLimits& limits = {}) {
+  return best<OctreeParameters>(workload, costs, limits).depth;
+}
+
+int best_grid_cells(const Workload& workload, const UnitCosts& costs) {
+  return best<GridParameters>(workload, costs).cells;
 }
 
 UnitCosts random_costs(support::RandomNumbers& random) {
@@ -45,7 +59,7 @@ TEST_SUITE("identity") {
           cube_workload(std::round(random.log_uniform(1e2, 1e7)), std::round(random.log_uniform(1e2, 1e7)),
                         random.log_uniform(1e-4, 0.2), 2, run % 2 == 0 ? 2 : 3);
       const UnitCosts costs = random_costs(random);
-      const int best = best_octree_depth(w, costs, {.most_depth = 12}).value();
+      const int best = best_octree_depth(w, costs, {.most_depth = 12});
       for (int depth = 0; depth <= 12; ++depth)
         REQUIRE(octree_time(w, best, costs) <= octree_time(w, depth, costs) * (1 + 1e-12));
     }
@@ -59,7 +73,7 @@ TEST_SUITE("identity") {
       const bool flat = run % 4 > 1;
       if (flat) w.box = {2, 1.3, 0.2};
       const UnitCosts costs = random_costs(random);
-      const double found = grid_time(w, best_grid_cells(w, costs).value(), costs);
+      const double found = grid_time(w, best_grid_cells(w, costs), costs);
       double least = found;
       for (int cells = 1; cells <= 600; ++cells)
         if (grid_counts(w, {cells}).references <= 1e9) least = std::min(least, grid_time(w, cells, costs));
@@ -75,7 +89,7 @@ TEST_SUITE("identity") {
                                  random.log_uniform(1e-4, 0.2), 2, run % 2 == 0 ? 2 : 3);
       w.box = {2, 2 * random.log_uniform(1e-3, 1), 2 * random.log_uniform(1e-3, 1)};
       const UnitCosts costs = random_costs(random);
-      const double found = grid_time(w, best_grid_cells(w, costs).value(), costs);
+      const double found = grid_time(w, best_grid_cells(w, costs), costs);
       CAPTURE(run);
       for (int cells = 1; cells <= 1 << 16 && index_cells(w, cells).count() <= 1 << 26;
            cells = std::max(cells + 1, static_cast<int>(1.1 * cells)))

@@ -1,0 +1,34 @@
+#include <algorithm>
+
+#include "detp/model/hierarchy/cell_spheres.hpp"
+#include "detp/model/rank/closed_form.hpp"
+#include "detp/model/rank/extrapolation.hpp"
+#include "detp/model/rank/fastest.hpp"
+
+namespace detp::model {
+namespace {
+
+std::optional<FoundParameters> best_cells(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
+                                          const FixedParameters&, const SearchLimits& limits) {
+  Fastest<CellSpheresParameters> fastest(costs, Technique::cell_spheres, limits);
+  int depth = 0;
+  for_each_cell_sphere_depth(workload, {std::min(limits.most_depth, 16)}, [&](const Counts<double>& counts) {
+    fastest.consider({depth++}, counts);
+    return !fastest.excludes(counts) && !limits.stop.stop_requested();
+  });
+  return tuned(fastest.best());
+}
+
+void uncounted_cells(const Valid<Workload>& workload, const Parameters& parameters, Reasons& reasons) {
+  uncounted_scene(workload, reasons);
+  range_of_samples(workload, reasons);
+  reasons.range("depth", std::get<CellSpheresParameters>(parameters).depth, 1, 6);
+}
+
+}  // namespace
+
+TechniqueModel model_cell_spheres() {
+  return {in_blocks<CellSpheresParameters, cell_sphere_counts>, best_cells, uncounted_cells};
+}
+
+}  // namespace detp::model

@@ -1,0 +1,23 @@
+#include "detp/model/rank/closed_form.hpp"
+#include "detp/model/lines/line_measure.hpp"
+#include "detp/model/rank/extrapolation.hpp"
+
+namespace detp::model {
+namespace {
+
+Counts<double> each_pair(const Valid<Workload>& workload, const EachPairParameters&) {
+  return {.disc_tests = workload.rays * workload.samples, .hits = expected_hits(workload)};
+}
+
+std::optional<FoundParameters> best_step(const Valid<Workload>&, const Valid<UnitCosts>&, const FixedParameters&,
+                                         const SearchLimits&) {
+  return tuned(std::optional(EachPairParameters{2}));
+}
+
+}  // namespace
+
+TechniqueModel model_each_pair() {
+  return {predicted<EachPairParameters, each_pair>, best_step, [](const auto&, const auto&, Reasons&) {}};
+}
+
+}  // namespace detp::model
