@@ -26,7 +26,7 @@ TEST_SUITE("identity") {
         const validate::Job job = validate::make_job(request);
         const auto plan = validate::plan(job.discs, job.rays, {.once = true});
         CHECK(run["technique"] == name(plan.candidate().technique));
-        CHECK(run["parameters"] == to_json(plan.candidate()));
+        CHECK(run["parameters"] == nlohmann::json(to_json(plan.candidate())));
         const sim::Problem& problem = job.problem();
         const auto choice = validate::choose({.problem = &problem, .purpose = validate::Purpose::one_search},
                                              validate::built_in_unit_costs());
