@@ -11,7 +11,7 @@
 
 #include "built_in_costs.hpp"
 #include "cache_file.hpp"
-#include "calibration_key_json.hpp"
+#include "calibration_key.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
 

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <thread>
 
@@ -45,6 +46,21 @@ std::string difference(const CalibrationKey& stored, const CalibrationKey& here)
         differ("version of the cost model", stored.cost_model, here.cost_model)})
     if (!text.empty()) return shortened(text, 300);
   return "";
+}
+
+nlohmann::ordered_json to_json(const CalibrationKey& key) {
+  return {{"cpu", key.cpu},           {"instruction_set", key.instruction_set},
+          {"caches", key.caches},     {"threads", key.threads},
+          {"compiler", key.compiler}, {"cost_model", key.cost_model}};
+}
+
+CalibrationKey key_of(const nlohmann::ordered_json& json) {
+  return {.cpu = json.at("cpu"),
+          .instruction_set = json.at("instruction_set"),
+          .caches = json.at("caches"),
+          .threads = json.at("threads"),
+          .compiler = json.at("compiler"),
+          .cost_model = json.at("cost_model")};
 }
 
 }  // namespace detp::validate

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 /// The machine and program to which stored costs and stored choices belong.
@@ -22,5 +23,10 @@ struct CalibrationKey {
 
 /// The first difference in words, as "its cpu is A, here it is B"; empty if the keys are equal.
 [[nodiscard]] std::string difference(const CalibrationKey& stored, const CalibrationKey& here);
+
+[[nodiscard]] nlohmann::ordered_json to_json(const CalibrationKey& key);
+
+/// Throws nlohmann::json::exception if a value is missing or of another type.
+[[nodiscard]] CalibrationKey key_of(const nlohmann::ordered_json& json);
 
 }  // namespace detp::validate

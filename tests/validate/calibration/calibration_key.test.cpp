@@ -1,4 +1,4 @@
-#include "detp/validate/calibration/calibration_key_json.hpp"
+#include "detp/validate/calibration/calibration_key.hpp"
 
 #include <doctest/doctest.h>
 
