@@ -6,6 +6,6 @@
 #include "detp/sim/estimate/estimate.hpp"
 #include "detp/sim/technique/searcher.hpp"
 #include "detp/sim/technique/streamed.hpp"
-#include "detp/validate/accuracy/accuracy_plan.hpp"
+#include "detp/validate/accuracy/accuracy_check.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/choice/plan.hpp"

@@ -70,9 +70,11 @@ class PilotMaker {
       : scene_(scene),
         options_(options),
         maker_(scene, options.front_facing, options.threads, options.stop),
-        samples_(scene.samples),
-        weights_(area_weights(scene)) {
-    take_some_samples();
+        samples_(options.reference != nullptr ? options.reference->samples : scene.samples),
+        weights_(options.reference != nullptr
+                     ? std::vector<double>(samples_.size(), 1 / static_cast<double>(samples_.size()))
+                     : area_weights(scene)) {
+    if (options.reference == nullptr) take_some_samples();
     pilot_.sample_distance = sim::mean_edge_length(scene.mesh, options.stop);
     if (!(pilot_.sample_distance > 0))
       throw std::invalid_argument("accuracy needs a mesh with triangles; " + scene.name + " has none with edges");
@@ -86,13 +88,9 @@ class PilotMaker {
 
   AccuracyPilot make() && {
     trace();
-    const Runs reference = reference_runs();
-    const Estimate mean_square = jackknife(reference, weights_, &Sums::square);
-    pilot_.mean_square = mean_square.mean;
-    if (!(mean_square.mean > 2 * mean_square.standard_error))
-      throw std::invalid_argument("the pilot's photons hardly meet the samples of " + scene_.name +
-                                  ": give more rays (--rays), or other samples");
+    const Runs reference = options_.reference != nullptr ? given_reference() : reference_runs();
     for (EstimatorPilot& one : pilot_.estimators) measure(one, reference);
+    pilot_.runs = runs;
     pilot_.rays = static_cast<double>(runs * rays_of_run_);
     pilot_.seconds = watch_.seconds();
     return std::move(pilot_);
@@ -145,6 +143,7 @@ class PilotMaker {
     report("pilot: tracing");
     double photons = 0;
     double seconds = 0;
+    maker_.decide_overshoot(pilot_.sample_distance);
     for (std::size_t run = 0; run < runs; ++run) {
       sim::Stopwatch watch;
       paths_.push_back(maker_.trace(rays_of_run_, seed(run), pilot_.sample_distance));
@@ -154,6 +153,7 @@ class PilotMaker {
     sim::Stopwatch watch;
     long_paths_ = maker_.trace(4 * rays_of_run_, seed(runs), pilot_.sample_distance);
     set_times(seconds, watch.seconds(), pilot_.trace_fixed_seconds, pilot_.trace_seconds_per_ray);
+    pilot_.trace_fixed_seconds += maker_.caster_seconds();
     pilot_.photons_per_ray = photons / static_cast<double>(runs * rays_of_run_);
   }
 
@@ -192,7 +192,45 @@ class PilotMaker {
     Runs reference = runs_of({area_corrected, pilot_.reference_radius});
     const Runs wider = runs_of({area_corrected, 2 * pilot_.reference_radius});
     own_bias_ = jackknife(difference(wider, reference), weights_, &Sums::square);
+    own_bias_ = scaled(own_bias_, 1.0 / 3);
+    own_bias_ = {std::max(0.0, own_bias_.mean), std::hypot(own_bias_.standard_error, std::max(0.0, own_bias_.mean))};
+    const Estimate mean_square = jackknife(reference, weights_, &Sums::square);
+    pilot_.mean_square = mean_square.mean;
+    if (!(mean_square.mean > 2 * mean_square.standard_error))
+      throw std::invalid_argument("the pilot's photons hardly meet the samples of " + scene_.name +
+                                  ": give more rays (--rays), or other samples");
     return reference;
+  }
+
+  /// The same values for each run. Their variance is what `own_bias_` subtracts.
+  Runs given_reference() {
+    const Reference& reference = *options_.reference;
+    const auto count = static_cast<double>(reference.samples.size());
+    double variance = 0;
+    double variance_squares = 0;
+    double squares = 0;
+    for (std::size_t i = 0; i < reference.samples.size(); ++i) {
+      variance += reference.variance[i] / count;
+      variance_squares += squared(reference.variance[i] / count);
+      squares += squared(reference.irradiance[i]) / count;
+    }
+    pilot_.mean_square = squares - variance;
+    if (!(pilot_.mean_square > 0))
+      throw std::invalid_argument("no light reaches the samples of the reference of " + scene_.name);
+    own_bias_ = {-variance, std::sqrt(2 * variance_squares)};
+    return Runs(runs, reference.irradiance);
+  }
+
+  /// Variance of Σ w (m - b)² because of the reference: 4 Σ w² (m - b)² v. Without a given reference it is in the jackknife.
+  [[nodiscard]] double error_by_reference(const Runs& away) const {
+    if (options_.reference == nullptr) return 0;
+    double sum = 0;
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+      double mean = 0;
+      for (const auto& run : away) mean += run[i] / static_cast<double>(away.size());
+      sum += 4 * squared(weights_[i] * mean) * options_.reference->variance[i];
+    }
+    return std::sqrt(sum);
   }
 
   void measure(EstimatorPilot& one, const Runs& reference) {
@@ -204,13 +242,15 @@ class PilotMaker {
       const double square = pilot_.mean_square;
       setting.noise_squared_times_rays =
           scaled(jackknife(found, weights_, &Sums::noise), static_cast<double>(rays_of_run_) / square);
-      const Estimate away = jackknife(difference(found, reference), weights_, &Sums::square);
-      constexpr double third = 1.0 / 3;
-      const double own = third * std::max(0.0, own_bias_.mean);
+      const Runs away = difference(found, reference);
+      const Estimate bias = jackknife(away, weights_, &Sums::square);
       setting.bias_squared =
-          scaled({away.mean + own, std::hypot(away.standard_error, third * own_bias_.standard_error, own)}, 1 / square);
+          scaled({bias.mean + own_bias_.mean,
+                  std::hypot(bias.standard_error, own_bias_.standard_error, error_by_reference(away))},
+                 1 / square);
     }
     set_seconds(one);
+    one.surface_seconds = maker_.surface_seconds(one.estimator);
   }
 
   /// Times with all samples: those of the middle setting with n and with 4n rays; the others in proportion to the times of the runs.
@@ -239,7 +279,7 @@ class PilotMaker {
   std::size_t rays_of_run_ = 0;
   std::vector<sim::Paths> paths_;
   sim::Paths long_paths_;
-  Estimate own_bias_;
+  Estimate own_bias_;  ///< squared bias of what the estimates are compared with; below 0: its variance
 };
 
 /// The settings on both sides of the scale, and the share of the upper one.
@@ -272,6 +312,14 @@ double EstimatorPilot::noise_squared(double scale, double rays) const {
     return std::log(std::max(one.noise_squared_times_rays.mean, 1e-300));
   };
   return std::exp((1 - share) * log_of(low) + share * log_of(high)) / rays;
+}
+
+double EstimatorPilot::noise_squared_error(double scale) const {
+  const auto [low, high, share] = between(settings, scale);
+  const auto relative = [](const SettingPilot& one) {
+    return one.noise_squared_times_rays.standard_error / std::max(one.noise_squared_times_rays.mean, 1e-300);
+  };
+  return std::sqrt(runs + 1.0) * ((1 - share) * relative(low) + share * relative(high));
 }
 
 Estimate EstimatorPilot::bias_squared(double scale) const {

@@ -6,6 +6,7 @@
 
 #include "detp/sim/base/phase.hpp"
 #include "detp/validate/statistics/statistics.hpp"
+#include "reference.hpp"
 #include "replicates.hpp"
 
 /// Small runs that say how noise, bias and time of each estimator depend on its setting and on the number of rays.
@@ -28,13 +29,19 @@ struct EstimatorPilot {
   /// the setting's time.
   double fixed_share = 0;
   double rays_of_run = 1;
+  double surface_seconds = 0;  ///< for building what the estimator needs of the mesh
 
   /// noise² with so many rays, and bias²; both interpolated between the settings, linearly in logarithms (bias² that is not known to
   /// be above 0: linearly in the logarithm of the scale). Scales outside of the settings are those of the nearest one.
   [[nodiscard]] double noise_squared(double scale, double rays) const;
+  /// Relative standard error of noise² when it is compared with the square error of one other run: of its mean in the pilot, and the
+  /// spread of single runs.
+  [[nodiscard]] double noise_squared_error(double scale) const;
   [[nodiscard]] Estimate bias_squared(double scale) const;
   /// Of an estimate with so many rays, at all samples, without tracing: seconds_fixed + rays · seconds_per_ray.
-  [[nodiscard]] double fixed_seconds(double scale) const { return fixed_share * seconds_of_run(scale); }
+  [[nodiscard]] double fixed_seconds(double scale) const {
+    return surface_seconds + fixed_share * seconds_of_run(scale);
+  }
   [[nodiscard]] double seconds_per_ray(double scale) const {
     return (1 - fixed_share) * seconds_of_run(scale) / rays_of_run;
   }
@@ -49,8 +56,9 @@ struct AccuracyPilot {
   double trace_seconds_per_ray = 0;
   double photons_per_ray = 0;
   double mean_square = 0;       ///< B²
+  std::size_t runs = 2;         ///< of each setting
   double sample_distance = 0;   ///< mean edge of the mesh, scene units
-  double reference_radius = 0;  ///< of the area-corrected estimates with which all are compared
+  double reference_radius = 0;  ///< of the area-corrected estimates with which all are compared; 0: with a Reference
   double rays = 0;              ///< of all runs together
   double seconds = 0;           ///< that the pilot took
 
@@ -62,6 +70,8 @@ struct AccuracyPilot {
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all
   double rays = 160'000;                   ///< of all runs of the pilot together
+  /// The irradiance to compare with, if it is known better than from the pilot itself. It must outlive the pilot.
+  const Reference* reference = nullptr;
   bool front_facing = false;
   std::uint64_t seed = 1;
   int threads = 0;
@@ -76,8 +86,9 @@ struct AccuracyPilotOptions {
 ///
 /// The reference is the area-corrected estimate of radius h/2, or with few photons h: it loses no light at edges. β² is its own squared
 /// bias, taken for a third of its squared difference from that of twice the radius: between that of a bias which grows as the
-/// radius and one which grows as its square. No long run is needed, but a bias that all estimators share is not seen. Standard
-/// errors by the jackknife over the runs.
+/// radius and one which grows as its square. No long run is needed, but a bias that all estimators share is not seen. With
+/// AccuracyPilotOptions::reference, runs are at its samples, and bias² as in split_error. Standard errors by the jackknife over the
+/// runs.
 ///
 /// Throws std::invalid_argument for a scene without triangles, lights or light on its samples; sim::Stopped on a stop request.
 [[nodiscard]] AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options);

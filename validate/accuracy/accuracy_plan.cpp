@@ -5,8 +5,6 @@
 #include <limits>
 
 #include "detp/model/vocabulary/checks.hpp"
-#include "detp/sim/base/floating_point.hpp"
-#include "detp/sim/base/stopwatch.hpp"
 
 namespace detp::validate {
 namespace {
@@ -21,7 +19,10 @@ double root(double square) { return std::sqrt(std::max(0.0, square)); }
 class Ways {
  public:
   Ways(const AccuracyPilot& pilot, const EstimatorPilot& own, double most_rays)
-      : pilot_(pilot), own_(own), most_rays_(most_rays) {
+      : pilot_(pilot),
+        own_(own),
+        most_rays_(most_rays),
+        spread_(interval_width(0.05, 1, static_cast<int>(pilot.runs))) {
     const double least = own.settings.front().scale;
     const double most = own.settings.back().scale;
     const int count = own.settings.size() == 1 ? 1 : scales_tried;
@@ -39,6 +40,9 @@ class Ways {
     if (own_.estimator == sim::Estimator::nearest)
       point.nearest = static_cast<int>(std::clamp(std::round(scale * rays), 3.0, 1e9));
     point.noise = std::sqrt(noise_squared);
+    const double wide = std::exp(0.5 * spread_ * own_.noise_squared_error(scale));
+    point.noise_low = point.noise / wide;
+    point.noise_high = point.noise * wide;
     point.bias = root(bias.mean);
     point.bias_high = root(bias.mean + interval * bias.standard_error);
     point.total = root(noise_squared + std::max(0.0, bias.mean));
@@ -129,6 +133,7 @@ class Ways {
   const AccuracyPilot& pilot_;
   const EstimatorPilot& own_;
   double most_rays_;
+  double spread_;  ///< half width of an interval of 95 %, in standard errors
   std::vector<double> scales_;
 };
 
@@ -188,32 +193,6 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   }
   mark_frontier(plan.points);
   return plan;
-}
-
-AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
-                             const AccuracyPilotOptions& options) {
-  const sim::DefaultFloatingPoint mode;
-  ReplicateMaker maker(scene, options.front_facing, options.threads, options.stop);
-  const auto half = static_cast<std::size_t>(std::max(2.0, std::ceil(point.rays / 2)));
-  AccuracySetting setting = point.setting();
-  if (setting.estimator == sim::Estimator::nearest) setting.nearest = std::max(3, point.nearest / 2);
-  const std::vector<double> weights = area_weights(scene);
-  AccuracyCheck check;
-  std::vector<std::vector<double>> halves;
-  for (std::uint64_t part = 0; part < 2; ++part) {
-    sim::Stopwatch watch;
-    const sim::Paths paths = maker.trace(half, options.seed + part, point.radius);
-    check.rays += static_cast<double>(paths.rays.size());
-    check.trace_seconds += watch.lap();
-    halves.push_back(maker.estimate(paths, scene.samples, setting).irradiance);
-    check.seconds += watch.lap();
-  }
-  check.seconds += check.trace_seconds;
-  double square = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    square += weights[i] * std::pow(0.5 * (halves[0][i] - halves[1][i]), 2);
-  check.noise = std::sqrt(square / mean_square);
-  return check;
 }
 
 }  // namespace detp::validate

@@ -23,6 +23,8 @@ struct AccuracyPoint {
   double radius = 0;  ///< scene units; 0: not used
   int nearest = 0;    ///< k; 0: not used
   double noise = 0;
+  double noise_low = 0;  ///< of one run: its error without the bias, over the samples, lies within with 95 %
+  double noise_high = 0;
   double bias = 0;
   double bias_high = 0;  ///< upper bound of the bias, 95 %
   double total = 0;      ///< √(noise² + bias²)
@@ -55,17 +57,5 @@ void check(const AccuracyTarget& target, double most_rays);
 /// total error in that time. At most `most_rays` rays. Throws std::invalid_argument for a target or a number of rays out of range.
 [[nodiscard]] AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& target,
                                          double most_rays = 1e9);
-
-/// A run of a plan's answer, in two halves with their own photons: what it really takes.
-struct AccuracyCheck {
-  double noise = 0;    ///< of both halves together, from their difference
-  double seconds = 0;  ///< tracing and estimating
-  double trace_seconds = 0;
-  double rays = 0;
-};
-
-/// Throws as sim::estimate; sim::Stopped on a stop request.
-[[nodiscard]] AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
-                                           const AccuracyPilotOptions& options);
 
 }  // namespace detp::validate

@@ -1,8 +1,10 @@
 #include "replicates.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/effects/all_effects.hpp"
 #include "detp/sim/effects/observe.hpp"
@@ -20,11 +22,16 @@ const Candidate usual_search{Technique::box_tree, BoxTreeParameters{8, 16}};
 }  // namespace
 
 ReplicateMaker::ReplicateMaker(sim::Scene& scene, bool front_facing, int threads, std::stop_token stop)
-    : scene_(scene),
-      front_facing_(front_facing),
-      threads_(threads),
-      stop_(std::move(stop)),
-      caster_(sim::caster_for(scene, stop_)) {}
+    : scene_(scene), front_facing_(front_facing), threads_(threads), stop_(std::move(stop)) {
+  const sim::Stopwatch watch;
+  caster_ = sim::caster_for(scene, stop_);
+  caster_seconds_ = watch.seconds();
+}
+
+double ReplicateMaker::surface_seconds(sim::Estimator estimator) const {
+  if (estimator == sim::Estimator::area_corrected) return area_corrected_.seconds;
+  return estimator == sim::Estimator::triangle_hits ? triangle_hits_.seconds : 0;
+}
 
 bool ReplicateMaker::goes_on(double radius) {
   if (radius == 0) return false;
@@ -42,7 +49,7 @@ sim::Paths ReplicateMaker::trace(std::size_t rays, std::uint64_t seed, double ra
   return sim::photon_paths(scene_, rays, seed, caster_, stop_);
 }
 
-sim::Outcome ReplicateMaker::estimate(const sim::Paths& paths, std::span<const sim::Sample> samples,
+sim::Outcome ReplicateMaker::estimate(const sim::PathRays& paths, std::span<const sim::Sample> samples,
                                       const AccuracySetting& setting, bool standard_error) const {
   const auto discs = discs_at(samples, uses_radius(setting.estimator) ? setting.radius : 1);
   const sim::Problem problem = sim::make_problem(paths, discs, front_facing_, sim::thread_count(threads_), stop_);
@@ -59,11 +66,20 @@ sim::Outcome ReplicateMaker::estimate(const sim::Paths& paths, std::span<const s
 
 const sim::Index& ReplicateMaker::surfaces(const sim::Problem& problem, sim::Estimator estimator) const {
   const bool area = estimator == sim::Estimator::area_corrected;
-  std::unique_ptr<const sim::Index>& index = area ? area_corrected_ : triangle_hits_;
-  if (index == nullptr)
-    index = area ? sim::prepare_area_corrected(problem, scene_.mesh, {.stop = stop_})
-                 : sim::prepare_triangle_hits(problem, scene_.mesh, {.stop = stop_});
-  return *index;
+  Surfaces& built = area ? area_corrected_ : triangle_hits_;
+  if (built.index == nullptr) {
+    const sim::Stopwatch watch;
+    built.index = area ? sim::prepare_area_corrected(problem, scene_.mesh, {.stop = stop_})
+                       : sim::prepare_triangle_hits(problem, scene_.mesh, {.stop = stop_});
+    built.seconds = watch.seconds();
+  }
+  return *built.index;
+}
+
+sim::PathRays first_photons(const sim::Paths& paths, std::uint64_t photons) {
+  const auto rays = static_cast<std::size_t>(std::ranges::lower_bound(paths.photons, photons) - paths.photons.begin());
+  const sim::PathRays all = paths;
+  return {all.rays.first(rays), all.photons.first(rays), all.landings.first(rays), photons, all.triangles.first(rays)};
 }
 
 std::vector<sim::Disc> discs_at(std::span<const sim::Sample> samples, double radius) {

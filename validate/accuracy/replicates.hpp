@@ -33,12 +33,20 @@ class ReplicateMaker {
   /// `front_facing`: light that arrives from behind does not count.
   ReplicateMaker(sim::Scene& scene, bool front_facing, int threads, std::stop_token stop = {});
 
+  /// Decides whether paths go on for discs of this radius (trace), so that tracing does not take the time for it.
+  void decide_overshoot(double radius) { static_cast<void>(goes_on(radius)); }
+
+  /// Seconds that building took: of the mesh's ray caster, and of the surfaces of an estimator that needs the mesh (0 before its
+  /// first estimate).
+  [[nodiscard]] double caster_seconds() const { return caster_seconds_; }
+  [[nodiscard]] double surface_seconds(sim::Estimator estimator) const;
+
   /// At least so many pieces of paths. `radius` says how far they go on beyond the surfaces where they end, if the discs of this
   /// radius would shadow themselves otherwise (sim/effects/self_shadow.hpp); 0: not at all.
   [[nodiscard]] sim::Paths trace(std::size_t rays, std::uint64_t seed, double radius);
 
   /// Throws as sim::estimate; sim::Stopped if a stop request came.
-  [[nodiscard]] sim::Outcome estimate(const sim::Paths& paths, std::span<const sim::Sample> samples,
+  [[nodiscard]] sim::Outcome estimate(const sim::PathRays& paths, std::span<const sim::Sample> samples,
                                       const AccuracySetting& setting, bool standard_error = false) const;
 
  private:
@@ -50,11 +58,19 @@ class ReplicateMaker {
   int threads_;
   std::stop_token stop_;
   std::shared_ptr<const sim::RayCaster> caster_;
-  /// Of area-corrected and triangle-hits: built once, they depend on the mesh alone.
-  mutable std::unique_ptr<const sim::Index> area_corrected_;
-  mutable std::unique_ptr<const sim::Index> triangle_hits_;
+  double caster_seconds_ = 0;
+  /// Built once, they depend on the mesh alone.
+  struct Surfaces {
+    std::unique_ptr<const sim::Index> index;
+    double seconds = 0;
+  };
+  mutable Surfaces area_corrected_;
+  mutable Surfaces triangle_hits_;
   std::vector<std::pair<double, bool>> known_;  ///< radii, and whether their paths go on
 };
+
+/// The rays of the first photons. Each photon still has the power that it has among all.
+[[nodiscard]] sim::PathRays first_photons(const sim::Paths& paths, std::uint64_t photons);
 
 /// Discs of one radius at samples.
 [[nodiscard]] std::vector<sim::Disc> discs_at(std::span<const sim::Sample> samples, double radius);

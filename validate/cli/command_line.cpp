@@ -4,8 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <charconv>
-#include <limits>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -17,16 +15,6 @@
 
 namespace detp::cli {
 namespace {
-
-/// Parses an integer up to 2⁶⁴ - 1, which a double cannot represent.
-std::uint64_t parse_seed(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (error != std::errc{} || end != text.data() + text.size())
-    throw std::invalid_argument(fmt::format("--seed must be a whole number from 0 to {} (got {})",
-                                            std::numeric_limits<std::uint64_t>::max(), detp::quoted(text)));
-  return seed;
-}
 
 class HelpFormatter final : public CLI::Formatter {
  public:
@@ -64,7 +52,7 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
   command.add_flag("--quiet", common.quiet, "no notices, no progress");
   command
       .add_option_function<std::string>(
-          "--seed", [&common](const std::string& text) { common.seed = parse_seed(text); },
+          "--seed", [&common](const std::string& text) { common.seed = parse_seed("--seed", text); },
           "of everything random; default: 1")
       ->type_name("N");
   command

@@ -1,7 +1,8 @@
-#include "detp/validate/accuracy/accuracy_plan.hpp"
+#include "detp/validate/accuracy/accuracy_check.hpp"
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -25,6 +26,7 @@ AccuracyPilot made_pilot(double bias_per_radius, double bias_error = 0) {
   AccuracyPilot pilot;
   pilot.estimators = {discs};
   pilot.trace_seconds_per_ray = per_ray;
+  pilot.runs = 6;
   pilot.photons_per_ray = 0.5;
   pilot.mean_square = 1;
   return pilot;
@@ -114,11 +116,51 @@ TEST_SUITE("plans of accuracy") {
     const AccuracyPlan plan = plan_accuracy(pilot, {Kind::noise, 0.1});
     const AccuracyCheck check = check_accuracy(furnace, plan.answer, pilot.mean_square, options);
     CHECK(check.noise == doctest::Approx(0.1).epsilon(0.15));
+    CHECK_FALSE(check.error.has_value());
     CHECK(plan.answer.estimator == sim::Estimator::triangle_hits);
   }
 }
 
+TEST_SUITE("long") {
+  TEST_CASE("with a reference: noise of other runs is inside its interval in at least 17 of 20, the error in its own") {
+    for (const char* name : {"@furnace", "@cornell"}) {
+      CAPTURE(name);
+      sim::Scene scene = sim::open_scene({.name = name, .samples = {}});
+      const Reference reference = make_reference(scene, {.samples = 500, .error = 0.03});
+      const AccuracyPilotOptions options{.estimators = {sim::Estimator::disc, sim::Estimator::triangle_hits},
+                                         .rays = 100'000,
+                                         .reference = &reference};
+      const AccuracyPilot pilot = make_accuracy_pilot(scene, options);
+      const AccuracyPoint answer = plan_accuracy(pilot, {Kind::total, 0.2}).answer;
+      CHECK(answer.noise_low < answer.noise);
+      CHECK(answer.noise < answer.noise_high);
+      const AccuracyCheck check = check_accuracy(scene, answer, pilot.mean_square, options);
+      CHECK(check.error.value() > 0.7 * answer.total_low);
+      CHECK(check.error.value() < 1.3 * answer.total_high);
+      const auto runs = rerun_accuracy(scene, answer, pilot.mean_square, 1, 20, options);
+      REQUIRE(runs.size() == 20);
+      CHECK(std::ranges::count_if(runs, [&](const AccuracyRerun& one) {
+              return one.noise > answer.noise_low && one.noise < answer.noise_high;
+            }) >= 17);
+      CHECK(runs.front().seed == 1);
+      CHECK(runs.back().seed == 20);
+    }
+  }
+}
+
 TEST_SUITE("identity") {
+  TEST_CASE("the first half of the photons and all of them have the light of the same photons") {
+    sim::Scene cornell = sim::open_scene({.name = "@cornell", .samples = {}});
+    ReplicateMaker maker(cornell, false, 1);
+    const sim::Paths paths = maker.trace(2000, 1, 0);
+    const sim::PathRays half = first_photons(paths, paths.photon_count / 2);
+    CHECK(half.photon_count == paths.photon_count / 2);
+    REQUIRE(half.rays.size() > 0);
+    CHECK(half.photons.back() < half.photon_count);
+    CHECK(paths.photons[half.rays.size()] >= half.photon_count);  // no photon is cut in two
+    CHECK(first_photons(paths, paths.photon_count).rays.size() == paths.rays.size());
+  }
+
   TEST_CASE("area weights add up to 1, and those of a furnished mesh follow its triangles") {
     const sim::Scene cornell = sim::open_scene({.name = "@cornell", .samples = {}});
     const std::vector<double> weights = area_weights(cornell);

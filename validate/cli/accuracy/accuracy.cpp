@@ -12,6 +12,7 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
+#include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 
@@ -28,6 +29,8 @@ struct AccuracyOptions {
   std::vector<std::string> estimators;
   std::optional<std::string> lights;
   std::optional<std::string> up;
+  std::optional<std::string> reference;
+  std::optional<std::string> seeds;
   bool front_facing = false;
 };
 
@@ -125,6 +128,8 @@ void correct(AccuracyAnswer& answer) {
 Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   const validate::AccuracyTarget target = target_of(options);
+  const SeedRange seeds = options.seeds ? parse_seeds("--seeds", *options.seeds) : SeedRange{};
+  if (options.reference) check_outputs({{"--output", common.output}, {"--reference", options.reference}});
   const double most_rays = options.rays.value_or(1e9);
   require_count("--rays", most_rays, 1000, 1e12);
   validate::check(target, most_rays);
@@ -143,11 +148,19 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
                         .options = repeated_options(options),
                         .pilot = {},
                         .plan = {},
+                        .reference = {},
                         .check = {},
                         .no_check = {},
+                        .reruns = {},
                         .in_time = {}};
   answer.side = scene.box.longest_side();
   std::optional<sim::Progress> stopped;
+  if (options.reference) {
+    answer.reference = validate::kept_reference(
+        *options.reference, scene,
+        {.front_facing = options.front_facing, .threads = common.threads, .stop = stop, .progress = progress.report()});
+    pilot.reference = &*answer.reference;
+  }
   if (!plan(answer, scene, pilot, target, most_rays)) stopped = sim::Progress{1, 3, "steps"};
   const validate::AccuracyPoint& best = answer.plan.answer;
   constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
@@ -164,10 +177,15 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       answer.no_check = "Stopped before the check.";
       stopped = sim::Progress{2, 3, "steps"};
     }
+  answer.seconds = watch.seconds();
+  if (options.seeds && !stopped) {
+    answer.reruns = validate::rerun_accuracy(scene, best, answer.pilot.mean_square, seeds.first, seeds.last, pilot);
+    if (const std::uint64_t all = seeds.last - seeds.first + 1; answer.reruns.size() < all)
+      stopped = sim::Progress{answer.reruns.size(), all, "runs"};
+  }
   answer.in_time =
       validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
           .answer;
-  answer.seconds = watch.seconds();
   Result result;
   result.inputs = {
       {"scene", options.scene},
@@ -176,6 +194,8 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       {"time_budget", target.kind == validate::AccuracyTarget::Kind::seconds ? Json(target.value) : Json()},
       {"estimators", options.estimators},
       {"most_rays", most_rays},
+      {"reference", options.reference ? Json(*options.reference) : Json()},
+      {"seeds", options.seeds ? Json(*options.seeds) : Json()},
       {"samples", scene.samples.size()},
       {"front_facing", options.front_facing}};
   result.json = to_json(answer);
@@ -206,6 +226,10 @@ Command accuracy_command(CLI::App& program) {
   add_count(*app, "--samples", options->samples, "how many samples; default: the scene's vertices");
   app->add_option("--light", options->lights, "lights placed in the scene, as of run");
   app->add_option("--up", options->up, "which way is up, as of run");
+  app->add_option("--reference", options->reference,
+                  "the file of the irradiance to compare with; it is made if there is none (up to a minute); "
+                  "default: the pilot itself");
+  app->add_option("--seeds", options->seeds, "runs the answer again with each of these seeds, as 1:100; default: not");
   app->add_flag("--front-facing", options->front_facing, "light that arrives from behind does not count");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_accuracy(*options, common, stop);

@@ -68,7 +68,9 @@ std::string answer_words(const AccuracyAnswer& answer) {
     text += fmt::format("Corrected: {:.3g} pieces, predicted by the pilot, had {} noise and took {:.2g} s. ",
                         answer.check->rays, percent(answer.check->noise), answer.check->seconds);
   else if (answer.check)
-    text += fmt::format("Run once to check: {} noise, {:.2g} s. ", percent(answer.check->noise), answer.check->seconds);
+    text += fmt::format("Run once to check: {} noise{}, {:.2g} s. ", percent(answer.check->noise),
+                        answer.check->error ? fmt::format(", {} total", percent(*answer.check->error)) : "",
+                        answer.check->seconds);
   else
     text += answer.no_check + " ";
   return text + command_of(answer, best);
@@ -101,6 +103,7 @@ Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
           {"photons", std::round(point.photons)},
           {"command", command_of(answer, point)},
           {"noise", point.noise},
+          {"noise_interval", {point.noise_low, point.noise_high}},
           {"bias", point.bias},
           {"error", point.total},
           {"error_interval", {point.total_low, point.total_high}},
@@ -110,6 +113,73 @@ Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
           {"processor_seconds", nullptr},
           {"on_frontier", point.on_frontier},
           {"cut_off", false}};
+}
+
+Json reference_json(const AccuracyAnswer& answer) {
+  if (!answer.reference)
+    return {{"kind", "area-corrected estimates of the pilot"},
+            {"radius", answer.pilot.reference_radius},
+            {"photons", std::round(answer.pilot.rays * answer.pilot.photons_per_ray)},
+            {"error", nullptr},
+            {"seconds", answer.pilot.seconds}};
+  const validate::Reference& reference = *answer.reference;
+  const bool photons = reference.kind == validate::ReferenceKind::landings;
+  return {{"kind", name(reference.kind)}, {"photons", photons ? Json(reference.paths) : Json()},
+          {"paths", reference.paths},     {"samples", reference.samples.size()},
+          {"error", reference.error()},   {"seconds", reference.seconds}};
+}
+
+std::size_t inside(const AccuracyAnswer& answer) {
+  const AccuracyPoint& best = answer.plan.answer;
+  return static_cast<std::size_t>(std::ranges::count_if(answer.reruns, [&](const validate::AccuracyRerun& one) {
+    return one.noise >= best.noise_low && one.noise <= best.noise_high;
+  }));
+}
+
+/// Null without reruns.
+Json reruns_json(const AccuracyAnswer& answer) {
+  if (answer.reruns.empty()) return nullptr;
+  Json runs = Json::array();
+  for (const validate::AccuracyRerun& one : answer.reruns)
+    runs.push_back({{"seed", one.seed},
+                    {"noise", one.noise},
+                    {"error", one.error ? Json(*one.error) : Json()},
+                    {"seconds", one.seconds}});
+  return {{"inside_noise_interval", inside(answer)}, {"runs", runs}};
+}
+
+std::string reruns_words(const AccuracyAnswer& answer) {
+  std::vector<double> noise;
+  std::vector<double> seconds;
+  for (const validate::AccuracyRerun& one : answer.reruns) {
+    noise.push_back(one.noise);
+    seconds.push_back(one.seconds);
+  }
+  return fmt::format(
+      "{} runs with seeds {} to {}: noise {} ({} to {}), inside the interval in {}; {:.2g} s ({:.2g} to {:.2g})",
+      noise.size(), answer.reruns.front().seed, answer.reruns.back().seed, percent(validate::median(noise)),
+      percent(std::ranges::min(noise)), percent(std::ranges::max(noise)), inside(answer), validate::median(seconds),
+      std::ranges::min(seconds), std::ranges::max(seconds));
+}
+
+/// The curve has a point with the answer's number of rays.
+bool is_answer(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  constexpr double alike = 0.01;
+  const AccuracyPoint& best = answer.plan.answer;
+  return point.estimator == best.estimator && std::abs(point.rays / best.rays - 1) < alike &&
+         std::abs(point.radius - best.radius) <= alike * best.radius;
+}
+
+std::string bias_source(const AccuracyAnswer& answer) {
+  if (answer.reference && answer.reference->kind == validate::ReferenceKind::known)
+    return "against the closed form of this scene.";
+  if (answer.reference)
+    return fmt::format("against a reference by {} with an error of {}.", name(answer.reference->kind),
+                       percent(answer.reference->error()));
+  return fmt::format(
+      "against area-corrected estimates of radius {:.2g} %, photons alike; a bias that all estimators share is not "
+      "seen (--reference sees it).",
+      100 * answer.pilot.reference_radius / answer.side);
 }
 
 }  // namespace
@@ -139,6 +209,7 @@ Json to_json(const AccuracyAnswer& answer) {
     chosen["measured_noise"] = answer.check->noise;
     chosen["measured_rays"] = answer.check->rays;
     chosen["correction"] = answer.correction;
+    chosen["measured_error"] = answer.check->error ? Json(*answer.check->error) : Json();
   }
   chosen["text"] = answer_words(answer);
   Json points = Json::array();
@@ -146,23 +217,22 @@ Json to_json(const AccuracyAnswer& answer) {
   return {{"answer", chosen},
           {"floor", answer.plan.floor},
           {"points", points},
-          {"reference",
-           {{"kind", "area-corrected estimates of the pilot"},
-            {"radius", answer.pilot.reference_radius},
-            {"photons", std::round(answer.pilot.rays * answer.pilot.photons_per_ray)},
-            {"error", nullptr},
-            {"seconds", answer.pilot.seconds}}},
+          {"reference", reference_json(answer)},
+          {"reruns", reruns_json(answer)},
           {"planning_seconds", answer.seconds},
           {"pilot_rays", answer.pilot.rays}};
 }
 
 std::string csv_of(const AccuracyAnswer& answer) {
-  Table table({"scene", "estimator", "setting", "disc_radius", "nearest", "rays", "photons", "noise", "bias", "error",
-               "error_low", "error_high", "predicted_seconds", "on_frontier", "is_answer", "measured_noise",
-               "measured_seconds", "command"});
+  Table table({"scene",       "estimator", "setting",        "disc_radius",      "nearest",
+               "rays",        "photons",   "noise",          "noise_low",        "noise_high",
+               "bias",        "error",     "error_low",      "error_high",       "predicted_seconds",
+               "on_frontier", "is_answer", "measured_noise", "measured_seconds", "command"});
   const auto add = [&](const AccuracyPoint& point, bool is_answer) {
     Json cells = point_json(answer, point);
     cells["scene"] = answer.scene;
+    cells["noise_low"] = cells["noise_interval"][0];
+    cells["noise_high"] = cells["noise_interval"][1];
     cells["error_low"] = cells["error_interval"][0];
     cells["error_high"] = cells["error_interval"][1];
     cells["is_answer"] = is_answer;
@@ -170,7 +240,8 @@ std::string csv_of(const AccuracyAnswer& answer) {
       cells["measured_noise"] = answer.check->noise;
       cells["measured_seconds"] = answer.check->seconds;
     }
-    for (const char* other : {"axis", "error_interval", "variance", "processor_seconds", "cut_off"}) cells.erase(other);
+    for (const char* other : {"axis", "noise_interval", "error_interval", "variance", "processor_seconds", "cut_off"})
+      cells.erase(other);
     table.add(cells);
   };
   add(answer.plan.answer, true);
@@ -185,7 +256,9 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
                                  answer.in_time.seconds, percent(answer.in_time.total), percent(answer.in_time.noise),
                                  percent(answer.in_time.bias), way(answer, answer.in_time)),
       screen.text_width(), 10);
-  text += wrapped("estimator " + rivals_words(answer), screen.text_width(), 10) + "\n";
+  text += wrapped("estimator " + rivals_words(answer), screen.text_width(), 10);
+  if (!answer.reruns.empty()) text += wrapped("runs      " + reruns_words(answer), screen.text_width(), 10);
+  text += "\n";
   TextTable table({{.head = "total"},
                    {.head = "noise"},
                    {.head = "bias"},
@@ -206,7 +279,7 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   };
   std::vector<AccuracyPoint> shown;
   for (const AccuracyPoint& point : answer.plan.points)
-    if (point.on_frontier) shown.push_back(point);
+    if (point.on_frontier && !is_answer(answer, point)) shown.push_back(point);
   std::ranges::sort(shown, {}, &AccuracyPoint::seconds);
   // of points that are equally fast, the most accurate one
   std::vector<AccuracyPoint> best;
@@ -230,11 +303,9 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   if (!answered) add(answer.plan.answer, "<- answer");
   text += table.text(screen) + "\n";
   text += wrapped(
-      fmt::format(
-          "noise, bias, total: root mean square over the samples by area, relative to the root mean square "
-          "irradiance. Bias: against area-corrected estimates of radius {:.2g} %, photons alike; a bias that all "
-          "estimators share is not seen.",
-          100 * answer.pilot.reference_radius / answer.side),
+      fmt::format("noise, bias, total: root mean square over {}, relative to the root mean square irradiance. Bias: {}",
+                  answer.reference ? "the reference's samples, spread by area" : "the samples by area",
+                  bias_source(answer)),
       screen.text_width(), 0);
   return text + fmt::format("planning  {:.2g} s: a pilot of {:.2g} pieces{}\n", answer.seconds, answer.pilot.rays,
                             answer.check ? ", one check" : "");

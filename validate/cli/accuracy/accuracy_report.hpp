@@ -3,7 +3,8 @@
 #include <optional>
 #include <string>
 
-#include "detp/validate/accuracy/accuracy_plan.hpp"
+#include "detp/validate/accuracy/accuracy_check.hpp"
+#include "detp/validate/accuracy/reference_file.hpp"
 #include "detp/validate/cli/command.hpp"
 
 namespace detp::cli {
@@ -14,9 +15,11 @@ struct AccuracyAnswer {
   std::string options;  ///< that `detp run` needs to repeat a point, as " --light sun"
   validate::AccuracyPilot pilot;
   validate::AccuracyPlan plan;
+  std::optional<validate::Reference> reference;  ///< that the user asked for
   std::optional<validate::AccuracyCheck> check;
-  double correction = 1;            ///< of the answer's rays, because the check had another noise
-  std::string no_check;             ///< why the answer was not run
+  double correction = 1;  ///< of the answer's rays, because the check had another noise
+  std::string no_check;   ///< why the answer was not run
+  std::vector<validate::AccuracyRerun> reruns;
   validate::AccuracyPoint in_time;  ///< the best way in twice the answer's time
   double seconds = 0;               ///< that planning took, the check included
 };

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <stdexcept>
@@ -38,6 +39,27 @@ std::int64_t parse_whole(std::string_view option, std::string_view text, std::in
   }
   if (value < least || value > most) refuse();
   return value;
+}
+
+std::uint64_t parse_seed(std::string_view option, std::string_view text) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  if (error != std::errc{} || end != text.data() + text.size())
+    throw std::invalid_argument(fmt::format("{} must be a whole number from 0 to {} (got {})", option,
+                                            std::numeric_limits<std::uint64_t>::max(), detp::quoted(text)));
+  return seed;
+}
+
+SeedRange parse_seeds(std::string_view option, std::string_view text) {
+  const std::size_t colon = std::min(text.find(':'), text.size());
+  const auto refuse = [&] {
+    throw std::invalid_argument(
+        fmt::format("{} takes the first and the last seed, as 1:100 (got {})", option, detp::quoted(text)));
+  };
+  if (colon == text.size()) refuse();
+  const SeedRange seeds{parse_seed(option, text.substr(0, colon)), parse_seed(option, text.substr(colon + 1))};
+  if (seeds.last < seeds.first) refuse();
+  return seeds;
 }
 
 std::string without_count_suffix(std::string_view text) {

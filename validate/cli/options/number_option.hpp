@@ -30,6 +30,18 @@ namespace detp::cli {
 /// Reads a share: "0.05" or "5%". Throws std::invalid_argument, naming the option, for other text.
 [[nodiscard]] double parse_share(std::string_view option, std::string_view text);
 
+/// Reads an integer up to 2⁶⁴ - 1, which a double cannot represent. Throws std::invalid_argument, naming the option.
+[[nodiscard]] std::uint64_t parse_seed(std::string_view option, std::string_view text);
+
+/// Seeds from the first to the last.
+struct SeedRange {
+  std::uint64_t first = 0;
+  std::uint64_t last = 0;
+};
+
+/// Reads "1:100". Throws std::invalid_argument, naming the option.
+[[nodiscard]] SeedRange parse_seeds(std::string_view option, std::string_view text);
+
 inline void read_value(std::string_view option, std::string_view text, double& value) {
   value = parse_number(option, text);
 }

@@ -1,6 +1,7 @@
 #include "value_lists.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -91,6 +92,14 @@ void append_range(std::string_view option, const std::string& item, bool counts,
   }
 }
 
+/// Ranges A:B of seeds with the step 1.
+std::string with_steps(const std::string& text) {
+  std::vector<std::string> items = split(text, ',');
+  for (std::string& item : items)
+    if (std::ranges::count(item, ':') == 1) item += ":1";
+  return fmt::format("{}", fmt::join(items, ","));
+}
+
 }  // namespace
 
 std::string one_of(std::string_view option, const std::string& text, const std::vector<std::string_view>& names) {
@@ -135,9 +144,11 @@ std::size_t ValueLists::rows() {
   for (const auto& option : options_) {
     if (option->text.empty()) continue;
     if (option->values.empty())
-      option->values = option->kind == Kind::words
-                           ? words_of(option->text)
-                           : values_of(option->name, option->text, option->kind == Kind::counts);
+      option->values =
+          option->kind == Kind::words
+              ? words_of(option->text)
+              : values_of(option->name, option->kind == Kind::seeds ? with_steps(option->text) : option->text,
+                          option->kind == Kind::counts);
     require_rows(rows, option->values.size());
     rows *= option->values.size();
   }

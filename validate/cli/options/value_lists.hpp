@@ -43,6 +43,7 @@ class ValueLists {
   enum class Kind {
     numbers,
     counts,  ///< numbers that may have the suffix k, M or G
+    seeds,   ///< whole numbers, and ranges A:B
     words
   };
 

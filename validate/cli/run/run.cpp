@@ -31,6 +31,7 @@ struct RunOptions {
   WorkloadOptions workload;
   CandidateOptions candidate;
   std::optional<std::string> estimator;
+  std::optional<std::uint64_t> seed;  ///< of a row, by --seeds
   CostOptions costs;
   int repeat = 0;
   std::optional<std::string> per_disc;
@@ -305,6 +306,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   std::optional<sim::Progress> stopped;
   const auto prepare = [&] {
     validate::JobRequest request = options.workload.request(common);
+    if (options.seed) request.seed = *options.seed;
     request.stream = !needs.all_rays;
     request.keep_mesh = needs.mesh;
     validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
@@ -342,6 +344,10 @@ Command run_command(CLI::App& program) {
       "Example: detp run @tree --rays 100000 --technique octree --per-disc irradiance.csv");
   const auto options = std::make_shared<RunOptions>();
   options->workload.add_to(*app, Values::many);
+  options->workload.lists.add(
+      *app, "--seeds", Values::many, ValueLists::Kind::seeds,
+      [raw = options.get()](const std::string& text) { raw->seed = parse_seed("--seeds", text); },
+      "a row for each of these seeds, as 1:100; default: --seed alone");
   options->candidate.add_to(*app, Values::many, SphereStop::best);
   options->candidate.lists.add(
       *app, "--estimator", Values::many, ValueLists::Kind::words,

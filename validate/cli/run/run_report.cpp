@@ -245,8 +245,8 @@ Columns run_columns() {
 }
 
 TextColumns run_text_columns(const Screen& screen) {
-  return {{"scene", "field", "ray_file", "front_facing", "rays", "samples", "disc_radius", "estimator", "engine",
-           "technique", "parameters"},
+  return {{"scene", "field", "ray_file", "front_facing", "seed", "rays", "samples", "disc_radius", "estimator",
+           "engine", "technique", "parameters"},
           {"hits", "rebuild_time", "predicted_rebuild_time", "intersect_time", "predicted_intersect_time", "seconds",
            "predicted_seconds"},
           screen,

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
-#include <sstream>
+#include <algorithm>
+#include <filesystem>
 
 #include "support/run_support.hpp"
 
@@ -33,6 +34,26 @@ TEST_SUITE("accuracy") {
     CHECK(finished.out.find("partial") == std::string::npos);
   }
 
+  TEST_CASE("the answer is run with more seeds, and compared with a reference that is kept in a file") {
+    const ScratchFolder folder;
+    const std::string file = folder.path("furnace.json");
+    const std::string command =
+        "accuracy @furnace --target-noise 20% --estimators disc --seeds 3:7 --reference " + file;
+    const Json json = result_of(command);
+    CHECK(json["reference"]["kind"] == "known");
+    CHECK(json["reference"]["error"] == 0);
+    const Json& runs = json["reruns"]["runs"];
+    REQUIRE(runs.size() == 5);
+    CHECK(runs[0]["seed"] == 3);
+    CHECK(runs[4]["seed"] == 7);
+    for (const Json& run : runs) {
+      CHECK(run["noise"].get<double>() == doctest::Approx(0.2).epsilon(0.3));
+      CHECK(run["error"].get<double>() >= 0.5 * run["noise"].get<double>());
+    }
+    CHECK(std::filesystem::exists(file));
+    check_refused({{"accuracy @cornell --target-noise 20% --reference " + file, "another scene"}});
+  }
+
   TEST_CASE("bad requests are refused with the reason") {
     check_refused({{"accuracy @uniform", "has no triangles"},
                    {"accuracy @cornell --target-noise 5% --target-error 5%", "give one of"},
@@ -41,6 +62,10 @@ TEST_SUITE("accuracy") {
                    {"accuracy @cornell --time-budget -1", "time budget"},
                    {"accuracy @cornell --estimators discs", "there is no estimator"},
                    {"accuracy @cornell --rays 10", "--rays"},
+                   {"accuracy @cornell --seeds 5", "--seeds takes the first and the last seed"},
+                   {"accuracy @cornell --seeds 5:4", "--seeds takes the first and the last seed"},
+                   {"accuracy @cornell --seeds 1:x", "--seeds must be a whole number"},
+                   {"accuracy @cornell --reference /nowhere/reference.json", "/nowhere/reference.json"},
                    {"accuracy missing.obj", "missing.obj"}});
   }
 }

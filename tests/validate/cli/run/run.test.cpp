@@ -219,6 +219,21 @@ TEST_SUITE("end to end") {
     }
   }
 
+  TEST_CASE("--seeds makes a row for each seed, as a run with --seed") {
+    const Json table = result_of("run @uniform --samples 200 --rays 500 --disc-radius 5% --seeds 4:6,9");
+    REQUIRE(table["rows"].size() == 4);
+    const std::vector<int> seeds{4, 5, 6, 9};
+    CHECK(table["inputs"]["seed"] == seeds);
+    for (std::size_t i = 0; i < seeds.size(); ++i) {
+      const Json one =
+          result_of("run @uniform --samples 200 --rays 500 --disc-radius 5% --seed " + std::to_string(seeds[i]));
+      CHECK(table["rows"][i]["hits"] == one["hits"]);
+    }
+    check_refused({{"run @uniform --seeds 6:4", "--seeds"},
+                   {"run @uniform --seeds -1:3", "--seeds"},
+                   {"run @uniform --seeds 1:9999999", "rows"}});
+  }
+
   TEST_CASE("CSV is one row with the values of JSON, and text has the same number of hits") {
     const std::string run = "run @cornell --rays 2000 --technique sphere-cache --ratio 0.5";
     const Json json = result_of(run);

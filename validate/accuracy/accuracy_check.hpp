@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "accuracy_plan.hpp"
+
+/// Runs of a plan's answer. Errors are taken at the samples of AccuracyPilotOptions::reference, or else at the scene's; seconds are for all
+/// of the scene's samples.
+namespace detp::validate {
+
+/// What one run takes.
+struct AccuracyCheck {
+  double noise = 0;          ///< from the difference between the run and its first half
+  double seconds = 0;        ///< tracing and estimating, with all that has to be built
+  double trace_seconds = 0;  ///< of these
+  double rays = 0;
+  /// Error against the reference, its variance subtracted; nothing without one.
+  std::optional<double> error = {};
+};
+
+/// Throws as sim::estimate; sim::Stopped on a stop request.
+[[nodiscard]] AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
+                                           const AccuracyPilotOptions& options);
+
+/// One of many runs of a plan's answer.
+struct AccuracyRerun {
+  std::uint64_t seed = 0;
+  double noise = 0;  ///< root mean square difference from the mean of all runs, times √(R/(R - 1))
+  double seconds = 0;
+  std::optional<double> error = {};  ///< as AccuracyCheck::error
+};
+
+/// Runs a point with the seeds from `first` to `last`. Noise is taken at up to 2000 of the samples. Ends early, with the runs made so
+/// far, on a stop request. Throws as sim::estimate.
+[[nodiscard]] std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint& point,
+                                                        double mean_square, std::uint64_t first, std::uint64_t last,
+                                                        const AccuracyPilotOptions& options);
+
+}  // namespace detp::validate

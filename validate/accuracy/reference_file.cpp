@@ -1,0 +1,191 @@
+#include "reference_file.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <span>
+#include <stdexcept>
+
+#include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/files/file_error.hpp"
+#include "detp/sim/files/input_file.hpp"
+#include "detp/sim/files/output_file.hpp"
+
+namespace detp::validate {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int methods = 1;  // change it whenever make_reference gives other values
+constexpr std::string_view reference_schema = "detp.reference";
+constexpr std::size_t most_bytes_of_reference = std::size_t{1} << 30;
+constexpr std::size_t numbers_of_sample = 8;
+
+/// FNV-1a, 64 bits.
+class Digest {
+ public:
+  void add(double value) { add_bytes(&value, sizeof value); }
+  void add(std::uint64_t value) { add_bytes(&value, sizeof value); }
+  void add(const glm::dvec3& value) {
+    for (int axis = 0; axis < 3; ++axis) add(value[axis]);
+  }
+  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", state_); }
+
+ private:
+  void add_bytes(const void* data, std::size_t count) {
+    std::array<unsigned char, sizeof(double)> bytes{};
+    std::memcpy(bytes.data(), data, count);
+    for (std::size_t i = 0; i < count; ++i) state_ = (state_ ^ bytes[i]) * 0x100000001b3ULL;
+  }
+
+  std::uint64_t state_ = 0xcbf29ce484222325ULL;
+};
+
+/// Adds a light's numbers.
+struct AddLight {
+  Digest& digest;
+
+  void operator()(const sim::PointLight& light) const { digest.add(light.position); }
+  void operator()(const sim::AreaLight& light) const {
+    for (const glm::dvec3& one : {light.corner, light.edge_u, light.edge_v}) digest.add(one);
+  }
+  void operator()(const sim::SpotLight& light) const {
+    digest.add(light.position);
+    digest.add(light.direction);
+    digest.add(light.half_angle);
+  }
+  void operator()(const sim::DirectionalLight& light) const { digest.add(light.direction); }
+  void operator()(const sim::EnvironmentLight&) const {}
+  void operator()(const sim::SurfaceLight&) const {}
+};
+
+std::string digest_of(const sim::Scene& scene) {
+  Digest digest;
+  digest.add(scene.mesh.positions.size());
+  for (const glm::dvec3& position : scene.mesh.positions) digest.add(position);
+  for (const glm::dvec3& normal : scene.mesh.normals) digest.add(normal);
+  for (const auto& triangle : scene.mesh.triangles)
+    for (const std::uint32_t corner : triangle) digest.add(std::uint64_t{corner});
+  for (const sim::Material& one : scene.mesh.materials.all)
+    for (const double value : {one.diffuse, one.specular, one.shininess, one.glass, one.index, one.emitted})
+      digest.add(value);
+  for (const std::uint16_t material : scene.mesh.materials.of_triangle) digest.add(std::uint64_t{material});
+  for (const sim::Light& light : scene.lights) {
+    digest.add(std::uint64_t{light.shape.index()});
+    digest.add(light.flux);
+    std::visit(AddLight{digest}, light.shape);
+  }
+  return digest.text();
+}
+
+Json key_json(const ReferenceKey& key) {
+  return {{"scene", key.scene},
+          {"front_facing", key.front_facing},
+          {"samples", key.samples},
+          {"seed", key.seed},
+          {"version", key.version}};
+}
+
+void check_key(const Json& stored, const ReferenceKey& wanted, const std::string& path) {
+  const Json here = key_json(wanted);
+  for (const auto& [name, value] : here.items())
+    if (stored.at(name) != value)
+      throw sim::FileError(
+          path, fmt::format("is the reference of another {}: {}, here it is {}; give another file, or delete this one",
+                            name == "scene" ? "scene, or of other lights or materials" : name,
+                            shortened(stored.at(name).dump(), 40), value.dump()));
+}
+
+ReferenceKind kind_named(const std::string& text) {
+  for (const ReferenceKind kind : {ReferenceKind::known, ReferenceKind::backward, ReferenceKind::landings})
+    if (name(kind) == text) return kind;
+  throw std::invalid_argument("its kind is " + detp::quoted(text));
+}
+
+double finite(const Json& value, const char* what) {
+  const double number = value;
+  if (!std::isfinite(number)) throw std::invalid_argument(fmt::format("{} is not finite", what));
+  return number;
+}
+
+void add_sample(const Json& numbers, Reference& reference) {
+  if (!numbers.is_array() || numbers.size() != numbers_of_sample)
+    throw std::invalid_argument(fmt::format("a sample needs {} numbers", numbers_of_sample));
+  sim::Sample sample;
+  for (int axis = 0; axis < 3; ++axis) {
+    sample.position[axis] = finite(numbers[axis], "a position");
+    sample.normal[axis] = finite(numbers[3 + axis], "a normal");
+  }
+  reference.samples.push_back(sample);
+  reference.irradiance.push_back(finite(numbers[6], "an irradiance"));
+  reference.variance.push_back(finite(numbers[7], "a variance"));
+  if (reference.variance.back() < 0) throw std::invalid_argument("a variance is below 0");
+}
+
+}  // namespace
+
+ReferenceKey reference_key(const sim::Scene& scene, const ReferenceOptions& options) {
+  return {.scene = digest_of(scene),
+          .front_facing = options.front_facing,
+          .samples = options.samples,
+          .seed = options.seed,
+          .version = methods};
+}
+
+void write_reference(const std::string& path, const Reference& reference, const ReferenceKey& key) {
+  const Json head{{"schema", {{"name", reference_schema}, {"version", 1}}},
+                  {"key", key_json(key)},
+                  {"name", reference.scene},
+                  {"kind", name(reference.kind)},
+                  {"paths", reference.paths},
+                  {"error", reference.error()},
+                  {"seconds", reference.seconds},
+                  {"columns", {"x", "y", "z", "nx", "ny", "nz", "irradiance", "variance"}}};
+  sim::OutputFile file(path);
+  std::string text = head.dump(2);
+  text.erase(text.rfind('\n'));
+  file.write(text + ",\n  \"samples\": [");
+  for (std::size_t i = 0; i < reference.samples.size(); ++i) {
+    const sim::Sample& sample = reference.samples[i];
+    const auto& [p, n] = std::pair(sample.position, sample.normal);
+    const Json row{p.x, p.y, p.z, n.x, n.y, n.z, reference.irradiance[i], reference.variance[i]};
+    file.write((i == 0 ? "\n    " : ",\n    ") + row.dump());
+  }
+  file.write("\n  ]\n}\n");
+  file.commit();
+}
+
+Reference read_reference(const std::string& path, const ReferenceKey& key) {
+  try {
+    const Json json = Json::parse(sim::read_file(path, most_bytes_of_reference));
+    if (json.at("schema").at("name") != reference_schema || json.at("schema").at("version") != 1)
+      throw sim::FileError(path, "is not a reference of this version of detp");
+    check_key(json.at("key"), key, path);
+    Reference reference{
+        .scene = json.at("name"), .kind = kind_named(json.at("kind")), .samples = {}, .irradiance = {}, .variance = {}};
+    reference.paths = json.at("paths");
+    reference.seconds = finite(json.at("seconds"), "a number of seconds");
+    for (const Json& numbers : json.at("samples")) add_sample(numbers, reference);
+    if (reference.samples.size() != key.samples)
+      throw std::invalid_argument(fmt::format("it has {} samples, not {}", reference.samples.size(), key.samples));
+    return reference;
+  } catch (const nlohmann::json::exception& error) {
+    throw sim::FileError(path, fmt::format("is not a reference: {}", shortened(error.what(), 150)));
+  } catch (const std::invalid_argument& error) {
+    throw sim::FileError(path, fmt::format("is not a reference: {}", error.what()));
+  }
+}
+
+Reference kept_reference(const std::string& path, const sim::Scene& scene, const ReferenceOptions& options) {
+  const ReferenceKey key = reference_key(scene, options);
+  if (std::filesystem::exists(path)) return read_reference(path, key);
+  Reference reference = make_reference(scene, options);
+  if (!options.stop.stop_requested()) write_reference(path, reference, key);
+  return reference;
+}
+
+}  // namespace detp::validate
