@@ -105,9 +105,18 @@ struct RayMapParameters {
   bool operator==(const RayMapParameters&) const = default;
 };
 
+/// What the k nearest photons are taken for (model/accuracy/nearest_photons.hpp).
+enum class NearestForm {
+  unbiased,  ///< k - 1 of them over the area up to the k-th
+  plain      ///< all k over this area, as published: k/(k - 1) times too large where photons lie evenly
+};
+template <>
+inline constexpr std::array<std::string_view, 2> choice_names<NearestForm>{"unbiased", "plain"};
+
 /// Estimates irradiance from the photons nearest to each disc's centre.
 struct PhotonMapParameters {
   int nearest = 50;  ///< k, number of photons searched for; all photons if there are fewer
+  NearestForm form = NearestForm::unbiased;
   bool operator==(const PhotonMapParameters&) const = default;
 };
 

@@ -91,8 +91,11 @@ inline constexpr std::array bvh{
 inline constexpr std::array ray_map{number<&RayMapParameters::leaf>(
     "leaf", "number of rays in a leaf", 1, most_parts, int64_t{2}, "rays in a cell that is split no further", 4)};
 
-inline constexpr std::array photon_map{number<&PhotonMapParameters::nearest>(
-    "nearest", "number of nearest photons", 3, 1e9, int64_t{3}, "photons that are looked for")};
+inline constexpr std::array photon_map{
+    number<&PhotonMapParameters::nearest>("nearest", "number of nearest photons", 3, 1e9, int64_t{3},
+                                          "photons that are looked for"),
+    choice<&PhotonMapParameters::form>("nearest-form", NearestForm::unbiased,
+                                       "k - 1 photons up to the k-th, or all k, as published")};
 
 }  // namespace records
 

@@ -55,7 +55,8 @@ Outcome by_estimator(const Problem& problem, const EstimateRequest& request, con
       refuse_options(options, name(request.estimator));
       return estimate_with_variable_radius(problem, request.candidate, options);
     case Estimator::nearest:
-      return run(problem, Candidate{Technique::photon_map, PhotonMapParameters{request.nearest}}, options);
+      return run(problem, Candidate{Technique::photon_map, PhotonMapParameters{request.nearest, request.nearest_form}},
+                 options);
     case Estimator::area_corrected:
     case Estimator::triangle_hits:
       break;

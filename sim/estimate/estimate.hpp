@@ -12,6 +12,7 @@ struct EstimateRequest {
   /// Of disc and variable-radius: the exact technique that finds the pairs.
   Candidate candidate = {Technique::brute_force, BruteForceParameters{}};
   int nearest = 50;  ///< of nearest: k, as PhotonMapParameters
+  NearestForm nearest_form = NearestForm::unbiased;
   /// Of area-corrected and triangle-hits: the mesh in which the photon paths were traced.
   const Mesh* mesh = nullptr;
 };

@@ -38,9 +38,10 @@ class NearestPhotons {
   [[nodiscard]] double worstDist() const { return found_.worstDist(); }
   [[nodiscard]] bool full() const { return found_.full(); }
 
-  /// All photons found, except the farthest.
-  void take(Near& near) const {
-    for (std::size_t i = 0; i + 1 < indices_.size(); ++i) near.landed.push_back({cloud_.landings[indices_[i]].ray, 1});
+  /// All photons found; the unbiased form without the farthest.
+  void take(NearestForm form, Near& near) const {
+    const std::size_t count = indices_.size() - (form == NearestForm::unbiased ? 1 : 0);
+    for (std::size_t i = 0; i < count; ++i) near.landed.push_back({cloud_.landings[indices_[i]].ray, 1});
   }
 
   /// r_k², the square of the farthest photon's distance.
@@ -57,11 +58,12 @@ class NearestPhotons {
 
 class PhotonMap {
  public:
-  PhotonMap(const Problem& problem, int nearest, const std::stop_token& stop)
+  PhotonMap(const Problem& problem, const PhotonMapParameters& parameters, const std::stop_token& stop)
       : problem_(problem),
         check_(stop, "building the photon map"),
         cloud_{landings_of(problem, check_), &check_},
-        wanted_(static_cast<std::size_t>(nearest)) {
+        wanted_(static_cast<std::size_t>(parameters.nearest)),
+        form_(parameters.form) {
     cloud_.building = nullptr;
     if (cloud_.landings.empty())
       throw std::invalid_argument(
@@ -84,7 +86,7 @@ class PhotonMap {
           fmt::format("{} photons lie at the centre of disc {}, so the density there is infinite: increase the number "
                       "of nearest photons",
                       wanted_, disc));
-    nearest.take(near);
+    nearest.take(form_, near);
     near.area = std::numbers::pi * nearest.square();
   }
 
@@ -93,6 +95,7 @@ class PhotonMap {
   StopCheck check_;
   LandingCloud cloud_;
   std::size_t wanted_;
+  NearestForm form_;
   LandingKdTree tree_{3, cloud_};
 };
 
@@ -101,7 +104,7 @@ class PhotonMap {
 ///
 ///     E = (power of the k - 1 nearest) / (π r_k²)        r_k: distance of the k-th nearest
 ///
-/// With k instead of k - 1, the result would be k/(k - 1) times too large for evenly spread photons (García, Ureña,
+/// With k instead of k - 1 (NearestForm::plain; H. W. Jensen, 1996), the result is k/(k - 1) times too large for evenly spread photons (García, Ureña,
 /// Sbert, CGF 2012; standard deviation and bias of E: model/accuracy/nearest_photons.hpp). The discs' radii and normals
 /// do not matter, except that with front_facing only photons that arrive in front count. If fewer than k photons count
 /// for a disc, its irradiance is 0.
@@ -110,10 +113,10 @@ class PhotonMap {
 /// N and W the number and the power of the photons within the radius at which k are expected, the estimate is
 /// W/(π r²) (1 + (N - k)/k - (N - k)/k), since the circle grows until it holds k. Source: our derivation.
 ///
-/// Hits and pairs are the k - 1 photons used. Counts are stored photons (references) and hits.
+/// Hits and pairs are the k - 1 photons used, or all k. Counts are stored photons (references) and hits.
 class PhotonMapIndex final : public Index {
  public:
-  explicit PhotonMapIndex(int nearest) : nearest_(nearest) {}
+  explicit PhotonMapIndex(const PhotonMapParameters& parameters) : parameters_(parameters) {}
 
   /// Throws std::invalid_argument if no ray has a finite length, if there are fewer than k photons, if k of them are
   /// exactly at a disc's centre, and for totals.
@@ -123,7 +126,7 @@ class PhotonMapIndex final : public Index {
           "photon-map needs all rays at once: the nearest photons of a block of rays are not the nearest of all rays");
     add_checked_bytes("the photon map", landing_tree_bytes(problem) + near_bytes(problem, options), problem, outcome);
     Stopwatch watch;
-    const PhotonMap map(problem, nearest_, options.stop);
+    const PhotonMap map(problem, parameters_, options.stop);
     outcome.seconds.build = watch.lap();
     if (options.pairs)
       find_pairs(problem, map, options, outcome);
@@ -147,13 +150,13 @@ class PhotonMapIndex final : public Index {
     if (outcome.stopped) outcome.pairs.clear();
   }
 
-  int nearest_;
+  PhotonMapParameters parameters_;
 };
 
 }  // namespace
 
 std::unique_ptr<Index> prepare_photon_map(const Problem&, const Parameters& parameters, const RunOptions&) {
-  return std::make_unique<PhotonMapIndex>(std::get<PhotonMapParameters>(parameters).nearest);
+  return std::make_unique<PhotonMapIndex>(std::get<PhotonMapParameters>(parameters));
 }
 
 }  // namespace detp::sim

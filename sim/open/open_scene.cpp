@@ -29,7 +29,8 @@ const std::vector<BuiltIn>& built_ins() {
                                         {"@cornell", built_in::cornell},
                                         {"@caustic", built_in::caustic},
                                         {"@interior", built_in::interior},
-                                        {"@furnace", built_in::furnace}};
+                                        {"@furnace", built_in::furnace},
+                                        {"@sunlit", built_in::sunlit}};
   return all;
 }
 

@@ -9,6 +9,7 @@
 #include "detp/sim/open/open_scene.hpp"
 #include "detp/validate/accuracy/replicates.hpp"
 #include "experiments.hpp"
+#include "smooth_bias.hpp"
 
 /// Errors over @furnace, whose irradiance E is known and even.
 namespace detp::validate {
@@ -190,6 +191,7 @@ std::vector<Finding> accuracy_findings(const Experiment& experiment) {
     one.lines = runs_of_each_batch * rays * batch_count;
     one.seconds = clock.seconds();
   }
+  findings.push_back(smooth_bias_finding(experiment));
   return findings;
 }
 

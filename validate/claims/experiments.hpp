@@ -34,7 +34,8 @@ namespace detp::validate {
 /// missing. Returns nothing if experiment.choice is not set.
 [[nodiscard]] std::vector<Finding> effect_findings(const Experiment& experiment);
 
-/// Noise of discs and of triangle hits, bias of discs at edges, and how a photon's pieces clump, in @furnace.
+/// Noise of discs and of triangle hits, bias of discs at edges, and how a photon's pieces clump, in @furnace; bias of discs in
+/// smooth light.
 [[nodiscard]] std::vector<Finding> accuracy_findings(const Experiment& experiment);
 
 /// Predicted work of each experiment, in units of sim::StopCheck, for a display of progress.

@@ -45,6 +45,10 @@ struct LitMesh {
 /// everywhere on them, E = π + E/2.
 [[nodiscard]] LitMesh furnace();
 
+/// A square floor of side 1 in parallel light that arrives 37° from the vertical. The irradiance is 1 everywhere on it: what
+/// the floor reflects leaves the scene.
+[[nodiscard]] LitMesh sunlit();
+
 /// `count` points uniform in the cube [-1, 1]³ with isotropic normals. Each sample is a function of the seed and of its
 /// number. Throws Stopped if a stop was requested.
 [[nodiscard]] std::vector<Sample> uniform_samples(std::size_t count, std::uint64_t seed,

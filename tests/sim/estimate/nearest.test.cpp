@@ -6,8 +6,8 @@
 #include <stop_token>
 #include <vector>
 
+#include "detp/sim/estimate/estimate.hpp"
 #include "detp/sim/geometry/random.hpp"
-#include "detp/sim/technique/technique.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -56,6 +56,34 @@ TEST_SUITE("known answer") {
     CHECK(outcome.pairs == std::vector<Pair>{{3, 0}, {4, 0}});
     CHECK(outcome.counts == Counts<std::uint64_t>{.loaded = 5, .segments = 5, .references = 4, .hits = 2});
     CHECK(nearest(make_problem(rays, one_disc), 3, {.count = false}).counts == Counts<std::uint64_t>{.hits = 2});
+  }
+
+  TEST_CASE("the plain form: the power of all k, k/(k - 1) times too large on average") {
+    const std::vector<Ray> rays{down_to(3, 0, 11), down_to(0, 4, 13), down_to(0, -1, 5), down_to(-2, 0, 7)};
+    const auto plain = [](const Problem& problem, int k, const RunOptions& options = {}) {
+      return estimate(problem, {.estimator = Estimator::nearest, .nearest = k, .nearest_form = NearestForm::plain},
+                      options);
+    };
+    const Outcome outcome = plain(make_problem(rays, one_disc), 3);
+    CHECK(outcome.irradiance[0] == doctest::Approx((5 + 7 + 11) / (9 * std::numbers::pi)).epsilon(1e-14));
+    CHECK(outcome.hits[0] == 3);
+    const auto many = even_photons(20'000);
+    const auto discs = lattice();
+    const Problem problem = make_problem(many, discs);
+    constexpr int k = 20;
+    const Outcome even = plain(problem, k, {.standard_error = true});
+    double mean = 0;
+    double stated = 0;
+    double found = 0;
+    for (std::size_t i = 0; i < discs.size(); ++i) {
+      mean += even.irradiance[i] / 400;
+      stated += std::pow(even.standard_error[i], 2) / 400;
+      found += std::pow(even.irradiance[i] - k / (k - 1.0), 2) / 400;
+    }
+    const double standard_error = k / (k - 1.0) * std::sqrt(1.0 / (k - 2) / 400);
+    CHECK(std::abs(mean - k / (k - 1.0)) < 4 * standard_error);
+    CHECK(std::abs(mean - 1) > 4 * standard_error);
+    CHECK(std::sqrt(stated / found) == doctest::Approx(1).epsilon(0.15));
   }
 
   TEST_CASE("a photon is where it met a surface, however far its ray goes on; a ray that met none has no photon") {

@@ -34,8 +34,8 @@ bool in_order_among(const std::vector<Sample>& some, const std::vector<Sample>& 
 
 TEST_SUITE("known answer") {
   TEST_CASE("every built-in scene opens, with samples in its box, and a light where its rays are photons") {
-    for (const std::string name :
-         {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic", "@interior", "@furnace"}) {
+    for (const std::string name : {"@uniform", "@tree", "@tree-coarse", "@courtyard", "@cornell", "@caustic",
+                                   "@interior", "@furnace", "@sunlit"}) {
       CAPTURE(name);
       const Scene scene = open_scene({.name = name, .samples = {}});
       CHECK(scene.name == name);
@@ -138,7 +138,7 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_WITH_AS(
         (void)open_scene({.name = "@forest", .samples = {}}),
         "there is no built-in scene @forest; known scenes are @uniform, @tree, @tree-coarse, @courtyard, "
-        "@cornell, @caustic, @interior, @furnace",
+        "@cornell, @caustic, @interior, @furnace, @sunlit",
         std::invalid_argument);
   }
 

@@ -86,6 +86,32 @@ TEST_SUITE("backward paths: known answers") {
     CHECK(std::abs(front.value - 2 * pi) < 4 * front.error);
   }
 
+  TEST_CASE("the sunlit floor: 1 everywhere, by backward paths and by photons; without the cosine it is refuted") {
+    const Scene scene = open_scene({.name = "@sunlit", .samples = {}});
+    std::vector<Sample> samples;
+    add_by_area(samples, scene.mesh, 200, 3);
+    const Mean mean = backward(scene, samples, 64);
+    CHECK(mean.value == doctest::Approx(1).epsilon(1e-6));  // seen directly: no variance
+    std::vector<Disc> discs;
+    for (int x = 0; x < 6; ++x)
+      for (int z = 0; z < 6; ++z) discs.push_back({{0.2 + 0.12 * x, 0, 0.2 + 0.12 * z}, {0, 1, 0}, 0.05});
+    std::vector<double> runs;
+    for (std::uint64_t seed = 1; seed <= 16; ++seed) {
+      const Paths paths = photon_paths(scene, 50'000, seed);
+      const Outcome outcome =
+          run(make_problem(paths, discs), Candidate{Technique::brute_force, BruteForceParameters{}});
+      double sum = 0;
+      for (const double one : outcome.irradiance) sum += one / static_cast<double>(discs.size());
+      runs.push_back(sum);
+    }
+    double average = 0;
+    for (const double one : runs) average += one / 16;
+    double squares = 0;
+    for (const double one : runs) squares += (one - average) * (one - average) / (16 * 15);
+    CHECK(std::abs(average - 1) < 4 * std::sqrt(squares));
+    CHECK(std::abs(average - 1 / 0.8) > 8 * std::sqrt(squares));
+  }
+
   TEST_CASE("negative control: with an albedo of 0.55 instead of 0.5 the furnace is refuted") {
     Scene scene = open_scene({.name = "@furnace", .samples = {}});
     scene.mesh.materials.all[0].diffuse = 0.55;

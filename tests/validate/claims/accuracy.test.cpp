@@ -51,7 +51,7 @@ TEST_SUITE("claims about errors") {
     Experiment experiment;
     experiment.workload = cube_workload(3e5, 100, 0.1, 1, 3);
     const auto findings = accuracy_findings(experiment);
-    REQUIRE(findings.size() == 4);
+    REQUIRE(findings.size() == 5);
     for (const Claim& claim : judge_all(findings)) {
       CAPTURE(claim.id);
       CHECK(claim.verdict != Verdict::refuted);
@@ -65,6 +65,9 @@ TEST_SUITE("claims about errors") {
     CHECK(refutes(noise, 0.05));                                          // d for d²
     CHECK(refutes(named(findings, "accuracy.triangle-noise"), 9.0 / 6));  // the ring of a vertex for that of a point
     CHECK(refutes(named(findings, "accuracy.edge-bias"), 0.5));           // edges counted for one face
+    const Finding& smooth = named(findings, "accuracy.smooth-bias");
+    CHECK(refutes(smooth, 2));                // 1/32 for 1/64
+    CHECK(refutes(smooth, 1 / (0.4 * 0.4)));  // d² for d⁴
     // pieces as independent
     const Finding& clumping = named(findings, "accuracy.clumping");
     CHECK(refutes(clumping, 1 / clumping.predictions[0].value));

@@ -63,7 +63,7 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
   using enum ValueLists::Kind;
   command.add_option("SCENE", request_.scene,
                      "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell, @caustic, "
-                     "@interior, @furnace");
+                     "@interior, @furnace, @sunlit");
   command.add_option("--discs", request_.disc_file,
                      "discs from a CSV or PLY file; default: one at each of the scene's samples");
   command.add_option("--ray-file", request_.ray_file, "rays from a CSV or PLY file; default: made, as --field says");

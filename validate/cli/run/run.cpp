@@ -109,7 +109,10 @@ Requested requested(const CandidateOptions& options, sim::Estimator estimator, c
 
 sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& job) {
   sim::EstimateRequest request{.estimator = answer.estimator, .candidate = answer.candidate, .mesh = &job.mesh};
-  if (const auto* map = std::get_if<PhotonMapParameters>(&answer.candidate.parameters)) request.nearest = map->nearest;
+  if (const auto* map = std::get_if<PhotonMapParameters>(&answer.candidate.parameters)) {
+    request.nearest = map->nearest;
+    request.nearest_form = map->form;
+  }
   return request;
 }
 
