@@ -27,7 +27,8 @@ TEST_SUITE("end to end") {
     CHECK(finished.json().at("warnings").empty());
     for (const char* id : {"effects.tests.corrected", "effects.hits.corrected"}) {
       const std::string quantity = by_id.at(id).at("quantity");
-      for (const Json& effect : finished.json().at("effects")) {
+      const Json effects = finished.json().at("effects");  // kept: a loop over a part of a temporary would outlive it
+      for (const Json& effect : effects) {
         CHECK_FALSE(effect.at("reason").get<std::string>().empty());
         CHECK((quantity.find(effect.at("name").get<std::string>()) != std::string::npos) == effect.at("on"));
       }
