@@ -86,6 +86,21 @@ AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, doub
   return check;
 }
 
+double correct(AccuracyPlan& plan, const AccuracyCheck& check) {
+  constexpr double clearly = 0.1;
+  AccuracyPoint& best = plan.answer;
+  const double ratio = check.noise / best.noise;
+  if (plan.target.kind != AccuracyTarget::Kind::noise || !plan.reached || !(ratio > 0) || std::abs(ratio - 1) < clearly)
+    return 1;
+  const double factor = ratio * ratio;
+  best.rays *= factor;
+  best.photons *= factor;
+  best.seconds = check.seconds * factor;
+  best.trace_seconds = check.trace_seconds * factor;
+  if (best.nearest > 0) best.nearest = static_cast<int>(std::clamp(std::round(best.nearest * factor), 3.0, 1e9));
+  return factor;
+}
+
 std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
                                           std::uint64_t first, std::uint64_t last,
                                           const AccuracyPilotOptions& options) {

@@ -24,6 +24,10 @@ struct AccuracyCheck {
 [[nodiscard]] AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
                                            const AccuracyPilotOptions& options);
 
+/// If the check had clearly another noise than predicted (by more than 10 %) and the target is a noise: sets the answer's rays and seconds
+/// to those that the check says are needed. Returns the factor by which the rays changed.
+double correct(AccuracyPlan& plan, const AccuracyCheck& check);
+
 /// One of many runs of a plan's answer.
 struct AccuracyRerun {
   std::uint64_t seed = 0;

@@ -78,7 +78,8 @@ class PilotMaker {
     pilot_.sample_distance = sim::mean_edge_length(scene.mesh, options.stop);
     if (!(pilot_.sample_distance > 0))
       throw std::invalid_argument("accuracy needs a mesh with triangles; " + scene.name + " has none with edges");
-    rays_of_run_ = std::max<std::size_t>(200, static_cast<std::size_t>(options.rays / runs));
+    rays_of_run_ = std::max<std::size_t>(
+        200, static_cast<std::size_t>((options.rays > 0 ? options.rays : usual_pilot_rays) / runs));
     const auto all = [&](sim::Estimator one) {
       return options.estimators.empty() || std::ranges::find(options.estimators, one) != options.estimators.end();
     };

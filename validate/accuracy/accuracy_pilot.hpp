@@ -67,9 +67,11 @@ struct AccuracyPilot {
   }
 };
 
+inline constexpr double usual_pilot_rays = 160'000;
+
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all
-  double rays = 160'000;                   ///< of all runs of the pilot together
+  double rays = 0;                         ///< of all runs of the pilot together; 0: 160 000
   /// The irradiance to compare with, if it is known better than from the pilot itself. It must outlive the pilot.
   const Reference* reference = nullptr;
   bool front_facing = false;

@@ -5,6 +5,8 @@
 #include <limits>
 
 #include "detp/model/vocabulary/checks.hpp"
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
 
 namespace detp::validate {
 namespace {
@@ -193,6 +195,35 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   }
   mark_frontier(plan.points);
   return plan;
+}
+
+PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
+                          double most_rays) {
+  constexpr double price = 2;                // pilots may take so many times as long as the answer
+  constexpr double least_price = 1.5;        // seconds that they may always take
+  constexpr double enough_resolution = 0.5;  // of the target's square, for the standard error of bias²
+  constexpr double most_pilot_rays = 1e7;
+  check(target, most_rays);
+  const sim::Stopwatch watch;
+  if (!(options.rays > 0)) options.rays = usual_pilot_rays;
+  PilotedPlan found;
+  for (bool first = true;; first = false, options.rays *= 4) {
+    try {
+      found.pilot = make_accuracy_pilot(scene, options);
+    } catch (const sim::Stopped&) {
+      if (first) throw;
+      found.stopped = true;
+      return found;
+    }
+    found.plan = plan_accuracy(found.pilot, target, most_rays);
+    const AccuracyPoint& best = found.plan.answer;
+    const double bias_error = (best.bias_high * best.bias_high - best.bias * best.bias) / interval;
+    const double square = std::pow(target.kind == AccuracyTarget::Kind::seconds ? best.total : target.value, 2);
+    const double most_seconds = std::max(least_price, price * best.seconds);
+    if (bias_error <= enough_resolution * square || watch.seconds() + 4 * found.pilot.seconds > most_seconds ||
+        options.rays > most_pilot_rays)
+      return found;
+  }
 }
 
 }  // namespace detp::validate

@@ -34,11 +34,7 @@ struct AccuracyOptions {
   bool front_facing = false;
 };
 
-constexpr double first_pilot = 160'000;    // rays
-constexpr double price = 2;                // pilots may take so many times as long as the answer
-constexpr double least_price = 1.5;        // seconds that they may always take
-constexpr double longest_check = 60;       // seconds; a longer answer is not run
-constexpr double enough_resolution = 0.5;  // of the target's square, for the standard error of bias²
+constexpr double longest_check = 60;  // seconds; a longer answer is not run
 
 validate::AccuracyTarget target_of(const AccuracyOptions& options) {
   const int given = (options.noise ? 1 : 0) + (options.error ? 1 : 0) + (options.seconds ? 1 : 0);
@@ -84,47 +80,6 @@ std::string repeated_options(const AccuracyOptions& options) {
   return text;
 }
 
-/// Pilots of four times as many rays each, until the bias is known well enough, or the next one would exceed the price. Returns false
-/// if a stop request ended one of them: the answer is that of the one before. Throws sim::Stopped if there was none.
-bool plan(AccuracyAnswer& answer, sim::Scene& scene, validate::AccuracyPilotOptions& options,
-          const validate::AccuracyTarget& target, double most_rays) {
-  const sim::Stopwatch watch;
-  for (options.rays = first_pilot;; options.rays *= 4) {
-    try {
-      answer.pilot = validate::make_accuracy_pilot(scene, options);
-    } catch (const sim::Stopped&) {
-      if (options.rays == first_pilot) throw;
-      return false;
-    }
-    answer.plan = validate::plan_accuracy(answer.pilot, target, most_rays);
-    const validate::AccuracyPoint& best = answer.plan.answer;
-    const double bias_error = (best.bias_high * best.bias_high - best.bias * best.bias) / 2;
-    const double square =
-        std::pow(target.kind == validate::AccuracyTarget::Kind::seconds ? best.total : target.value, 2);
-    const double next = 4 * answer.pilot.seconds;
-    const double most_seconds = std::max(least_price, price * best.seconds);
-    if (bias_error <= enough_resolution * square || watch.seconds() + next > most_seconds || options.rays > 1e7)
-      return true;
-  }
-}
-
-/// If the check had clearly another noise than the pilot predicted: the rays that it says are needed, and their time.
-void correct(AccuracyAnswer& answer) {
-  constexpr double clearly = 0.1;
-  validate::AccuracyPoint& best = answer.plan.answer;
-  const double ratio = answer.check->noise / best.noise;
-  if (answer.plan.target.kind != validate::AccuracyTarget::Kind::noise || !answer.plan.reached || !(ratio > 0) ||
-      std::abs(ratio - 1) < clearly)
-    return;
-  answer.correction = ratio * ratio;
-  best.rays *= answer.correction;
-  best.photons *= answer.correction;
-  best.seconds = answer.check->seconds * answer.correction;
-  best.trace_seconds = answer.check->trace_seconds * answer.correction;
-  if (best.nearest > 0)
-    best.nearest = static_cast<int>(std::clamp(std::round(best.nearest * answer.correction), 3.0, 1e9));
-}
-
 Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   const validate::AccuracyTarget target = target_of(options);
@@ -161,8 +116,11 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
         {.front_facing = options.front_facing, .threads = common.threads, .stop = stop, .progress = progress.report()});
     pilot.reference = &*answer.reference;
   }
-  if (!plan(answer, scene, pilot, target, most_rays)) stopped = sim::Progress{1, 3, "steps"};
-  const validate::AccuracyPoint& best = answer.plan.answer;
+  validate::PilotedPlan planned = validate::plan_accuracy(scene, target, pilot, most_rays);
+  answer.pilot = std::move(planned.pilot);
+  answer.plan = std::move(planned.plan);
+  if (planned.stopped) stopped = sim::Progress{1, 3, "steps"};
+  validate::AccuracyPoint& best = answer.plan.answer;
   constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
   if (stopped)
     answer.no_check = "Stopped before the check.";
@@ -172,7 +130,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
     try {
       pilot.seed = common.seed + 1000;
       answer.check = validate::check_accuracy(scene, best, answer.pilot.mean_square, pilot);
-      correct(answer);
+      answer.correction = validate::correct(answer.plan, *answer.check);
     } catch (const sim::Stopped&) {
       answer.no_check = "Stopped before the check.";
       stopped = sim::Progress{2, 3, "steps"};

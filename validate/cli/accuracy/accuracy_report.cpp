@@ -170,6 +170,14 @@ bool is_answer(const AccuracyAnswer& answer, const AccuracyPoint& point) {
          std::abs(point.radius - best.radius) <= alike * best.radius;
 }
 
+/// Whether the point has the target's error; of a time, always.
+bool reaches(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  constexpr double rounding = 1.001;
+  const AccuracyTarget& target = answer.plan.target;
+  if (target.kind == AccuracyTarget::Kind::seconds) return true;
+  return (target.kind == AccuracyTarget::Kind::noise ? point.noise : point.total) <= rounding * target.value;
+}
+
 std::string bias_source(const AccuracyAnswer& answer) {
   if (answer.reference && answer.reference->kind == validate::ReferenceKind::known)
     return "against the closed form of this scene.";
@@ -214,7 +222,13 @@ Json to_json(const AccuracyAnswer& answer) {
   chosen["text"] = answer_words(answer);
   Json points = Json::array();
   for (const AccuracyPoint& point : answer.plan.points) points.push_back(point_json(answer, point));
+  Json rivals = Json::array();
+  for (const AccuracyPoint& point : answer.plan.rivals) {
+    rivals.push_back(point_json(answer, point));
+    rivals.back()["reached"] = reaches(answer, point);
+  }
   return {{"answer", chosen},
+          {"rivals", rivals},
           {"floor", answer.plan.floor},
           {"points", points},
           {"reference", reference_json(answer)},
@@ -224,28 +238,43 @@ Json to_json(const AccuracyAnswer& answer) {
 }
 
 std::string csv_of(const AccuracyAnswer& answer) {
-  Table table({"scene",       "estimator", "setting",        "disc_radius",      "nearest",
-               "rays",        "photons",   "noise",          "noise_low",        "noise_high",
-               "bias",        "error",     "error_low",      "error_high",       "predicted_seconds",
-               "on_frontier", "is_answer", "measured_noise", "measured_seconds", "command"});
-  const auto add = [&](const AccuracyPoint& point, bool is_answer) {
+  Table table({"scene",          "role",
+               "target",         "reached",
+               "reference",      "reference_error",
+               "estimator",      "setting",
+               "disc_radius",    "nearest",
+               "rays",           "photons",
+               "noise",          "noise_low",
+               "noise_high",     "bias",
+               "error",          "error_low",
+               "error_high",     "predicted_seconds",
+               "on_frontier",    "measured_noise",
+               "measured_error", "measured_seconds",
+               "command"});
+  const auto add = [&](const AccuracyPoint& point, const char* role) {
     Json cells = point_json(answer, point);
     cells["scene"] = answer.scene;
+    cells["role"] = role;
+    cells["target"] = answer.plan.target.value;
+    cells["reached"] = reaches(answer, point);
+    cells["reference"] = answer.reference ? Json(name(answer.reference->kind)) : Json("pilot");
+    if (answer.reference) cells["reference_error"] = answer.reference->error();
     cells["noise_low"] = cells["noise_interval"][0];
     cells["noise_high"] = cells["noise_interval"][1];
     cells["error_low"] = cells["error_interval"][0];
     cells["error_high"] = cells["error_interval"][1];
-    cells["is_answer"] = is_answer;
-    if (is_answer && answer.check) {
+    if (std::string_view(role) == "answer" && answer.check) {
       cells["measured_noise"] = answer.check->noise;
+      cells["measured_error"] = answer.check->error ? Json(*answer.check->error) : Json();
       cells["measured_seconds"] = answer.check->seconds;
     }
     for (const char* other : {"axis", "noise_interval", "error_interval", "variance", "processor_seconds", "cut_off"})
       cells.erase(other);
     table.add(cells);
   };
-  add(answer.plan.answer, true);
-  for (const AccuracyPoint& point : answer.plan.points) add(point, false);
+  add(answer.plan.answer, "answer");
+  for (const AccuracyPoint& point : answer.plan.rivals) add(point, "rival");
+  for (const AccuracyPoint& point : answer.plan.points) add(point, "point");
   return table.csv();
 }
 
