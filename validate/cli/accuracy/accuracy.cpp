@@ -2,6 +2,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <stdexcept>
 
 #include "accuracy_report.hpp"
@@ -11,8 +13,10 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/open/open_scene.hpp"
+#include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/outputs.hpp"
+#include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 
@@ -31,6 +35,7 @@ struct AccuracyOptions {
   std::optional<std::string> up;
   std::optional<std::string> reference;
   std::optional<std::string> seeds;
+  std::vector<std::string> axes;
   bool front_facing = false;
 };
 
@@ -80,11 +85,38 @@ std::string repeated_options(const AccuracyOptions& options) {
   return text;
 }
 
+constexpr std::array<std::string_view, 4> axis_names{"estimator", "simulation", "model", "arithmetic"};
+
+void check_axes(const AccuracyOptions& options) {
+  for (const std::string& axis : options.axes)
+    static_cast<void>(one_of("--axis", axis, {axis_names.begin(), axis_names.end()}));
+}
+
+/// Of the axes that were asked for, without that of the estimators.
+std::vector<validate::AxisPoint> other_axes(const AccuracyOptions& options, sim::Scene& scene, double radius,
+                                            const validate::AccuracyPilotOptions& pilot) {
+  constexpr std::size_t rays_of_model_axis = 200'000;
+  const validate::AxisOptions axis{pilot.seed, pilot.threads, pilot.stop};
+  const auto asked = [&](std::string_view name) { return std::ranges::find(options.axes, name) != options.axes.end(); };
+  const auto discs = validate::discs_at(scene.samples, radius);
+  std::vector<validate::AxisPoint> points;
+  const auto add = [&](std::vector<validate::AxisPoint> more) { std::ranges::move(more, std::back_inserter(points)); };
+  if (asked("simulation")) add(validate::simulation_axis(discs, axis));
+  if (asked("model")) {
+    const sim::Paths paths = validate::ReplicateMaker(scene, pilot.front_facing, pilot.threads, pilot.stop)
+                                 .trace(rays_of_model_axis, pilot.seed, radius);
+    add(validate::model_axis(paths, discs, validate::stored_unit_costs(Engine::simd), axis));
+  }
+  if (asked("arithmetic")) add(validate::arithmetic_axis(axis));
+  return points;
+}
+
 Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   const validate::AccuracyTarget target = target_of(options);
   const SeedRange seeds = options.seeds ? parse_seeds("--seeds", *options.seeds) : SeedRange{};
   if (options.reference) check_outputs({{"--output", common.output}, {"--reference", options.reference}});
+  check_axes(options);
   const double most_rays = options.rays.value_or(1e9);
   require_count("--rays", most_rays, 1000, 1e12);
   validate::check(target, most_rays);
@@ -107,6 +139,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
                         .check = {},
                         .no_check = {},
                         .reruns = {},
+                        .axes = {},
                         .in_time = {}};
   answer.side = scene.box.longest_side();
   std::optional<sim::Progress> stopped;
@@ -141,6 +174,11 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
     if (const std::uint64_t all = seeds.last - seeds.first + 1; answer.reruns.size() < all)
       stopped = sim::Progress{answer.reruns.size(), all, "runs"};
   }
+  if (!stopped) try {
+      answer.axes = other_axes(options, scene, answer.pilot.sample_distance, pilot);
+    } catch (const sim::Stopped&) {
+      stopped = sim::Progress{2, 3, "steps"};
+    }
   answer.in_time =
       validate::plan_accuracy(answer.pilot, {validate::AccuracyTarget::Kind::seconds, 2 * best.seconds}, most_rays)
           .answer;
@@ -153,6 +191,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       {"estimators", options.estimators},
       {"most_rays", most_rays},
       {"reference", options.reference ? Json(*options.reference) : Json()},
+      {"axes", options.axes.empty() ? std::vector<std::string>{"estimator"} : options.axes},
       {"seeds", options.seeds ? Json(*options.seeds) : Json()},
       {"samples", scene.samples.size()},
       {"front_facing", options.front_facing}};
@@ -188,6 +227,11 @@ Command accuracy_command(CLI::App& program) {
                   "the file of the irradiance to compare with; it is made if there is none (up to a minute); "
                   "default: the pilot itself");
   app->add_option("--seeds", options->seeds, "runs the answer again with each of these seeds, as 1:100; default: not");
+  app->add_option(
+         "--axis", options->axes,
+         "what accuracy costs elsewhere, too: simulation (a hit probability by several ways to sample lines), model "
+         "(what choosing knows at each rigor), arithmetic (float, double, exact); default: estimator alone")
+      ->delimiter(',');
   app->add_flag("--front-facing", options->front_facing, "light that arrives from behind does not count");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_accuracy(*options, common, stop);

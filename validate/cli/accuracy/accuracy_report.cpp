@@ -170,6 +170,45 @@ bool is_answer(const AccuracyAnswer& answer, const AccuracyPoint& point) {
          std::abs(point.radius - best.radius) <= alike * best.radius;
 }
 
+Json axis_json(const validate::AxisPoint& point) {
+  return {
+      {"axis", point.axis},           {"estimator", nullptr},
+      {"setting", point.setting},     {"quantity", point.quantity},
+      {"work", point.work},           {"command", nullptr},
+      {"error", point.error},         {"error_interval", {point.error_low, point.error_high}},
+      {"variance", nullptr},          {"bias", nullptr},
+      {"predicted_seconds", nullptr}, {"measured_seconds", point.seconds},
+      {"processor_seconds", nullptr}, {"merit", point.error > 0 && point.seconds > 0 ? Json(point.merit()) : Json()},
+      {"on_frontier", nullptr},       {"cut_off", false}};
+}
+
+/// A table for each axis.
+std::string axes_text(const AccuracyAnswer& answer, const Screen& screen) {
+  std::string text;
+  for (std::size_t i = 0; i < answer.axes.size();) {
+    const std::string axis = answer.axes[i].axis;
+    TextTable table({{.head = axis, .align = Align::left},
+                     {.head = "error of", .align = Align::left},
+                     {.head = "error"},
+                     {.head = "from"},
+                     {.head = "to"},
+                     {.head = "seconds"},
+                     {.head = "1/(error² s)"}});
+    for (; i < answer.axes.size() && answer.axes[i].axis == axis; ++i) {
+      const validate::AxisPoint& point = answer.axes[i];
+      table.add({{point.setting},
+                 {point.quantity},
+                 {percent(point.error)},
+                 {percent(point.error_low)},
+                 {percent(point.error_high)},
+                 {fmt::format("{:.2g}", point.seconds)},
+                 {point.error > 0 ? fmt::format("{:.2g}", point.merit()) : ""}});
+    }
+    text += table.text(screen) + "\n";
+  }
+  return text;
+}
+
 /// Whether the point has the target's error; of a time, always.
 bool reaches(const AccuracyAnswer& answer, const AccuracyPoint& point) {
   constexpr double rounding = 1.001;
@@ -222,6 +261,7 @@ Json to_json(const AccuracyAnswer& answer) {
   chosen["text"] = answer_words(answer);
   Json points = Json::array();
   for (const AccuracyPoint& point : answer.plan.points) points.push_back(point_json(answer, point));
+  for (const validate::AxisPoint& point : answer.axes) points.push_back(axis_json(point));
   Json rivals = Json::array();
   for (const AccuracyPoint& point : answer.plan.rivals) {
     rivals.push_back(point_json(answer, point));
@@ -330,7 +370,7 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
     add(point, "");
   }
   if (!answered) add(answer.plan.answer, "<- answer");
-  text += table.text(screen) + "\n";
+  text += table.text(screen) + "\n" + axes_text(answer, screen);
   text += wrapped(
       fmt::format("noise, bias, total: root mean square over {}, relative to the root mean square irradiance. Bias: {}",
                   answer.reference ? "the reference's samples, spread by area" : "the samples by area",

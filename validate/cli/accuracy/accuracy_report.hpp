@@ -5,6 +5,7 @@
 
 #include "detp/validate/accuracy/accuracy_check.hpp"
 #include "detp/validate/accuracy/reference_file.hpp"
+#include "detp/validate/axes/axes.hpp"
 #include "detp/validate/cli/command.hpp"
 
 namespace detp::cli {
@@ -20,8 +21,9 @@ struct AccuracyAnswer {
   double correction = 1;  ///< of the answer's rays, because the check had another noise
   std::string no_check;   ///< why the answer was not run
   std::vector<validate::AccuracyRerun> reruns;
-  validate::AccuracyPoint in_time;  ///< the best way in twice the answer's time
-  double seconds = 0;               ///< that planning took, the check included
+  std::vector<validate::AxisPoint> axes;  ///< other than estimators
+  validate::AccuracyPoint in_time;        ///< the best way in twice the answer's time
+  double seconds = 0;                     ///< that planning took, the check included
 };
 
 /// "detp run @cornell --rays 3.4e5 --estimator disc --disc-radius 0.021".

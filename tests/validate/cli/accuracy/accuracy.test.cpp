@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 
 #include "support/run_support.hpp"
 
@@ -54,6 +55,24 @@ TEST_SUITE("accuracy") {
     check_refused({{"accuracy @cornell --target-noise 20% --reference " + file, "another scene"}});
   }
 
+  TEST_CASE("other axes add points with an error, a time and what the error is of") {
+    const Json json =
+        result_of("accuracy @furnace --target-noise 20% --estimators disc --axis simulation,model,arithmetic");
+    std::map<std::string, int> count;
+    for (const Json& point : json["points"]) {
+      ++count[point["axis"]];
+      if (point["axis"] == "estimator") continue;
+      CHECK(point["measured_seconds"].get<double>() > 0);
+      CHECK(point["error_interval"][0].get<double>() <= point["error"].get<double>());
+      CHECK(point["error_interval"][1].get<double>() >= point["error"].get<double>());
+      CHECK_FALSE(point["quantity"].get<std::string>().empty());
+    }
+    CHECK(count["estimator"] > 0);
+    CHECK(count["simulation"] == 10);
+    CHECK(count["model"] >= 5);
+    CHECK(count["arithmetic"] == 8);
+  }
+
   TEST_CASE("bad requests are refused with the reason") {
     check_refused({{"accuracy @uniform", "has no triangles"},
                    {"accuracy @cornell --target-noise 5% --target-error 5%", "give one of"},
@@ -62,6 +81,7 @@ TEST_SUITE("accuracy") {
                    {"accuracy @cornell --time-budget -1", "time budget"},
                    {"accuracy @cornell --estimators discs", "there is no estimator"},
                    {"accuracy @cornell --rays 10", "--rays"},
+                   {"accuracy @cornell --axis arithmetik", "--axis must be one of"},
                    {"accuracy @cornell --seeds 5", "--seeds takes the first and the last seed"},
                    {"accuracy @cornell --seeds 5:4", "--seeds takes the first and the last seed"},
                    {"accuracy @cornell --seeds 1:x", "--seeds must be a whole number"},
