@@ -13,7 +13,7 @@ namespace {
 
 constexpr double half_side = 1;        // of the square that is lit
 constexpr double half_sampled = 0.55;  // of the square with samples: no disc reaches the edge
-constexpr double disc_radius = 0.4;
+constexpr double disc_of_bias = 0.4;
 constexpr double bend = 2;  // E = 1 + bend r²
 constexpr std::size_t most_rays_of_run = 40'000;
 constexpr std::size_t runs_in_batch = 6;
@@ -42,7 +42,7 @@ std::vector<sim::Disc> random_discs(std::uint64_t seed) {
   for (std::size_t i = 0; i < samples_in_batch; ++i) {
     const auto random = sim::uniform4(seed, sim::Stream::tests, i);
     discs.push_back(
-        {{half_sampled * (2 * random[0] - 1), half_sampled * (2 * random[1] - 1), 0}, {0, 0, 1}, disc_radius});
+        {{half_sampled * (2 * random[0] - 1), half_sampled * (2 * random[1] - 1), 0}, {0, 0, 1}, disc_of_bias});
   }
   return discs;
 }
@@ -87,7 +87,7 @@ Finding smooth_bias_finding(const Experiment& experiment) {
   const model::BiasTerms terms{.fourth = model::bias_of_curvature(light, laplacian * laplacian)};
   return {.id = "accuracy.smooth-bias",
           .quantity = "squared bias of discs of radius 0.4 in parallel light with E = 1 + 2 r², relative",
-          .predictions = {{Form::corrected, "our derivation", model::bias_squared(terms, disc_radius)}},
+          .predictions = {{Form::corrected, "our derivation", model::bias_squared(terms, disc_of_bias)}},
           .observed = batch_means(batches),
           .batches = batch_count,
           .tolerance = 0.005,
