@@ -24,15 +24,17 @@ LineField::LineField(const Sphere& sphere, std::uint64_t seed) : sphere_(sphere)
     throw std::invalid_argument(fmt::format("sphere centre and radius must be within 1e100 (got {})", farthest));
 }
 
-Ray LineField::line(std::uint64_t index) const {
-  const auto [u, v, w, phi] = uniform4(seed_, Stream::line_field, index);
+Ray line_at(const Sphere& sphere, const std::array<double, 4>& coordinates) {
+  const auto& [u, v, w, phi] = coordinates;
   const glm::dvec3 direction = uniform_direction(u, v);
   const auto [first, second] = basis_around(direction);
-  const double radius = sphere_.radius * std::sqrt(w);
+  const double radius = sphere.radius * std::sqrt(w);
   const double angle = 2.0 * std::numbers::pi * phi;
-  return {.origin = sphere_.centre + radius * (std::cos(angle) * first + std::sin(angle) * second),
+  return {.origin = sphere.centre + radius * (std::cos(angle) * first + std::sin(angle) * second),
           .direction = direction};
 }
+
+Ray LineField::line(std::uint64_t index) const { return line_at(sphere_, uniform4(seed_, Stream::line_field, index)); }
 
 std::vector<Ray> LineField::lines(std::uint64_t first, std::size_t count, const std::stop_token& stop) const {
   const DefaultFloatingPoint mode;

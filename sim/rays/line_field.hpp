@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <stop_token>
 #include <vector>
@@ -7,6 +8,10 @@
 #include "detp/sim/geometry/geometry.hpp"
 
 namespace detp::sim {
+
+/// The line through a sphere with four coordinates in [0, 1): two of its direction, two of its place. Uniform coordinates give uniform
+/// isotropic lines (LineField). The line is unbounded, of power 1, and starts at its point nearest to the sphere's centre.
+[[nodiscard]] Ray line_at(const Sphere& sphere, const std::array<double, 4>& coordinates);
 
 /// Uniform isotropic random lines through a sphere. Their distribution is the measure μ_ℓ of lines, which no rotation
 /// or translation changes.

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "judged_samples.hpp"
 
 namespace detp::validate {
 namespace {
@@ -25,37 +27,34 @@ double square_between(const std::vector<double>& a, const std::vector<double>& b
   return square;
 }
 
-/// Where errors are taken: at the samples of the reference, if there is one, else at up to `most` of the scene's.
-struct JudgedSamples {
-  std::vector<sim::Sample> samples;
-  std::vector<double> weights;
-  const Reference* reference = nullptr;
+/// Nothing without a reference; its variance is subtracted.
+std::optional<double> error_of(const std::vector<double>& found, const Reference* reference, double mean_square) {
+  if (reference == nullptr) return std::nullopt;
+  double square = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    square += std::pow(found[i] - reference->irradiance[i], 2) - reference->variance[i];
+  return std::sqrt(std::max(0.0, square / static_cast<double>(found.size()) / mean_square));
+}
 
-  /// Nothing without a reference; its variance is subtracted.
-  [[nodiscard]] std::optional<double> error_of(const std::vector<double>& found, double mean_square) const {
-    if (reference == nullptr) return std::nullopt;
-    double square = 0;
-    for (std::size_t i = 0; i < found.size(); ++i)
-      square += weights[i] * (std::pow(found[i] - reference->irradiance[i], 2) - reference->variance[i]);
-    return std::sqrt(std::max(0.0, square / mean_square));
-  }
+/// One run, with the time that it takes at all of the scene's samples.
+struct TimedEstimate {
+  sim::Paths paths;
+  std::vector<double> irradiance;  ///< at the judged samples
+  double trace_seconds = 0;
+  double seconds = 0;  ///< with tracing
 };
 
-JudgedSamples judged_samples(const sim::Scene& scene, const Reference* reference, std::size_t most) {
-  if (reference != nullptr)
-    return {reference->samples,
-            std::vector<double>(reference->samples.size(), 1 / static_cast<double>(reference->samples.size())),
-            reference};
-  const std::vector<double> weights = area_weights(scene);
-  const std::size_t step = (weights.size() - 1) / most + 1;
-  JudgedSamples judged;
-  double sum = 0;
-  for (std::size_t i = step / 2; i < weights.size(); i += step) {
-    judged.samples.push_back(scene.samples[i]);
-    sum += judged.weights.emplace_back(weights[i]);
-  }
-  for (double& weight : judged.weights) weight /= sum;
-  return judged;
+TimedEstimate timed_estimate(ReplicateMaker& maker, const sim::Scene& scene, const JudgedSamples& judged,
+                             const AccuracyPoint& point, std::uint64_t seed) {
+  maker.decide_overshoot(point.radius);
+  sim::Stopwatch watch;
+  TimedEstimate run{.paths = maker.trace(whole_rays(point), seed, point.radius), .irradiance = {}};
+  run.trace_seconds = maker.caster_seconds() + watch.lap();
+  const auto all = maker.estimate(run.paths, scene.samples, point.setting()).irradiance;
+  run.seconds = run.trace_seconds + watch.lap();
+  run.irradiance = judged.places.empty() ? maker.estimate(run.paths, judged.samples, point.setting()).irradiance
+                                         : judged.of_all(all);
+  return run;
 }
 
 }  // namespace
@@ -64,29 +63,23 @@ AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, doub
                              const AccuracyPilotOptions& options) {
   const sim::DefaultFloatingPoint mode;
   ReplicateMaker maker(scene, options.front_facing, options.threads, options.stop);
-  maker.decide_overshoot(point.radius);
-  const AccuracySetting setting = point.setting();
   const JudgedSamples judged = judged_samples(scene, options.reference, scene.samples.size());
-  AccuracyCheck check;
-  sim::Stopwatch watch;
-  const sim::Paths paths = maker.trace(whole_rays(point), options.seed, point.radius);
-  check.rays = static_cast<double>(paths.rays.size());
-  check.trace_seconds = maker.caster_seconds() + watch.lap();
-  auto whole = maker.estimate(paths, scene.samples, setting).irradiance;
-  check.seconds = check.trace_seconds + watch.lap();
-  if (judged.reference != nullptr) whole = maker.estimate(paths, judged.samples, setting).irradiance;
+  const TimedEstimate whole = timed_estimate(maker, scene, judged, point, options.seed);
   // Half of the photons: the variance of the difference is that of the whole run.
-  AccuracySetting of_half = setting;
-  if (setting.estimator == sim::Estimator::nearest) of_half.nearest = std::max(3, setting.nearest / 2);
-  const std::uint64_t photons = std::max<std::uint64_t>(1, paths.photon_count / 2);
-  const double scale = static_cast<double>(paths.photon_count) / static_cast<double>(photons);
-  const auto half = maker.estimate(first_photons(paths, photons), judged.samples, of_half).irradiance;
-  check.noise = std::sqrt(square_between(whole, half, judged.weights, scale) / mean_square / std::max(1e-9, scale - 1));
-  check.error = judged.error_of(whole, mean_square);
-  return check;
+  AccuracySetting of_half = point.setting();
+  if (of_half.estimator == sim::Estimator::nearest) of_half.nearest = std::max(3, of_half.nearest / 2);
+  const std::uint64_t photons = std::max<std::uint64_t>(1, whole.paths.photon_count / 2);
+  const double scale = static_cast<double>(whole.paths.photon_count) / static_cast<double>(photons);
+  const auto half = maker.estimate(first_photons(whole.paths, photons), judged.samples, of_half).irradiance;
+  const double square = square_between(whole.irradiance, half, judged.weights, scale);
+  return {.noise = std::sqrt(square / mean_square / std::max(1e-9, scale - 1)),
+          .seconds = whole.seconds,
+          .trace_seconds = whole.trace_seconds,
+          .rays = static_cast<double>(whole.paths.rays.size()),
+          .error = error_of(whole.irradiance, options.reference, mean_square)};
 }
 
-double correct(AccuracyPlan& plan, const AccuracyCheck& check) {
+double correct_answer(AccuracyPlan& plan, const AccuracyCheck& check) {
   constexpr double clearly = 0.1;
   AccuracyPoint& best = plan.answer;
   const double ratio = check.noise / best.noise;
@@ -101,12 +94,16 @@ double correct(AccuracyPlan& plan, const AccuracyCheck& check) {
   return factor;
 }
 
+std::uint64_t check_seeds(std::uint64_t first, std::uint64_t last) {
+  require_count("number of seeds", static_cast<double>(last) - static_cast<double>(first) + 1, 2, 1e6);
+  return last - first + 1;
+}
+
 std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
                                           std::uint64_t first, std::uint64_t last,
                                           const AccuracyPilotOptions& options) {
   const sim::DefaultFloatingPoint mode;
-  const std::uint64_t count = last - first + 1;
-  require_count("number of seeds", static_cast<double>(last) - static_cast<double>(first) + 1, 2, 1e6);
+  const std::uint64_t count = check_seeds(first, last);
   const JudgedSamples judged = judged_samples(scene, options.reference, most_samples_kept);
   std::vector<AccuracyRerun> reruns;
   std::vector<std::vector<double>> found;
@@ -115,13 +112,10 @@ std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint
       if (options.progress)
         options.progress({"runs", static_cast<double>(reruns.size()) / static_cast<double>(count), 1});
       ReplicateMaker maker(scene, options.front_facing, options.threads, options.stop);
-      maker.decide_overshoot(point.radius);
-      const sim::Stopwatch watch;
-      const sim::Paths paths = maker.trace(whole_rays(point), seed, point.radius);
-      static_cast<void>(maker.estimate(paths, scene.samples, point.setting()));
-      const double seconds = maker.caster_seconds() + watch.seconds();
-      found.push_back(maker.estimate(paths, judged.samples, point.setting()).irradiance);
-      reruns.push_back({.seed = seed, .seconds = seconds, .error = judged.error_of(found.back(), mean_square)});
+      TimedEstimate run = timed_estimate(maker, scene, judged, point, seed);
+      found.push_back(std::move(run.irradiance));
+      reruns.push_back(
+          {.seed = seed, .seconds = run.seconds, .error = error_of(found.back(), options.reference, mean_square)});
     }
   } catch (const sim::Stopped&) {
     found.resize(reruns.size());

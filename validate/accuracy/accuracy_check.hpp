@@ -26,7 +26,7 @@ struct AccuracyCheck {
 
 /// If the check had clearly another noise than predicted (by more than 10 %) and the target is a noise: sets the answer's rays and seconds
 /// to those that the check says are needed. Returns the factor by which the rays changed.
-double correct(AccuracyPlan& plan, const AccuracyCheck& check);
+double correct_answer(AccuracyPlan& plan, const AccuracyCheck& check);
 
 /// One of many runs of a plan's answer.
 struct AccuracyRerun {
@@ -36,8 +36,11 @@ struct AccuracyRerun {
   std::optional<double> error = {};  ///< as AccuracyCheck::error
 };
 
+/// How many seeds there are. Throws std::invalid_argument unless they are 2 to 1e6.
+std::uint64_t check_seeds(std::uint64_t first, std::uint64_t last);
+
 /// Runs a point with the seeds from `first` to `last`. Noise is taken at up to 2000 of the samples. Ends early, with the runs made so
-/// far, on a stop request. Throws as sim::estimate.
+/// far, on a stop request. Throws as check_seeds and sim::estimate.
 [[nodiscard]] std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint& point,
                                                         double mean_square, std::uint64_t first, std::uint64_t last,
                                                         const AccuracyPilotOptions& options);

@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "judged_samples.hpp"
 
 namespace detp::validate {
 namespace {
 
-constexpr std::size_t runs = 6;
+constexpr std::size_t runs = 6;             // of each setting
 constexpr std::size_t most_samples = 2000;  // of the runs; times are taken with all
 constexpr std::array radii_over_distance{0.25, 0.5, 1.0, 2.0};
 constexpr std::array nearest_of_run{5, 10, 20, 40};  // k in a run of the pilot
@@ -70,11 +70,7 @@ class PilotMaker {
       : scene_(scene),
         options_(options),
         maker_(scene, options.front_facing, options.threads, options.stop),
-        samples_(options.reference != nullptr ? options.reference->samples : scene.samples),
-        weights_(options.reference != nullptr
-                     ? std::vector<double>(samples_.size(), 1 / static_cast<double>(samples_.size()))
-                     : area_weights(scene)) {
-    if (options.reference == nullptr) take_some_samples();
+        judged_(judged_samples(scene, options.reference, most_samples)) {
     pilot_.sample_distance = sim::mean_edge_length(scene.mesh, options.stop);
     if (!(pilot_.sample_distance > 0))
       throw std::invalid_argument("accuracy needs a mesh with triangles; " + scene.name + " has none with edges");
@@ -91,29 +87,12 @@ class PilotMaker {
     trace();
     const Runs reference = options_.reference != nullptr ? given_reference() : reference_runs();
     for (EstimatorPilot& one : pilot_.estimators) measure(one, reference);
-    pilot_.runs = runs;
     pilot_.rays = static_cast<double>(runs * rays_of_run_);
     pilot_.seconds = watch_.seconds();
     return std::move(pilot_);
   }
 
  private:
-  /// One of every so many samples: neighbours in the array are often neighbours in space.
-  void take_some_samples() {
-    const std::size_t step = samples_.size() / most_samples + 1;
-    if (step == 1) return;
-    std::size_t kept = 0;
-    double sum = 0;
-    for (std::size_t i = step / 2; i < samples_.size(); i += step) {
-      samples_[kept] = samples_[i];
-      weights_[kept] = weights_[i];
-      sum += weights_[kept++];
-    }
-    samples_.resize(kept);
-    weights_.resize(kept);
-    for (double& weight : weights_) weight /= sum;
-  }
-
   [[nodiscard]] EstimatorPilot with_settings(sim::Estimator estimator) const {
     EstimatorPilot pilot{.estimator = estimator, .settings = {}};
     if (uses_radius(estimator)) {
@@ -171,15 +150,16 @@ class PilotMaker {
 
   Runs runs_of(const AccuracySetting& setting) const {
     Runs all;
-    for (const sim::Paths& paths : paths_) all.push_back(maker_.estimate(paths, samples_, setting).irradiance);
+    for (const sim::Paths& paths : paths_) all.push_back(maker_.estimate(paths, judged_.samples, setting).irradiance);
     return all;
   }
 
   /// Photons that count for a sample, on average over the samples by area, in all runs together.
   [[nodiscard]] double photons_near(const AccuracySetting& setting) const {
-    const sim::Outcome outcome = maker_.estimate(paths_.front(), samples_, setting);
+    const sim::Outcome outcome = maker_.estimate(paths_.front(), judged_.samples, setting);
     double sum = 0;
-    for (std::size_t i = 0; i < weights_.size(); ++i) sum += weights_[i] * static_cast<double>(outcome.hits[i]);
+    for (std::size_t i = 0; i < judged_.weights.size(); ++i)
+      sum += judged_.weights[i] * static_cast<double>(outcome.hits[i]);
     return runs * sum;
   }
 
@@ -192,10 +172,10 @@ class PilotMaker {
     if (photons_near({area_corrected, pilot_.reference_radius}) < fewest_near) pilot_.reference_radius = distance;
     Runs reference = runs_of({area_corrected, pilot_.reference_radius});
     const Runs wider = runs_of({area_corrected, 2 * pilot_.reference_radius});
-    own_bias_ = jackknife(difference(wider, reference), weights_, &Sums::square);
+    own_bias_ = jackknife(difference(wider, reference), judged_.weights, &Sums::square);
     own_bias_ = scaled(own_bias_, 1.0 / 3);
     own_bias_ = {std::max(0.0, own_bias_.mean), std::hypot(own_bias_.standard_error, std::max(0.0, own_bias_.mean))};
-    const Estimate mean_square = jackknife(reference, weights_, &Sums::square);
+    const Estimate mean_square = jackknife(reference, judged_.weights, &Sums::square);
     pilot_.mean_square = mean_square.mean;
     if (!(mean_square.mean > 2 * mean_square.standard_error))
       throw std::invalid_argument("the pilot's photons hardly meet the samples of " + scene_.name +
@@ -226,10 +206,10 @@ class PilotMaker {
   [[nodiscard]] double error_by_reference(const Runs& away) const {
     if (options_.reference == nullptr) return 0;
     double sum = 0;
-    for (std::size_t i = 0; i < weights_.size(); ++i) {
+    for (std::size_t i = 0; i < judged_.weights.size(); ++i) {
       double mean = 0;
       for (const auto& run : away) mean += run[i] / static_cast<double>(away.size());
-      sum += 4 * squared(weights_[i] * mean) * options_.reference->variance[i];
+      sum += 4 * squared(judged_.weights[i] * mean) * options_.reference->variance[i];
     }
     return std::sqrt(sum);
   }
@@ -242,9 +222,9 @@ class PilotMaker {
       setting.seconds = watch.seconds() / runs;
       const double square = pilot_.mean_square;
       setting.noise_squared_times_rays =
-          scaled(jackknife(found, weights_, &Sums::noise), static_cast<double>(rays_of_run_) / square);
+          scaled(jackknife(found, judged_.weights, &Sums::noise), static_cast<double>(rays_of_run_) / square);
       const Runs away = difference(found, reference);
-      const Estimate bias = jackknife(away, weights_, &Sums::square);
+      const Estimate bias = jackknife(away, judged_.weights, &Sums::square);
       setting.bias_squared =
           scaled({bias.mean + own_bias_.mean,
                   std::hypot(bias.standard_error, own_bias_.standard_error, error_by_reference(away))},
@@ -265,6 +245,7 @@ class PilotMaker {
     double per_ray = 0;
     set_times(with_one, watch.lap(), fixed, per_ray);
     one.rays_of_run = static_cast<double>(rays_of_run_);
+    one.runs = runs;
     one.fixed_share = std::clamp(fixed / with_one, 0.0, 1.0);
     const double scale = with_one / middle.seconds;
     for (SettingPilot& setting : one.settings) setting.seconds *= scale;
@@ -274,8 +255,7 @@ class PilotMaker {
   const AccuracyPilotOptions& options_;
   sim::Stopwatch watch_;
   ReplicateMaker maker_;
-  std::vector<sim::Sample> samples_;  ///< of the runs: some of the scene's
-  std::vector<double> weights_;       ///< of these
+  JudgedSamples judged_;
   AccuracyPilot pilot_;
   std::size_t rays_of_run_ = 0;
   std::vector<sim::Paths> paths_;
@@ -283,82 +263,11 @@ class PilotMaker {
   Estimate own_bias_;  ///< squared bias of what the estimates are compared with; below 0: its variance
 };
 
-/// The settings on both sides of the scale, and the share of the upper one.
-struct Between {
-  const SettingPilot& low;
-  const SettingPilot& high;
-  double share;
-};
-
-Between between(const std::vector<SettingPilot>& settings, double scale) {
-  if (settings.size() == 1 || scale <= settings.front().scale) return {settings.front(), settings.front(), 0};
-  for (std::size_t i = 1; i < settings.size(); ++i)
-    if (scale <= settings[i].scale) {
-      const double step = std::log(settings[i].scale / settings[i - 1].scale);
-      return {settings[i - 1], settings[i], std::log(scale / settings[i - 1].scale) / step};
-    }
-  return {settings.back(), settings.back(), 0};
-}
-
 }  // namespace
-
-double EstimatorPilot::seconds_of_run(double scale) const {
-  const auto [low, high, share] = between(settings, scale);
-  return std::exp((1 - share) * std::log(std::max(low.seconds, 1e-9)) + share * std::log(std::max(high.seconds, 1e-9)));
-}
-
-double EstimatorPilot::noise_squared(double scale, double rays) const {
-  const auto [low, high, share] = between(settings, scale);
-  const auto log_of = [](const SettingPilot& one) {
-    return std::log(std::max(one.noise_squared_times_rays.mean, 1e-300));
-  };
-  return std::exp((1 - share) * log_of(low) + share * log_of(high)) / rays;
-}
-
-double EstimatorPilot::noise_squared_error(double scale) const {
-  const auto [low, high, share] = between(settings, scale);
-  const auto relative = [](const SettingPilot& one) {
-    return one.noise_squared_times_rays.standard_error / std::max(one.noise_squared_times_rays.mean, 1e-300);
-  };
-  return std::sqrt(runs + 1.0) * ((1 - share) * relative(low) + share * relative(high));
-}
-
-Estimate EstimatorPilot::bias_squared(double scale) const {
-  const auto [low, high, share] = between(settings, scale);
-  const auto mixed = [share = share](double a, double b) { return (1 - share) * a + share * b; };
-  const Estimate& a = low.bias_squared;
-  const Estimate& b = high.bias_squared;
-  const bool known = a.mean > a.standard_error && b.mean > b.standard_error;
-  return {known ? std::exp(mixed(std::log(a.mean), std::log(b.mean))) : mixed(a.mean, b.mean),
-          mixed(a.standard_error, b.standard_error)};
-}
 
 AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options) {
   const sim::DefaultFloatingPoint mode;
   return PilotMaker(scene, options).make();
-}
-
-std::vector<double> area_weights(const sim::Scene& scene) {
-  const sim::Mesh& mesh = scene.mesh;
-  std::vector<double> around(mesh.positions.size());
-  for (const auto& [a, b, c] : mesh.triangles) {
-    const double area =
-        0.5 * glm::length(glm::cross(mesh.positions[b] - mesh.positions[a], mesh.positions[c] - mesh.positions[a]));
-    for (const std::uint32_t corner : {a, b, c}) around[corner] += area / 3;
-  }
-  std::vector<double> weights;
-  std::size_t vertex = 0;
-  for (const sim::Sample& sample : scene.samples) {
-    while (vertex < around.size() && (mesh.positions[vertex] != sample.position || !(around[vertex] > 0))) ++vertex;
-    weights.push_back(vertex < around.size() ? around[vertex++] : 0);
-  }
-  const auto others = static_cast<double>(std::ranges::count(weights, 0.0));
-  if (others > 0)  // samples between the vertices: each stands for the same area
-    std::ranges::fill(weights, 1.0);
-  double sum = 0;
-  for (const double weight : weights) sum += weight;
-  for (double& weight : weights) weight /= sum;
-  return weights;
 }
 
 }  // namespace detp::validate

@@ -29,6 +29,7 @@ struct EstimatorPilot {
   /// the setting's time.
   double fixed_share = 0;
   double rays_of_run = 1;
+  std::size_t runs = 2;        ///< of each setting
   double surface_seconds = 0;  ///< for building what the estimator needs of the mesh
 
   /// noise² with so many rays, and bias²; both interpolated between the settings, linearly in logarithms (bias² that is not known to
@@ -56,7 +57,6 @@ struct AccuracyPilot {
   double trace_seconds_per_ray = 0;
   double photons_per_ray = 0;
   double mean_square = 0;       ///< B²
-  std::size_t runs = 2;         ///< of each setting
   double sample_distance = 0;   ///< mean edge of the mesh, scene units
   double reference_radius = 0;  ///< of the area-corrected estimates with which all are compared; 0: with a Reference
   double rays = 0;              ///< of all runs together
@@ -94,9 +94,5 @@ struct AccuracyPilotOptions {
 ///
 /// Throws std::invalid_argument for a scene without triangles, lights or light on its samples; sim::Stopped on a stop request.
 [[nodiscard]] AccuracyPilot make_accuracy_pilot(sim::Scene& scene, const AccuracyPilotOptions& options);
-
-/// Area around each of the scene's samples, over their sum: a third of the triangles at its vertex; equal for samples that are no
-/// vertices.
-[[nodiscard]] std::vector<double> area_weights(const sim::Scene& scene);
 
 }  // namespace detp::validate

@@ -21,10 +21,7 @@ double root(double square) { return std::sqrt(std::max(0.0, square)); }
 class Ways {
  public:
   Ways(const AccuracyPilot& pilot, const EstimatorPilot& own, double most_rays)
-      : pilot_(pilot),
-        own_(own),
-        most_rays_(most_rays),
-        spread_(interval_width(0.05, 1, static_cast<int>(pilot.runs))) {
+      : pilot_(pilot), own_(own), most_rays_(most_rays), spread_(interval_width(0.05, 1, static_cast<int>(own.runs))) {
     const double least = own.settings.front().scale;
     const double most = own.settings.back().scale;
     const int count = own.settings.size() == 1 ? 1 : scales_tried;

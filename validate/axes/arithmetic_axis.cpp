@@ -8,7 +8,7 @@
 #include "axes.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/geometry/predicates.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
 #include "detp/sim/technique/technique.hpp"
 
@@ -25,12 +25,7 @@ struct PairScene {
   std::vector<sim::Disc> discs;
 };
 
-glm::dvec3 random_unit(const std::array<double, 4>& random) {
-  const double z = 2 * random[0] - 1;
-  const double sine = std::sqrt(std::max(0.0, 1 - z * z));
-  const double turn = 2 * 3.14159265358979323846 * random[1];
-  return {sine * std::cos(turn), sine * std::sin(turn), z};
-}
+glm::dvec3 random_unit(const std::array<double, 4>& random) { return sim::uniform_direction(random[0], random[1]); }
 
 /// Rays through points of the planes of discs in a cube: within two radii of a centre, or within `near_rim` of the rim. The cube's
 /// centre has all coordinates `away`.
@@ -125,8 +120,7 @@ std::vector<AxisPoint> arithmetic_axis(const AxisOptions& options) {
                         .setting = fmt::format("{}, {} scene", arithmetic, scene.name),
                         .quantity = "decisions of hits",
                         .error = wrong / hits,
-                        .error_low = std::max(0.0, wrong - half) / hits,
-                        .error_high = (wrong + half) / hits,
+                        .interval = Interval{std::max(0.0, wrong - half) / hits, (wrong + half) / hits},
                         .seconds = seconds,
                         .work = pairs});
     };

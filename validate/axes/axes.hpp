@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <stop_token>
 #include <string>
@@ -12,16 +13,22 @@
 /// Errors against what they cost in time.
 namespace detp::validate {
 
+struct Interval {
+  double low = 0;
+  double high = 0;
+};
+
 /// One way to get a number.
 struct AxisPoint {
   std::string axis;
   std::string setting;   ///< "Owen-scrambled Sobol, 4096 lines"
   std::string quantity;  ///< whose relative error this is
   double error = 0;
-  double error_low = 0;  ///< interval of 95 %
-  double error_high = 0;
+  /// Of the error, 95 %; nothing where it is not known, or where the error is 0 by definition.
+  std::optional<Interval> interval = {};
   double seconds = 0;  ///< measured
   double work = 0;     ///< lines, pairs or rays
+
   /// 1/(error² seconds); infinite without an error
   [[nodiscard]] double merit() const { return 1 / (error * error * seconds); }
 };

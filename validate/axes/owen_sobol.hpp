@@ -6,7 +6,8 @@
 /// Sobol's sequence in four dimensions with Owen's scrambling.
 namespace detp::validate {
 
-/// Points of a (0, 4)-sequence's first four dimensions in [0, 1)⁴, scrambled: each replicate (seed) is uniform, and keeps the structure. The
+/// Points in [0, 1)⁴. Of any 2ᵏ points that start at a multiple of it, one lies in each of 2ᵏ equal intervals of every coordinate, and in each
+/// elementary box of the first two. Scrambling keeps this, and makes each point of a replicate (seed) uniform. The
 /// direction numbers are those of S. Joe and F. Kuo (2008); the scrambling is by hashing (B. Burley, JCGT 9/4, 2020).
 class OwenSobol {
  public:

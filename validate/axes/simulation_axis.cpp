@@ -4,13 +4,14 @@
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
-#include <numbers>
 
 #include "axes.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/predicates.hpp"
 #include "detp/sim/geometry/random.hpp"
+#include "detp/sim/rays/line_field.hpp"
 #include "detp/sim/search/problem.hpp"
 #include "detp/validate/statistics/statistics.hpp"
 #include "owen_sobol.hpp"
@@ -21,7 +22,6 @@ namespace {
 constexpr std::size_t replicates = 16;
 constexpr std::size_t most_discs_of_axis = 16;
 constexpr std::array<std::uint32_t, 2> numbers_of_lines{1U << 12, 1U << 15};
-constexpr double quantile_of_replicates = 2.131;  // Student's t, 15 degrees of freedom, 97.5 %
 
 using Coordinates = std::array<double, 4>;
 /// Coordinates of line `index` of so many.
@@ -46,36 +46,19 @@ Coordinates stratified_point(std::uint64_t seed, std::uint32_t index, std::uint3
   return point;
 }
 
-glm::dvec3 direction_of(double u, double v) {
-  const double z = 2 * u - 1;
-  const double sine = std::sqrt(std::max(0.0, 1 - z * z));
-  const double turn = 2 * std::numbers::pi * v;
-  return {sine * std::cos(turn), sine * std::sin(turn), z};
-}
-
-sim::Ray line_of(const Coordinates& point, const sim::Sphere& sphere) {
-  const glm::dvec3 direction = direction_of(point[0], point[1]);
-  const glm::dvec3 other = std::abs(direction.x) < 0.5 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 first = glm::normalize(glm::cross(direction, other));
-  const double radius = sphere.radius * std::sqrt(point[2]);
-  const double turn = 2 * std::numbers::pi * point[3];
-  return {.origin = sphere.centre + radius * (std::cos(turn) * first + std::sin(turn) * glm::cross(direction, first)),
-          .direction = direction};
-}
-
-/// Adds the share of the lines that hit each disc.
-using Estimator =
+/// Adds to the estimated number of lines that hit each disc.
+using AddLine =
     std::function<void(const Coordinates&, std::span<const sim::Disc>, const sim::Sphere&, std::vector<double>&)>;
 
 void count_hits(const Coordinates& point, std::span<const sim::Disc> discs, const sim::Sphere& sphere,
                 std::vector<double>& sums) {
-  const sim::Ray line = line_of(point, sphere);
+  const sim::Ray line = sim::line_at(sphere, point);
   for (std::size_t i = 0; i < discs.size(); ++i) sums[i] += sim::hits(line, discs[i]) ? 1 : 0;
 }
 
 void add_conditioned(const Coordinates& point, std::span<const sim::Disc> discs, const sim::Sphere& sphere,
                      std::vector<double>& sums) {
-  const glm::dvec3 direction = direction_of(point[0], point[1]);
+  const glm::dvec3 direction = sim::uniform_direction(point[0], point[1]);
   for (std::size_t i = 0; i < discs.size(); ++i)
     sums[i] += std::pow(discs[i].radius / sphere.radius, 2) * std::abs(glm::dot(discs[i].normal, direction));
 }
@@ -83,7 +66,7 @@ void add_conditioned(const Coordinates& point, std::span<const sim::Disc> discs,
 struct Way {
   const char* name;
   Sampler sampler;
-  Estimator estimator;
+  AddLine add;
 };
 
 AxisPoint measured(const Way& way, std::uint32_t count, std::span<const sim::Disc> discs, const sim::Sphere& sphere,
@@ -94,7 +77,7 @@ AxisPoint measured(const Way& way, std::uint32_t count, std::span<const sim::Dis
     sim::StopCheck(options.stop, "sampling lines").now();
     std::vector<double> sums(discs.size());
     const std::uint64_t seed = options.seed * 1000 + replicate;
-    for (std::uint32_t i = 0; i < count; ++i) way.estimator(way.sampler(seed, i, count), discs, sphere, sums);
+    for (std::uint32_t i = 0; i < count; ++i) way.add(way.sampler(seed, i, count), discs, sphere, sums);
     double square = 0;
     for (std::size_t i = 0; i < discs.size(); ++i) {
       const double known = 0.5 * std::pow(discs[i].radius / sphere.radius, 2);
@@ -103,13 +86,12 @@ AxisPoint measured(const Way& way, std::uint32_t count, std::span<const sim::Dis
     squares.push_back(square);
   }
   const Estimate mean = batch_means(squares);
-  const double half = quantile_of_replicates * mean.standard_error;
+  const double half = interval_width(0.05, 1, replicates) * mean.standard_error;
   return {.axis = "simulation",
           .setting = fmt::format("{}, {} lines", way.name, count),
           .quantity = "probability that a line hits a disc",
           .error = std::sqrt(mean.mean),
-          .error_low = std::sqrt(std::max(0.0, mean.mean - half)),
-          .error_high = std::sqrt(mean.mean + half),
+          .interval = Interval{std::sqrt(std::max(0.0, mean.mean - half)), std::sqrt(mean.mean + half)},
           .seconds = watch.seconds() / replicates,
           .work = static_cast<double>(count)};
 }

@@ -4,6 +4,7 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/validate/cli/text/result.hpp"
+#include "detp/validate/cli/text/screen.hpp"
 
 /// Results of commands that a stop request ended.
 namespace detp::cli {

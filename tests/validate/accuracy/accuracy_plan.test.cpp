@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "detp/sim/open/open_scene.hpp"
+#include "detp/validate/accuracy/judged_samples.hpp"
 
 namespace detp::validate {
 namespace {
@@ -16,7 +17,7 @@ constexpr double per_ray = 1e-6;
 
 /// Discs with noise² = 0.2/(r² rays) and bias² = c r, radii 0.01 … 0.08; tracing and searching take 1 µs each for a ray.
 AccuracyPilot made_pilot(double bias_per_radius, double bias_error = 0) {
-  EstimatorPilot discs{.estimator = sim::Estimator::disc, .settings = {}, .rays_of_run = 1000};
+  EstimatorPilot discs{.estimator = sim::Estimator::disc, .settings = {}, .rays_of_run = 1000, .runs = 6};
   for (const double radius : {0.01, 0.02, 0.04, 0.08})
     discs.settings.push_back({.setting = {sim::Estimator::disc, radius},
                               .scale = radius,
@@ -26,7 +27,6 @@ AccuracyPilot made_pilot(double bias_per_radius, double bias_error = 0) {
   AccuracyPilot pilot;
   pilot.estimators = {discs};
   pilot.trace_seconds_per_ray = per_ray;
-  pilot.runs = 6;
   pilot.photons_per_ray = 0.5;
   pilot.mean_square = 1;
   return pilot;

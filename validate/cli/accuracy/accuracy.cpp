@@ -115,6 +115,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   const sim::Stopwatch watch;
   const validate::AccuracyTarget target = target_of(options);
   const SeedRange seeds = options.seeds ? parse_seeds("--seeds", *options.seeds) : SeedRange{};
+  if (options.seeds) validate::check_seeds(seeds.first, seeds.last);
   if (options.reference) check_outputs({{"--output", common.output}, {"--reference", options.reference}});
   check_axes(options);
   const double most_rays = options.rays.value_or(1e9);
@@ -163,7 +164,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
     try {
       pilot.seed = common.seed + 1000;
       answer.check = validate::check_accuracy(scene, best, answer.pilot.mean_square, pilot);
-      answer.correction = validate::correct(answer.plan, *answer.check);
+      answer.correction = validate::correct_answer(answer.plan, *answer.check);
     } catch (const sim::Stopped&) {
       answer.no_check = "Stopped before the check.";
       stopped = sim::Progress{2, 3, "steps"};

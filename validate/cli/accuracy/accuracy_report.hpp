@@ -29,6 +29,18 @@ struct AccuracyAnswer {
 /// "detp run @cornell --rays 3.4e5 --estimator disc --disc-radius 0.021".
 [[nodiscard]] std::string command_of(const AccuracyAnswer& answer, const validate::AccuracyPoint& point);
 
+/// "d = 2.1 %", "k = 50"; empty if the estimator has no setting.
+[[nodiscard]] std::string setting_words(const AccuracyAnswer& answer, const validate::AccuracyPoint& point);
+
+/// The answer in sentences, with its command.
+[[nodiscard]] std::string answer_words(const AccuracyAnswer& answer);
+
+/// Whether the point has the target's error; of a time, always.
+[[nodiscard]] bool reaches(const AccuracyAnswer& answer, const validate::AccuracyPoint& point);
+
+/// How many of the reruns have a noise in the answer's interval.
+[[nodiscard]] std::size_t inside(const AccuracyAnswer& answer);
+
 [[nodiscard]] Json to_json(const AccuracyAnswer& answer);
 [[nodiscard]] std::string csv_of(const AccuracyAnswer& answer);
 [[nodiscard]] std::string to_text(const AccuracyAnswer& answer, const Screen& screen);

@@ -5,6 +5,7 @@
 
 #include "detp/validate/bench/summary.hpp"
 #include "detp/validate/cli/text/result.hpp"
+#include "detp/validate/cli/text/screen.hpp"
 
 namespace detp::cli {
 

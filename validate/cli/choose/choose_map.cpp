@@ -8,6 +8,7 @@
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/cli/options/unit_cost_option.hpp"
+#include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/map/map_svg.hpp"
 

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "detp/validate/cli/text/result.hpp"
+#include "detp/validate/cli/text/screen.hpp"
 #include "detp/validate/map/technique_map.hpp"
 
 namespace detp::cli {

@@ -10,6 +10,7 @@
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/choice/tips.hpp"
 #include "detp/validate/cli/text/result.hpp"
+#include "detp/validate/cli/text/screen.hpp"
 
 namespace detp::cli {
 

@@ -12,6 +12,7 @@
 #include "detp/validate/cli/options/unit_cost_option.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/answer_rows.hpp"
+#include "detp/validate/cli/report/columns.hpp"
 #include "detp/validate/cli/report/extrapolated.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "model_outlook.hpp"

@@ -7,9 +7,11 @@
 #include <stdexcept>
 
 #include "detp/model/rank/predict.hpp"
+#include "detp/model/rank/registry.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/validate/calibration/sum_costs.hpp"
 #include "detp/validate/cli/options/sphere_stops.hpp"
+#include "detp/validate/cli/report/columns.hpp"
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/text_table.hpp"

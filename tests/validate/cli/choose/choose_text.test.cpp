@@ -135,7 +135,7 @@ TEST_SUITE("end to end") {
     CHECK(detp(in_tree + " --verbose --format csv").code == 0);
   }
 
-  TEST_CASE("texts say in words how values compare") {
+  TEST_CASE("texts say in words how values compare" * doctest::test_suite("long")) {
     for (const std::string& request :
          {in_numbers, in_tree, in_cube, in_tree + " --analyze", std::string("run @cornell --rays 1000"),
           std::string("scene @cornell --rays 1000")})

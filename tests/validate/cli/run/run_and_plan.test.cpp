@@ -11,7 +11,8 @@
 using namespace detp;
 
 TEST_SUITE("identity") {
-  TEST_CASE("detp run, a plan that is executed once, and choose(Question) choose the same, with the same prediction") {
+  TEST_CASE("detp run, a plan that is executed once, and choose(Question) choose the same, with the same prediction" *
+            doctest::test_suite("long")) {
     int piloted = 0;
     for (const char* scene : {"@cornell", "@tree-coarse", "@interior"})
       for (const double rays : {20.0, 3000.0, 300'000.0}) {

@@ -1,0 +1,60 @@
+#include <algorithm>
+#include <cmath>
+
+#include "accuracy_pilot.hpp"
+
+/// What a pilot says of settings between those that it tried.
+namespace detp::validate {
+namespace {
+
+/// The settings on both sides of the scale, and the share of the upper one.
+struct Between {
+  const SettingPilot& low;
+  const SettingPilot& high;
+  double share;
+};
+
+Between between(const std::vector<SettingPilot>& settings, double scale) {
+  if (settings.size() == 1 || scale <= settings.front().scale) return {settings.front(), settings.front(), 0};
+  for (std::size_t i = 1; i < settings.size(); ++i)
+    if (scale <= settings[i].scale) {
+      const double step = std::log(settings[i].scale / settings[i - 1].scale);
+      return {settings[i - 1], settings[i], std::log(scale / settings[i - 1].scale) / step};
+    }
+  return {settings.back(), settings.back(), 0};
+}
+
+}  // namespace
+
+double EstimatorPilot::seconds_of_run(double scale) const {
+  const auto [low, high, share] = between(settings, scale);
+  return std::exp((1 - share) * std::log(std::max(low.seconds, 1e-9)) + share * std::log(std::max(high.seconds, 1e-9)));
+}
+
+double EstimatorPilot::noise_squared(double scale, double rays) const {
+  const auto [low, high, share] = between(settings, scale);
+  const auto log_of = [](const SettingPilot& one) {
+    return std::log(std::max(one.noise_squared_times_rays.mean, 1e-300));
+  };
+  return std::exp((1 - share) * log_of(low) + share * log_of(high)) / rays;
+}
+
+double EstimatorPilot::noise_squared_error(double scale) const {
+  const auto [low, high, share] = between(settings, scale);
+  const auto relative = [](const SettingPilot& one) {
+    return one.noise_squared_times_rays.standard_error / std::max(one.noise_squared_times_rays.mean, 1e-300);
+  };
+  return std::sqrt(static_cast<double>(runs) + 1) * ((1 - share) * relative(low) + share * relative(high));
+}
+
+Estimate EstimatorPilot::bias_squared(double scale) const {
+  const auto [low, high, share] = between(settings, scale);
+  const auto mixed = [share = share](double a, double b) { return (1 - share) * a + share * b; };
+  const Estimate& a = low.bias_squared;
+  const Estimate& b = high.bias_squared;
+  const bool known = a.mean > a.standard_error && b.mean > b.standard_error;
+  return {known ? std::exp(mixed(std::log(a.mean), std::log(b.mean))) : mixed(a.mean, b.mean),
+          mixed(a.standard_error, b.standard_error)};
+}
+
+}  // namespace detp::validate

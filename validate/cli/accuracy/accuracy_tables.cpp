@@ -1,0 +1,184 @@
+#include "accuracy_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "detp/validate/cli/text/table.hpp"
+
+/// The answer as JSON and CSV.
+namespace detp::cli {
+namespace {
+
+using validate::AccuracyPoint;
+
+Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json interval_json(const validate::AxisPoint& point) {
+  return point.interval ? Json{point.interval->low, point.interval->high} : Json();
+}
+
+Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  return {{"axis", "estimator"},
+          {"estimator", name(point.estimator)},
+          {"setting", setting_words(answer, point)},
+          {"disc_radius", point.radius > 0 ? Json(point.radius) : Json()},
+          {"nearest", point.nearest > 0 ? Json(point.nearest) : Json()},
+          {"rays", std::round(point.rays)},
+          {"photons", std::round(point.photons)},
+          {"command", command_of(answer, point)},
+          {"noise", point.noise},
+          {"noise_interval", {point.noise_low, point.noise_high}},
+          {"bias", point.bias},
+          {"error", point.total},
+          {"error_interval", {point.total_low, point.total_high}},
+          {"variance", point.noise * point.noise},
+          {"predicted_seconds", point.seconds},
+          {"measured_seconds", nullptr},
+          {"processor_seconds", nullptr},
+          {"on_frontier", point.on_frontier},
+          {"cut_off", false}};
+}
+
+Json reference_json(const AccuracyAnswer& answer) {
+  if (!answer.reference)
+    return {{"kind", "area-corrected estimates of the pilot"},
+            {"radius", answer.pilot.reference_radius},
+            {"photons", std::round(answer.pilot.rays * answer.pilot.photons_per_ray)},
+            {"error", nullptr},
+            {"seconds", answer.pilot.seconds}};
+  const validate::Reference& reference = *answer.reference;
+  const bool photons = reference.kind == validate::ReferenceKind::landings;
+  return {{"kind", name(reference.kind)}, {"photons", photons ? Json(reference.paths) : Json()},
+          {"paths", reference.paths},     {"samples", reference.samples.size()},
+          {"error", reference.error()},   {"seconds", reference.seconds}};
+}
+
+/// Null without reruns.
+Json reruns_json(const AccuracyAnswer& answer) {
+  if (answer.reruns.empty()) return nullptr;
+  Json runs = Json::array();
+  for (const validate::AccuracyRerun& one : answer.reruns)
+    runs.push_back({{"seed", one.seed}, {"noise", one.noise}, {"error", json_of(one.error)}, {"seconds", one.seconds}});
+  return {{"inside_noise_interval", inside(answer)}, {"runs", runs}};
+}
+
+Json axis_json(const validate::AxisPoint& point) {
+  return {
+      {"axis", point.axis},           {"estimator", nullptr},
+      {"setting", point.setting},     {"quantity", point.quantity},
+      {"work", point.work},           {"command", nullptr},
+      {"error", point.error},         {"error_interval", interval_json(point)},
+      {"variance", nullptr},          {"bias", nullptr},
+      {"predicted_seconds", nullptr}, {"measured_seconds", point.seconds},
+      {"processor_seconds", nullptr}, {"merit", point.error > 0 && point.seconds > 0 ? Json(point.merit()) : Json()},
+      {"on_frontier", nullptr},       {"cut_off", false}};
+}
+
+}  // namespace
+
+std::string command_of(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  std::string text =
+      fmt::format("detp run {} --rays {:.3g} --estimator {}", answer.scene, point.rays, name(point.estimator));
+  if (point.radius > 0) text += fmt::format(" --disc-radius {:.4g}", point.radius);
+  if (point.nearest > 0) text += fmt::format(" --nearest {}", point.nearest);
+  return text + answer.options;
+}
+
+Json to_json(const AccuracyAnswer& answer) {
+  const AccuracyPoint& best = answer.plan.answer;
+  Json chosen = point_json(answer, best);
+  chosen.erase("axis");
+  chosen.erase("on_frontier");
+  chosen.erase("cut_off");
+  chosen["technique"] = nullptr;
+  if (sim::record_of(best.estimator).finds_pairs) chosen["technique"] = "box-tree";
+  if (best.estimator == sim::Estimator::nearest) chosen["technique"] = "photon-map";
+  chosen["reached"] = answer.plan.reached;
+  chosen["bias_interval"] = {0.0, best.bias_high};
+  chosen["trace_seconds"] = best.trace_seconds;
+  if (answer.check) {
+    chosen["measured_seconds"] = answer.check->seconds;
+    chosen["measured_noise"] = answer.check->noise;
+    chosen["measured_rays"] = answer.check->rays;
+    chosen["correction"] = answer.correction;
+    chosen["measured_error"] = json_of(answer.check->error);
+  }
+  chosen["text"] = answer_words(answer);
+  Json points = Json::array();
+  for (const AccuracyPoint& point : answer.plan.points) points.push_back(point_json(answer, point));
+  for (const validate::AxisPoint& point : answer.axes) points.push_back(axis_json(point));
+  Json rivals = Json::array();
+  for (const AccuracyPoint& point : answer.plan.rivals) {
+    rivals.push_back(point_json(answer, point));
+    rivals.back()["reached"] = reaches(answer, point);
+  }
+  return {{"answer", chosen},
+          {"rivals", rivals},
+          {"floor", answer.plan.floor},
+          {"points", points},
+          {"reference", reference_json(answer)},
+          {"reruns", reruns_json(answer)},
+          {"planning_seconds", answer.seconds},
+          {"pilot_rays", answer.pilot.rays}};
+}
+
+std::string csv_of(const AccuracyAnswer& answer) {
+  Table table({"scene",          "role",           "target",
+               "reached",        "reference",      "reference_error",
+               "estimator",      "setting",        "quantity",
+               "disc_radius",    "nearest",        "rays",
+               "photons",        "noise",          "noise_low",
+               "noise_high",     "bias",           "error",
+               "error_low",      "error_high",     "predicted_seconds",
+               "on_frontier",    "seed",           "work",
+               "measured_noise", "measured_error", "measured_seconds",
+               "command"});
+  const auto add_row = [&](const char* role, Json cells) {
+    cells["scene"] = answer.scene;
+    cells["role"] = role;
+    table.add(cells);
+  };
+  const auto add = [&](const char* role, const AccuracyPoint& point, const Json& measured = Json::object()) {
+    Json cells = point_json(answer, point);
+    cells["target"] = answer.plan.target.value;
+    cells["reached"] = reaches(answer, point);
+    cells["reference"] = answer.reference ? Json(name(answer.reference->kind)) : Json("pilot");
+    if (answer.reference) cells["reference_error"] = answer.reference->error();
+    cells["noise_low"] = point.noise_low;
+    cells["noise_high"] = point.noise_high;
+    cells["error_low"] = point.total_low;
+    cells["error_high"] = point.total_high;
+    for (const char* other : {"axis", "noise_interval", "error_interval", "variance", "processor_seconds", "cut_off"})
+      cells.erase(other);
+    cells.update(measured);
+    add_row(role, cells);
+  };
+  const auto measured = [](double noise, const std::optional<double>& error, double seconds) {
+    return Json{{"measured_noise", noise}, {"measured_error", json_of(error)}, {"measured_seconds", seconds}};
+  };
+  const auto& check = answer.check;
+  add("answer", answer.plan.answer, check ? measured(check->noise, check->error, check->seconds) : Json::object());
+  for (const AccuracyPoint& point : answer.plan.rivals) add("rival", point);
+  for (const AccuracyPoint& point : answer.plan.points) add("point", point);
+  for (const validate::AccuracyRerun& run : answer.reruns) {
+    Json cells = measured(run.noise, run.error, run.seconds);
+    cells["seed"] = run.seed;
+    add_row("run", cells);
+  }
+  for (const validate::AxisPoint& point : answer.axes) {
+    Json cells{{"setting", point.setting},
+               {"quantity", point.quantity},
+               {"error", point.error},
+               {"measured_seconds", point.seconds},
+               {"work", point.work}};
+    if (point.interval) {
+      cells["error_low"] = point.interval->low;
+      cells["error_high"] = point.interval->high;
+    }
+    add_row(point.axis.c_str(), cells);
+  }
+  return table.csv();
+}
+
+}  // namespace detp::cli

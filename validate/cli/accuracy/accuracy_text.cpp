@@ -1,0 +1,235 @@
+#include "accuracy_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "detp/validate/cli/text/messages.hpp"
+#include "detp/validate/cli/text/text_table.hpp"
+
+/// The answer in words and tables.
+namespace detp::cli {
+namespace {
+
+using validate::AccuracyPoint;
+using validate::AccuracyTarget;
+
+std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
+
+std::string rays_words(double rays) { return fmt::format("{:.2g}", rays); }
+
+/// "340 000 photon paths with discs of radius 0.021 (2.1 % of the scene), estimator disc".
+std::string way(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  std::string text = fmt::format("{:.3g} photon paths ({:.3g} pieces)", point.photons, point.rays);
+  if (point.radius > 0)
+    text += fmt::format(" with radius {:.3g} ({:.2g} % of the scene)", point.radius, 100 * point.radius / answer.side);
+  if (point.nearest > 0) text += fmt::format(" with k = {}", point.nearest);
+  return text + fmt::format(", estimator {}", name(point.estimator));
+}
+
+/// Relative standard error of predicted seconds: what the check runs have shown so far.
+constexpr double seconds_error = 0.2;
+
+std::string bias_words(const AccuracyPoint& best) {
+  if (best.bias_high > 2 * best.bias)
+    return fmt::format("The bias is at most {}, the total at most {}. ", percent(best.bias_high),
+                       percent(best.total_high));
+  return fmt::format("The bias is about {} (at most {}), so the total is {}. ", percent(best.bias),
+                     percent(best.bias_high), percent(best.total));
+}
+
+std::string rivals_words(const AccuracyAnswer& answer) {
+  std::string text = fmt::format("{} is best", name(answer.plan.answer.estimator));
+  const AccuracyTarget& target = answer.plan.target;
+  for (const AccuracyPoint& rival : answer.plan.rivals) {
+    text += fmt::format("; {}", name(rival.estimator));
+    if (target.kind == AccuracyTarget::Kind::seconds || !answer.plan.reached)
+      text += fmt::format(" has {}", percent(rival.total));
+    else if (!reaches(answer, rival))
+      text += fmt::format(" does not reach it: its bias is {}", percent(rival.bias));
+    else
+      text += fmt::format(" takes {:.2g} times as long (bias {})", rival.seconds / answer.plan.answer.seconds,
+                          percent(rival.bias));
+  }
+  return text;
+}
+
+std::string reruns_words(const AccuracyAnswer& answer) {
+  std::vector<double> noise;
+  std::vector<double> seconds;
+  for (const validate::AccuracyRerun& one : answer.reruns) {
+    noise.push_back(one.noise);
+    seconds.push_back(one.seconds);
+  }
+  return fmt::format(
+      "{} runs with seeds {} to {}: noise {} ({} to {}), inside the interval in {}; {:.2g} s ({:.2g} to {:.2g})",
+      noise.size(), answer.reruns.front().seed, answer.reruns.back().seed, percent(validate::median(noise)),
+      percent(std::ranges::min(noise)), percent(std::ranges::max(noise)), inside(answer), validate::median(seconds),
+      std::ranges::min(seconds), std::ranges::max(seconds));
+}
+
+/// The curve has a point with the answer's number of rays.
+bool is_answer(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  constexpr double alike = 0.01;
+  const AccuracyPoint& best = answer.plan.answer;
+  return point.estimator == best.estimator && std::abs(point.rays / best.rays - 1) < alike &&
+         std::abs(point.radius - best.radius) <= alike * best.radius;
+}
+
+/// A table for each axis.
+std::string axes_text(const AccuracyAnswer& answer, const Screen& screen) {
+  std::string text;
+  for (std::size_t i = 0; i < answer.axes.size();) {
+    const std::string axis = answer.axes[i].axis;
+    TextTable table({{.head = axis, .align = Align::left},
+                     {.head = "error of", .align = Align::left},
+                     {.head = "error"},
+                     {.head = "from"},
+                     {.head = "to"},
+                     {.head = "seconds"},
+                     {.head = "1/(error² s)"}});
+    for (; i < answer.axes.size() && answer.axes[i].axis == axis; ++i) {
+      const validate::AxisPoint& point = answer.axes[i];
+      table.add({{point.setting},
+                 {point.quantity},
+                 {percent(point.error)},
+                 {point.interval ? percent(point.interval->low) : ""},
+                 {point.interval ? percent(point.interval->high) : ""},
+                 {fmt::format("{:.2g}", point.seconds)},
+                 {point.error > 0 ? fmt::format("{:.2g}", point.merit()) : ""}});
+    }
+    text += table.text(screen) + "\n";
+  }
+  return text;
+}
+
+std::string bias_source(const AccuracyAnswer& answer) {
+  if (answer.reference && answer.reference->kind == validate::ReferenceKind::known)
+    return "against the closed form of this scene.";
+  if (answer.reference)
+    return fmt::format("against a reference by {} with an error of {}.", name(answer.reference->kind),
+                       percent(answer.reference->error()));
+  return fmt::format(
+      "against area-corrected estimates of radius {:.2g} %, photons alike; a bias that all estimators share is not "
+      "seen (--reference sees it).",
+      100 * answer.pilot.reference_radius / answer.side);
+}
+
+}  // namespace
+
+std::string setting_words(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  if (point.radius > 0) return fmt::format("d = {:.2g} %", 100 * point.radius / answer.side);
+  return point.nearest > 0 ? fmt::format("k = {}", point.nearest) : "";
+}
+
+std::string answer_words(const AccuracyAnswer& answer) {
+  const AccuracyPoint& best = answer.plan.answer;
+  const AccuracyTarget& target = answer.plan.target;
+  std::string text;
+  if (!answer.plan.reached) {
+    text =
+        fmt::format("{} {} is not reached: the least bias of the estimators tried is {}. Nearest: {} in {:.2g} s, {}. ",
+                    percent(target.value), target.kind == AccuracyTarget::Kind::noise ? "noise" : "error",
+                    percent(answer.plan.floor), percent(best.total), best.seconds, way(answer, best));
+  } else if (target.kind == AccuracyTarget::Kind::seconds) {
+    text = fmt::format("in {:.3g} s: {} total ({} to {}), of which {} noise and {} bias: {}. ", target.value,
+                       percent(best.total), percent(best.total_low), percent(best.total_high), percent(best.noise),
+                       percent(best.bias), way(answer, best));
+  } else {
+    text = fmt::format("{} {} takes {}: {:.2g} s ({:.2g} to {:.2g}), of which {:.2g} s traces photons. ",
+                       percent(target.value), target.kind == AccuracyTarget::Kind::noise ? "noise" : "error",
+                       way(answer, best), best.seconds, (1 - seconds_error) * best.seconds,
+                       (1 + seconds_error) * best.seconds, best.trace_seconds);
+    text += bias_words(best);
+  }
+  if (answer.check && answer.correction != 1)
+    text += fmt::format("Corrected: {:.3g} pieces, predicted by the pilot, had {} noise and took {:.2g} s. ",
+                        answer.check->rays, percent(answer.check->noise), answer.check->seconds);
+  else if (answer.check)
+    text += fmt::format("Run once to check: {} noise{}, {:.2g} s. ", percent(answer.check->noise),
+                        answer.check->error ? fmt::format(", {} total", percent(*answer.check->error)) : "",
+                        answer.check->seconds);
+  else
+    text += answer.no_check + " ";
+  return text + command_of(answer, best);
+}
+
+/// Whether the point has the target's error; of a time, always.
+bool reaches(const AccuracyAnswer& answer, const AccuracyPoint& point) {
+  constexpr double rounding = 1.001;
+  const AccuracyTarget& target = answer.plan.target;
+  if (target.kind == AccuracyTarget::Kind::seconds) return true;
+  return (target.kind == AccuracyTarget::Kind::noise ? point.noise : point.total) <= rounding * target.value;
+}
+
+std::size_t inside(const AccuracyAnswer& answer) {
+  const AccuracyPoint& best = answer.plan.answer;
+  return static_cast<std::size_t>(std::ranges::count_if(answer.reruns, [&](const validate::AccuracyRerun& one) {
+    return one.noise >= best.noise_low && one.noise <= best.noise_high;
+  }));
+}
+
+std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
+  std::string text = wrapped("answer    " + answer_words(answer), screen.text_width(), 10);
+  text += wrapped(
+      "          " + fmt::format("In {:.2g} s, twice the time: {} total ({} noise, {} bias): {}.",
+                                 answer.in_time.seconds, percent(answer.in_time.total), percent(answer.in_time.noise),
+                                 percent(answer.in_time.bias), way(answer, answer.in_time)),
+      screen.text_width(), 10);
+  text += wrapped("estimator " + rivals_words(answer), screen.text_width(), 10);
+  if (!answer.reruns.empty()) text += wrapped("runs      " + reruns_words(answer), screen.text_width(), 10);
+  text += "\n";
+  TextTable table({{.head = "total"},
+                   {.head = "noise"},
+                   {.head = "bias"},
+                   {.head = "pieces"},
+                   {.head = "setting", .align = Align::left},
+                   {.head = "estimator", .align = Align::left},
+                   {.head = "seconds"},
+                   {.head = "", .align = Align::left}});
+  const auto add = [&](const AccuracyPoint& point, const std::string& remark) {
+    table.add({{percent(point.total)},
+               {percent(point.noise)},
+               {percent(point.bias)},
+               {rays_words(point.rays)},
+               {setting_words(answer, point)},
+               {std::string(name(point.estimator))},
+               {fmt::format("{:.2g}", point.seconds)},
+               {remark}});
+  };
+  std::vector<AccuracyPoint> shown;
+  for (const AccuracyPoint& point : answer.plan.points)
+    if (point.on_frontier && !is_answer(answer, point)) shown.push_back(point);
+  std::ranges::sort(shown, {}, &AccuracyPoint::seconds);
+  // of points that are equally fast, the most accurate one
+  std::vector<AccuracyPoint> best;
+  for (const AccuracyPoint& point : shown)
+    if (best.empty() || point.total < best.back().total) best.push_back(point);
+  // those around the answer
+  constexpr std::size_t rows_shown = 7;
+  const auto distance = [&](const AccuracyPoint& point) {
+    return std::abs(std::log(point.seconds / answer.plan.answer.seconds));
+  };
+  while (best.size() > rows_shown)
+    best.erase(distance(best.front()) > distance(best.back()) ? best.begin() : best.end() - 1);
+  bool answered = false;
+  for (const AccuracyPoint& point : best) {
+    if (!answered && point.seconds >= answer.plan.answer.seconds) {
+      add(answer.plan.answer, "<- answer");
+      answered = true;
+    }
+    add(point, "");
+  }
+  if (!answered) add(answer.plan.answer, "<- answer");
+  text += table.text(screen) + "\n" + axes_text(answer, screen);
+  text += wrapped(
+      fmt::format("noise, bias, total: root mean square over {}, relative to the root mean square irradiance. Bias: {}",
+                  answer.reference ? "the reference's samples, spread by area" : "the samples by area",
+                  bias_source(answer)),
+      screen.text_width(), 0);
+  return text + fmt::format("planning  {:.2g} s: a pilot of {:.2g} pieces{}\n", answer.seconds, answer.pilot.rays,
+                            answer.check ? ", one check" : "");
+}
+
+}  // namespace detp::cli
