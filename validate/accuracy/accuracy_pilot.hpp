@@ -67,7 +67,7 @@ struct AccuracyPilot {
   }
 };
 
-inline constexpr double usual_pilot_rays = 160'000;
+inline constexpr double usual_pilot_rays = 40'000;
 
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all

@@ -112,7 +112,6 @@ std::vector<validate::AxisPoint> other_axes(const AccuracyOptions& options, sim:
 }
 
 Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
-  const sim::Stopwatch watch;
   const validate::AccuracyTarget target = target_of(options);
   const SeedRange seeds = options.seeds ? parse_seeds("--seeds", *options.seeds) : SeedRange{};
   if (options.seeds) validate::check_seeds(seeds.first, seeds.last);
@@ -150,16 +149,20 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
         {.front_facing = options.front_facing, .threads = common.threads, .stop = stop, .progress = progress.report()});
     pilot.reference = &*answer.reference;
   }
+  const sim::Stopwatch watch;
   validate::PilotedPlan planned = validate::plan_accuracy(scene, target, pilot, most_rays);
   answer.pilot = std::move(planned.pilot);
   answer.plan = std::move(planned.plan);
   if (planned.stopped) stopped = sim::Progress{1, 3, "steps"};
   validate::AccuracyPoint& best = answer.plan.answer;
   constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
+  const bool too_large = best.rays * bytes_of_a_ray > sim::memory_budget();
   if (stopped)
     answer.no_check = "Stopped before the check.";
-  else if (best.seconds > longest_check || best.rays * bytes_of_a_ray > sim::memory_budget())
-    answer.no_check = "Not run to check: too long, or too large for the memory.";
+  else if (too_large)
+    answer.no_check = "Not run: too large for the memory.";
+  else if (best.seconds > longest_check)
+    answer.no_check = "Not run to check: too long.";
   else
     try {
       pilot.seed = common.seed + 1000;
@@ -170,7 +173,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       stopped = sim::Progress{2, 3, "steps"};
     }
   answer.seconds = watch.seconds();
-  if (options.seeds && !stopped) {
+  if (options.seeds && !stopped && !too_large) {
     answer.reruns = validate::rerun_accuracy(scene, best, answer.pilot.mean_square, seeds.first, seeds.last, pilot);
     if (const std::uint64_t all = seeds.last - seeds.first + 1; answer.reruns.size() < all)
       stopped = sim::Progress{answer.reruns.size(), all, "runs"};

@@ -23,7 +23,7 @@ struct AccuracyAnswer {
   std::vector<validate::AccuracyRerun> reruns;
   std::vector<validate::AxisPoint> axes;  ///< other than estimators
   validate::AccuracyPoint in_time;        ///< the best way in twice the answer's time
-  double seconds = 0;                     ///< that planning took, the check included
+  double seconds = 0;                     ///< that the pilots and the check took
 };
 
 /// "detp run @cornell --rays 3.4e5 --estimator disc --disc-radius 0.021".

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string_view>
 
 #include "detp/validate/cli/text/table.hpp"
 
@@ -11,6 +12,12 @@ namespace detp::cli {
 namespace {
 
 using validate::AccuracyPoint;
+
+std::string_view kind_name(validate::AccuracyTarget::Kind kind) {
+  using enum validate::AccuracyTarget::Kind;
+  if (kind == seconds) return "seconds";
+  return kind == noise ? "noise" : "error";
+}
 
 Json json_of(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
 
@@ -124,24 +131,46 @@ Json to_json(const AccuracyAnswer& answer) {
 }
 
 std::string csv_of(const AccuracyAnswer& answer) {
-  Table table({"scene",          "role",           "target",
-               "reached",        "reference",      "reference_error",
-               "estimator",      "setting",        "quantity",
-               "disc_radius",    "nearest",        "rays",
-               "photons",        "noise",          "noise_low",
-               "noise_high",     "bias",           "error",
-               "error_low",      "error_high",     "predicted_seconds",
-               "on_frontier",    "seed",           "work",
-               "measured_noise", "measured_error", "measured_seconds",
+  Table table({"scene",
+               "role",
+               "target_kind",
+               "target",
+               "reached",
+               "reference",
+               "reference_error",
+               "estimator",
+               "setting",
+               "quantity",
+               "disc_radius",
+               "nearest",
+               "rays",
+               "photons",
+               "noise",
+               "noise_low",
+               "noise_high",
+               "bias",
+               "error",
+               "error_low",
+               "error_high",
+               "predicted_seconds",
+               "on_frontier",
+               "seed",
+               "work",
+               "measured_noise",
+               "measured_error",
+               "measured_seconds",
+               "planning_seconds",
+               "correction",
                "command"});
   const auto add_row = [&](const char* role, Json cells) {
     cells["scene"] = answer.scene;
     cells["role"] = role;
+    cells["target_kind"] = kind_name(answer.plan.target.kind);
+    cells["target"] = answer.plan.target.value;
     table.add(cells);
   };
   const auto add = [&](const char* role, const AccuracyPoint& point, const Json& measured = Json::object()) {
     Json cells = point_json(answer, point);
-    cells["target"] = answer.plan.target.value;
     cells["reached"] = reaches(answer, point);
     cells["reference"] = answer.reference ? Json(name(answer.reference->kind)) : Json("pilot");
     if (answer.reference) cells["reference_error"] = answer.reference->error();
@@ -158,7 +187,10 @@ std::string csv_of(const AccuracyAnswer& answer) {
     return Json{{"measured_noise", noise}, {"measured_error", json_of(error)}, {"measured_seconds", seconds}};
   };
   const auto& check = answer.check;
-  add("answer", answer.plan.answer, check ? measured(check->noise, check->error, check->seconds) : Json::object());
+  Json checked = check ? measured(check->noise, check->error, check->seconds) : Json::object();
+  checked["planning_seconds"] = answer.seconds;
+  checked["correction"] = answer.correction;
+  add("answer", answer.plan.answer, checked);
   for (const AccuracyPoint& point : answer.plan.rivals) add("rival", point);
   for (const AccuracyPoint& point : answer.plan.points) add("point", point);
   for (const validate::AccuracyRerun& run : answer.reruns) {

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "support/csv_answer.hpp"
 #include "support/run_support.hpp"
 
 namespace detp::support {
@@ -55,6 +56,11 @@ TEST_SUITE("accuracy") {
     }
     CHECK(std::filesystem::exists(file));
     const std::string csv = detp(command + " --axis arithmetic --format csv").out;
+    for (const CsvRow& row : csv_rows(csv)) {
+      CHECK(row.at("target_kind") == "noise");
+      CHECK_FALSE(row.at("target").empty());
+      CHECK(row.at("planning_seconds").empty() == (row.at("role") != "answer"));
+    }
     CHECK(csv.find(",run,") != std::string::npos);
     CHECK(csv.find(",arithmetic,") != std::string::npos);
     check_refused({{"accuracy @cornell --target-noise 20% --reference " + file, "another scene"}});
