@@ -104,13 +104,14 @@ TEST_SUITE("bad input") {
         {",0.0]", ",-1.0]", "a variance is below 0"},
         {",0.0]", ",1e999]", "is not a reference"},
         {"  ]\n}", "", "is not a reference"}};
-    for (const auto& [from, to, message] : damages) {
+    for (const std::array<std::string, 3>& damage : damages) {
+      const std::string& to = damage[1];
       const ReferencePath file;
       static_cast<void>(validate::kept_reference(file.path, scene, quick()));
-      file.replace(from, to);
+      file.replace(damage[0], to);
       CAPTURE(to);
       CHECK_THROWS_WITH_AS(static_cast<void>(validate::kept_reference(file.path, scene, quick())),
-                           Contains(message.c_str()), sim::FileError);
+                           Contains(damage[2].c_str()), sim::FileError);
     }
   }
 }
