@@ -74,6 +74,9 @@ class PilotMaker {
     pilot_.sample_distance = sim::mean_edge_length(scene.mesh, options.stop);
     if (!(pilot_.sample_distance > 0))
       throw std::invalid_argument("accuracy needs a mesh with triangles; " + scene.name + " has none with edges");
+    radii_ = options.radii;
+    if (radii_.empty())
+      for (const double share : radii_over_distance) radii_.push_back(share * pilot_.sample_distance);
     rays_of_run_ = std::max<std::size_t>(
         200, static_cast<std::size_t>((options.rays > 0 ? options.rays : usual_pilot_rays) / runs));
     const auto all = [&](sim::Estimator one) {
@@ -96,11 +99,9 @@ class PilotMaker {
   [[nodiscard]] EstimatorPilot with_settings(sim::Estimator estimator) const {
     EstimatorPilot pilot{.estimator = estimator, .settings = {}};
     if (uses_radius(estimator)) {
-      for (const double share : radii_over_distance) {
-        const double radius = share * pilot_.sample_distance;
+      for (const double radius : radii_)
         pilot.settings.push_back(
             {.setting = {estimator, radius}, .scale = radius, .noise_squared_times_rays = {}, .bias_squared = {}});
-      }
     } else if (estimator == sim::Estimator::nearest) {
       for (const int k : nearest_of_run)
         pilot.settings.push_back({.setting = {.estimator = estimator, .nearest = k},
@@ -257,6 +258,7 @@ class PilotMaker {
   ReplicateMaker maker_;
   JudgedSamples judged_;
   AccuracyPilot pilot_;
+  std::vector<double> radii_;
   std::size_t rays_of_run_ = 0;
   std::vector<sim::Paths> paths_;
   sim::Paths long_paths_;

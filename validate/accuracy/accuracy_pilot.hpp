@@ -71,7 +71,8 @@ inline constexpr double usual_pilot_rays = 40'000;
 
 struct AccuracyPilotOptions {
   std::vector<sim::Estimator> estimators;  ///< empty: all
-  double rays = 0;                         ///< of all runs of the pilot together; 0: 160 000
+  double rays = 0;                         ///< of all runs of the pilot together; 0: usual_pilot_rays
+  std::vector<double> radii = {};          ///< of discs, rising; empty: from a quarter to twice the mean edge
   /// The irradiance to compare with, if it is known better than from the pilot itself. It must outlive the pilot.
   const Reference* reference = nullptr;
   bool front_facing = false;
@@ -81,7 +82,7 @@ struct AccuracyPilotOptions {
   sim::ReportPhase progress = {};
 };
 
-/// Radii are h/4, h/2, h and 2h, h the mean edge of the triangles. Six runs of independent photons at up to 2000 of the scene's samples, weighted
+/// Radii are h/4, h/2, h and 2h, h the mean edge of the triangles, unless others are given. Six runs of independent photons at up to 2000 of the scene's samples, weighted
 /// by the area around each:
 ///
 ///     noise² = Σ w_i s_i²/B²           bias² = Σ w_i (y_i² - s²_{y,i}/6)/B² + β²        y: estimate - reference of the same run

@@ -70,6 +70,19 @@ std::vector<sim::Disc> discs_at(const std::vector<sim::Sample>& samples, double 
 
 bool on_faces(const Workload& workload) { return workload.dimension < 2.5; }
 
+/// The rays of a field that needs no scene.
+std::unique_ptr<const sim::RaySource> field_of_rays(const Job& job, std::uint64_t count, const std::stop_token& stop) {
+  const sim::Sphere sphere = sim::enclosing_sphere(job.discs, stop);
+  if (job.field == sim::Field::isotropic) return std::make_unique<sim::LinesOfField>(sphere, job.seed, count);
+  glm::dvec3 down{0.0};
+  down[job.up.axis] = -job.up.sign;
+  sim::Box box;
+  for (const sim::Disc& disc : job.discs) box.include(disc.centre);
+  glm::dvec3 point = box.centre();
+  point[job.up.axis] = job.up.sign > 0 ? box.high[job.up.axis] : box.low[job.up.axis];
+  return std::make_unique<sim::MixedField>(sim::FieldMixture{sphere, job.shares, down, point}, job.seed, count);
+}
+
 class JobMaker {
  public:
   JobMaker(const JobRequest& request, std::stop_token stop, const sim::ReportPhase& progress)
@@ -80,13 +93,18 @@ class JobMaker {
     progress_.read(request_);
     sim::in_memory("reading the scene", [&] { request_.numbers_alone() ? from_numbers() : from_scene_and_files(); });
     job_.front_facing = request_.front_facing;
+    job_.shares = request_.shares;
+    job_.seed = request_.seed;
     job_.rays_from_file = request_.ray_file.has_value();
     job_.read_seconds = watch.lap();
     sim::in_memory("making rays", [&] { make_rays(); });
     (job_.rays_from_file ? job_.read_seconds : job_.trace_seconds) += watch.lap();
     progress_.measure(job_.rays.size(), job_.discs.size());
     sim::in_memory("measuring rays and discs", [&] { measure_workload(); });
-    if (request_.keep_mesh && scene_) job_.mesh = std::move(scene_->mesh);
+    if (request_.keep_scene && scene_) {
+      job_.scene = std::make_shared<sim::Scene>(std::move(*scene_));
+      job_.caster = caster_;
+    }
     return std::move(job_);
   }
 
@@ -159,7 +177,7 @@ class JobMaker {
     const std::size_t count = count_in_memory(
         "rays", made, sizeof(sim::Ray) + (paths ? sizeof(std::uint64_t) + sizeof(double) + sizeof(std::uint32_t) : 0));
     if (job_.field != sim::Field::photons) {
-      read_rays(*field_of_rays(count));
+      read_rays(*field_of_rays(job_, count, stop_));
       return;
     }
     const sim::Scene& scene = scene_for_photons();
@@ -177,20 +195,6 @@ class JobMaker {
   void refuse_lights(std::string_view rays) const {
     if (!request_.lights.empty() || request_.up)
       throw std::invalid_argument(fmt::format("--light and --up are for photon paths; these are {}", rays));
-  }
-
-  /// The rays of a field that needs no scene.
-  [[nodiscard]] std::unique_ptr<const sim::RaySource> field_of_rays(std::uint64_t count) const {
-    const sim::Sphere sphere = sim::enclosing_sphere(job_.discs, stop_);
-    if (job_.field == sim::Field::isotropic) return std::make_unique<sim::LinesOfField>(sphere, request_.seed, count);
-    glm::dvec3 down{0.0};
-    down[job_.up.axis] = -job_.up.sign;
-    sim::Box box;
-    for (const sim::Disc& disc : job_.discs) box.include(disc.centre);
-    glm::dvec3 point = box.centre();
-    point[job_.up.axis] = job_.up.sign > 0 ? box.high[job_.up.axis] : box.low[job_.up.axis];
-    return std::make_unique<sim::MixedField>(sim::FieldMixture{sphere, request_.shares, down, point}, request_.seed,
-                                             count);
   }
 
   void read_rays(const sim::RaySource& source) {
@@ -217,7 +221,7 @@ class JobMaker {
 
   void make_stream(std::uint64_t count) {
     if (job_.field != sim::Field::photons) {
-      job_.stream = field_of_rays(count);
+      job_.stream = field_of_rays(job_, count, stop_);
       return;
     }
     const sim::Scene& scene = scene_for_photons();
@@ -273,6 +277,19 @@ void Job::check_problem(int threads, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   problem_ = sim::make_problem(paths(), discs, front_facing, threads, stop);
   check_seconds = watch.seconds();
+}
+
+sim::Paths Job::more_rays(std::uint64_t made, std::size_t count, const std::stop_token& stop_request) const {
+  if (rays_from_file) throw std::invalid_argument("a ray file has no further rays");
+  if (field == sim::Field::photons) {
+    if (!scene) throw std::invalid_argument("further photon paths need the scene, which was not kept");
+    return sim::photon_paths(*scene, count, seed + 0x9e3779b97f4a7c15ULL * made, caster, stop_request);
+  }
+  sim::Paths lines;
+  lines.rays.resize(count);
+  field_of_rays(*this, made + count, stop_request)->read(made, lines.rays, stop_request);
+  lines.photon_count = count;
+  return lines;
 }
 
 const sim::Problem& Job::problem() const {

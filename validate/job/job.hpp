@@ -12,6 +12,7 @@
 #include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/phase.hpp"
 #include "detp/sim/effects/observe.hpp"
+#include "detp/sim/photons/ray_caster.hpp"
 #include "detp/sim/rays/mixed_field.hpp"
 #include "detp/sim/rays/ray_source.hpp"
 #include "detp/sim/scene/scene.hpp"
@@ -53,9 +54,9 @@ struct JobRequest {
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
   /// block of rays is made, and the workload is measured on this block. Has no effect on rays from a file.
   bool workload_only = false;
-  bool stream = false;     ///< if the rays are not from a file and fill more than a block, do not keep them in memory
-  bool keep_mesh = false;  ///< the job keeps the scene's triangles, for estimators that look at them
-  int threads = 1;         ///< for checking rays and discs; 0: all cores
+  bool stream = false;      ///< if the rays are not from a file and fill more than a block, do not keep them in memory
+  bool keep_scene = false;  ///< the job keeps the scene: for estimators that look at triangles, and for more_rays
+  int threads = 1;          ///< for checking rays and discs; 0: all cores
 
   /// True if the request has neither a scene nor a file, only the numbers of a workload.
   [[nodiscard]] bool numbers_alone() const { return !scene && !disc_file && !ray_file; }
@@ -79,13 +80,16 @@ struct Job {
   std::vector<std::uint32_t> file_order;          ///< as sim::RayFile::order
   std::unique_ptr<const sim::RaySource> stream;   ///< makes ray number i for any i; null if all rays are in memory
   sim::Field field = sim::Field::isotropic;
+  sim::FieldShares shares = {};  ///< of a mixed field
+  std::uint64_t seed = 1;
   std::size_t triangles = 0;
-  sim::Mesh mesh = {};             ///< of the scene, if it was to be kept
-  std::vector<sim::Light> lights;  ///< of the scene
-  sim::Up up;                      ///< by which lights were placed
-  Workload workload;               ///< measured on discs and rays (the path length of a stream on its first block)
-  sim::Observed observed;          ///< the effects, and what finding them cost; its workload is that of the first block
-  sim::SurfaceFacts surface;       ///< of the scene's mesh
+  std::shared_ptr<sim::Scene> scene = {};             ///< if it was to be kept
+  std::shared_ptr<const sim::RayCaster> caster = {};  ///< of photon paths, if the scene was to be kept
+  std::vector<sim::Light> lights;                     ///< of the scene
+  sim::Up up;                                         ///< by which lights were placed
+  Workload workload;          ///< measured on discs and rays (the path length of a stream on its first block)
+  sim::Observed observed;     ///< the effects, and what finding them cost; its workload is that of the first block
+  sim::SurfaceFacts surface;  ///< of the scene's mesh
   sim::Notices notices;
   /// warnings about a few discs or rays that distort the workload (outliers.hpp)
   std::vector<std::string> warnings;
@@ -97,6 +101,10 @@ struct Job {
 
   /// Checks rays and discs, as sim::make_problem; `make_job` has done so. Rays and discs must not change afterwards.
   void check_problem(int threads = 1, const std::stop_token& stop = {});
+  /// Further rays of the same kind, independent of the first `made`, of which the job's own are the beginning: at least so many, to the
+  /// end of the last photon's path. A function of the seed, `made` and `rays`. Throws std::invalid_argument for rays of a file, and for
+  /// photon paths without keep_scene; sim::Stopped on a stop request.
+  [[nodiscard]] sim::Paths more_rays(std::uint64_t made, std::size_t rays, const std::stop_token& stop = {}) const;
   /// The problem. It refers to this job's rays and discs; moving the job does not change that. Throws std::invalid_argument
   /// if the rays are a stream.
   [[nodiscard]] const sim::Problem& problem() const;

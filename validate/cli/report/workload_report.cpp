@@ -120,15 +120,15 @@ void note_all(const CommonOptions& common, const validate::Job& job) {
   for (const std::string& warning : job.warnings) note(common, "warning: " + warning);
 }
 
-std::string describe(const validate::Job& job) {
+std::string describe(const validate::Job& job, std::string_view before_rays) {
   const Workload& w = job.workload;
   const double x = sample_distance(w) / w.disc_radius;
   std::string text = fmt::format("scene     {}: ", shown_path(job.name));
   if (job.triangles > 0) text += fmt::format("{} triangles, ", spaced(static_cast<double>(job.triangles)));
   text += fmt::format("{} discs of radius d = {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n",
                       spaced(w.samples), w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
-  return text + fmt::format("rays      {} {}{}{}{}\n", spaced(w.rays), rays_of(job), photons_of(job), lengths_of(job),
-                            lights_of(job));
+  return text + fmt::format("rays      {}{} {}{}{}{}\n", before_rays, spaced(w.rays), rays_of(job), photons_of(job),
+                            lengths_of(job), lights_of(job));
 }
 
 std::string threads_text(int threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }

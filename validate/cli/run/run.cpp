@@ -22,6 +22,7 @@
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 #include "run_report.hpp"
+#include "run_until.hpp"
 #include "timed_run.hpp"
 
 namespace detp::cli {
@@ -37,6 +38,7 @@ struct RunOptions {
   std::optional<std::string> per_disc;
   bool standard_error = false;
   std::optional<std::string> pairs;
+  TargetOptions target;
 };
 
 sim::Estimator parse_estimator(const std::string& text) {
@@ -108,7 +110,8 @@ Requested requested(const CandidateOptions& options, sim::Estimator estimator, c
 }
 
 sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& job) {
-  sim::EstimateRequest request{.estimator = answer.estimator, .candidate = answer.candidate, .mesh = &job.mesh};
+  sim::EstimateRequest request{
+      .estimator = answer.estimator, .candidate = answer.candidate, .mesh = job.scene ? &job.scene->mesh : nullptr};
   if (const auto* map = std::get_if<PhotonMapParameters>(&answer.candidate.parameters)) {
     request.nearest = map->nearest;
     request.nearest_form = map->form;
@@ -156,6 +159,11 @@ void check_files(const RunOptions& options, const CommonOptions& common, std::si
     throw std::invalid_argument("--per-disc and --pairs write the hits of one run; give one value for each option");
   if (options.standard_error && !options.per_disc)
     throw std::invalid_argument("--standard-error is a column of --per-disc FILE; give that too");
+  if (options.target.given()) {
+    static_cast<void>(options.target.target());
+    if (options.pairs || options.standard_error || options.repeat > 0)
+      throw std::invalid_argument("a run until an error has no --pairs, --standard-error and --repeat");
+  }
   check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
 }
 
@@ -166,6 +174,7 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
   if (outcome.stopped && (options.per_disc || options.pairs))
     note(common, "stopped before the end: --per-disc and --pairs are not written, because they would be partial");
   if (outcome.stopped) return outcome.progress;
+  const bool in_time = !answer.until || answer.until->result.reason != validate::StopReason::time;
   try {
     if (options.per_disc) write_per_disc(*options.per_disc, outcome, stop);
     if (options.pairs) write_pairs(*options.pairs, outcome.pairs, job.file_order, stop);
@@ -173,6 +182,7 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
     note(common, fmt::format("{}; the file is not kept", stopped.what()));
     return stopped.progress();
   }
+  if (!in_time) return outcome.progress;
   const std::size_t timed = answer.timing.all.size();
   if (options.repeat > 0 && timed < static_cast<std::size_t>(options.repeat))
     return sim::Progress{timed, static_cast<std::uint64_t>(options.repeat), "timed runs"};
@@ -182,7 +192,7 @@ std::optional<sim::Progress> write_hits(const RunOptions& options, const validat
 /// What the estimators of all rows need.
 struct Needs {
   bool all_rays = false;  ///< in memory: of estimators that need more than the pairs of a block of rays
-  bool mesh = false;
+  bool scene = false;
 };
 
 Needs needs_of(RunOptions& options, std::size_t rows) {
@@ -190,11 +200,14 @@ Needs needs_of(RunOptions& options, std::size_t rows) {
   for (std::size_t row = 0; row < rows; ++row) {
     options.candidate.lists.choose_row(row);
     const sim::Estimator estimator = estimator_of(options);
-    needs.all_rays = needs.all_rays || estimator != sim::Estimator::disc;
-    needs.mesh = needs.mesh || sim::record_of(estimator).needs_mesh;
+    if (options.target.given()) require_batches(estimator);
+    needs.all_rays = needs.all_rays || estimator != sim::Estimator::disc || options.target.given();
+    needs.scene = needs.scene || sim::record_of(estimator).needs_mesh || options.target.given();
   }
   return needs;
 }
+
+constexpr double most_rays_by_default = 1e9;  ///< of a run until an error
 
 /// Chooses, and runs the choice with what choosing has sorted.
 void choose_and_run(RunAnswer& answer, const validate::Question& question, const CostTable& costs,
@@ -239,6 +252,11 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
                    .repeat = options.repeat,
                    .standard_error = options.standard_error,
                    .random_rays = !options.workload.request(common).ray_file};
+  if (options.target.given()) {
+    const double most_rays = options.workload.request(common).rays.value_or(most_rays_by_default);
+    run_to_target(answer, job, options.target, most_rays, by_pilot, common.threads, stop, progress);
+    return answer;
+  }
   const Engine engine = options.candidate.engine;
   sim::RunOptions run{.pairs = options.pairs.has_value(),
                       .engine = engine,
@@ -307,11 +325,13 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   Json inputs;
   std::string text;
   std::optional<sim::Progress> stopped;
+  bool not_reached = false;
   const auto prepare = [&] {
     validate::JobRequest request = options.workload.request(common);
     if (options.seed) request.seed = *options.seed;
+    if (options.target.given() && !request.ray_file) request.rays = first_rays(request.rays);
     request.stream = !needs.all_rays;
-    request.keep_mesh = needs.mesh;
+    request.keep_scene = needs.scene;
     validate::Job job = validate::make_job(request, stop, rows.job(progress.report()));
     note_all(common, job);
     if (options.standard_error && request.ray_file && !job.numbered())
@@ -326,6 +346,13 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     inputs["engine"] = name(options.candidate.engine);
     inputs["threads"] = sim::thread_count(common.threads);  // a cap if the command chooses
     inputs["repeat"] = options.repeat;
+    if (options.target.given()) {
+      inputs["target_noise"] = options.target.noise ? Json(found.until->target) : Json();
+      inputs["target_error"] = options.target.error ? Json(found.until->target) : Json();
+      if (!options.workload.request(common).ray_file)
+        inputs["rays"] = options.workload.request(common).rays.value_or(most_rays_by_default);
+    }
+    not_reached = found.until && found.until->result.reason != validate::StopReason::target;
     if (expected == 1) text = to_text(job, found, common.screen());
     return run_row(inputs, job, found);
   };
@@ -334,6 +361,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   if (expected == 1) {
     result.text = text;
     result.stopped = stopped;
+    result.not_reached = not_reached && !stopped;
   }
   return result;
 }
@@ -343,6 +371,7 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
 Command run_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("run", "The hits and the irradiance, by one technique");
   app->footer(
+      "Example: detp run @cornell --target-noise 5%\n"
       "Numbers and names may be lists, numbers ranges, as 1%,2%,4% and 0.3:0.9:0.05: every combination makes a row.\n"
       "Example: detp run @tree --rays 100000 --technique octree --per-disc irradiance.csv");
   const auto options = std::make_shared<RunOptions>();
@@ -368,6 +397,12 @@ Command run_command(CLI::App& program) {
                 "add to --per-disc the standard error of each irradiance, for independent photons; where too few "
                 "photons hit a disc (fewer than 10), an upper bound (95 %) of the irradiance instead");
   app->add_option("--pairs", options->pairs, "write the hits as CSV ray,disc");
+  app->add_option("--target-noise", options->target.noise,
+                  "run until the noise (root mean square over the discs by area, relative to the root mean square "
+                  "irradiance) is smaller, as 5%; --rays is then the limit (1e9); default: not");
+  app->add_option("--target-error", options->target.error,
+                  "the same of noise and bias together; the bias comes from a pilot; default: not");
+  app->add_option("--confidence", options->target.confidence, "that the noise of this run is smaller; default: 95%");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_run(*options, common, stop);
           }};

@@ -15,6 +15,7 @@
 #include "detp/validate/cli/report/effects_report.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/text_table.hpp"
+#include "run_until.hpp"
 
 namespace detp::cli {
 namespace {
@@ -126,6 +127,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                                      {"mean_irradiance", mean_irradiance(outcome)}});
   json["rays"] = whole(job.workload.rays);
   json["photons"] = job.independent_photons();
+  if (answer.until) json.update(to_json(*answer.until));
   json["counts"] = to_json(outcome.counts);
   json.update(unit_times(as_expected(outcome.counts), answer.candidate.technique));
   if (answer.choice) json["choosing_seconds"] = answer.choice->choosing_seconds;
@@ -133,7 +135,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
     json["predicted_error"] = to_json(answer.choice->best().counts_error);
     json["predicted_seconds_error"] = answer.choice->best().error;
   }
-  if (const auto predicted = prediction(job.workload, answer)) {
+  if (const auto predicted = prediction(job.workload, answer); predicted && !answer.until) {
     json["predicted"] = to_json(*predicted);
     json.update(unit_times(*predicted, answer.candidate.technique, "predicted_"));
     const double search =
@@ -149,6 +151,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                {"effects", to_json(job.observed.effects)},
                {"warnings", job.warnings},
                {"stopped", outcome.stopped}});
+  if (answer.until && answer.until->result.reason == validate::StopReason::time) json["stopped"] = true;
   return json;
 }
 
@@ -160,6 +163,13 @@ Json run_cells(const Json& inputs, const RunAnswer& answer, const Json& json) {
   cells.update(effect_cells(json["effects"]));
   cells.update(count_cells(json["counts"]));
   cells["hits"] = json["hits"];
+  for (const std::string what : {"noise", "error"}) {
+    if (!json.contains(what + "_interval")) continue;
+    cells[what + "_low"] = json[what + "_interval"][0];
+    cells[what + "_high"] = json[what + "_interval"][1];
+  }
+  for (const char* alone : {"target", "stop_tests", "share_bound", "bias_seconds", "radius_for_target"})
+    cells.erase(alone);
   if (json.contains("hits_estimate") && !json["hits_estimate"].is_null()) {
     cells["hits_estimate"] = json["hits_estimate"]["value"];
     cells["hits_estimate_error"] = json["hits_estimate"]["standard_error"];
@@ -204,7 +214,7 @@ std::string_view meaning(std::string_view term) {
 }
 
 std::string counts_table(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
-  const auto predicted = prediction(job.workload, answer);
+  const auto predicted = answer.until ? std::nullopt : prediction(job.workload, answer);
   TextTable table({{.head = "count", .align = Align::left},
                    {.head = "counted"},
                    {.head = "predicted"},
@@ -239,10 +249,32 @@ Columns run_columns() {
          Columns{"k", "k_max", "k_best", "k_published", "k_corrected", "photons", "hits_per_disc", "mean_irradiance"} +
          count_columns() + count_columns("predicted_") +
          Columns{"rebuild_time", "intersect_time", "predicted_rebuild_time", "predicted_intersect_time"} +
-         Columns{"predicted_seconds",  "predicted_seconds_error", "choosing_seconds", "seconds",     "prepare_seconds",
-                 "order_seconds",      "build_seconds",           "search_seconds",   "timed_runs",  "read_seconds",
-                 "trace_seconds",      "rays_in_memory",          "stopped",          "hits_so_far", "hits_estimate",
-                 "hits_estimate_error"} +
+         Columns{"predicted_seconds",
+                 "predicted_seconds_error",
+                 "choosing_seconds",
+                 "seconds",
+                 "prepare_seconds",
+                 "order_seconds",
+                 "build_seconds",
+                 "search_seconds",
+                 "timed_runs",
+                 "read_seconds",
+                 "trace_seconds",
+                 "rays_in_memory",
+                 "stopped",
+                 "hits_so_far",
+                 "hits_estimate",
+                 "hits_estimate_error",
+                 "noise",
+                 "noise_low",
+                 "noise_high",
+                 "error",
+                 "error_low",
+                 "error_high",
+                 "bias_estimate",
+                 "confidence",
+                 "stopped_because",
+                 "until_seconds"} +
          effect_columns();
 }
 
@@ -258,7 +290,9 @@ TextColumns run_text_columns(const Screen& screen) {
 
 std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
   const Timing& timing = answer.timing;
-  std::string text = wrapped(describe(job), screen.text_width(), 10);
+  std::string text;
+  if (answer.until) text += wrapped(until_text(*answer.until, scene_side(job.workload)), screen.text_width(), 10);
+  text += wrapped(describe(job, answer.until ? "of the first stage: " : ""), screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   if (answer.estimator != sim::Estimator::disc)
     add(fmt::format("estimator {}{}", name(answer.estimator),

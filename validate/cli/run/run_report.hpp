@@ -1,12 +1,37 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "detp/validate/choice/choice.hpp"
 #include "detp/validate/cli/report/answer_rows.hpp"
+#include "detp/validate/stopping/run_until.hpp"
 #include "timed_run.hpp"
 
 namespace detp::cli {
+
+/// Of an estimator at the radius of a run.
+struct BiasEstimate {
+  validate::Estimate squared;  ///< relative to B²
+  double seconds = 0;          ///< that finding it took
+  double radius = 0;           ///< the largest of the radii tried whose bias is below the target; 0: none
+};
+
+/// How a run until an error ended.
+struct UntilAnswer {
+  double target = 0;
+  bool total = false;  ///< the target is of noise and bias together
+  double confidence = 0;
+  validate::UntilResult result = {};
+  std::optional<BiasEstimate> bias = {};
+  double choosing_seconds = 0;
+  double seconds = 0;  ///< with choosing, the bias's pilot, tracing and building
+
+  /// Noise and bias together; without a known bias the noise.
+  [[nodiscard]] validate::NoiseInterval error() const {
+    return with_bias(result.noise, bias ? bias->squared : validate::Estimate{});
+  }
+};
 
 struct RunAnswer {
   Candidate candidate = {};  ///< of an estimator that uses none, without meaning
@@ -19,7 +44,8 @@ struct RunAnswer {
   Timing timing = {};
   int repeat = 0;               ///< timed runs requested
   bool standard_error = false;  ///< requested
-  bool random_rays = false;     ///< true for rays of a random field: the first rays are representative of all rays
+  std::optional<UntilAnswer> until = {};
+  bool random_rays = false;  ///< true for rays of a random field: the first rays are representative of all rays
 };
 
 /// Whether a technique found the pairs, or the nearest photons.

@@ -1,0 +1,92 @@
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "support/csv_answer.hpp"
+#include "support/run_support.hpp"
+
+namespace detp::support {
+
+TEST_SUITE("run until") {
+  TEST_CASE("a noise is reached with its interval, and says why the run ended; the bytes do not depend on threads") {
+    const ScratchFolder folder;
+    const std::string one = folder.path("one.csv");
+    const std::string two = folder.path("two.csv");
+    const std::string command = "run @cornell --target-noise 20% --technique box-tree --calibration none --per-disc ";
+    const Json json = result_of(command + one + " --threads 1");
+    CHECK(json["stopped_because"] == "target");
+    CHECK(json["stopped"] == false);
+    CHECK(json["noise_interval"][1].get<double>() <= 0.2);
+    CHECK(json["noise"].get<double>() <= json["noise_interval"][1].get<double>());
+    CHECK(json["error"].get<double>() > json["noise"].get<double>());
+    CHECK(json["bias_estimate"].get<double>() > 0.05);
+    CHECK(json["confidence"] == 0.95);
+    CHECK(json["photons"].get<double>() < json["rays"].get<double>());
+    CHECK(json["inputs"]["target_noise"] == 0.2);
+    CHECK(json["inputs"]["target_error"].is_null());
+    const Json again = result_of(command + two + " --threads 2");
+    CHECK(again["noise"] == json["noise"]);
+    CHECK(content_of(two) == content_of(one));
+  }
+
+  TEST_CASE("lines, a workload of numbers, and rays of a file run until a noise, too; they have no bias") {
+    for (const char* problem : {"@cornell --field isotropic", "--samples 300 --scene-side 4 --disc-radius 0.2"}) {
+      CAPTURE(problem);
+      const Json json = result_of(std::string("run ") + problem + " --target-noise 10% --calibration none");
+      CHECK(json["stopped_because"] == "target");
+      CHECK(json["bias_estimate"].is_null());
+      CHECK(json["photons"].get<double>() == json["rays"].get<double>());
+      CHECK(json["error"] == json["noise"]);
+    }
+    const ScratchFolder folder;
+    const std::string rays = folder.path("rays.csv");
+    CHECK(detp("scene @cornell --rays 20000 --write-rays " + rays).code == 0);
+    const Finished few = detp("run @cornell --ray-file " + rays + " --target-noise 5% --format json");
+    CHECK(few.code == 3);
+    const Json json = Json::parse(few.out);
+    CHECK(json["stopped_because"] == "rays");
+    CHECK(json["hits"] == result_of("run @cornell --ray-file " + rays)["hits"]);
+  }
+
+  TEST_CASE("an error below the bias is not reached, with exit code 3 and a smaller radius if there is one") {
+    const Finished found = detp("run @furnace --target-error 3% --format json");
+    CHECK(found.code == 3);
+    const Json json = Json::parse(found.out);
+    CHECK(json["stopped_because"] == "bias");
+    CHECK(json["error"].get<double>() > 0.03);
+    const Finished text = detp("run @furnace --target-error 3% --quiet");
+    CHECK(text.out.find("the bias alone is as large") != std::string::npos);
+    const Json reached = result_of("run @furnace --target-error 10% --estimator triangle-hits");
+    CHECK(reached["error"].get<double>() <= 0.1);
+  }
+
+  TEST_CASE("a time limit ends the run with what is known") {
+    const Finished found = detp("run @cornell --target-noise 0.1% --time-limit 1 --format json");
+    CHECK(found.code == 3);
+    const Json json = Json::parse(found.out);
+    CHECK(json["stopped"] == true);
+    CHECK(json["stopped_because"] == "time");
+    CHECK(json["noise"].get<double>() > 0.001);
+  }
+
+  TEST_CASE("each seed makes a row") {
+    const auto rows = csv_of("run @cornell --target-noise 30% --seeds 1:3 --calibration none");
+    REQUIRE(rows.size() == 3);
+    for (const CsvRow& row : rows) {
+      CHECK(row.at("stopped_because") == "target");
+      CHECK(number(row, "noise_high") <= 0.3);
+    }
+    CHECK(rows[0].at("noise") != rows[1].at("noise"));
+  }
+
+  TEST_CASE("what does not go together is refused") {
+    check_refused({{"run @cornell --target-noise 5% --target-error 5%", "--target-noise"},
+                   {"run @cornell --target-noise 0", "target error"},
+                   {"run @cornell --target-noise 5% --confidence 1", "confidence"},
+                   {"run @cornell --target-noise 5% --estimator nearest", "nearest needs all its rays"},
+                   {"run @cornell --target-noise 5% --estimator variable-radius", "variable-radius needs all its rays"},
+                   {"run @cornell --target-noise 5% --repeat 3", "--repeat"}});
+  }
+}
+
+}  // namespace detp::support

@@ -1,0 +1,273 @@
+#include "run_until.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/base/threads.hpp"
+#include "detp/sim/estimate/surface.hpp"
+#include "detp/sim/technique/streamed.hpp"
+#include "detp/validate/accuracy/accuracy_pilot.hpp"
+#include "detp/validate/accuracy/judged_samples.hpp"
+#include "detp/validate/cli/options/number_option.hpp"
+
+namespace detp::cli {
+namespace {
+
+constexpr double usual_first_rays = 1 << 16;
+
+/// Photons were traced in a mesh, where estimates have a bias that a pilot can find.
+bool has_bias(const validate::Job& job) {
+  return job.scene && !job.rays_from_file && job.field == sim::Field::photons && !job.scene->mesh.triangles.empty();
+}
+
+/// Bias of the estimator at the job's radius, from pilots that also try smaller ones. They are repeated with four times the rays, up to
+/// `most_rays`, until the standard error of bias² is at most half of the target's square.
+BiasEstimate bias_of(const validate::Job& job, sim::Estimator estimator, double target, double most_rays, int threads,
+                     const std::stop_token& stop) {
+  const double radius = job.workload.disc_radius;
+  const double overshoot = job.scene->overshoot;
+  BiasEstimate bias;
+  for (double rays = validate::usual_pilot_rays;; rays *= 4) {
+    const validate::AccuracyPilot pilot =
+        validate::make_accuracy_pilot(*job.scene, {.estimators = {estimator},
+                                                   .rays = rays,
+                                                   .radii = {radius / 4, radius / 2, radius},
+                                                   .front_facing = job.front_facing,
+                                                   .seed = job.seed + 1,
+                                                   .threads = threads,
+                                                   .stop = stop});
+    job.scene->overshoot = overshoot;
+    const validate::EstimatorPilot& own = pilot.estimators.front();
+    bias.squared = own.bias_squared(own.settings.back().scale);
+    bias.seconds += pilot.seconds;
+    bias.radius = 0;
+    for (const validate::SettingPilot& setting : own.settings)
+      if (validate::uses_radius(estimator) && setting.bias_squared.mean <= target * target) bias.radius = setting.scale;
+    if (2 * bias.squared.standard_error <= target * target || 4 * rays > most_rays) return bias;
+  }
+}
+
+/// Finds pairs by a searcher, or photons by surfaces.
+class BatchSearch {
+ public:
+  BatchSearch(const validate::Job& job, const RunAnswer& answer, const std::stop_token& stop) : job_(job) {
+    options_ = {.engine = answer.engine, .stop = stop, .threads = answer.threads};
+    if (sim::record_of(answer.estimator).finds_pairs)
+      searcher_.emplace(job.discs, answer.candidate, farthest(), job.front_facing, options_);
+    else
+      surfaces_ = answer.estimator == sim::Estimator::area_corrected
+                      ? sim::prepare_area_corrected(job.problem(), job.scene->mesh, options_)
+                      : sim::prepare_triangle_hits(job.problem(), job.scene->mesh, options_);
+  }
+
+  const sim::Outcome& operator()(const sim::PathRays& rays) {
+    if (searcher_) return searcher_->search(rays, scratch_, options_);
+    const sim::Problem problem =
+        sim::make_problem(rays, job_.discs, job_.front_facing, sim::thread_count(options_.threads), options_.stop);
+    return scratch_.outcome = sim::run(problem, *surfaces_, options_);
+  }
+
+  [[nodiscard]] const sim::Built& built() const { return searcher_ ? searcher_->built() : surfaces_->built(); }
+
+ private:
+  /// From the centre of S₀: of the first rays, and with room for others.
+  [[nodiscard]] std::optional<double> farthest() const {
+    constexpr double usual = 1000;
+    const sim::Problem& problem = job_.problem();
+    if (problem.farthest() < 0.5 * usual * problem.enclosing().radius) return std::nullopt;
+    return 2 * problem.farthest();
+  }
+
+  const validate::Job& job_;
+  sim::RunOptions options_;
+  std::optional<sim::Searcher> searcher_;
+  std::unique_ptr<const sim::Index> surfaces_;
+  sim::SearchScratch scratch_;
+};
+
+/// The job's rays first, then further ones.
+class JobBatches {
+ public:
+  JobBatches(const validate::Job& job, std::stop_token stop)
+      : job_(job), stop_(std::move(stop)), own_(job.paths(), job.independent_photons()) {}
+
+  std::optional<validate::RayBatch> next(std::uint64_t rays) {
+    if (stop_.stop_requested()) throw sim::Stopped("stopped between batches");
+    if (auto batch = own_.next(rays)) {
+      if (!job_.rays_from_file && job_.field != sim::Field::photons) batch->scale = 1 / batch->photons;
+      made_ += batch->rays.rays.size();
+      return batch;
+    }
+    if (job_.rays_from_file) return std::nullopt;
+    more_ = job_.more_rays(made_, static_cast<std::size_t>(rays), stop_);
+    made_ += more_.rays.size();
+    const auto photons = static_cast<double>(more_.photon_count);
+    return validate::RayBatch{more_, photons, job_.field == sim::Field::photons ? 1 : 1 / photons};
+  }
+
+ private:
+  const validate::Job& job_;
+  std::stop_token stop_;
+  validate::StoredBatches own_;
+  sim::Paths more_;
+  std::uint64_t made_ = 0;
+};
+
+/// By area: of the surface around the scene's samples, or of the discs of a file.
+std::vector<double> weights_of(const validate::Job& job) {
+  if (!job.scene || job.scene->mesh.triangles.empty()) return validate::weights_by_area(job.discs);
+  const bool of_samples =
+      std::ranges::equal(job.scene->samples, job.discs, {}, &sim::Sample::position, &sim::Disc::centre);
+  return of_samples ? validate::area_weights(*job.scene) : validate::weights_by_area(job.discs);
+}
+
+std::string percent_words(double share) { return fmt::format("{:.2g} %", 100 * share); }
+
+Json interval_json(const validate::NoiseInterval& interval) { return {known(interval.low), known(interval.high)}; }
+
+}  // namespace
+
+validate::ErrorTarget TargetOptions::target() const {
+  if (noise && error) throw std::invalid_argument("give one of --target-noise and --target-error");
+  validate::ErrorTarget target{.confidence = parse_share("--confidence", confidence)};
+  target.error = noise ? parse_share("--target-noise", *noise) : parse_share("--target-error", *error);
+  check(target);
+  return target;
+}
+
+double first_rays(std::optional<double> most_rays) {
+  return std::min(usual_first_rays, most_rays.value_or(usual_first_rays));
+}
+
+void require_batches(sim::Estimator estimator) {
+  if (estimator == sim::Estimator::nearest || estimator == sim::Estimator::variable_radius)
+    throw std::invalid_argument(
+        fmt::format("the estimator {} needs all its rays at once, and cannot run until an error is reached: detp "
+                    "accuracy finds its "
+                    "number of rays",
+                    name(estimator)));
+}
+
+void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOptions& options, double most_rays,
+                   bool choose, int threads, const std::stop_token& stop, const sim::ReportPhase& progress) {
+  const sim::Stopwatch watch;
+  validate::ErrorTarget target = options.target();
+  UntilAnswer until{.target = target.error, .total = options.error.has_value(), .confidence = target.confidence};
+  if (choose) {
+    const validate::Choice choice = validate::choose({.problem = &job.problem(),
+                                                      .workload = job.workload,
+                                                      .purpose = validate::Purpose::one_search,
+                                                      .threads = threads,
+                                                      .stop = stop},
+                                                     answer.costs);
+    answer.candidate = choice.best().candidate;
+    answer.threads = choice.best().threads;
+    until.choosing_seconds = choice.choosing_seconds;
+  }
+  constexpr double most_pilot_rays = 4e6;
+  if (until.total && has_bias(job)) {
+    until.bias = bias_of(job, answer.estimator, target.error, most_pilot_rays, threads, stop);
+    target.bias_squared = until.bias->squared;
+  }
+  BatchSearch search(job, answer, stop);
+  JobBatches batches(job, stop);
+  const double limit = job.rays_from_file ? static_cast<double>(job.rays.size()) : most_rays;
+  validate::ExecutedUntil found =
+      validate::execute_until([&](const sim::PathRays& rays) -> const sim::Outcome& { return search(rays); },
+                              [&](std::uint64_t rays) { return batches.next(rays); }, weights_of(job), target,
+                              {.most_rays = limit,
+                               .first_rays = job.rays.size(),
+                               .most_in_batch = sim::default_block(job.discs.size()),
+                               .progress = progress});
+  sim::Outcome& outcome = answer.run.outcome = std::move(found.outcome);
+  outcome.irradiance = std::move(found.result.irradiance);
+  if (!job.rays_from_file && job.field != sim::Field::photons)
+    for (double& irradiance : outcome.irradiance) irradiance *= found.result.photons;
+  outcome.seconds.order += search.built().seconds.order;
+  outcome.seconds.build += search.built().seconds.build;
+  outcome.progress = {found.result.rays, std::max(found.result.rays, static_cast<std::uint64_t>(limit)), "rays"};
+  answer.run.trace_seconds = found.make_seconds;
+  answer.run.rays_in_memory = job.rays.size();
+  answer.timing.phases = outcome.seconds;
+  until.result = std::move(found.result);
+  if (!until.bias && has_bias(job) && until.result.reason != validate::StopReason::time) try {
+      constexpr double share = 0.25;  // of the run's rays: the user asked for noise alone
+      until.bias =
+          bias_of(job, answer.estimator, target.error, share * static_cast<double>(until.result.rays), threads, stop);
+    } catch (const sim::Stopped&) {  // the answer is complete without it
+    }
+  until.seconds = watch.seconds() + job.trace_seconds;
+  answer.until = std::move(until);
+}
+
+Json to_json(const UntilAnswer& until) {
+  const validate::UntilResult& result = until.result;
+  Json json{{"target", until.target},
+            {"noise", known(result.noise.value)},
+            {"noise_interval", interval_json(result.noise)},
+            {"error", known(until.error().value)},
+            {"error_interval", interval_json(until.error())},
+            {"bias_estimate", nullptr},
+            {"confidence", until.confidence},
+            {"photons", result.photons},
+            {"rays", result.rays},
+            {"stop_tests", result.tests},
+            {"stopped_because", name(result.reason)},
+            {"until_seconds", until.seconds}};
+  if (result.share_bound) json["share_bound"] = *result.share_bound;
+  if (until.bias) {
+    json["bias_estimate"] = std::sqrt(std::max(0.0, until.bias->squared.mean));
+    json["bias_squared"] = {{"value", until.bias->squared.mean},
+                            {"standard_error", until.bias->squared.standard_error}};
+    json["bias_seconds"] = until.bias->seconds;
+    json["radius_for_target"] = until.bias->radius > 0 ? Json(until.bias->radius) : Json();
+  }
+  return json;
+}
+
+std::string until_text(const UntilAnswer& until, double side) {
+  const validate::UntilResult& result = until.result;
+  const std::string target = percent_words(until.target) + (until.total ? " error" : " noise");
+  std::string text = "answer    ";
+  if (result.share_bound)
+    text += fmt::format("no photon met a disc: fewer than {:.2g} of {:.3g} photons do ({} confidence). ",
+                        *result.share_bound * result.photons, result.photons, percent_words(until.confidence));
+  else
+    text +=
+        fmt::format("{} noise, at most {} with {} confidence, after {:.3g} rays ({:.3g} photons) and {:.2g} s. ",
+                    percent_words(result.noise.value), percent_words(result.noise.high),
+                    percent_words(until.confidence), static_cast<double>(result.rays), result.photons, until.seconds);
+  switch (result.reason) {
+    case validate::StopReason::target:
+      text += target + " is reached. ";
+      break;
+    case validate::StopReason::bias:
+      text += target + " is not reached: the bias alone is as large, and more rays do not help. ";
+      break;
+    case validate::StopReason::rays:
+      text += target + " is not reached: there are no more rays. ";
+      break;
+    case validate::StopReason::time:
+      text += target + " was not reached when the run was stopped. ";
+      break;
+  }
+  if (!until.bias) return text + "\n";
+  text +=
+      fmt::format("The bias at this radius is about {}, the total {} ({} to {}).",
+                  percent_words(std::sqrt(std::max(0.0, until.bias->squared.mean))), percent_words(until.error().value),
+                  percent_words(until.error().low), percent_words(until.error().high));
+  if (until.bias->squared.mean > until.target * until.target)
+    text +=
+        until.bias->radius > 0
+            ? fmt::format(" More rays do not lower it; {} needs a radius of at most {:.3g} ({:.2g} % of the scene).",
+                          percent_words(until.target), until.bias->radius, 100 * until.bias->radius / side)
+            : " More rays do not lower it, nor does a quarter of the radius: detp accuracy compares estimators.";
+  return text + "\n";
+}
+
+}  // namespace detp::cli

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "detp/validate/stopping/execute_until.hpp"
+#include "run_report.hpp"
+
+/// Runs until an error is reached: `detp run --target-noise` and `--target-error`.
+namespace detp::cli {
+
+struct TargetOptions {
+  std::optional<std::string> noise;
+  std::optional<std::string> error;
+  std::string confidence = "95%";
+
+  [[nodiscard]] bool given() const { return noise || error; }
+  /// Without bias. Throws std::invalid_argument for both targets, and for numbers out of (0, 1).
+  [[nodiscard]] validate::ErrorTarget target() const;
+};
+
+/// Rays of the job of such a run, with which it begins: `--rays` is the limit.
+[[nodiscard]] double first_rays(std::optional<double> most_rays);
+
+/// Throws std::invalid_argument for an estimator that needs all its rays at once.
+void require_batches(sim::Estimator estimator);
+
+/// Fills in the answer's outcome, times and `until`. `answer` has the estimator, and unless `choose`, the candidate and its threads.
+/// The job has its scene, if photons were traced in one.
+void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOptions& options, double most_rays,
+                   bool choose, int threads, const std::stop_token& stop, const sim::ReportPhase& progress);
+
+/// What the JSON of a run has in addition.
+[[nodiscard]] Json to_json(const UntilAnswer& until);
+
+/// The first lines of the text.
+[[nodiscard]] std::string until_text(const UntilAnswer& until, double side);
+
+}  // namespace detp::cli

@@ -1,0 +1,79 @@
+#include "execute_until.hpp"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+
+namespace detp::validate {
+namespace {
+
+/// A part of an array that may be empty.
+template <class T>
+std::span<const T> part(std::span<const T> all, std::size_t first, std::size_t count) {
+  return all.empty() ? all : all.subspan(first, count);
+}
+
+}  // namespace
+
+ExecutedUntil execute_until(const SearchRays& search, const NextRays& next, std::vector<double> weights,
+                            const ErrorTarget& target, const UntilOptions& options) {
+  ExecutedUntil all;
+  const NextBatch next_batch = [&](std::uint64_t rays) -> std::optional<Batch> {
+    const sim::Stopwatch watch;
+    const std::optional<RayBatch> made = next(rays);
+    all.make_seconds += watch.seconds();
+    if (!made) return std::nullopt;
+    const sim::Outcome& found = search(made->rays);
+    if (found.stopped) throw sim::Stopped("stopped during a batch");
+    Batch batch{found.irradiance, made->photons, made->rays.rays.size()};
+    for (double& irradiance : batch.irradiance) irradiance *= made->scale;
+    add_block(found, all.outcome);
+    all.outcome.hits.resize(found.hits.size());
+    for (std::size_t disc = 0; disc < found.hits.size(); ++disc) all.outcome.hits[disc] += found.hits[disc];
+    return batch;
+  };
+  all.result = run_until(next_batch, std::move(weights), target, options);
+  return all;
+}
+
+ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<double> weights,
+                            const ErrorTarget& target, const UntilOptions& options) {
+  plan.build();
+  sim::SearchScratch scratch;
+  const SearchRays search = [&](const sim::PathRays& rays) -> const sim::Outcome& {
+    return plan.searcher().search(rays, scratch, {.threads = plan.threads()});
+  };
+  return execute_until(search, next, std::move(weights), target, options);
+}
+
+std::vector<double> weights_by_area(std::span<const sim::Disc> discs) {
+  std::vector<double> weights;
+  double sum = 0;
+  for (const sim::Disc& disc : discs) sum += weights.emplace_back(disc.radius * disc.radius);
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
+std::uint64_t StoredBatches::photon(std::size_t ray) const {
+  if (ray == all_.rays.size()) return photons_;
+  return all_.photons.empty() ? ray : all_.photons[ray];
+}
+
+std::optional<RayBatch> StoredBatches::next(std::uint64_t rays) {
+  const std::size_t size = all_.rays.size();
+  if (given_ == size) return std::nullopt;
+  const std::size_t first = given_;
+  given_ += static_cast<std::size_t>(std::min<std::uint64_t>(rays, size - given_));
+  while (given_ < size && photon(given_) == photon(given_ - 1)) ++given_;
+  const std::size_t count = given_ - first;
+  const auto photons = static_cast<double>(photon(given_) - (first == 0 ? 0 : photon(first)));
+  return RayBatch{{all_.rays.subspan(first, count), part(all_.photons, first, count), part(all_.landings, first, count),
+                   photon(given_), part(all_.triangles, first, count)},
+                  photons,
+                  static_cast<double>(photons_) / photons};
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "detp/sim/geometry/paths.hpp"
+#include "detp/sim/search/outcome.hpp"
+#include "detp/validate/choice/plan.hpp"
+#include "run_until.hpp"
+
+/// Searches batches of rays until the irradiance is known well enough.
+namespace detp::validate {
+
+/// Rays of whole photons. They must stay until the next batch is made.
+struct RayBatch {
+  sim::PathRays rays;
+  double photons = 0;  ///< emitted, with those that gave no ray; without photon numbers: the number of rays
+  double scale = 1;    ///< irradiance of these rays times `scale`: that as if they were all photons
+};
+
+/// Makes a batch of about so many rays, to the end of the last photon; nothing if there are no more. May throw sim::Stopped.
+using NextRays = std::function<std::optional<RayBatch>(std::uint64_t rays)>;
+
+/// The irradiance at the discs from some rays, as sim::Searcher::search. A stopped outcome ends the run.
+using SearchRays = std::function<const sim::Outcome&(const sim::PathRays&)>;
+
+struct ExecutedUntil {
+  UntilResult result;
+  sim::Outcome outcome;     ///< hits, counts and seconds of all batches; no irradiance
+  double make_seconds = 0;  ///< for making the rays
+};
+
+/// run_until for rays. `weights` of the discs by area, with sum 1. Throws as run_until and the search.
+[[nodiscard]] ExecutedUntil execute_until(const SearchRays& search, const NextRays& next, std::vector<double> weights,
+                                          const ErrorTarget& target, const UntilOptions& options = {});
+
+/// The same with a plan's technique and index, on its threads.
+[[nodiscard]] ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<double> weights,
+                                          const ErrorTarget& target, const UntilOptions& options = {});
+
+/// The discs' areas over their sum.
+[[nodiscard]] std::vector<double> weights_by_area(std::span<const sim::Disc> discs);
+
+/// Gives rays in memory batch by batch. The rays are not copied.
+class StoredBatches {
+ public:
+  /// `photons`: of all rays, with those that gave none.
+  StoredBatches(const sim::PathRays& rays, std::uint64_t photons) : all_(rays), photons_(photons) {}
+
+  /// Nothing at the end.
+  [[nodiscard]] std::optional<RayBatch> next(std::uint64_t rays);
+
+ private:
+  /// Number of the ray's photon; at the end, the number of all photons.
+  [[nodiscard]] std::uint64_t photon(std::size_t ray) const;
+
+  sim::PathRays all_;
+  std::uint64_t photons_;
+  std::size_t given_ = 0;
+};
+
+}  // namespace detp::validate

@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <span>
+#include <vector>
+
+/// The noise of an irradiance over many discs, while it is estimated.
+namespace detp::validate {
+
+/// Relative noise of one run: root mean square over the discs by area, over the root mean square irradiance.
+struct NoiseInterval {
+  double value = 0;
+  double low = 0;
+  double high = 0;
+};
+
+/// Sums the irradiance over batches of whole photons, and finds its noise from the differences of pairs of batches:
+///
+///     δ_ji = (x_1i - x_2i) √(n₁n₂/(n₁ + n₂))        Y_j = Σ_i w_i δ_ji²        of pair j; pairs are independent
+///     noise² = σ²/(n B²)        σ² = mean of the Y_j        B² = Σ_i w_i m_i² - σ²/n
+///
+///   where  w    weights of the discs by area, with sum 1;     n₁, n₂  photons of the two batches;   n  photons of all batches
+///          x_1i irradiance of disc i from batch 1, as if the batch were all photons;   m_i  from all batches
+///
+/// The square error of one run is about σ²/n times χ²_ν/ν, with ν = (tr C)²/tr C² for the covariance C of the discs' irradiance:
+///
+///     ν = Σ_jk Y_j Y_k / Σ_jk (Σ_i w_i δ_ji δ_ki)²        over different pairs j, k: unbiased above and below; 1 for one disc
+///
+/// σ² is known as χ²_m/m, m = 2 J mean²/variance of the J values Y_j, at most J ν. So the ratio of both has Fisher's distribution
+/// F(ν, m), which gives the interval of one run's noise. For one disc and batches of many photons this is Student's t with J degrees
+/// of freedom; with many independent discs the interval is narrow.
+///
+/// Asymptotic: it holds for batches with many photons. Light that no photon has met yet is in no batch, so it is in no interval.
+/// Memory: eleven numbers for a disc, however many batches.
+class PairedBatches {
+ public:
+  /// Throws std::invalid_argument unless weights are >= 0, with a sum of 1 within 1e-6.
+  explicit PairedBatches(std::vector<double> weights);
+
+  /// The irradiance from one batch, as if it were all photons. Batches 1 and 2, 3 and 4, … are pairs. Throws
+  /// std::invalid_argument for other than one value for each disc, and unless photons > 0.
+  void add(std::span<const double> irradiance, double photons);
+
+  /// Mean over all batches by their photons; 0 before the first.
+  [[nodiscard]] std::vector<double> irradiance() const;
+  [[nodiscard]] double photons() const { return photons_; }
+  [[nodiscard]] std::size_t pairs() const { return pairs_.size(); }
+  /// B², not below 0.
+  [[nodiscard]] double mean_square() const;
+
+  /// The noise of the irradiance so far. `high` alone is a bound with the confidence; with `low` it is an interval with 2 confidence - 1. Not
+  /// finite with fewer than two pairs, and if no light was met.
+  [[nodiscard]] NoiseInterval noise(double confidence) const;
+
+  /// The number of photons at which `high` is expected to be as small as this.
+  [[nodiscard]] double photons_for(double noise, double confidence) const;
+
+ private:
+  [[nodiscard]] double variance() const;          ///< σ²
+  [[nodiscard]] double discs_freedom() const;     ///< ν
+  [[nodiscard]] double variance_freedom() const;  ///< m
+  void compare_with_earlier(std::vector<double> difference, double square);
+
+  std::vector<double> weights_;
+  std::vector<double> sums_;     ///< of irradiance times photons
+  std::vector<double> pending_;  ///< first batch of a pair
+  double pending_photons_ = 0;   ///< 0: none
+  double photons_ = 0;
+  std::vector<double> pairs_;                ///< Y_j
+  std::deque<std::vector<double>> earlier_;  ///< δ of the last pairs
+  double products_of_squares_ = 0;           ///< Σ Y_j Y_k
+  double squares_of_products_ = 0;           ///< Σ (Σ w δ_j δ_k)²
+};
+
+}  // namespace detp::validate

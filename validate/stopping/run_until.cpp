@@ -1,0 +1,150 @@
+#include "run_until.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "detp/model/vocabulary/checks.hpp"
+#include "detp/sim/base/stopped.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr std::uint64_t batches_of_stage = 32;
+constexpr double most_growth = 7;
+constexpr double least_growth = 0.1;
+constexpr double safety = 1.05;        // of the rays of the next stage, so that one more look is rarely needed
+constexpr double share_of_bias = 0.9;  // of the square error: a larger bias leaves too little for the noise
+
+double squared(double x) { return x * x; }
+
+class UntilRun {
+ public:
+  UntilRun(const NextBatch& next, std::vector<double> weights, const ErrorTarget& target, const UntilOptions& options)
+      : next_(next), target_(target), options_(options), batches_(std::move(weights)) {
+    check(target);
+    if (target.bias_squared) bias_ = std::max(0.0, target.bias_squared->mean);
+  }
+
+  UntilResult run() && {
+    Stage stage{static_cast<double>(std::max<std::uint64_t>(options_.first_rays, 2 * batches_of_stage)), false};
+    try {
+      while (true) {
+        const double left = options_.most_rays - static_cast<double>(result_.rays);
+        const bool last = stage.rays >= left;
+        const bool ended = !add_stage(std::min(stage.rays, left));
+        result_.noise = batches_.noise(target_.confidence);
+        if (bias_ >= share_of_bias * squared(target_.error)) return finished(StopReason::bias);
+        if (stage.is_test && passes_test()) return finished(StopReason::target);
+        if (last || ended) return finished(StopReason::rays);
+        stage = next_stage();
+      }
+    } catch (const sim::Stopped&) {
+      result_.noise = batches_.noise(target_.confidence);
+      return finished(StopReason::time);
+    }
+  }
+
+ private:
+  struct Stage {
+    double rays = 0;
+    bool is_test = false;  ///< planned to reach the target
+  };
+
+  [[nodiscard]] double confidence_of_test(int test) const {
+    return 1 - (1 - target_.confidence) * 2 * std::pow(3.0, -test);
+  }
+
+  [[nodiscard]] double noise_allowed() const { return std::sqrt(std::max(0.0, squared(target_.error) - bias_)); }
+
+  bool passes_test() {
+    result_.noise = batches_.noise(confidence_of_test(++result_.tests));
+    return result_.noise.high <= noise_allowed();
+  }
+
+  /// False if there are no more rays.
+  bool add_stage(double rays) {
+    const auto in_one = static_cast<double>(options_.most_in_batch);
+    const double pairs = std::max(static_cast<double>(batches_of_stage) / 2, std::ceil(rays / (2 * in_one)));
+    const auto each = static_cast<std::uint64_t>(std::max(1.0, std::ceil(rays / (2 * pairs))));
+    for (double batch = 0; batch < 2 * pairs; ++batch) {
+      report(batch / (2 * pairs));
+      const std::optional<Batch> found = next_(each);
+      if (!found) return false;
+      batches_.add(found->irradiance, found->photons);
+      result_.rays += found->rays;
+    }
+    return true;
+  }
+
+  void report(double share) const {
+    if (!options_.progress) return;
+    const bool first = result_.noise.value == 0;
+    const double known = first ? 0 : std::min(1.0, squared(noise_allowed() / result_.noise.high));
+    const std::string what = first ? "first rays" : fmt::format("noise {:.2g} %", 100 * result_.noise.value);
+    options_.progress({what, known + (1 - known) * share, 1});
+  }
+
+  [[nodiscard]] Stage next_stage() const {
+    const auto rays = static_cast<double>(result_.rays);
+    const double needed =
+        batches_.photons_for(noise_allowed(), confidence_of_test(result_.tests + 1)) / batches_.photons() * rays;
+    const double more = std::max(safety * needed - rays, least_growth * rays);
+    return {std::min(more, most_growth * rays), more <= most_growth * rays};
+  }
+
+  UntilResult finished(StopReason reason) {
+    result_.reason = reason;
+    result_.irradiance = batches_.irradiance();
+    result_.photons = batches_.photons();
+    if (result_.photons > 0 && std::ranges::all_of(result_.irradiance, [](double one) { return one == 0; }))
+      result_.share_bound = std::min(1.0, -std::log1p(-target_.confidence) / result_.photons);
+    return std::move(result_);
+  }
+
+  const NextBatch& next_;
+  const ErrorTarget& target_;
+  const UntilOptions& options_;
+  PairedBatches batches_;
+  UntilResult result_;
+  double bias_ = 0;  ///< bias², not below 0
+};
+
+}  // namespace
+
+void check(const ErrorTarget& target) {
+  require_ratio("target error", target.error);
+  require_ratio("confidence", target.confidence);
+}
+
+NoiseInterval with_bias(const NoiseInterval& noise, const Estimate& bias_squared) {
+  constexpr double two_sided = 1.96;
+  const auto total = [&](double one, double shift) {
+    return std::sqrt(squared(one) + std::max(0.0, bias_squared.mean + shift * bias_squared.standard_error));
+  };
+  return {total(noise.value, 0), total(noise.low, -two_sided), total(noise.high, two_sided)};
+}
+
+std::string_view name(StopReason reason) {
+  switch (reason) {
+    case StopReason::target:
+      return "target";
+    case StopReason::bias:
+      return "bias";
+    case StopReason::rays:
+      return "rays";
+    case StopReason::time:
+      return "time";
+  }
+  throw std::logic_error("a reason without a name");
+}
+
+UntilResult run_until(const NextBatch& next, std::vector<double> weights, const ErrorTarget& target,
+                      const UntilOptions& options) {
+  return UntilRun(next, std::move(weights), target, options).run();
+}
+
+}  // namespace detp::validate
