@@ -21,6 +21,7 @@
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
+#include "detp/validate/stopping/job_batches.hpp"
 #include "run_report.hpp"
 #include "run_until.hpp"
 #include "timed_run.hpp"
@@ -200,7 +201,7 @@ Needs needs_of(RunOptions& options, std::size_t rows) {
   for (std::size_t row = 0; row < rows; ++row) {
     options.candidate.lists.choose_row(row);
     const sim::Estimator estimator = estimator_of(options);
-    if (options.target.given()) require_batches(estimator);
+    if (options.target.given()) validate::require_batches(estimator);
     needs.all_rays = needs.all_rays || estimator != sim::Estimator::disc || options.target.given();
     needs.scene = needs.scene || sim::record_of(estimator).needs_mesh || options.target.given();
   }

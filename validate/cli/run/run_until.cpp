@@ -8,12 +8,10 @@
 
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
-#include "detp/sim/base/threads.hpp"
-#include "detp/sim/estimate/surface.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
-#include "detp/validate/accuracy/judged_samples.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
+#include "detp/validate/stopping/job_batches.hpp"
 
 namespace detp::cli {
 namespace {
@@ -52,80 +50,6 @@ BiasEstimate bias_of(const validate::Job& job, sim::Estimator estimator, double 
   }
 }
 
-/// Finds pairs by a searcher, or photons by surfaces.
-class BatchSearch {
- public:
-  BatchSearch(const validate::Job& job, const RunAnswer& answer, const std::stop_token& stop) : job_(job) {
-    options_ = {.engine = answer.engine, .stop = stop, .threads = answer.threads};
-    if (sim::record_of(answer.estimator).finds_pairs)
-      searcher_.emplace(job.discs, answer.candidate, farthest(), job.front_facing, options_);
-    else
-      surfaces_ = answer.estimator == sim::Estimator::area_corrected
-                      ? sim::prepare_area_corrected(job.problem(), job.scene->mesh, options_)
-                      : sim::prepare_triangle_hits(job.problem(), job.scene->mesh, options_);
-  }
-
-  const sim::Outcome& operator()(const sim::PathRays& rays) {
-    if (searcher_) return searcher_->search(rays, scratch_, options_);
-    const sim::Problem problem =
-        sim::make_problem(rays, job_.discs, job_.front_facing, sim::thread_count(options_.threads), options_.stop);
-    return scratch_.outcome = sim::run(problem, *surfaces_, options_);
-  }
-
-  [[nodiscard]] const sim::Built& built() const { return searcher_ ? searcher_->built() : surfaces_->built(); }
-
- private:
-  /// From the centre of S₀: of the first rays, and with room for others.
-  [[nodiscard]] std::optional<double> farthest() const {
-    constexpr double usual = 1000;
-    const sim::Problem& problem = job_.problem();
-    if (problem.farthest() < 0.5 * usual * problem.enclosing().radius) return std::nullopt;
-    return 2 * problem.farthest();
-  }
-
-  const validate::Job& job_;
-  sim::RunOptions options_;
-  std::optional<sim::Searcher> searcher_;
-  std::unique_ptr<const sim::Index> surfaces_;
-  sim::SearchScratch scratch_;
-};
-
-/// The job's rays first, then further ones.
-class JobBatches {
- public:
-  JobBatches(const validate::Job& job, std::stop_token stop)
-      : job_(job), stop_(std::move(stop)), own_(job.paths(), job.independent_photons()) {}
-
-  std::optional<validate::RayBatch> next(std::uint64_t rays) {
-    if (stop_.stop_requested()) throw sim::Stopped("stopped between batches");
-    if (auto batch = own_.next(rays)) {
-      if (!job_.rays_from_file && job_.field != sim::Field::photons) batch->scale = 1 / batch->photons;
-      made_ += batch->rays.rays.size();
-      return batch;
-    }
-    if (job_.rays_from_file) return std::nullopt;
-    more_ = job_.more_rays(made_, static_cast<std::size_t>(rays), stop_);
-    made_ += more_.rays.size();
-    const auto photons = static_cast<double>(more_.photon_count);
-    return validate::RayBatch{more_, photons, job_.field == sim::Field::photons ? 1 : 1 / photons};
-  }
-
- private:
-  const validate::Job& job_;
-  std::stop_token stop_;
-  validate::StoredBatches own_;
-  sim::Paths more_;
-  std::uint64_t made_ = 0;
-};
-
-/// By area: of the surface around the scene's samples, or of the discs of a file.
-std::vector<double> weights_of(const validate::Job& job) {
-  if (!job.scene || job.scene->mesh.triangles.empty()) return validate::weights_by_area(job.discs);
-  const bool of_samples =
-      std::ranges::equal(job.scene->samples, job.discs, {}, &sim::Sample::position, &sim::Disc::centre);
-  return of_samples ? validate::area_weights(*job.scene) : validate::weights_by_area(job.discs);
-}
-
 std::string percent_words(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
 Json interval_json(const validate::NoiseInterval& interval) { return {known(interval.low), known(interval.high)}; }
@@ -142,15 +66,6 @@ validate::ErrorTarget TargetOptions::target() const {
 
 double first_rays(std::optional<double> most_rays) {
   return std::min(usual_first_rays, most_rays.value_or(usual_first_rays));
-}
-
-void require_batches(sim::Estimator estimator) {
-  if (estimator == sim::Estimator::nearest || estimator == sim::Estimator::variable_radius)
-    throw std::invalid_argument(
-        fmt::format("the estimator {} needs all its rays at once, and cannot run until an error is reached: detp "
-                    "accuracy finds its "
-                    "number of rays",
-                    name(estimator)));
 }
 
 void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOptions& options, double most_rays,
@@ -174,19 +89,20 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
     until.bias = bias_of(job, answer.estimator, target.error, most_pilot_rays, threads, stop);
     target.bias_squared = until.bias->squared;
   }
-  BatchSearch search(job, answer, stop);
-  JobBatches batches(job, stop);
+  validate::JobSearch search(job, answer.estimator, answer.candidate,
+                             {.engine = answer.engine, .stop = stop, .threads = answer.threads});
+  validate::JobBatches batches(job, stop);
   const double limit = job.rays_from_file ? static_cast<double>(job.rays.size()) : most_rays;
   validate::ExecutedUntil found =
       validate::execute_until([&](const sim::PathRays& rays) -> const sim::Outcome& { return search(rays); },
-                              [&](std::uint64_t rays) { return batches.next(rays); }, weights_of(job), target,
+                              [&](std::uint64_t rays) { return batches.next(rays); }, validate::weights_of(job), target,
                               {.most_rays = limit,
                                .first_rays = job.rays.size(),
                                .most_in_batch = sim::default_block(job.discs.size()),
                                .progress = progress});
   sim::Outcome& outcome = answer.run.outcome = std::move(found.outcome);
   outcome.irradiance = std::move(found.result.irradiance);
-  if (!job.rays_from_file && job.field != sim::Field::photons)
+  if (batches.powers_add_up())
     for (double& irradiance : outcome.irradiance) irradiance *= found.result.photons;
   outcome.seconds.order += search.built().seconds.order;
   outcome.seconds.build += search.built().seconds.build;

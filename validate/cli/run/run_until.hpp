@@ -22,9 +22,6 @@ struct TargetOptions {
 /// Rays of the job of such a run, with which it begins: `--rays` is the limit.
 [[nodiscard]] double first_rays(std::optional<double> most_rays);
 
-/// Throws std::invalid_argument for an estimator that needs all its rays at once.
-void require_batches(sim::Estimator estimator);
-
 /// Fills in the answer's outcome, times and `until`. `answer` has the estimator, and unless `choose`, the candidate and its threads.
 /// The job has its scene, if photons were traced in one.
 void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOptions& options, double most_rays,

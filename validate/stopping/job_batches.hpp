@@ -1,0 +1,64 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <utility>
+#include <vector>
+
+#include "detp/sim/estimate/estimator.hpp"
+#include "detp/sim/technique/searcher.hpp"
+#include "detp/validate/job/job.hpp"
+#include "execute_until.hpp"
+
+namespace detp::validate {
+
+/// Gives the rays of a job, then further ones of the same kind (Job::more_rays); of a file only those. Irradiances are those that all
+/// photons bring together; of lines, which have power 1 each, those of one line.
+class JobBatches {
+ public:
+  /// The job must outlive this.
+  explicit JobBatches(const Job& job, std::stop_token stop = {})
+      : job_(job), stop_(std::move(stop)), own_(job.paths(), job.independent_photons()) {}
+
+  /// Throws sim::Stopped on a stop request.
+  [[nodiscard]] std::optional<RayBatch> next(std::uint64_t rays);
+
+  /// The power of a ray does not depend on the number of rays.
+  [[nodiscard]] bool powers_add_up() const { return !job_.rays_from_file && job_.field != sim::Field::photons; }
+
+ private:
+  const Job& job_;
+  std::stop_token stop_;
+  StoredBatches own_;
+  sim::Paths more_;
+  std::uint64_t made_ = 0;
+};
+
+/// Searches rays of a job's kind, batch by batch: an index over its discs, or over its scene's surfaces, is built once.
+class JobSearch {
+ public:
+  /// The candidate matters to estimators that find pairs. The job, which must outlive this, has its rays in memory, and its scene if
+  /// the estimator looks at surfaces. Throws as sim::Searcher, and std::invalid_argument for nearest and variable-radius, which need all
+  /// rays at once.
+  JobSearch(const Job& job, sim::Estimator estimator, const Candidate& candidate, sim::RunOptions options);
+
+  const sim::Outcome& operator()(const sim::PathRays& rays);
+  [[nodiscard]] const sim::Built& built() const { return searcher_ ? searcher_->built() : surfaces_->built(); }
+
+ private:
+  const Job& job_;
+  sim::RunOptions options_;
+  std::optional<sim::Searcher> searcher_;
+  std::unique_ptr<const sim::Index> surfaces_;
+  sim::SearchScratch scratch_;
+};
+
+/// Throws std::invalid_argument for an estimator that needs all its rays at once.
+void require_batches(sim::Estimator estimator);
+
+/// Weights of the job's discs for errors: the area around the scene's samples (area_weights), else the discs' own.
+[[nodiscard]] std::vector<double> weights_of(const Job& job);
+
+}  // namespace detp::validate
