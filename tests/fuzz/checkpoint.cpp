@@ -10,11 +10,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const detp::fuzz::Scratch file(".json");
   const std::string& path = file.with(detp::fuzz::text_of(data, size));
   try {
-    Checkpoint checkpoint(path, 1, 2);
+    Checkpoint checkpoint(path, 1, "2");
     checkpoint.read();
     const std::size_t points = checkpoint.points().size();
     checkpoint.add("one more", {});
-    Checkpoint again(path, 1, 2);
+    Checkpoint again(path, 1, "2");
     again.read();
     if (again.points().size() < points) std::abort();
   } catch (const detp::sim::FileError&) {

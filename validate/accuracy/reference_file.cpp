@@ -2,9 +2,7 @@
 
 #include <fmt/format.h>
 
-#include <array>
 #include <cmath>
-#include <cstring>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <span>
@@ -14,6 +12,7 @@
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/input_file.hpp"
 #include "detp/sim/files/output_file.hpp"
+#include "detp/validate/base/digest.hpp"
 
 namespace detp::validate {
 namespace {
@@ -24,26 +23,6 @@ constexpr int methods = 1;  // change it whenever make_reference gives other val
 constexpr std::string_view reference_schema = "detp.reference";
 constexpr std::size_t most_bytes_of_reference = std::size_t{1} << 30;
 constexpr std::size_t numbers_of_sample = 8;
-
-/// FNV-1a, 64 bits.
-class Digest {
- public:
-  void add(double value) { add_bytes(&value, sizeof value); }
-  void add(std::uint64_t value) { add_bytes(&value, sizeof value); }
-  void add(const glm::dvec3& value) {
-    for (int axis = 0; axis < 3; ++axis) add(value[axis]);
-  }
-  [[nodiscard]] std::string text() const { return fmt::format("{:016x}", state_); }
-
- private:
-  void add_bytes(const void* data, std::size_t count) {
-    std::array<unsigned char, sizeof(double)> bytes{};
-    std::memcpy(bytes.data(), data, count);
-    for (std::size_t i = 0; i < count; ++i) state_ = (state_ ^ bytes[i]) * 0x100000001b3ULL;
-  }
-
-  std::uint64_t state_ = 0xcbf29ce484222325ULL;
-};
 
 /// Adds a light's numbers.
 struct AddLight {

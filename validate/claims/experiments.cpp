@@ -10,10 +10,18 @@ namespace detp::validate {
 
 namespace {
 
-using Run = std::vector<Finding> (*)(const Experiment&);
+constexpr std::array steps_of_all{
+    ExperimentStep{"predictions of the choice", choice_findings, choice_work, 3, false},
+    ExperimentStep{"effects", effect_findings, effect_work, 3, false},
+    ExperimentStep{"lines against spheres and discs", line_hit_findings, line_hit_work, 1, true},
+    ExperimentStep{"sphere cache", sphere_cache_findings, sphere_cache_work, 1, true},
+    ExperimentStep{"hierarchies of spheres and boxes", hierarchy_findings, hierarchy_work, 2.2, true},
+    ExperimentStep{"index of discs", disc_index_findings, disc_index_work, 7.5, true},
+    ExperimentStep{"errors of estimates", accuracy_findings, accuracy_work, 1, true}};
 
 /// Returns false if a stop request ended the experiment.
-bool add_findings(Run run, const Experiment& experiment, std::vector<Finding>& findings) {
+bool add_findings(std::vector<Finding> (*run)(const Experiment&), const Experiment& experiment,
+                  std::vector<Finding>& findings) {
   try {
     std::vector<Finding> found = run(experiment);
     if (found.empty() && experiment.stop.stop_requested()) return false;
@@ -26,22 +34,12 @@ bool add_findings(Run run, const Experiment& experiment, std::vector<Finding>& f
 
 }  // namespace
 
+std::span<const ExperimentStep> experiment_steps() { return steps_of_all; }
+
 std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress, sim::Progress* done) {
   const sim::DefaultFloatingPoint mode;
-  struct Step {
-    const char* name;
-    Run run;
-    double (*work)(const Experiment&);
-    double unit_time;  ///< measured time of a unit of the step's work, relative to that of "sphere cache"
-  };
-  constexpr std::array steps{Step{"predictions of the choice", choice_findings, choice_work, 3},
-                             Step{"effects", effect_findings, effect_work, 3},
-                             Step{"lines against spheres and discs", line_hit_findings, line_hit_work, 1},
-                             Step{"sphere cache", sphere_cache_findings, sphere_cache_work, 1},
-                             Step{"hierarchies of spheres and boxes", hierarchy_findings, hierarchy_work, 2.2},
-                             Step{"index of discs", disc_index_findings, disc_index_work, 7.5},
-                             Step{"errors of estimates", accuracy_findings, accuracy_work, 1}};
-  std::array<double, steps.size()> work{};
+  const auto steps = experiment_steps();
+  std::vector<double> work(steps.size());
   double whole = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     work[i] = progress ? steps[i].work(experiment) : 0;
@@ -50,7 +48,7 @@ std::vector<Finding> all_findings(const Experiment& experiment, const sim::Repor
   std::vector<Finding> findings;
   std::uint64_t experiments = 0;
   double share = 0;
-  for (const Step& step : steps) {
+  for (const ExperimentStep& step : steps) {
     const double before = share;
     share += whole > 0 ? work[experiments] * step.unit_time / whole : 0;
     if (progress) progress({step.name, before, share, work[experiments]});

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "claim.hpp"
@@ -46,6 +47,17 @@ namespace detp::validate {
 [[nodiscard]] double choice_work(const Experiment& experiment);
 [[nodiscard]] double effect_work(const Experiment& experiment);
 [[nodiscard]] double accuracy_work(const Experiment& experiment);
+
+struct ExperimentStep {
+  const char* name;
+  std::vector<Finding> (*run)(const Experiment&);
+  double (*work)(const Experiment&);
+  double unit_time;  ///< measured time of a unit of the step's work, relative to that of "sphere cache"
+  bool draws;        ///< draws its lines and samples by the seed; false: counts on the rays and discs that it is given
+};
+
+/// All of the above.
+[[nodiscard]] std::span<const ExperimentStep> experiment_steps();
 
 /// The findings of all experiments, or of the experiments that were finished before a stop request. Sets `done`, if not
 /// null, to the number of finished experiments.

@@ -19,8 +19,11 @@ std::span<const T> part(std::span<const T> all, std::size_t first, std::size_t c
 }  // namespace
 
 ExecutedUntil execute_until(const SearchRays& search, const NextRays& next, std::vector<double> weights,
-                            const ErrorTarget& target, const UntilOptions& options) {
-  ExecutedUntil all;
+                            const ErrorTarget& target, const UntilOptions& options, ExecutedUntil before,
+                            const SaveExecuted& save) {
+  ExecutedUntil all = std::move(before);
+  UntilOptions saving = options;
+  if (save) saving.save = [&](const std::function<UntilState()>& state) { save(state, all); };
   const NextBatch next_batch = [&](std::uint64_t rays) -> std::optional<Batch> {
     const sim::Stopwatch watch;
     const std::optional<RayBatch> made = next(rays);
@@ -35,7 +38,7 @@ ExecutedUntil execute_until(const SearchRays& search, const NextRays& next, std:
     for (std::size_t disc = 0; disc < found.hits.size(); ++disc) all.outcome.hits[disc] += found.hits[disc];
     return batch;
   };
-  all.result = run_until(next_batch, std::move(weights), target, options);
+  all.result = run_until(next_batch, std::move(weights), target, saving);
   return all;
 }
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
@@ -32,9 +34,14 @@ struct ExecutedUntil {
   double make_seconds = 0;  ///< for making the rays
 };
 
-/// run_until for rays. `weights` of the discs by area, with sum 1. Throws as run_until and the search.
+/// Called after each batch, and when a stop request ends the run, with what a run needs to go on from there: the state, which is copied when asked for, and the outcome so far.
+using SaveExecuted = std::function<void(const std::function<UntilState()>& state, const ExecutedUntil& so_far)>;
+
+/// run_until for rays. A run that goes on from options.resume begins with the outcome of `before`; `save` takes the place of options.save.
+/// `weights` of the discs by area, with sum 1. Throws as run_until and the search.
 [[nodiscard]] ExecutedUntil execute_until(const SearchRays& search, const NextRays& next, std::vector<double> weights,
-                                          const ErrorTarget& target, const UntilOptions& options = {});
+                                          const ErrorTarget& target, const UntilOptions& options = {},
+                                          ExecutedUntil before = {}, const SaveExecuted& save = {});
 
 /// The same with a plan's technique and index, on its threads.
 [[nodiscard]] ExecutedUntil execute_until(const Plan& plan, const NextRays& next, std::vector<double> weights,
@@ -51,6 +58,9 @@ class StoredBatches {
 
   /// Nothing at the end.
   [[nodiscard]] std::optional<RayBatch> next(std::uint64_t rays);
+
+  /// Goes on after the first `rays`, the last of which ends a photon.
+  void skip(std::uint64_t rays) { given_ = static_cast<std::size_t>(std::min<std::uint64_t>(rays, all_.rays.size())); }
 
  private:
   /// Number of the ray's photon; at the end, the number of all photons.

@@ -22,6 +22,12 @@ class JobBatches {
   explicit JobBatches(const Job& job, std::stop_token stop = {})
       : job_(job), stop_(std::move(stop)), own_(job.paths(), job.independent_photons()) {}
 
+  /// Goes on after so many rays that other batches of the same job gave.
+  void skip(std::uint64_t rays) {
+    made_ = rays;
+    own_.skip(rays);
+  }
+
   /// Throws sim::Stopped on a stop request.
   [[nodiscard]] std::optional<RayBatch> next(std::uint64_t rays);
 

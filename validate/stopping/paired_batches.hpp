@@ -35,8 +35,24 @@ struct NoiseInterval {
 /// Memory: eleven numbers for a disc, however many batches.
 class PairedBatches {
  public:
+  /// All that is known of the batches so far.
+  struct State {
+    std::vector<double> sums;     ///< of irradiance times photons
+    std::vector<double> pending;  ///< first batch of a pair
+    double pending_photons = 0;   ///< 0: none
+    double photons = 0;
+    std::vector<double> pairs;                ///< Y_j
+    std::deque<std::vector<double>> earlier;  ///< δ of the last pairs
+    double products_of_squares = 0;           ///< Σ Y_j Y_k
+    double squares_of_products = 0;           ///< Σ (Σ w δ_j δ_k)²
+  };
+
   /// Throws std::invalid_argument unless weights are >= 0, with a sum of 1 within 1e-6.
   explicit PairedBatches(std::vector<double> weights);
+
+  [[nodiscard]] const State& state() const { return state_; }
+  /// Goes on from the state of other batches over the same discs. Throws std::invalid_argument for another number of discs.
+  void set_state(State state);
 
   /// The irradiance from one batch, as if it were all photons. Batches 1 and 2, 3 and 4, … are pairs. Throws
   /// std::invalid_argument for other than one value for each disc, and unless photons > 0.
@@ -44,8 +60,8 @@ class PairedBatches {
 
   /// Mean over all batches by their photons; 0 before the first.
   [[nodiscard]] std::vector<double> irradiance() const;
-  [[nodiscard]] double photons() const { return photons_; }
-  [[nodiscard]] std::size_t pairs() const { return pairs_.size(); }
+  [[nodiscard]] double photons() const { return state_.photons; }
+  [[nodiscard]] std::size_t pairs() const { return state_.pairs.size(); }
   /// B², not below 0.
   [[nodiscard]] double mean_square() const;
 
@@ -63,14 +79,7 @@ class PairedBatches {
   void compare_with_earlier(std::vector<double> difference, double square);
 
   std::vector<double> weights_;
-  std::vector<double> sums_;     ///< of irradiance times photons
-  std::vector<double> pending_;  ///< first batch of a pair
-  double pending_photons_ = 0;   ///< 0: none
-  double photons_ = 0;
-  std::vector<double> pairs_;                ///< Y_j
-  std::deque<std::vector<double>> earlier_;  ///< δ of the last pairs
-  double products_of_squares_ = 0;           ///< Σ Y_j Y_k
-  double squares_of_products_ = 0;           ///< Σ (Σ w δ_j δ_k)²
+  State state_;
 };
 
 }  // namespace detp::validate

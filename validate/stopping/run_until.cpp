@@ -30,19 +30,21 @@ class UntilRun {
   }
 
   UntilResult run() && {
-    Stage stage{static_cast<double>(std::max<std::uint64_t>(options_.first_rays, 2 * batches_of_stage)), false};
+    if (options_.resume)
+      go_on_from(*options_.resume);
+    else
+      begin({static_cast<double>(std::max<std::uint64_t>(options_.first_rays, 2 * batches_of_stage))});
     try {
       while (true) {
-        const double left = options_.most_rays - static_cast<double>(result_.rays);
-        const bool last = stage.rays >= left;
-        const bool ended = !add_stage(std::min(stage.rays, left));
+        const bool ended = !finish_stage();
         result_.noise = batches_.noise(target_.confidence);
         if (bias_ >= share_of_bias * squared(target_.error)) return finished(StopReason::bias);
-        if (stage.is_test && passes_test()) return finished(StopReason::target);
-        if (last || ended) return finished(StopReason::rays);
-        stage = next_stage();
+        if (stage_.is_test && passes_test()) return finished(StopReason::target);
+        if (stage_.is_last || ended) return finished(StopReason::rays);
+        begin(next_stage());
       }
     } catch (const sim::Stopped&) {
+      if (options_.save) options_.save([this] { return state(); });
       result_.noise = batches_.noise(target_.confidence);
       return finished(StopReason::time);
     }
@@ -52,7 +54,28 @@ class UntilRun {
   struct Stage {
     double rays = 0;
     bool is_test = false;  ///< planned to reach the target
+    bool is_last = false;
+    std::uint64_t batches = 0;  ///< that it has
   };
+
+  void begin(Stage stage) {
+    const double left = options_.most_rays - static_cast<double>(result_.rays);
+    stage.is_last = stage.rays >= left;
+    stage.rays = std::min(stage.rays, left);
+    stage_ = stage;
+  }
+
+  void go_on_from(const UntilState& state) {
+    batches_.set_state(state.batches);
+    result_.rays = state.rays;
+    result_.tests = state.tests;
+    result_.noise = batches_.noise(target_.confidence);
+    stage_ = {state.stage_rays, state.stage_is_test, state.stage_is_last, state.stage_batches};
+  }
+
+  [[nodiscard]] UntilState state() const {
+    return {batches_.state(), result_.rays, result_.tests, stage_.rays, stage_.is_test, stage_.is_last, stage_.batches};
+  }
 
   [[nodiscard]] double confidence_of_test(int test) const {
     return 1 - (1 - target_.confidence) * 2 * std::pow(3.0, -test);
@@ -66,16 +89,18 @@ class UntilRun {
   }
 
   /// False if there are no more rays.
-  bool add_stage(double rays) {
+  bool finish_stage() {
     const auto in_one = static_cast<double>(options_.most_in_batch);
-    const double pairs = std::max(static_cast<double>(batches_of_stage) / 2, std::ceil(rays / (2 * in_one)));
-    const auto each = static_cast<std::uint64_t>(std::max(1.0, std::ceil(rays / (2 * pairs))));
-    for (double batch = 0; batch < 2 * pairs; ++batch) {
-      report(batch / (2 * pairs));
+    const double pairs = std::max(static_cast<double>(batches_of_stage) / 2, std::ceil(stage_.rays / (2 * in_one)));
+    const auto each = static_cast<std::uint64_t>(std::max(1.0, std::ceil(stage_.rays / (2 * pairs))));
+    while (static_cast<double>(stage_.batches) < 2 * pairs) {
+      report(static_cast<double>(stage_.batches) / (2 * pairs));
       const std::optional<Batch> found = next_(each);
       if (!found) return false;
       batches_.add(found->irradiance, found->photons);
       result_.rays += found->rays;
+      ++stage_.batches;
+      if (options_.save) options_.save([this] { return state(); });
     }
     return true;
   }
@@ -110,6 +135,7 @@ class UntilRun {
   const UntilOptions& options_;
   PairedBatches batches_;
   UntilResult result_;
+  Stage stage_;
   double bias_ = 0;  ///< bias², not below 0
 };
 

@@ -44,11 +44,26 @@ enum class StopReason {
 
 [[nodiscard]] std::string_view name(StopReason reason);
 
+/// A run between two batches, from which it can go on.
+struct UntilState {
+  PairedBatches::State batches;
+  std::uint64_t rays = 0;
+  int tests = 0;
+  double stage_rays = 0;            ///< of the stage under way
+  bool stage_is_test = false;       ///< it is planned to reach the target
+  bool stage_is_last = false;       ///< there may be no more rays after it
+  std::uint64_t stage_batches = 0;  ///< that it has already
+};
+
 struct UntilOptions {
   double most_rays = 1e9;
   std::uint64_t first_rays = 1 << 16;  ///< of the first stage
   std::uint64_t most_in_batch = 1 << 22;
   sim::ReportPhase progress = {};
+  /// Goes on from there. `next` then gives the batches after it; the result is that of a run in one go.
+  std::optional<UntilState> resume = {};
+  /// Called after each batch, and when a stop request ends the run. `state` copies eleven numbers for a disc.
+  std::function<void(const std::function<UntilState()>& state)> save = {};
 };
 
 struct UntilResult {
@@ -71,7 +86,7 @@ struct UntilResult {
 /// tests together allow 1 - confidence. The result's interval is that of the last test.
 ///
 /// Asymptotic, as PairedBatches. If no photon met a disc among n: the bound -ln(1 - confidence)/n of their share.
-/// Throws as check(ErrorTarget), and what `next` throws but sim::Stopped: then the result has what is known so far.
+/// Throws as check(ErrorTarget), std::invalid_argument if the state is of other discs, and what `next` throws but sim::Stopped: then the result has what is known so far.
 [[nodiscard]] UntilResult run_until(const NextBatch& next, std::vector<double> weights, const ErrorTarget& target,
                                     const UntilOptions& options = {});
 

@@ -1,21 +1,11 @@
 #include "checkpoint.hpp"
 
-#include <fmt/format.h>
-
-#include <nlohmann/json.hpp>
 #include <utility>
-
-#include "detp/sim/files/file_error.hpp"
-#include "detp/sim/files/input_file.hpp"
-#include "detp/sim/files/output_file.hpp"
 
 namespace detp::validate {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-constexpr std::string_view schema = "detp.sweep-checkpoint";
-constexpr std::size_t most_bytes = std::size_t{1} << 28;  // a whole sweep takes less than a hundredth of this
+using Json = CheckpointFile::Json;
 
 Json to_json(const Deviation& row) {
   return Json::array({row.dimension, row.samples, row.disc_share, row.technique, row.parameters, row.quantity,
@@ -38,38 +28,29 @@ Deviation deviation_of(const Json& json) {
 
 }  // namespace
 
-Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t seed, std::uint64_t fingerprint)
-    : path_(std::move(path)), seed_(seed), fingerprint_(fingerprint) {}
+Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t seed, const std::string& formulas)
+    : file_(std::move(path), "validate --effort thorough",
+            {{"seed", seed}, {"digest of formulas and workloads", formulas}}) {}
 
 void Checkpoint::read(std::stop_token stop) {
-  std::error_code unknown;  // other errors appear when the file is read
-  if (!std::filesystem::exists(path_, unknown) && !unknown) return;
+  const auto state = file_.read(std::move(stop));
+  if (!state) return;
   try {
-    const Json json = Json::parse(sim::read_file(path_.string(), most_bytes, std::move(stop)));
-    if (json.at("schema").at("name") != schema || json.at("schema").at("version") != 1)
-      throw sim::FileError(path_.string(), "is not a checkpoint of this version of detp");
-    if (json.at("seed") != seed_)
-      throw sim::FileError(path_.string(),
-                           fmt::format("was made with seed {}, not {}", json.at("seed").get<std::uint64_t>(), seed_));
-    if (json.at("fingerprint") != fingerprint_)
-      throw sim::FileError(path_.string(), "was made with other formulas or workloads; start again without it");
-    for (const auto& [name, rows] : json.at("points").items())
+    for (const auto& [name, rows] : state->items())
       for (const Json& row : rows) points_[name].push_back(deviation_of(row));
   } catch (const nlohmann::json::exception& error) {
-    throw sim::FileError(path_.string(), fmt::format("is not a checkpoint: {}", shortened(error.what(), 150)));
+    throw file_.damaged(error.what());
   }
 }
 
 void Checkpoint::add(const std::string& point, const std::vector<Deviation>& deviations) {
   points_[point] = deviations;
-  Json json{{"schema", {{"name", schema}, {"version", 1}}}, {"seed", seed_}, {"fingerprint", fingerprint_}};
+  Json state = Json::object();
   for (const auto& [name, rows] : points_) {
-    Json& place = json["points"][name] = Json::array();
+    Json& place = state[name] = Json::array();
     for (const Deviation& row : rows) place.push_back(to_json(row));
   }
-  sim::OutputFile file(path_.string());
-  file.write(json.dump() + "\n");
-  file.commit();
+  file_.write(state);
 }
 
 }  // namespace detp::validate

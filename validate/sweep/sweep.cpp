@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
 
-#include <bit>
 #include <map>
 #include <mutex>
 #include <utility>
@@ -11,25 +10,25 @@
 #include "checkpoint.hpp"
 #include "detp/model/rank/predict.hpp"
 #include "detp/sim/base/parallel.hpp"
+#include "detp/validate/base/digest.hpp"
 #include "detp/validate/base/search_work.hpp"
 #include "measure_point.hpp"
 
 namespace detp::validate {
 namespace {
 
-/// A hash (FNV-1a) of the points, of their numbers of sets and lines, and of the value of every formula on them.
-std::uint64_t fingerprint(std::span<const SweepPoint> points) {
-  std::uint64_t hash = 14695981039346656037ULL;
-  const auto mix = [&hash](double value) { hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 1099511628211ULL; };
+/// Of the points, of their numbers of sets and lines, and of the value of every formula on them.
+std::string digest_of(std::span<const SweepPoint> points) {
+  Digest digest;
   for (const SweepPoint& point : points) {
     for (const double part :
          {double(point.dimension), point.samples, point.disc_share, double(point.sets), double(point.lines)})
-      mix(part);
+      digest.add(part);
     for (const Candidate& candidate : sweep_candidates(point))
       for_each_term(model::predict(point.workload(), candidate, Engine::plain),
-                    [&](std::string_view, double value) { mix(value); });
+                    [&](std::string_view, double value) { digest.add(value); });
   }
-  return hash;
+  return digest.text();
 }
 
 /// In units of sim::StopCheck.
@@ -44,7 +43,7 @@ double predicted_work(const SweepPoint& point) {
 std::optional<Checkpoint> checkpoint_of(std::span<const SweepPoint> points, const SweepOptions& options,
                                         std::stop_token stop) {
   if (!options.checkpoint) return std::nullopt;
-  Checkpoint checkpoint(*options.checkpoint, options.seed, fingerprint(points));
+  Checkpoint checkpoint(*options.checkpoint, options.seed, digest_of(points));
   if (options.resume) checkpoint.read(std::move(stop));
   return checkpoint;
 }

@@ -187,8 +187,10 @@ TEST_SUITE("bad input") {
          resumed("{\x1b[2J", "is not a checkpoint"),
          resumed("{}", "is not a checkpoint"),
          resumed(std::string(5000, '['), "is not a checkpoint"),
-         resumed(R"({"schema":{"name":"detp.sweep-checkpoint","version":1},"seed":7})", "was made with seed 7"),
-         resumed(R"({"schema":{"name":"detp.sweep-checkpoint","version":9}})", "not a checkpoint of this version"),
+         resumed(
+             R"({"schema":{"name":"detp.checkpoint","version":2},"work":"validate --effort thorough","key":{"seed":7}})",
+             "was made with seed 7"),
+         resumed(R"({"schema":{"name":"detp.checkpoint","version":9}})", "not a checkpoint of this version"),
          {"validate --effort thorough --checkpoint " + folder.path("missing/c"), "cannot be written"},
          {"validate --effort thorough --resume --checkpoint " + folder.path(""), "Is a directory"}});
   }

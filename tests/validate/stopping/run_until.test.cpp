@@ -55,8 +55,9 @@ double error_of(const std::vector<double>& found, double truth) {
 }
 
 struct Coverage {
-  int kept = 0;    ///< runs whose error is below the target
-  int inside = 0;  ///< runs whose error is in the interval
+  int kept = 0;                   ///< runs whose error is below the target
+  int inside = 0;                 ///< runs whose error is in the interval
+  int inside_if_independent = 0;  ///< runs whose error is below the bound for discs that share no photons
   std::vector<double> photons;
 };
 
@@ -73,6 +74,9 @@ Coverage coverage(Light light, double target, int runs) {
     const double error = error_of(result.irradiance, light.truth());
     found.kept += error <= target ? 1 : 0;
     found.inside += error >= result.noise.low && error <= result.noise.high ? 1 : 0;
+    const auto discs = static_cast<double>(light.discs);
+    const double bound = std::sqrt(quantile(boost::math::chi_squared(discs), 0.95) / discs);
+    found.inside_if_independent += error <= bound * result.noise.value ? 1 : 0;
     found.photons.push_back(result.photons);
   }
   return found;
@@ -111,6 +115,7 @@ TEST_SUITE("statistical") {
       CHECK(found.kept >= least);
       CHECK(found.inside >= 170);  // both ends: 90 %
       CHECK(kept_by_naive_rule(light, target, runs) < 160);
+      if (light.group > 1) CHECK(found.inside_if_independent < 170);
       // The least fixed number of photons whose error is below the target in 95 % of the runs, if it were known.
       const auto independent = static_cast<double>(light.discs / light.group);
       const double fixed = light.variance_of_photon() / (target * target) *
@@ -179,6 +184,29 @@ TEST_SUITE("stopping") {
       return ++batches % 50 == 0 ? std::nullopt : std::optional(light.batch(rays));
     };
     CHECK(run_until(few, equal(4), {.error = 0.001}, {.first_rays = 3200}).reason == StopReason::rays);
+  }
+
+  TEST_CASE("a run that goes on from any of its states ends as in one go") {
+    unsigned made = 0;
+    const NextBatch next = [&](std::uint64_t rays) {
+      return std::optional(Light{.discs = 3, .hit = 0.2, .spread = 1, .random = std::mt19937_64(++made)}.batch(rays));
+    };
+    std::vector<UntilState> states;
+    UntilOptions options{.first_rays = 3200};
+    options.save = [&](const std::function<UntilState()>& state) { states.push_back(state()); };
+    const UntilResult whole = run_until(next, equal(3), {.error = 0.1}, options);
+    REQUIRE(states.size() > 60);
+    for (const std::size_t last :
+         {std::size_t{0}, std::size_t{10}, std::size_t{31}, std::size_t{32}, states.size() - 1}) {
+      CAPTURE(last);
+      made = static_cast<unsigned>(last) + 1;
+      const UntilResult again = run_until(next, equal(3), {.error = 0.1}, {.first_rays = 3200, .resume = states[last]});
+      CHECK(again.irradiance == whole.irradiance);
+      CHECK(again.rays == whole.rays);
+      CHECK(again.tests == whole.tests);
+      CHECK(again.noise.high == whole.noise.high);
+    }
+    CHECK_THROWS_AS(static_cast<void>(run_until(next, equal(4), {}, {.resume = states[40]})), std::invalid_argument);
   }
 
   TEST_CASE("where no photon meets a disc, there is a bound and no noise") {

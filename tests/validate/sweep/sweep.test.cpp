@@ -138,7 +138,7 @@ TEST_SUITE("checkpoint") {
     CHECK(file_error_of([&] { (void)run_sweep(points, options); }).find("made with seed 1, not 2") !=
           std::string::npos);
     options.seed = 1;
-    CHECK(file_error_of([&] { (void)run_sweep(std::vector{points[0]}, options); }).find("other formulas") !=
+    CHECK(file_error_of([&] { (void)run_sweep(std::vector{points[0]}, options); }).find("digest of formulas") !=
           std::string::npos);
     CHECK(content_of(folder.path("sweep.json")) == content);
     for (const std::string bad : {"", "{", "[]", "{\"schema\":{\"name\":\"x\",\"version\":1}}", "null"}) {

@@ -165,7 +165,14 @@ void check_files(const RunOptions& options, const CommonOptions& common, std::si
     if (options.pairs || options.standard_error || options.repeat > 0)
       throw std::invalid_argument("a run until an error has no --pairs, --standard-error and --repeat");
   }
-  check_outputs({{"--output", common.output}, {"--per-disc", options.per_disc}, {"--pairs", options.pairs}});
+  if (options.target.checkpoint && (!options.target.given() || rows > 1))
+    throw std::invalid_argument("--checkpoint keeps one run with --target-noise or --target-error");
+  if (options.target.resume && !options.target.checkpoint)
+    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
+  check_outputs({{"--output", common.output},
+                 {"--per-disc", options.per_disc},
+                 {"--pairs", options.pairs},
+                 {"--checkpoint", options.target.checkpoint}});
 }
 
 /// Returns the progress if a stop request ended the run, the writing or the timed runs; else nothing.
@@ -404,6 +411,9 @@ Command run_command(CLI::App& program) {
   app->add_option("--target-error", options->target.error,
                   "the same of noise and bias together; the bias comes from a pilot; default: not");
   app->add_option("--confidence", options->target.confidence, "that the noise of this run is smaller; default: 95%");
+  app->add_option("--checkpoint", options->target.checkpoint,
+                  "with a target: keep in this file what is found, so that the run can be killed; default: none");
+  app->add_flag("--resume", options->target.resume, "go on from the checkpoint; default: begin anew");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_run(*options, common, stop);
           }};

@@ -10,8 +10,11 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/technique/streamed.hpp"
 #include "detp/validate/accuracy/accuracy_pilot.hpp"
+#include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
+#include "detp/validate/job/job_digest.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
+#include "detp/validate/stopping/until_json.hpp"
 
 namespace detp::cli {
 namespace {
@@ -47,6 +50,31 @@ BiasEstimate bias_of(const validate::Job& job, sim::Estimator estimator, double 
     for (const validate::SettingPilot& setting : own.settings)
       if (validate::uses_radius(estimator) && setting.bias_squared.mean <= target * target) bias.radius = setting.scale;
     if (2 * bias.squared.standard_error <= target * target || 4 * rays > most_rays) return bias;
+  }
+}
+
+/// All that decides what a run finds.
+Json key_of(const RunAnswer& answer, const validate::Job& job, const UntilAnswer& until, double most_rays) {
+  return {{"seed", job.seed},
+          {"estimator", name(answer.estimator)},
+          {"technique", has_technique(answer) ? describe(answer.candidate) : "none"},
+          {"engine", name(answer.engine)},
+          {"target", until.target},
+          {"target of", until.total ? "noise and bias" : "noise"},
+          {"confidence", until.confidence},
+          {"limit of rays", most_rays},
+          {"facing", job.front_facing ? "front" : "any"},
+          {"digest of rays and discs", validate::digest_of(job)}};
+}
+
+/// Throws sim::FileError for a file that is not a checkpoint of such a run; nothing if there is no file.
+std::optional<validate::SavedRun> read(const validate::CheckpointFile& file, const std::stop_token& stop) {
+  const auto state = file.read(stop);
+  if (!state) return std::nullopt;
+  try {
+    return validate::saved_run_of(*state);
+  } catch (const nlohmann::json::exception& error) {
+    throw file.damaged(error.what());
   }
 }
 
@@ -89,17 +117,35 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
     until.bias = bias_of(job, answer.estimator, target.error, most_pilot_rays, threads, stop);
     target.bias_squared = until.bias->squared;
   }
+  const double limit = job.rays_from_file ? static_cast<double>(job.rays.size()) : most_rays;
+  std::optional<validate::CheckpointFile> file;
+  std::optional<validate::SavedRun> saved;
+  if (options.checkpoint) {
+    file.emplace(*options.checkpoint, "run until an error", key_of(answer, job, until, limit));
+    if (options.resume) saved = read(*file, stop);
+  }
   validate::JobSearch search(job, answer.estimator, answer.candidate,
                              {.engine = answer.engine, .stop = stop, .threads = answer.threads});
   validate::JobBatches batches(job, stop);
-  const double limit = job.rays_from_file ? static_cast<double>(job.rays.size()) : most_rays;
+  validate::UntilOptions stages{.most_rays = limit,
+                                .first_rays = job.rays.size(),
+                                .most_in_batch = sim::default_block(job.discs.size()),
+                                .progress = progress};
+  validate::ExecutedUntil before;
+  if (saved) {
+    batches.skip(saved->state.rays);
+    stages.resume = std::move(saved->state);
+    before = std::move(saved->so_far);
+  }
+  validate::SaveExecuted save;
+  if (file)
+    save = [&](const std::function<validate::UntilState()>& state, const validate::ExecutedUntil& so_far) {
+      if (file->due() || stop.stop_requested()) file->write(validate::to_json(state(), so_far));
+    };
   validate::ExecutedUntil found =
       validate::execute_until([&](const sim::PathRays& rays) -> const sim::Outcome& { return search(rays); },
                               [&](std::uint64_t rays) { return batches.next(rays); }, validate::weights_of(job), target,
-                              {.most_rays = limit,
-                               .first_rays = job.rays.size(),
-                               .most_in_batch = sim::default_block(job.discs.size()),
-                               .progress = progress});
+                              stages, std::move(before), save);
   sim::Outcome& outcome = answer.run.outcome = std::move(found.outcome);
   outcome.irradiance = std::move(found.result.irradiance);
   if (batches.powers_add_up())

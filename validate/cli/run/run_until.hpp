@@ -13,6 +13,8 @@ struct TargetOptions {
   std::optional<std::string> noise;
   std::optional<std::string> error;
   std::string confidence = "95%";
+  std::optional<std::string> checkpoint;
+  bool resume = false;
 
   [[nodiscard]] bool given() const { return noise || error; }
   /// Without bias. Throws std::invalid_argument for both targets, and for numbers out of (0, 1).
@@ -22,7 +24,7 @@ struct TargetOptions {
 /// Rays of the job of such a run, with which it begins: `--rays` is the limit.
 [[nodiscard]] double first_rays(std::optional<double> most_rays);
 
-/// Fills in the answer's outcome, times and `until`. `answer` has the estimator, and unless `choose`, the candidate and its threads.
+/// Fills in the answer's outcome, times and `until`. Goes on from the checkpoint if it is to resume; keeps one, also when it is stopped. `answer` has the estimator, and unless `choose`, the candidate and its threads.
 /// The job has its scene, if photons were traced in one.
 void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOptions& options, double most_rays,
                    bool choose, int threads, const std::stop_token& stop, const sim::ReportPhase& progress);

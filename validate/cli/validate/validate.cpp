@@ -1,6 +1,10 @@
 #include "detp/sim/technique/technique.hpp"
+#include "detp/validate/base/digest.hpp"
+#include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/claims/experiments.hpp"
+#include "detp/validate/claims/findings_until.hpp"
 #include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/columns.hpp"
@@ -26,12 +30,36 @@ using validate::Verdict;
 constexpr double default_lines = 1e6;
 constexpr double share_of_claims = 0.03;  ///< of the time of a thorough validation
 
+/// Of --until-relative-error.
+struct UntilOptions {
+  std::optional<std::string> relative_error;
+  std::optional<std::string> confidence;
+  std::optional<double> least_lines;
+  std::optional<double> most_lines;
+
+  /// Nothing if claims are judged after their usual number of lines.
+  [[nodiscard]] std::optional<validate::FindingsTarget> target() const {
+    if (!relative_error) {
+      if (confidence || least_lines || most_lines)
+        throw std::invalid_argument("--confidence, --min-lines and --max-lines belong to --until-relative-error");
+      return std::nullopt;
+    }
+    validate::FindingsTarget target{.relative_error = parse_share("--until-relative-error", *relative_error)};
+    if (confidence) target.confidence = parse_share("--confidence", *confidence);
+    target.least_lines = least_lines.value_or(target.least_lines);
+    target.most_lines = most_lines.value_or(target.most_lines);
+    check(target);
+    return target;
+  }
+};
+
 struct ValidateOptions {
   WorkloadOptions workload;
   bool thorough = false;
   double most_samples = 1e7;
   validate::SweepOptions sweep;
   std::optional<std::string> sweep_rows;
+  UntilOptions until;
 };
 
 void add_effects(const std::vector<sim::EffectReport>& effects, Result& result) {
@@ -89,6 +117,48 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
   experiment.seed = request.seed;
   result.inputs["seed"] = request.seed;
   return experiment;
+}
+
+/// The refinement of the claim's finding.
+const validate::Refinement* refinement_of(const Claim& claim, const validate::FindingsUntil& until) {
+  for (std::size_t i = 0; i < until.findings.size(); ++i)
+    if (until.findings[i].id == stem(claim)) return &until.refinements[i];
+  return nullptr;
+}
+
+Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
+
+Json refinement_json(const validate::Refinement& one) {
+  return {{"relative_error", known(one.relative_error)},
+          {"reached", one.reached},
+          {"more_lines", optional_json(one.more_lines)},
+          {"more_seconds", optional_json(one.more_seconds)}};
+}
+
+/// What --until-relative-error came to.
+std::string until_summary(const validate::FindingsUntil& until, const validate::FindingsTarget& target) {
+  std::size_t reached = 0;
+  double lines = 0;
+  std::string missing;
+  std::string fixed;
+  for (std::size_t i = 0; i < until.findings.size(); ++i) {
+    const validate::Refinement& one = until.refinements[i];
+    const std::string& id = until.findings[i].id;
+    lines += static_cast<double>(until.findings[i].lines);
+    if (one.reached)
+      ++reached;
+    else if (one.more_lines)
+      missing += fmt::format("{} (now {:.2g} %) about {:.2g} more lines, {:.2g} s; ", id, 100 * one.relative_error,
+                             *one.more_lines, *one.more_seconds);
+    else
+      fixed += (fixed.empty() ? "" : ", ") + id;
+  }
+  std::string text =
+      fmt::format("errors    {} of {} counts are known within {:.2g} % ({:.3g} % confidence for all together)\n",
+                  reached, until.findings.size(), 100 * target.relative_error, 100 * target.confidence);
+  if (!missing.empty()) text += "          undecided, needs: " + missing.substr(0, missing.size() - 2) + "\n";
+  if (!fixed.empty()) text += "          not more accurate with more lines: " + fixed + "\n";
+  return text;
 }
 
 Json claim_json(const Claim& claim, const Claims& claims) {
@@ -168,11 +238,29 @@ std::string quantities(const std::vector<Claim>& claims, const Screen& screen) {
   return text;
 }
 
-Table table_of(const std::vector<Claim>& claims, const Result& result) {
+Table table_of(const std::vector<Claim>& claims, const validate::FindingsUntil& until, const Result& result) {
   Table table(workload_columns() +
-              Columns{"id", "quantity", "form", "source", "predicted", "observed", "standard_error",
-                      "relative_difference", "tolerance", "detectable", "verdict", "documented", "control_offset",
-                      "control_predicted", "control_verdict", "lines", "seconds"} +
+              Columns{"id",
+                      "quantity",
+                      "form",
+                      "source",
+                      "predicted",
+                      "observed",
+                      "standard_error",
+                      "relative_difference",
+                      "tolerance",
+                      "detectable",
+                      "verdict",
+                      "documented",
+                      "control_offset",
+                      "control_predicted",
+                      "control_verdict",
+                      "lines",
+                      "seconds",
+                      "relative_error",
+                      "reached",
+                      "more_lines",
+                      "more_seconds"} +
               effect_columns() + sweep_columns());
   for (const Claim& claim : claims) {
     Json row = workload_cells(result.inputs);
@@ -182,15 +270,59 @@ Table table_of(const std::vector<Claim>& claims, const Result& result) {
     row["control_predicted"] = known(claim.control);
     row["control_verdict"] = control_name(claim.control_verdict);
     row.erase("control");
+    if (!until.refinements.empty()) row.update(refinement_json(*refinement_of(claim, until)));
     table.add(row);
   }
   return table;
 }
 
+std::string digest_of(const validate::Experiment& experiment) {
+  validate::Digest digest;
+  const Workload& workload = experiment.workload;
+  for (const double value : {workload.rays, workload.samples, workload.disc_radius, workload.sphere_radius,
+                             workload.dimension, workload.path_length, workload.ray_density, workload.hit_ratio})
+    digest.add(value);
+  for (const double side : workload.box) digest.add(side);
+  for (const sim::Disc& disc : experiment.discs) {
+    digest.add(disc.centre);
+    digest.add(disc.normal);
+    digest.add(disc.radius);
+  }
+  if (experiment.choice)
+    for (const sim::Ray& ray : experiment.choice->rays) {
+      digest.add(ray.origin);
+      digest.add(ray.direction);
+      digest.add(ray.length);
+    }
+  return digest.text();
+}
+
+/// Counts until the target is reached, with the checkpoint if there is one.
+validate::FindingsUntil refined(const ValidateOptions& options, const validate::Experiment& experiment,
+                                const validate::FindingsTarget& target, const sim::ReportPhase& report,
+                                const std::stop_token& stop) {
+  if (!options.sweep.checkpoint) return validate::findings_until(experiment, target, report);
+  validate::CheckpointFile file(*options.sweep.checkpoint, "validate --until-relative-error",
+                                {{"seed", experiment.seed},
+                                 {"relative error", target.relative_error},
+                                 {"confidence", target.confidence},
+                                 {"least lines", target.least_lines},
+                                 {"most lines", target.most_lines},
+                                 {"digest of workload, discs and rays", digest_of(experiment)}});
+  Json saved;
+  if (options.sweep.resume)
+    if (auto state = file.read(stop)) saved = std::move(*state);
+  return validate::findings_until(experiment, target, report, &file, saved);
+}
+
 void check_effort(const ValidateOptions& options, const validate::JobRequest& request) {
-  if (!options.thorough &&
-      (options.sweep.checkpoint || options.sweep.resume || options.sweep_rows || options.most_samples < 1e7))
-    throw std::invalid_argument("--checkpoint, --resume, --sweep-rows and --most-samples belong to --effort thorough");
+  if (!options.thorough && (options.sweep_rows || options.most_samples < 1e7))
+    throw std::invalid_argument("--sweep-rows and --most-samples belong to --effort thorough");
+  const bool until = options.until.relative_error.has_value();
+  if (options.thorough && until)
+    throw std::invalid_argument("give one of --effort thorough and --until-relative-error");
+  if (!options.thorough && !until && (options.sweep.checkpoint || options.sweep.resume))
+    throw std::invalid_argument("--checkpoint and --resume belong to --effort thorough and to --until-relative-error");
   if (options.sweep.resume && !options.sweep.checkpoint)
     throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
   if (options.thorough && !request.numbers_alone())
@@ -230,24 +362,46 @@ void sweep(const ValidateOptions& options, const CommonOptions& common, const st
 
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   check_effort(options, options.workload.request(common, false));
+  static_cast<void>(options.until.target());
   check_files(options, common, stop);
   const ProgressLine progress(common.quiet);
   Result result;
   const validate::Experiment experiment =
       make_experiment(options.workload.request(common, false), common, stop, result);
   sim::Progress done;
-  const auto findings = validate::all_findings(
-      experiment, sim::part_of(progress.report(), 0, options.thorough ? share_of_claims : 1), &done);
-  const std::vector<Claim> claims = validate::judge_all(findings);
+  const auto target = options.until.target();
+  const auto report = sim::part_of(progress.report(), 0, options.thorough ? share_of_claims : 1);
+  validate::FindingsUntil until;
+  if (target)
+    until = refined(options, experiment, *target, report, stop);
+  else
+    until.findings = validate::all_findings(experiment, report, &done);
+  const std::vector<Claim> claims = validate::judge_all(until.findings);
   result.json["summary"] = claim_summary_json(claims);
   result.json["claims"] = Json::array();
-  for (const Claim& claim : claims) result.json["claims"].push_back(claim_json(claim, claims));
+  for (const Claim& claim : claims) {
+    result.json["claims"].push_back(claim_json(claim, claims));
+    if (target) result.json["claims"].back().update(refinement_json(*refinement_of(claim, until)));
+  }
   if (done.done < done.of) result.stopped = done;
+  if (target) {
+    result.inputs["until_relative_error"] = target->relative_error;
+    result.inputs["confidence"] = target->confidence;
+    result.inputs["min_lines"] = target->least_lines;
+    result.inputs["max_lines"] = target->most_lines;
+    const auto reached =
+        static_cast<std::uint64_t>(std::ranges::count(until.refinements, true, &validate::Refinement::reached));
+    if (until.stopped) result.stopped = sim::Progress{reached, until.findings.size(), "counts"};
+    result.not_reached = !until.stopped && std::ranges::any_of(until.refinements, [](const auto& one) {
+      return !one.reached && one.more_lines;
+    });
+    result.text = until_summary(until, *target) + result.text;
+  }
   const Screen screen = common.screen();
   result.text = (claims.empty() ? "answer    no claim was judged\n" : summary_text(claims, screen)) + "\n" +
                 wrapped(result.text, screen.text_width(), 10) +
                 (claims.empty() ? "" : "\n" + to_text(claims, screen) + quantities(claims, screen));
-  Table table = table_of(claims, result);
+  Table table = table_of(claims, until, result);
   if (options.thorough && !result.stopped) sweep(options, common, stop, progress, table, result);
   result.csv = table.csv();
   result.code = code_of(claims);
@@ -270,8 +424,14 @@ Command validate_command(CLI::App& program) {
          "--effort", [options](const std::string& effort) { options->thorough = effort == "thorough"; },
          "default, or thorough: also every formula over its whole range, some 40 minutes; default: default")
       ->check(CLI::IsMember({"default", "thorough"}));
-  app->add_option("--checkpoint", options->sweep.checkpoint, "thorough: keep what is measured in this file");
-  app->add_flag("--resume", options->sweep.resume, "thorough: go on from the checkpoint");
+  app->add_option("--until-relative-error", options->until.relative_error,
+                  "count until each observed value is known so well, as 1%; default: the usual number of lines");
+  app->add_option("--confidence", options->until.confidence, "of all these errors together; default: 95%");
+  add_count(*app, "--min-lines", options->until.least_lines, "of each claim, as 1M; default: what the error needs");
+  add_count(*app, "--max-lines", options->until.most_lines, "of each claim; default: 1e10");
+  app->add_option("--checkpoint", options->sweep.checkpoint,
+                  "keep in this file what --effort thorough or --until-relative-error has found; default: none");
+  app->add_flag("--resume", options->sweep.resume, "go on from the checkpoint; default: begin anew");
   app->add_option("--sweep-rows", options->sweep_rows,
                   "thorough: write one row for each count of the sweep as CSV; default: none");
   add_count(*app, "--most-samples", options->most_samples, "thorough: leave out larger workloads; default: 1e7, all");

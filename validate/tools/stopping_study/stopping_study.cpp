@@ -1,9 +1,12 @@
-// Runs until an error is reached, with many seeds, in scenes and for several estimators: the error at the end against a long run.
+// Rules that end a run when its error is small enough, over many runs.
 //
-//   cmake --build build --target stopping_study && build/stopping_study TABLE.csv [--seeds 50]
+//   cmake --build build --target stopping_study
+//   build/stopping_study scenes TABLE.csv [--seeds 50]
+//   build/stopping_study rules TABLE.csv [--runs 4000]
 //
-// Two rules: that of run_until, and a naive one, which looks after each pair of batches and takes the noise found for the error. A row for
-// each run. Cases that the table has are not made again.
+// scenes: runs of several estimators, the error at the end against a long run. Two rules: that of run_until, and a naive one, which looks
+// after each pair of batches and takes the noise found for the error. A row for each run. Cases that the table has are not made again.
+// rules: one mean of independent values whose distribution is known. A row for each rule and distribution.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,6 +24,7 @@
 #include "detp/validate/statistics/statistics.hpp"
 #include "detp/validate/stopping/job_batches.hpp"
 #include "detp/validate/stopping/run_until.hpp"
+#include "scalar_rules.hpp"
 
 namespace {
 
@@ -158,13 +162,7 @@ void run(const Case& one, std::uint64_t seeds, std::ostream& table) {
   std::fflush(stdout);
 }
 
-int study(int argc, char** argv) {
-  CLI::App app("How often a run ends with an error below its target");
-  std::string path;
-  std::uint64_t seeds = 50;
-  app.add_option("TABLE", path, "CSV; rows are appended")->required();
-  app.add_option("--seeds", seeds, "runs of each case");
-  CLI11_PARSE(app, argc, argv);
+void study_scenes(const std::string& path, std::uint64_t seeds) {
   std::set<std::string> done;
   std::ifstream before(path);
   for (std::string line; std::getline(before, line);) {
@@ -179,6 +177,57 @@ int study(int argc, char** argv) {
   if (done.empty()) table << "scene,estimator,target,rule,seed,rays,photons,noise,noise_low,noise_high,error\n";
   for (const Case& one : cases())
     if (!done.contains(label(one))) run(one, seeds, table);
+}
+
+void study_rules(const std::string& path, std::uint64_t runs) {
+  constexpr double error = 0.1;
+  constexpr double first = 20;  // of the best fixed size: the number of values before a rule can know anything
+  constexpr double looks = 50;  // in the best fixed size
+  std::ofstream table(path);
+  table << "distribution,rule,source,target,confidence,runs,inside,size_over_best,size_over_best_95\n";
+  for (const tools::Distribution& distribution :
+       {tools::hits("hits 10 %", 0.1), tools::hits("hits 1 %", 0.01), tools::hits("hits 0.1 %", 0.001),
+        tools::uneven_hits("hits 10 %, uneven powers", 0.1, 0.7),
+        tools::uneven_hits("hits 1 %, uneven powers", 0.01, 1)})
+    for (const tools::ScalarRule& rule : tools::scalar_rules()) {
+      tools::ScalarTarget target{.error = error};
+      const double best = tools::best_fixed_size(distribution, target);
+      target.first = best / first;
+      target.look = best / looks;
+      std::uint64_t inside = 0;
+      std::vector<double> sizes;
+      for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+        tools::Stream stream(distribution, seed);
+        const auto end = rule.run(stream, target);
+        if (!end) break;
+        inside += std::abs(end->estimate / distribution.mean() - 1) <= error ? 1 : 0;
+        sizes.push_back(end->values / best);
+      }
+      if (sizes.empty()) continue;
+      table << fmt::format("\"{}\",\"{}\",\"{}\",{},{},{},{},{:.4g},{:.4g}\n", distribution.name, rule.name,
+                           rule.source, error, target.confidence, runs, inside, validate::median(sizes),
+                           validate::quantile(sizes, 0.95))
+            << std::flush;
+    }
+}
+
+int study(int argc, char** argv) {
+  CLI::App app("How often a run ends with an error below its target");
+  std::string path;
+  std::uint64_t seeds = 50;
+  std::uint64_t runs = 4000;
+  auto* scenes = app.add_subcommand("scenes", "runs in scenes");
+  scenes->add_option("TABLE", path, "CSV; rows are appended")->required();
+  scenes->add_option("--seeds", seeds, "runs of each case");
+  auto* rules = app.add_subcommand("rules", "one mean");
+  rules->add_option("TABLE", path, "CSV")->required();
+  rules->add_option("--runs", runs, "of each rule and distribution");
+  app.require_subcommand(1);
+  CLI11_PARSE(app, argc, argv);
+  if (*scenes)
+    study_scenes(path, seeds);
+  else
+    study_rules(path, runs);
   return 0;
 }
 

@@ -158,6 +158,14 @@ TEST_SUITE("end to end") {
                    {"validate --effort great", "default,thorough"}});
   }
 
+  TEST_CASE("errors to reach are checked before any work") {
+    check_refused({{"validate --until-relative-error 0", "relative error"},
+                   {"validate --until-relative-error 5%% --quiet", "--until-relative-error"},
+                   {"validate --until-relative-error 1% --confidence 2", "confidence"},
+                   {"validate --until-relative-error 1% --min-lines 1k --max-lines 100", "least number of lines"},
+                   {"validate --max-lines 1M", "--until-relative-error"}});
+  }
+
   TEST_CASE("a time limit before the first verdict ends with code 3 and the results so far") {
     const Finished finished = detp("validate --time-limit 0.2 --format json");
     CHECK(finished.code == 3);
@@ -168,6 +176,30 @@ TEST_SUITE("end to end") {
 }
 
 TEST_SUITE("statistical") {  // because it takes long
+  TEST_CASE("counts go on until each observed value is known as well as asked, or say what is missing") {
+    const std::string command =
+        "validate --rays 20k --samples 300 --disc-radius 4% --format json --until-relative-error ";
+    const Finished finished = detp(command + "4%");
+    CHECK(finished.code == 0);
+    const Json json = finished.json();
+    CHECK(json.at("inputs").at("until_relative_error") == 0.04);
+    for (const Json& claim : json.at("claims")) {
+      CAPTURE(claim.at("id"));
+      CHECK(claim.at("reached") == true);
+      CHECK(claim.at("relative_error").get<double>() <= 0.04);
+      CHECK(claim.at("more_lines").is_null());
+    }
+    const Finished limited = detp(command + "0.1% --max-lines 20k");
+    CHECK(limited.code == 3);
+    CHECK(std::ranges::any_of(limited.json().at("claims"), [](const Json& claim) {
+      return claim.at("reached") == false && claim.at("more_lines").get<double>() > 20'000;
+    }));
+    CHECK(limited.json().at("stopped") == false);
+    const Finished timed = detp(command + "0.1% --time-limit 1");
+    CHECK(timed.code == 3);
+    CHECK(timed.json().at("stopped") == true);
+  }
+
   TEST_CASE("files of discs and rays are validated with the rays that they contain") {
     const support::ScratchFolder folder;
     const std::string discs = folder.path("discs.csv");

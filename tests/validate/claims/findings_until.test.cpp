@@ -1,0 +1,107 @@
+#include "detp/validate/claims/findings_until.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace detp::validate {
+namespace {
+
+Experiment small(double lines, std::uint64_t seed) {
+  return {.workload = cube_workload(lines, 300, 0.1, 2, 3), .discs = {}, .seed = seed};
+}
+
+/// The quickest of all experiments.
+std::span<const ExperimentStep> lines_alone() {
+  return {
+      std::ranges::find(experiment_steps(), std::string_view("lines against spheres and discs"), &ExperimentStep::name),
+      1};
+}
+
+}  // namespace
+
+TEST_SUITE("long") {
+  TEST_CASE("each observed value is known as well as asked, or says what is missing") {
+    const FindingsTarget target{.relative_error = 0.1, .most_lines = 1e6};
+    const FindingsUntil until = findings_until(small(2000, 1), target);
+    REQUIRE(until.findings.size() == until.refinements.size());
+    CHECK_FALSE(until.stopped);
+    REQUIRE(until.findings.size() > 40);
+    std::size_t reached = 0;
+    for (std::size_t i = 0; i < until.findings.size(); ++i) {
+      const Finding& finding = until.findings[i];
+      const Refinement& one = until.refinements[i];
+      CAPTURE(finding.id);
+      CHECK(one.reached == (one.relative_error <= target.relative_error));
+      reached += one.reached ? 1 : 0;
+      if (finding.batches == 0) CHECK(one.relative_error == 0);
+      if (one.reached) continue;
+      REQUIRE(one.more_lines);
+      CHECK(*one.more_lines ==
+            doctest::Approx((std::pow(one.relative_error / 0.1, 2) - 1) * static_cast<double>(finding.lines)));
+      CHECK(*one.more_seconds > 0);
+    }
+    CHECK(reached > 40);
+    // Lines as they are needed: an observed value that was known after the first repetition has no more.
+    const auto lines = [&](const char* id) {
+      return std::ranges::find(until.findings, std::string(id), &Finding::id)->lines;
+    };
+    CHECK(lines("sphere-hit-probability") < lines("rebuilds") * 100);
+    CHECK(findings_until(small(2000, 1), target).findings.front().observed.mean ==
+          until.findings.front().observed.mean);
+  }
+
+  TEST_CASE("limits of lines hold") {
+    const FindingsUntil few =
+        findings_until(small(2000, 2), {.relative_error = 1e-4, .most_lines = 20'000}, {}, nullptr, {}, lines_alone());
+    for (const Finding& finding : few.findings)
+      if (finding.id == "sphere-hit-probability") CHECK(finding.lines <= 20'000);
+    const FindingsUntil many =
+        findings_until(small(2000, 2), {.relative_error = 0.9, .least_lines = 100'000, .most_lines = 200'000}, {},
+                       nullptr, {}, lines_alone());
+    for (const Finding& finding : many.findings)
+      if (finding.id == "sphere-hit-probability") CHECK(finding.lines >= 100'000);
+    std::stop_source stop;
+    stop.request_stop();
+    Experiment stopped = small(2000, 3);
+    stopped.stop = stop.get_token();
+    CHECK(findings_until(stopped, {}).stopped);
+  }
+}
+
+TEST_SUITE("statistical") {
+  TEST_CASE("stated errors hold for all of the values that are known exactly, in 95 % of the runs") {
+    constexpr int runs = 200;
+    int wrong = 0;
+    for (std::uint64_t seed = 1; seed <= runs; ++seed) {
+      const FindingsUntil until = findings_until(small(500, 7000 + seed), {.relative_error = 0.05, .most_lines = 1e6},
+                                                 {}, nullptr, {}, lines_alone());
+      bool right = true;
+      for (std::size_t i = 0; i < until.findings.size(); ++i) {
+        const Finding& finding = until.findings[i];
+        if (!finding.id.starts_with("sphere-hit") && !finding.id.starts_with("disc-hit") &&
+            !finding.id.starts_with("rays-in"))
+          continue;
+        const double away = std::abs(finding.predictions.back().value / finding.observed.mean - 1);
+        right = right && away <= until.refinements[i].relative_error;
+      }
+      wrong += right ? 0 : 1;
+    }
+    CHECK(wrong <= 19);  // of a binomial 0.05, more happens in 0.1 %
+  }
+}
+
+TEST_SUITE("claims") {
+  TEST_CASE("targets out of range are refused") {
+    for (const double wrong : {0.0, 1.0, std::numeric_limits<double>::quiet_NaN()}) {
+      CHECK_THROWS_AS(check(FindingsTarget{.relative_error = wrong}), std::invalid_argument);
+      CHECK_THROWS_AS(check(FindingsTarget{.confidence = wrong}), std::invalid_argument);
+    }
+    CHECK_THROWS_AS(check(FindingsTarget{.least_lines = 100, .most_lines = 10}), std::invalid_argument);
+    CHECK_THROWS_AS(check(FindingsTarget{.least_lines = -1}), std::invalid_argument);
+  }
+}
+
+}  // namespace detp::validate

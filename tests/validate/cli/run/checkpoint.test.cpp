@@ -1,0 +1,105 @@
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <random>
+
+#include "support/run_support.hpp"
+
+namespace detp::support {
+namespace {
+
+/// What is left of a result without times.
+Json without_times(Json json) {
+  if (json.is_object()) {
+    for (auto it = json.begin(); it != json.end();)
+      it = it.key().find("seconds") != std::string::npos ? json.erase(it) : std::next(it);
+  }
+  if (json.is_structured())
+    for (auto& part : json) part = without_times(part);
+  return json;
+}
+
+/// Kills the command at random moments and continues it from its checkpoint, until it has been killed so often.
+void check_killed_runs(const std::string& command, int kills) {
+  CAPTURE(command);
+  const ScratchFolder folder;
+  const std::string output = folder.path("output.csv");
+  const std::string checkpoint = folder.path("checkpoint.json");
+  const bool runs = command.starts_with("run");
+  const std::string whole = command + " --format json " + (runs ? "--calibration none --per-disc " + output : "");
+  const Finished once = detp(whole);
+  REQUIRE(once.code == 0);
+  const std::string bytes = content_of(output);
+  const Json result = without_times(once.json());
+  const std::string resumed = whole + " --resume --checkpoint " + checkpoint;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> moment(0, 1.1 * once.seconds);
+  int went_on = 0;  // runs that found a checkpoint
+  for (int kill = 0; kill < kills;) {
+    std::filesystem::remove(output);
+    went_on += std::filesystem::exists(checkpoint) ? 1 : 0;
+    Process process(words(resumed));
+    std::this_thread::sleep_for(std::chrono::duration<double>(moment(random)));
+    process.send(SIGKILL);
+    const Finished finished = process.finish();
+    if (finished.signal == SIGKILL) {
+      ++kill;
+      if (kill < kills) continue;
+    }
+    const Finished last = finished.code == 0 ? finished : detp(resumed);
+    CAPTURE(last.err);
+    REQUIRE(last.code == 0);
+    CHECK(without_times(last.json()) == result);
+    CHECK(content_of(output) == bytes);
+    std::filesystem::remove(checkpoint);
+  }
+  CHECK(went_on > kills / 4);
+}
+
+/// DETP_KILLS, else 5.
+int kills() {
+  const char* text = std::getenv("DETP_KILLS");
+  return text == nullptr ? 5 : std::atoi(text);
+}
+
+}  // namespace
+
+TEST_SUITE("kills") {
+  TEST_CASE("work that is killed at any moment and continued finds the same") {
+    check_killed_runs("run @cornell --target-noise 6% --technique box-tree --threads 1", kills());
+    check_killed_runs("run @cornell --field isotropic --target-noise 5% --technique octree --threads 2", kills());
+    check_killed_runs("validate --rays 20k --samples 300 --disc-radius 4% --until-relative-error 10%", kills());
+  }
+}
+
+TEST_SUITE("end to end") {
+  TEST_CASE("a run that was stopped goes on; checkpoints of other runs, damaged ones and wrong options are refused") {
+    const ScratchFolder folder;
+    const std::string checkpoint = folder.path("checkpoint.json");
+    const std::string run = "run @cornell --target-noise 5% --technique box-tree --calibration none --format json ";
+    const Finished stopped = detp(run + "--time-limit 0.5 --checkpoint " + checkpoint);
+    CHECK(stopped.code == 3);
+    const std::string content = content_of(checkpoint);
+    REQUIRE_FALSE(content.empty());
+    CHECK(detp(run + "--resume --checkpoint " + checkpoint).code == 0);
+    CHECK(detp(run + "--resume --checkpoint " + folder.path("none.json")).code == 0);
+    const auto resumed = [&](const std::string& text, const std::string& named) {
+      static int number = 0;
+      const std::string path = folder.path("file" + std::to_string(++number));
+      std::ofstream(path) << text;
+      return Refusal(run + "--resume --checkpoint " + path, named);
+    };
+    const std::string other = std::regex_replace(content, std::regex("\"run until an error\""), "\"validate\"");
+    const std::string fewer = std::regex_replace(content, std::regex("\"sums\":\\[[^,]*,"), "\"sums\":[");
+    check_refused({resumed(content.substr(0, content.size() / 2), "is not a checkpoint"),
+                   resumed(other, "is a checkpoint of \"validate\""),
+                   resumed(fewer, "another number of discs"),
+                   {run + "--seed 2 --resume --checkpoint " + checkpoint, "was made with seed 1, not 2"},
+                   {run + "--disc-radius 3% --resume --checkpoint " + checkpoint, "digest of rays and discs"},
+                   {run + "--resume", "--checkpoint"},
+                   {"run @cornell --checkpoint " + checkpoint, "--target-noise"},
+                   {run + "--checkpoint " + folder.path("missing/c"), "cannot be written"}});
+  }
+}
+
+}  // namespace detp::support

@@ -1,0 +1,79 @@
+#include "checkpoint_file.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "detp/model/vocabulary/quoted.hpp"
+#include "detp/sim/files/input_file.hpp"
+#include "detp/sim/files/output_file.hpp"
+
+namespace detp::validate {
+namespace {
+
+using Json = CheckpointFile::Json;
+
+constexpr std::string_view schema = "detp.checkpoint";
+constexpr int version = 2;
+constexpr std::size_t most_bytes = std::size_t{1} << 32;
+constexpr double times_cheaper = 100;
+constexpr double first_seconds = 0.1;
+
+std::string words(const Json& value) {
+  return value.is_string() ? detp::quoted(value.get<std::string>()) : value.dump();
+}
+
+/// What the two differ in; empty if they are equal.
+std::string difference(const Json& found, const Json& wanted) {
+  for (const auto& [name, value] : wanted.items()) {
+    if (!found.contains(name)) return fmt::format("was made without {}", name);
+    const Json& other = found.at(name);
+    if (other == value) continue;
+    return fmt::format("was made with {} {}, not {}", name, words(other), words(value));
+  }
+  return found.size() == wanted.size() ? "" : "was made with other options";
+}
+
+}  // namespace
+
+CheckpointFile::CheckpointFile(std::filesystem::path path, std::string work, Json key)
+    : path_(std::move(path)), work_(std::move(work)), key_(std::move(key)) {}
+
+sim::FileError CheckpointFile::damaged(const std::string& why) const {
+  return {path_.string(), fmt::format("is not a checkpoint: {}", shortened(why, 150))};
+}
+
+std::optional<Json> CheckpointFile::read(std::stop_token stop) const {
+  std::error_code unknown;  // other errors appear when the file is read
+  if (!std::filesystem::exists(path_, unknown) && !unknown) return std::nullopt;
+  try {
+    Json json = Json::parse(sim::read_file(path_.string(), most_bytes, std::move(stop)));
+    if (json.at("schema").at("name") != schema || json.at("schema").at("version") != version)
+      throw sim::FileError(path_.string(), "is not a checkpoint of this version of detp");
+    if (json.at("work") != work_)
+      throw sim::FileError(path_.string(),
+                           fmt::format("is a checkpoint of {}, not of {}", words(json.at("work")), work_));
+    if (const std::string other = difference(json.at("key"), key_); !other.empty())
+      throw sim::FileError(path_.string(), other + "; start again without it");
+    return std::move(json.at("state"));
+  } catch (const nlohmann::json::exception& error) {
+    throw damaged(error.what());
+  }
+}
+
+void CheckpointFile::write(const Json& state) {
+  const sim::Stopwatch watch;
+  const Json json{
+      {"schema", {{"name", schema}, {"version", version}}}, {"work", work_}, {"key", key_}, {"state", state}};
+  sim::OutputFile file(path_.string());
+  file.write(json.dump() + "\n");
+  file.commit();
+  write_seconds_ = watch.seconds();
+  since_last_ = {};
+}
+
+bool CheckpointFile::due() const {
+  return since_last_.seconds() > std::max(first_seconds, times_cheaper * write_seconds_);
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,289 @@
+#include "findings_until.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "detp/model/vocabulary/checks.hpp"
+#include "detp/sim/base/floating_point.hpp"
+#include "detp/sim/base/stopped.hpp"
+#include "detp/sim/base/stopwatch.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double most_growth = 8;
+constexpr double safety = 1.05;
+
+using Json = CheckpointFile::Json;
+
+Json to_json(const Finding& finding) {
+  Json predictions = Json::array();
+  for (const FormulaValue& one : finding.predictions)
+    predictions.push_back({one.form == Form::published, one.source, one.value});
+  return {finding.id,
+          finding.quantity,
+          finding.technique,
+          finding.parameters,
+          predictions,
+          finding.observed.mean,
+          finding.batches,
+          finding.tolerance,
+          finding.lines,
+          finding.seconds,
+          finding.observed.standard_error};
+}
+
+Finding finding_of(const Json& json) {
+  Finding finding{.id = json.at(0), .quantity = json.at(1), .technique = json.at(2), .parameters = json.at(3)};
+  for (const Json& one : json.at(4))
+    finding.predictions.push_back({one.at(0).get<bool>() ? Form::published : Form::corrected, one.at(1), one.at(2)});
+  json.at(5).get_to(finding.observed.mean);
+  json.at(6).get_to(finding.batches);
+  json.at(7).get_to(finding.tolerance);
+  json.at(8).get_to(finding.lines);
+  json.at(9).get_to(finding.seconds);
+  json.at(10).get_to(finding.observed.standard_error);
+  return finding;
+}
+
+/// One experiment, and the sums over its repetitions.
+class Repeated {
+ public:
+  Repeated(const ExperimentStep& step, const Experiment& experiment) : step_(step), experiment_(experiment) {}
+
+  /// Throws sim::Stopped.
+  void repeat() {
+    Experiment one = experiment_;
+    one.seed += repetitions_ * 1'000'000'007ULL;
+    const sim::Stopwatch watch;
+    std::vector<Finding> found = step_.run(one);
+    if (found.empty() && experiment_.stop.stop_requested()) throw sim::Stopped("stopped during an experiment");
+    seconds_ += watch.seconds();
+    ++repetitions_;
+    if (repetitions_ == 1) {
+      sums_ = std::move(found);
+      for (Finding& sum : sums_) sum.observed.standard_error *= sum.observed.standard_error;
+      return;
+    }
+    for (std::size_t i = 0; i < sums_.size(); ++i) add(found[i], sums_[i]);
+  }
+
+  struct Plan {
+    int test = 1;                ///< number of the next test of the target
+    double stage_end = 0;        ///< repetitions at the end of the stage under way; 0: none
+    bool stage_is_test = false;  ///< it was planned to reach the target
+    bool finished = false;
+  };
+  Plan plan;
+
+  [[nodiscard]] Json state() const {
+    Json sums = Json::array();
+    for (const Finding& sum : sums_) sums.push_back(to_json(sum));
+    return {sums, repetitions_, seconds_, plan.test, plan.stage_end, plan.stage_is_test, plan.finished};
+  }
+
+  void set_state(const Json& json) {
+    sums_.clear();
+    for (const Json& sum : json.at(0)) sums_.push_back(finding_of(sum));
+    json.at(1).get_to(repetitions_);
+    json.at(2).get_to(seconds_);
+    json.at(3).get_to(plan.test);
+    json.at(4).get_to(plan.stage_end);
+    json.at(5).get_to(plan.stage_is_test);
+    json.at(6).get_to(plan.finished);
+  }
+
+  [[nodiscard]] std::size_t size() const { return sums_.size(); }
+  [[nodiscard]] bool started() const { return repetitions_ > 0; }
+  [[nodiscard]] double repetitions() const { return static_cast<double>(repetitions_); }
+  [[nodiscard]] double seconds_of_one() const { return seconds_ / repetitions(); }
+  /// The finding can become more accurate.
+  [[nodiscard]] bool grows(std::size_t i) const { return step_.draws && sums_[i].batches > 0; }
+
+  /// Mean over the repetitions.
+  [[nodiscard]] Finding finding(std::size_t i) const {
+    Finding mean = sums_[i];
+    mean.observed.mean /= repetitions();
+    mean.observed.standard_error = std::sqrt(mean.observed.standard_error) / repetitions();
+    for (FormulaValue& prediction : mean.predictions) prediction.value /= repetitions();
+    mean.seconds = seconds_;
+    return mean;
+  }
+
+  /// Half width of the interval over the observed value, if the error allowed is shared by so many findings.
+  [[nodiscard]] double relative_error(std::size_t i, double allowed, std::size_t findings) const {
+    const Finding mean = finding(i);
+    if (mean.batches == 0) return 0;
+    if (mean.observed.mean == 0) return std::numeric_limits<double>::infinity();
+    return interval_width(allowed, static_cast<int>(findings), mean.batches) * mean.observed.standard_error /
+           std::abs(mean.observed.mean);
+  }
+
+ private:
+  static void add(const Finding& one, Finding& sum) {
+    if (one.id != sum.id) throw std::logic_error("a repeated experiment has other findings");
+    sum.observed.mean += one.observed.mean;
+    sum.observed.standard_error += one.observed.standard_error * one.observed.standard_error;
+    sum.batches += one.batches;
+    sum.lines += one.lines;
+    for (std::size_t i = 0; i < sum.predictions.size(); ++i) sum.predictions[i].value += one.predictions[i].value;
+  }
+
+  const ExperimentStep& step_;
+  const Experiment& experiment_;
+  std::vector<Finding> sums_;  ///< standard errors: sums of their squares
+  std::uint64_t repetitions_ = 0;
+  double seconds_ = 0;
+};
+
+class Findings {
+ public:
+  Findings(const Experiment& experiment, const FindingsTarget& target, const sim::ReportPhase& progress,
+           CheckpointFile* checkpoint, std::span<const ExperimentStep> steps)
+      : target_(target), progress_(progress), checkpoint_(checkpoint) {
+    for (const ExperimentStep& step : steps) experiments_.emplace_back(step, experiment);
+  }
+
+  void go_on_from(const Json& saved) {
+    for (std::size_t i = 0; i < experiments_.size(); ++i) experiments_[i].set_state(saved.at(i));
+  }
+
+  FindingsUntil run() && {
+    FindingsUntil result;
+    try {
+      double done = 0;
+      for (Repeated& one : experiments_) {
+        report("first counts", share_of_first * done++ / static_cast<double>(experiments_.size()));
+        if (!one.started()) repeat(one);
+      }
+      for (Repeated& one : experiments_) refine(one);
+    } catch (const sim::Stopped&) {
+      result.stopped = true;
+      save();
+    }
+    for (const Repeated& one : experiments_)
+      for (std::size_t i = 0; i < one.size(); ++i) {
+        result.findings.push_back(one.finding(i));
+        result.refinements.push_back(refinement(one, i));
+      }
+    return result;
+  }
+
+ private:
+  static constexpr double share_of_first = 0.1;
+
+  void report(const std::string& what, double share, double seconds = 0) const {
+    if (progress_) progress_({what, share, 1, 0, seconds});
+  }
+
+  [[nodiscard]] std::size_t findings() const {
+    std::size_t count = 0;
+    for (const Repeated& one : experiments_) count += one.size();
+    return count;
+  }
+
+  [[nodiscard]] double allowed(int test) const { return (1 - target_.confidence) * 2 * std::pow(3.0, -test); }
+
+  /// Number of repetitions that the experiment needs in all, by what is known; within its limits of lines.
+  [[nodiscard]] double needed(const Repeated& one) const {
+    double most = 1;
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      if (!one.grows(i)) continue;
+      const double error = one.relative_error(i, allowed(one.plan.test), findings());
+      const double lines_of_one = static_cast<double>(one.finding(i).lines) / one.repetitions();
+      const double by_error = std::isfinite(error)
+                                  ? safety * one.repetitions() * std::pow(error / target_.relative_error, 2)
+                                  : std::numeric_limits<double>::infinity();
+      most = std::max(most, std::clamp(by_error, std::ceil(target_.least_lines / lines_of_one),
+                                       std::max(1.0, std::floor(target_.most_lines / lines_of_one))));
+    }
+    return most;
+  }
+
+  [[nodiscard]] bool reached(const Repeated& one) const {
+    for (std::size_t i = 0; i < one.size(); ++i)
+      if (one.grows(i) && one.relative_error(i, allowed(one.plan.test), findings()) > target_.relative_error)
+        return false;
+    return true;
+  }
+
+  void repeat(Repeated& one) {
+    one.repeat();
+    if (checkpoint_ != nullptr && checkpoint_->due()) save();
+  }
+
+  void save() const {
+    if (checkpoint_ == nullptr) return;
+    Json state = Json::array();
+    for (const Repeated& one : experiments_) state.push_back(one.state());
+    checkpoint_->write(state);
+  }
+
+  void refine(Repeated& one) {
+    Repeated::Plan& plan = one.plan;
+    while (!plan.finished) {
+      if (plan.stage_end == 0) {
+        const double wanted = std::ceil(needed(one));
+        plan.stage_end = std::min(wanted, most_growth * one.repetitions());
+        plan.stage_is_test = plan.stage_end == wanted;
+        plan.finished = wanted <= one.repetitions();
+      }
+      for (const double begin = one.repetitions(); one.repetitions() < plan.stage_end;) {
+        const double left = (plan.stage_end - one.repetitions()) * one.seconds_of_one();
+        report(fmt::format("{:.2g} s more for {:.2g} %", left, 100 * target_.relative_error),
+               share_of_first + (1 - share_of_first) * (one.repetitions() - begin) / (plan.stage_end - begin), left);
+        repeat(one);
+      }
+      plan.stage_end = 0;
+      if (!plan.stage_is_test || plan.finished) continue;
+      plan.finished = reached(one);
+      plan.test += plan.finished ? 0 : 1;
+    }
+  }
+
+  [[nodiscard]] Refinement refinement(const Repeated& one, std::size_t i) const {
+    Refinement found{.relative_error = one.relative_error(i, allowed(one.plan.test), findings())};
+    found.reached = found.relative_error <= target_.relative_error;
+    if (found.reached || !one.grows(i) || !std::isfinite(found.relative_error)) return found;
+    const double times = std::pow(found.relative_error / target_.relative_error, 2) - 1;
+    found.more_lines = times * static_cast<double>(one.finding(i).lines);
+    found.more_seconds = times * one.repetitions() * one.seconds_of_one();
+    return found;
+  }
+
+  const FindingsTarget& target_;
+  const sim::ReportPhase& progress_;
+  CheckpointFile* checkpoint_;
+  std::vector<Repeated> experiments_;
+};
+
+}  // namespace
+
+void check(const FindingsTarget& target) {
+  require_ratio("relative error", target.relative_error);
+  require_ratio("confidence", target.confidence);
+  require_non_negative("least number of lines", target.least_lines);
+  require_positive("largest number of lines", target.most_lines);
+  if (target.least_lines > target.most_lines)
+    throw std::invalid_argument("the least number of lines is above the largest");
+}
+
+FindingsUntil findings_until(const Experiment& experiment, const FindingsTarget& target,
+                             const sim::ReportPhase& progress, CheckpointFile* checkpoint, const Json& saved,
+                             std::span<const ExperimentStep> steps) {
+  const sim::DefaultFloatingPoint mode;
+  check(target);
+  Findings findings(experiment, target, progress, checkpoint, steps);
+  try {
+    if (!saved.is_null()) findings.go_on_from(saved);
+  } catch (const nlohmann::json::exception& error) {
+    throw checkpoint->damaged(error.what());
+  }
+  return std::move(findings).run();
+}
+
+}  // namespace detp::validate

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "execute_until.hpp"
+
+/// A run between two batches as JSON, for a CheckpointFile.
+namespace detp::validate {
+
+struct SavedRun {
+  UntilState state;
+  ExecutedUntil so_far;  ///< hits, counts and seconds; no result
+};
+
+[[nodiscard]] nlohmann::ordered_json to_json(const UntilState& state, const ExecutedUntil& so_far);
+
+/// Throws nlohmann::json::exception unless the JSON is that of to_json.
+[[nodiscard]] SavedRun saved_run_of(const nlohmann::ordered_json& json);
+
+}  // namespace detp::validate
