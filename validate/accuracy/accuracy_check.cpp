@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <utility>
 
 #include "detp/model/vocabulary/checks.hpp"
@@ -100,33 +101,38 @@ std::uint64_t check_seeds(std::uint64_t first, std::uint64_t last) {
 }
 
 std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
-                                          std::uint64_t first, std::uint64_t last,
-                                          const AccuracyPilotOptions& options) {
+                                          std::uint64_t first, std::uint64_t last, const AccuracyPilotOptions& options,
+                                          std::vector<MadeRerun> made,
+                                          const std::function<void(const std::vector<MadeRerun>&)>& save) {
   const sim::DefaultFloatingPoint mode;
   const std::uint64_t count = check_seeds(first, last);
   const JudgedSamples judged = judged_samples(scene, options.reference, most_samples_kept);
-  std::vector<AccuracyRerun> reruns;
-  std::vector<std::vector<double>> found;
+  for (std::size_t i = 0; i < made.size(); ++i)
+    if (made.size() > count || made[i].seed != first + i || made[i].irradiance.size() != judged.samples.size())
+      throw std::invalid_argument("runs that were made with other seeds, or at other samples");
   try {
-    for (std::uint64_t seed = first; reruns.size() < count; ++seed) {
+    while (made.size() < count) {
       if (options.progress)
-        options.progress({"runs", static_cast<double>(reruns.size()) / static_cast<double>(count), 1});
+        options.progress({"runs", static_cast<double>(made.size()) / static_cast<double>(count), 1});
       ReplicateMaker maker(scene, options.front_facing, options.threads, options.stop);
+      const std::uint64_t seed = first + made.size();
       TimedEstimate run = timed_estimate(maker, scene, judged, point, seed);
-      found.push_back(std::move(run.irradiance));
-      reruns.push_back(
-          {.seed = seed, .seconds = run.seconds, .error = error_of(found.back(), options.reference, mean_square)});
+      const auto error = error_of(run.irradiance, options.reference, mean_square);
+      made.push_back({seed, run.seconds, error, std::move(run.irradiance)});
+      if (save) save(made);
     }
-  } catch (const sim::Stopped&) {
-    found.resize(reruns.size());
+  } catch (const sim::Stopped&) {  // the runs made so far answer
   }
-  if (reruns.size() < 2) return {};
-  const auto runs = static_cast<double>(reruns.size());
+  if (made.size() < 2) return {};
+  const auto runs = static_cast<double>(made.size());
   std::vector<double> mean(judged.samples.size());
-  for (const auto& run : found)
-    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += run[i] / runs;
-  for (std::size_t r = 0; r < reruns.size(); ++r)
-    reruns[r].noise = std::sqrt(square_between(found[r], mean, judged.weights, 1) / mean_square * runs / (runs - 1));
+  for (const MadeRerun& run : made)
+    for (std::size_t i = 0; i < mean.size(); ++i) mean[i] += run.irradiance[i] / runs;
+  std::vector<AccuracyRerun> reruns;
+  for (const MadeRerun& run : made) {
+    const double square = square_between(run.irradiance, mean, judged.weights, 1) / mean_square;
+    reruns.push_back({run.seed, std::sqrt(square * runs / (runs - 1)), run.seconds, run.error});
+  }
   return reruns;
 }
 

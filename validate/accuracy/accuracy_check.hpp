@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -36,13 +37,23 @@ struct AccuracyRerun {
   std::optional<double> error = {};  ///< as AccuracyCheck::error
 };
 
+/// A run before all are made.
+struct MadeRerun {
+  std::uint64_t seed = 0;
+  double seconds = 0;
+  std::optional<double> error = {};
+  std::vector<double> irradiance;  ///< at the samples where noise is taken
+};
+
 /// How many seeds there are. Throws std::invalid_argument unless they are 2 to 1e6.
 std::uint64_t check_seeds(std::uint64_t first, std::uint64_t last);
 
-/// Runs a point with the seeds from `first` to `last`. Noise is taken at up to 2000 of the samples. Ends early, with the runs made so
-/// far, on a stop request. Throws as check_seeds and sim::estimate.
-[[nodiscard]] std::vector<AccuracyRerun> rerun_accuracy(sim::Scene& scene, const AccuracyPoint& point,
-                                                        double mean_square, std::uint64_t first, std::uint64_t last,
-                                                        const AccuracyPilotOptions& options);
+/// Runs a point with the seeds from `first` to `last`, of which `made` are the first. Noise is taken at up to 2000 of the samples. Ends
+/// early, with the runs made so far, on a stop request. Calls `save` after each run. Throws as check_seeds and sim::estimate, and
+/// std::invalid_argument if runs that were made are not the first ones, or at other samples.
+[[nodiscard]] std::vector<AccuracyRerun> rerun_accuracy(
+    sim::Scene& scene, const AccuracyPoint& point, double mean_square, std::uint64_t first, std::uint64_t last,
+    const AccuracyPilotOptions& options, std::vector<MadeRerun> made = {},
+    const std::function<void(const std::vector<MadeRerun>&)>& save = {});
 
 }  // namespace detp::validate

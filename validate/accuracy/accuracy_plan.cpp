@@ -15,6 +15,8 @@ constexpr int scales_tried = 49;
 constexpr double interval = 1.96;
 constexpr double share_for_bias = 0.98;  // a total target leaves at least 2 % of its square to noise
 
+double squared(double x) { return x * x; }
+
 double root(double square) { return std::sqrt(std::max(0.0, square)); }
 
 /// One estimator with what the pilot found of it.
@@ -44,9 +46,13 @@ class Ways {
     point.noise_high = point.noise * wide;
     point.bias = root(bias.mean);
     point.bias_high = root(bias.mean + interval * bias.standard_error);
-    point.total = root(noise_squared + std::max(0.0, bias.mean));
-    point.total_low = root(noise_squared + std::max(0.0, bias.mean - interval * bias.standard_error));
-    point.total_high = root(noise_squared + std::max(0.0, bias.mean + interval * bias.standard_error));
+    const auto bias_squared = [&](double shift) { return std::max(0.0, bias.mean + shift * bias.standard_error); };
+    const double square = noise_squared + bias_squared(0);
+    const double down = std::hypot(noise_squared - squared(point.noise_low), bias_squared(0) - bias_squared(-interval));
+    const double up = std::hypot(squared(point.noise_high) - noise_squared, bias_squared(interval) - bias_squared(0));
+    point.total = root(square);
+    point.total_low = root(square - down);
+    point.total_high = root(square + up);
     point.trace_seconds = pilot_.trace_seconds(rays);
     point.seconds = point.trace_seconds + own_.fixed_seconds(scale) + own_.seconds_per_ray(scale) * rays;
     return point;

@@ -28,7 +28,7 @@ struct AccuracyPoint {
   double bias = 0;
   double bias_high = 0;  ///< upper bound of the bias, 95 %
   double total = 0;      ///< √(noise² + bias²)
-  double total_low = 0;  ///< interval of 95 %
+  double total_low = 0;  ///< of one run, 95 %: both intervals, whose errors are independent
   double total_high = 0;
   double trace_seconds = 0;
   double seconds = 0;        ///< predicted, tracing included

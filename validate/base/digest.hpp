@@ -7,6 +7,7 @@
 #include <cstring>
 #include <glm/vec3.hpp>
 #include <string>
+#include <string_view>
 
 namespace detp::validate {
 
@@ -17,6 +18,9 @@ class Digest {
   void add(std::uint64_t value) { add_bytes(&value, sizeof value); }
   void add(const glm::dvec3& value) {
     for (int axis = 0; axis < 3; ++axis) add(value[axis]);
+  }
+  void add(std::string_view text) {
+    for (const char letter : text) add_bytes(&letter, 1);
   }
   /// 16 hexadecimal digits.
   [[nodiscard]] std::string text() const { return fmt::format("{:016x}", state_); }

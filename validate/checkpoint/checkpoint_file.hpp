@@ -14,19 +14,17 @@ namespace detp::validate {
 
 class CheckpointFile {
  public:
-  using Json = nlohmann::ordered_json;
-
   /// `work` names the kind of work, as "sweep". `key` is an object of numbers and words: all that decides what the work finds, as
   /// {"seed": 1}. Only a file with the same work and key can be continued.
-  CheckpointFile(std::filesystem::path path, std::string work, Json key);
+  CheckpointFile(std::filesystem::path path, std::string work, nlohmann::json key);
 
   /// The state in the file; nothing if there is no file. Throws sim::FileError, with the reason, if it is not a checkpoint of this version,
   /// is damaged, or was made by other work; sim::Stopped within 0.1 s of a stop request.
-  [[nodiscard]] std::optional<Json> read(std::stop_token stop = {}) const;
+  [[nodiscard]] std::optional<nlohmann::json> read(std::stop_token stop = {}) const;
 
   /// Replaces the file as a whole, so that it is complete at any moment. Numbers must be finite: JSON has no others. Throws
   /// sim::FileError if the file cannot be written.
-  void write(const Json& state);
+  void write(const nlohmann::json& state);
 
   /// Whether writing costs less than a hundredth of the time since the last writing. Always false in the first tenth of a second.
   [[nodiscard]] bool due() const;
@@ -37,7 +35,7 @@ class CheckpointFile {
  private:
   std::filesystem::path path_;
   std::string work_;
-  Json key_;
+  nlohmann::json key_;
   sim::Stopwatch since_last_;
   double write_seconds_ = 0;
 };

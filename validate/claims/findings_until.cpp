@@ -11,44 +11,18 @@
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/validate/checkpoint/estimate_json.hpp"
 
 namespace detp::validate {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(FormulaValue, form, source, value)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Finding, id, quantity, technique, parameters, predictions, observed, batches,
+                                   tolerance, lines, seconds)
+
 namespace {
 
 constexpr double most_growth = 8;
 constexpr double safety = 1.05;
-
-using Json = CheckpointFile::Json;
-
-Json to_json(const Finding& finding) {
-  Json predictions = Json::array();
-  for (const FormulaValue& one : finding.predictions)
-    predictions.push_back({one.form == Form::published, one.source, one.value});
-  return {finding.id,
-          finding.quantity,
-          finding.technique,
-          finding.parameters,
-          predictions,
-          finding.observed.mean,
-          finding.batches,
-          finding.tolerance,
-          finding.lines,
-          finding.seconds,
-          finding.observed.standard_error};
-}
-
-Finding finding_of(const Json& json) {
-  Finding finding{.id = json.at(0), .quantity = json.at(1), .technique = json.at(2), .parameters = json.at(3)};
-  for (const Json& one : json.at(4))
-    finding.predictions.push_back({one.at(0).get<bool>() ? Form::published : Form::corrected, one.at(1), one.at(2)});
-  json.at(5).get_to(finding.observed.mean);
-  json.at(6).get_to(finding.batches);
-  json.at(7).get_to(finding.tolerance);
-  json.at(8).get_to(finding.lines);
-  json.at(9).get_to(finding.seconds);
-  json.at(10).get_to(finding.observed.standard_error);
-  return finding;
-}
 
 /// One experiment, and the sums over its repetitions.
 class Repeated {
@@ -72,29 +46,25 @@ class Repeated {
     for (std::size_t i = 0; i < sums_.size(); ++i) add(found[i], sums_[i]);
   }
 
+  /// Which stage comes next.
   struct Plan {
     int test = 1;                ///< number of the next test of the target
     double stage_end = 0;        ///< repetitions at the end of the stage under way; 0: none
     bool stage_is_test = false;  ///< it was planned to reach the target
     bool finished = false;
+    NLOHMANN_DEFINE_TYPE_INTRUSIVE(Plan, test, stage_end, stage_is_test, finished)
   };
   Plan plan;
 
-  [[nodiscard]] Json state() const {
-    Json sums = Json::array();
-    for (const Finding& sum : sums_) sums.push_back(to_json(sum));
-    return {sums, repetitions_, seconds_, plan.test, plan.stage_end, plan.stage_is_test, plan.finished};
+  [[nodiscard]] nlohmann::json state() const {
+    return {{"sums", sums_}, {"repetitions", repetitions_}, {"seconds", seconds_}, {"plan", plan}};
   }
 
-  void set_state(const Json& json) {
-    sums_.clear();
-    for (const Json& sum : json.at(0)) sums_.push_back(finding_of(sum));
-    json.at(1).get_to(repetitions_);
-    json.at(2).get_to(seconds_);
-    json.at(3).get_to(plan.test);
-    json.at(4).get_to(plan.stage_end);
-    json.at(5).get_to(plan.stage_is_test);
-    json.at(6).get_to(plan.finished);
+  void set_state(const nlohmann::json& json) {
+    json.at("sums").get_to(sums_);
+    json.at("repetitions").get_to(repetitions_);
+    json.at("seconds").get_to(seconds_);
+    json.at("plan").get_to(plan);
   }
 
   [[nodiscard]] std::size_t size() const { return sums_.size(); }
@@ -148,7 +118,7 @@ class Findings {
     for (const ExperimentStep& step : steps) experiments_.emplace_back(step, experiment);
   }
 
-  void go_on_from(const Json& saved) {
+  void go_on_from(const nlohmann::json& saved) {
     for (std::size_t i = 0; i < experiments_.size(); ++i) experiments_[i].set_state(saved.at(i));
   }
 
@@ -218,7 +188,7 @@ class Findings {
 
   void save() const {
     if (checkpoint_ == nullptr) return;
-    Json state = Json::array();
+    nlohmann::json state = nlohmann::json::array();
     for (const Repeated& one : experiments_) state.push_back(one.state());
     checkpoint_->write(state);
   }
@@ -273,7 +243,7 @@ void check(const FindingsTarget& target) {
 }
 
 FindingsUntil findings_until(const Experiment& experiment, const FindingsTarget& target,
-                             const sim::ReportPhase& progress, CheckpointFile* checkpoint, const Json& saved,
+                             const sim::ReportPhase& progress, CheckpointFile* checkpoint, const nlohmann::json& saved,
                              std::span<const ExperimentStep> steps) {
   const sim::DefaultFloatingPoint mode;
   check(target);

@@ -48,7 +48,7 @@ struct FindingsUntil {
 /// a damaged state.
 [[nodiscard]] FindingsUntil findings_until(const Experiment& experiment, const FindingsTarget& target,
                                            const sim::ReportPhase& progress = {}, CheckpointFile* checkpoint = nullptr,
-                                           const CheckpointFile::Json& saved = {},
+                                           const nlohmann::json& saved = {},
                                            std::span<const ExperimentStep> steps = experiment_steps());
 
 }  // namespace detp::validate

@@ -12,6 +12,9 @@
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/validate/base/digest.hpp"
+#include "detp/validate/job/job_digest.hpp"
+#include "map_checkpoint.hpp"
 
 namespace detp::validate {
 namespace {
@@ -149,17 +152,48 @@ class MapMaker {
       }
     std::stable_sort(places.begin(), places.end(),
                      [](const Place& a, const Place& b) { return a.seconds < b.seconds; });
+    std::optional<MapCheckpoint> kept = checkpoint();
     double before = 0;
     std::size_t done = 0;
     const auto share = [&](double seconds) { return share_of_predicting + (1 - share_of_predicting) * seconds / all; };
     for (const Place& place : places) {
-      measure(place.job, *place.cell, sim::part_of(options_.progress, share(before), share(before + place.seconds)));
+      const std::string name = cell_name(*place.job, *place.cell);
+      if (kept) place.cell->analysis = kept->find(name, place.cell->choice->candidates);
+      if (!place.cell->analysis)
+        measure(place.job, *place.cell, sim::part_of(options_.progress, share(before), share(before + place.seconds)));
+      if (kept && place.cell->analysis) kept->add(name, *place.cell->analysis);
       if (options_.stop.stop_requested()) break;
       before += place.seconds;
       ++done;
     }
+    if (kept) kept->write();
     if (done < places.size()) map_.stopped = {done, places.size(), "cells measured"};
     map_.measuring_seconds = watch.seconds();
+  }
+
+  static std::string cell_name(const Job& job, const MapCell& cell) {
+    return fmt::format("{} rays, radius {}", cell.rays, job.workload.disc_radius);
+  }
+
+  /// Of this map's cells, whose rays, discs and choices are known; read if the map is resumed.
+  [[nodiscard]] std::optional<MapCheckpoint> checkpoint() const {
+    if (!options_.checkpoint) return std::nullopt;
+    Digest jobs;
+    std::string choices;
+    for (const Made& one : made_) {
+      jobs.add(digest_of(one.job));
+      for (const MapCell& cell : one.row.cells) choices += title(cell.choice->best().candidate) + "; ";
+    }
+    std::string disabled;
+    for (const Technique technique : options_.disabled) disabled += fmt::format("{} ", name(technique));
+    MapCheckpoint kept(*options_.checkpoint, {{"digest of rays and discs", jobs.text()},
+                                              {"choices", choices},
+                                              {"engine", name(options_.costs.engine)},
+                                              {"runs of each candidate", options_.repeats},
+                                              {"threads", options_.threads},
+                                              {"disabled", disabled}});
+    if (options_.resume) kept.read(options_.stop);
+    return kept;
   }
 
   void measure(const Job* job, MapCell& cell, const sim::ReportPhase& progress) const {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -47,6 +48,8 @@ struct MapOptions {
   int repeats = 3;                  ///< timed runs of a candidate, as AnalysisOptions
   int threads = 1;                  ///< most threads, of pilots and of runs
   std::vector<Technique> disabled = {};
+  std::optional<std::filesystem::path> checkpoint = {};  ///< keeps the measured cells
+  bool resume = false;                                   ///< takes cells from the checkpoint; a missing file has none
   std::stop_token stop = {};
   sim::ReportPhase progress = {};
 };
@@ -60,7 +63,7 @@ struct MapOptions {
 ///
 /// Throws as make_job and choose; std::invalid_argument for axes out of range and for Rigor::structural;
 /// std::length_error for axes that are too long, and if the rays of all rows, which measuring keeps, do not fit in
-/// memory. Does not throw Stopped: after a stop request, the map has the rows so far, maybe none.
+/// memory; sim::FileError for a checkpoint that cannot be written, is damaged, or was made with other inputs or choices. Does not throw Stopped: after a stop request, the map has the rows so far, maybe none.
 [[nodiscard]] TechniqueMap make_map(const JobRequest& request, const MapAxes& axes, const MapOptions& options);
 
 }  // namespace detp::validate

@@ -12,9 +12,9 @@ struct SavedRun {
   ExecutedUntil so_far;  ///< hits, counts and seconds; no result
 };
 
-[[nodiscard]] nlohmann::ordered_json to_json(const UntilState& state, const ExecutedUntil& so_far);
+[[nodiscard]] nlohmann::json json_of(const UntilState& state, const ExecutedUntil& so_far);
 
-/// Throws nlohmann::json::exception unless the JSON is that of to_json.
-[[nodiscard]] SavedRun saved_run_of(const nlohmann::ordered_json& json);
+/// Throws nlohmann::json::exception unless the JSON is that of json_of.
+[[nodiscard]] SavedRun saved_run_of(const nlohmann::json& json);
 
 }  // namespace detp::validate

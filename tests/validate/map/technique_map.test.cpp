@@ -2,10 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "detp/model/rank/paper_rule.hpp"
+#include "detp/sim/files/file_error.hpp"
 #include "detp/validate/calibration/built_in_costs.hpp"
+#include "support/scratch_file.hpp"
 
 using namespace detp;
 using namespace detp::validate;
@@ -95,6 +98,39 @@ TEST_SUITE("identity") {
       CHECK(cell.analysis->regret);
       for (const Analysed& one : cell.analysis->candidates) CHECK(one.candidate.technique != Technique::bvh);
     }
+  }
+
+  TEST_CASE("a resumed map takes measured cells from its checkpoint, and measures the others") {
+    const support::ScratchFolder folder;
+    MapOptions options = map_options();
+    options.measure = true;
+    options.repeats = 1;
+    options.checkpoint = folder.path("map.json");
+    const MapAxes axes{{20, 40}, {{0.05, true}}};
+    const TechniqueMap map = make_map(scene_request(100), axes, options);
+    auto file = nlohmann::json::parse(support::content_of(folder.path("map.json")));
+    REQUIRE(file.at("state").size() == 2);
+    file["state"].erase(file["state"].begin());
+    folder.file("map.json", file.dump());
+    options.resume = true;
+    const TechniqueMap again = make_map(scene_request(100), axes, options);
+    const auto measured = [&](const TechniqueMap& one, std::size_t cell) {
+      return *one.rows.at(0).cells.at(cell).analysis;
+    };
+    int same = 0;
+    for (std::size_t cell = 0; cell < 2; ++cell) {
+      const Analysis before = measured(map, cell);
+      const Analysis after = measured(again, cell);
+      same += before.candidates.front().seconds == after.candidates.front().seconds ? 1 : 0;
+      for (const Analysed& one : after.candidates) CHECK((!one.seconds || *one.seconds > 0));
+      CHECK(after.candidates.front().candidate == before.candidates.front().candidate);
+      CHECK(after.candidates.front().predicted);
+      CHECK(after.candidates.front().counted == before.candidates.front().counted);
+    }
+    CHECK(same == 1);
+    CHECK(nlohmann::json::parse(support::content_of(folder.path("map.json"))).at("state").size() == 2);
+    options.threads = 2;
+    CHECK_THROWS_AS((void)make_map(scene_request(100), axes, options), sim::FileError);
   }
 
   TEST_CASE("a stop request ends a map: rows so far, no half cells") {

@@ -115,11 +115,12 @@ TEST_SUITE("checkpoint") {
     SweepOptions options{.checkpoint = folder.path("sweep.json")};
     const auto both = small_points();
     CHECK(numbers(run_sweep(both, options)) == numbers(whole));
-    // The file is truncated after the first point, as if the sweep had been interrupted before the second point.
-    std::string content = content_of(folder.path("sweep.json"));
-    const std::size_t second = content.find(",\"" + both[0].name() + "\"");
-    REQUIRE(second != std::string::npos);  // names are kept in alphabetical order: "D=2 …" comes first
-    folder.file("sweep.json", content.substr(0, second) + "}}");
+    // As if the sweep had been interrupted before the second point.
+    const std::string content = content_of(folder.path("sweep.json"));
+    auto first = nlohmann::json::parse(content);
+    REQUIRE(first.at("state").size() == 2);
+    first["state"].erase(both[1].name());
+    folder.file("sweep.json", first.dump());
     options.resume = true;
     const SweepResult resumed = run_sweep(both, options);
     CHECK(resumed.resumed == 1);

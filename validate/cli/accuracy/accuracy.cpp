@@ -6,6 +6,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "accuracy_checkpoint.hpp"
 #include "accuracy_report.hpp"
 #include "detp/model/vocabulary/quoted.hpp"
 #include "detp/model/vocabulary/vocabulary.hpp"
@@ -37,9 +38,18 @@ struct AccuracyOptions {
   std::optional<std::string> seeds;
   std::vector<std::string> axes;
   bool front_facing = false;
+  std::optional<std::string> checkpoint;
+  bool resume = false;
 };
 
 constexpr double longest_check = 60;  // seconds; a longer answer is not run
+
+constexpr std::uint64_t seeds_apart = 1000;  // of pilots and of the check
+
+bool too_large(const validate::AccuracyPoint& point) {
+  constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
+  return point.rays * bytes_of_a_ray > sim::memory_budget();
+}
 
 validate::AccuracyTarget target_of(const AccuracyOptions& options) {
   const int given = (options.noise ? 1 : 0) + (options.error ? 1 : 0) + (options.seconds ? 1 : 0);
@@ -111,11 +121,99 @@ std::vector<validate::AxisPoint> other_axes(const AccuracyOptions& options, sim:
   return points;
 }
 
+/// The checkpoint of a command with these options, and what it has.
+class KeptAccuracy {
+ public:
+  KeptAccuracy(const AccuracyOptions& options, const sim::Scene& scene, const validate::AccuracyTarget& target,
+               double most_rays, std::uint64_t seed, const std::stop_token& stop) {
+    if (!options.checkpoint) return;
+    const validate::ReferenceKey key = validate::reference_key(scene, {.front_facing = options.front_facing});
+    file_.emplace(*options.checkpoint, "accuracy",
+                  Json{{"seed", seed},
+                       {"digest of the scene", key.scene},
+                       {"samples", scene.samples.size()},
+                       {"facing", options.front_facing ? "front" : "any"},
+                       {"target", target.value},
+                       {"target of", target.kind == validate::AccuracyTarget::Kind::noise   ? "noise"
+                                     : target.kind == validate::AccuracyTarget::Kind::total ? "error"
+                                                                                            : "seconds"},
+                       {"estimators", fmt::format("{}", fmt::join(options.estimators, ","))},
+                       {"limit of rays", most_rays},
+                       {"seeds of the runs", options.seeds.value_or("none")},
+                       {"reference", options.reference.value_or("none")}});
+    if (options.resume) state = read_accuracy(*file_, stop);
+  }
+
+  void write() {
+    if (file_) write_accuracy(*file_, state);
+  }
+  void write_if_due() {
+    if (file_ && file_->due()) write();
+  }
+
+  SavedAccuracy state;
+
+ private:
+  std::optional<validate::CheckpointFile> file_;
+};
+
+/// Fills in pilot, plan and check, or takes them from the checkpoint. Returns how far it came if a stop request ended it.
+std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& scene,
+                                         const validate::AccuracyTarget& target, validate::AccuracyPilotOptions pilot,
+                                         double most_rays, KeptAccuracy& saved) {
+  const sim::Stopwatch watch;
+  SavedAccuracy& state = saved.state;
+  bool stopped = false;
+  if (!state.pilot) {
+    validate::PilotedPlan planned = validate::plan_accuracy(scene, target, pilot, most_rays);
+    stopped = planned.stopped;
+    state.pilot = std::move(planned.pilot);
+    state.planning_seconds = watch.seconds();
+    if (!stopped) saved.write();
+  }
+  answer.pilot = *state.pilot;
+  answer.plan = validate::plan_accuracy(answer.pilot, target, most_rays);
+  answer.seconds = state.planning_seconds;
+  if (stopped) {
+    answer.no_check = "Stopped before the check.";
+    return sim::Progress{1, 3, "steps"};
+  }
+  if (too_large(answer.plan.answer)) {
+    answer.no_check = "Not run: too large for the memory.";
+    return std::nullopt;
+  }
+  if (answer.plan.answer.seconds > longest_check) {
+    answer.no_check = "Not run to check: too long.";
+    return std::nullopt;
+  }
+  if (!state.check) try {
+      const sim::Stopwatch of_check;
+      pilot.seed += seeds_apart;
+      state.check = validate::check_accuracy(scene, answer.plan.answer, answer.pilot.mean_square, pilot);
+      state.planning_seconds += of_check.seconds();
+      saved.write_if_due();
+    } catch (const sim::Stopped&) {
+      answer.no_check = "Stopped before the check.";
+      return sim::Progress{2, 3, "steps"};
+    }
+  answer.check = state.check;
+  answer.correction = validate::correct_answer(answer.plan, *answer.check);
+  answer.seconds = state.planning_seconds;
+  return std::nullopt;
+}
+
+void check_files(const AccuracyOptions& options, const CommonOptions& common) {
+  check_outputs(
+      {{"--output", common.output}, {"--reference", options.reference}, {"--checkpoint", options.checkpoint}});
+  if (options.resume && !options.checkpoint)
+    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
+}
+
 Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const validate::AccuracyTarget target = target_of(options);
   const SeedRange seeds = options.seeds ? parse_seeds("--seeds", *options.seeds) : SeedRange{};
   if (options.seeds) validate::check_seeds(seeds.first, seeds.last);
-  if (options.reference) check_outputs({{"--output", common.output}, {"--reference", options.reference}});
+  check_files(options, common);
   check_axes(options);
   const double most_rays = options.rays.value_or(1e9);
   require_count("--rays", most_rays, 1000, 1e12);
@@ -142,42 +240,26 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
                         .axes = {},
                         .in_time = {}};
   answer.side = scene.box.longest_side();
-  std::optional<sim::Progress> stopped;
   if (options.reference) {
     answer.reference = validate::kept_reference(
         *options.reference, scene,
         {.front_facing = options.front_facing, .threads = common.threads, .stop = stop, .progress = progress.report()});
     pilot.reference = &*answer.reference;
   }
-  const sim::Stopwatch watch;
-  validate::PilotedPlan planned = validate::plan_accuracy(scene, target, pilot, most_rays);
-  answer.pilot = std::move(planned.pilot);
-  answer.plan = std::move(planned.plan);
-  if (planned.stopped) stopped = sim::Progress{1, 3, "steps"};
-  validate::AccuracyPoint& best = answer.plan.answer;
-  constexpr double bytes_of_a_ray = 3 * (sizeof(sim::Ray) + 20);
-  const bool too_large = best.rays * bytes_of_a_ray > sim::memory_budget();
-  if (stopped)
-    answer.no_check = "Stopped before the check.";
-  else if (too_large)
-    answer.no_check = "Not run: too large for the memory.";
-  else if (best.seconds > longest_check)
-    answer.no_check = "Not run to check: too long.";
-  else
-    try {
-      pilot.seed = common.seed + 1000;
-      answer.check = validate::check_accuracy(scene, best, answer.pilot.mean_square, pilot);
-      answer.correction = validate::correct_answer(answer.plan, *answer.check);
-    } catch (const sim::Stopped&) {
-      answer.no_check = "Stopped before the check.";
-      stopped = sim::Progress{2, 3, "steps"};
-    }
-  answer.seconds = watch.seconds();
-  if (options.seeds && !stopped && !too_large) {
-    answer.reruns = validate::rerun_accuracy(scene, best, answer.pilot.mean_square, seeds.first, seeds.last, pilot);
+  KeptAccuracy saved(options, scene, target, most_rays, common.seed, stop);
+  std::optional<sim::Progress> stopped = find_answer(answer, scene, target, pilot, most_rays, saved);
+  pilot.seed += seeds_apart;
+  const validate::AccuracyPoint& best = answer.plan.answer;
+  if (options.seeds && !stopped && !too_large(best)) {
+    answer.reruns = validate::rerun_accuracy(scene, best, answer.pilot.mean_square, seeds.first, seeds.last, pilot,
+                                             saved.state.runs, [&](const std::vector<validate::MadeRerun>& made) {
+                                               saved.state.runs = made;
+                                               saved.write_if_due();
+                                             });
     if (const std::uint64_t all = seeds.last - seeds.first + 1; answer.reruns.size() < all)
       stopped = sim::Progress{answer.reruns.size(), all, "runs"};
   }
+  if (stopped) saved.write();
   if (!stopped) try {
       answer.axes = other_axes(options, scene, answer.pilot.sample_distance, pilot);
     } catch (const sim::Stopped&) {
@@ -237,6 +319,10 @@ Command accuracy_command(CLI::App& program) {
          "(what choosing knows at each rigor), arithmetic (float, double, exact); default: estimator alone")
       ->delimiter(',');
   app->add_flag("--front-facing", options->front_facing, "light that arrives from behind does not count");
+  app->add_option(
+      "--checkpoint", options->checkpoint,
+      "keep in this file the pilots and the runs of --seeds, so that the command can be killed; default: none");
+  app->add_flag("--resume", options->resume, "go on from the checkpoint; default: begin anew");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_accuracy(*options, common, stop);
           }};

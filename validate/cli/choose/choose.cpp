@@ -16,6 +16,7 @@
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
 #include "detp/validate/cli/options/costs_in_use.hpp"
+#include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/options/unit_cost_option.hpp"
 #include "detp/validate/cli/options/workload_options.hpp"
 #include "detp/validate/cli/report/workload_report.hpp"
@@ -39,6 +40,8 @@ struct ChooseOptions {
   bool analyze = false;
   bool map = false;
   bool verbose = false;
+  std::optional<std::string> checkpoint;
+  bool resume = false;
 };
 
 /// The exact techniques that may not be chosen: those of --disable, and those that --technique does not name. Throws
@@ -163,10 +166,19 @@ std::optional<Rigor> requested_rigor(const ChooseOptions& options) {
   return rigor;
 }
 
+void check_files(const ChooseOptions& options, const CommonOptions& common) {
+  if (options.checkpoint && !(options.map && options.analyze))
+    throw std::invalid_argument("--checkpoint keeps the measured cells of --map with --analyze");
+  if (options.resume && !options.checkpoint)
+    throw std::invalid_argument("--resume needs the --checkpoint FILE to continue from");
+  check_outputs({{"--output", common.output}, {"--checkpoint", options.checkpoint}});
+}
+
 Result run_choose(ChooseOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   const auto rigor = requested_rigor(options);
   const bool structural = rigor == Rigor::structural;
   const bool analyze = options.analyze || rigor == Rigor::measure;
+  check_files(options, common);
   const std::vector<Technique> disabled = disabled_techniques(options);
   const Engine engine = parse_engine(options.engine);
   if (engine == Engine::plain && (rigor == Rigor::pilot || structural))
@@ -180,7 +192,8 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
   if (options.map && rigor == Rigor::measure)
     throw std::invalid_argument("--rigor measure chooses for one workload; with --map give --analyze");
   if (options.map)
-    return run_choose_map({options.workload, options.costs, rigor, disabled, engine, options.analyze, options.verbose},
+    return run_choose_map({options.workload, options.costs, rigor, disabled, engine, options.analyze, options.verbose,
+                           options.checkpoint, options.resume},
                           common, stop);
   if (options.workload.lists.rows() > 1)
     throw std::invalid_argument("only with --map may --rays and --disc-radius have several values");
@@ -285,6 +298,9 @@ Command choose_command(CLI::App& program) {
       "--verbose", options->verbose,
       "text with all that JSON has: every candidate, what was ruled out, the paper's rule, evidence of effects, "
       "symbols");
+  app->add_option("--checkpoint", options->checkpoint,
+                  "with --map and --analyze: keep the measured cells in this file; default: none");
+  app->add_flag("--resume", options->resume, "go on from the checkpoint; default: begin anew");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_choose(*options, common, stop);
           }};

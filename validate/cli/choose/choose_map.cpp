@@ -79,6 +79,8 @@ Result run_choose_map(const ChooseMap& command, const CommonOptions& common, con
                                                          .measure = command.analyze,
                                                          .threads = common.threads,
                                                          .disabled = command.disabled,
+                                                         .checkpoint = command.checkpoint,
+                                                         .resume = command.resume,
                                                          .stop = stop,
                                                          .progress = progress.report()});
   for (const std::string& notice : map.notices) note(common, notice);

@@ -19,6 +19,8 @@ struct ChooseMap {
   Engine engine = Engine::simd;
   bool analyze = false;
   bool verbose = false;
+  std::optional<std::string> checkpoint = {};
+  bool resume = false;
 };
 
 /// The map over the values of --rays and --disc-radius, or over those of default_map_rays and default_map_radii. If

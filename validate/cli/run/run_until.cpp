@@ -140,7 +140,7 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   validate::SaveExecuted save;
   if (file)
     save = [&](const std::function<validate::UntilState()>& state, const validate::ExecutedUntil& so_far) {
-      if (file->due() || stop.stop_requested()) file->write(validate::to_json(state(), so_far));
+      if (file->due() || stop.stop_requested()) file->write(validate::json_of(state(), so_far));
     };
   validate::ExecutedUntil found =
       validate::execute_until([&](const sim::PathRays& rays) -> const sim::Outcome& { return search(rays); },

@@ -309,7 +309,7 @@ validate::FindingsUntil refined(const ValidateOptions& options, const validate::
                                  {"least lines", target.least_lines},
                                  {"most lines", target.most_lines},
                                  {"digest of workload, discs and rays", digest_of(experiment)}});
-  Json saved;
+  nlohmann::json saved;
   if (options.sweep.resume)
     if (auto state = file.read(stop)) saved = std::move(*state);
   return validate::findings_until(experiment, target, report, &file, saved);

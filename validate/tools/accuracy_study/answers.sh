@@ -1,20 +1,36 @@
 #!/bin/sh
 # Asks `detp accuracy` what errors cost in scenes, runs each answer again with other seeds, and joins the rows of all
-# answers, rivals and runs in one table. References and finished answers are kept in a folder, so that a study that was
+# answers, rivals and runs in one table. The printed command of an answer that takes less than 6 s is run three times, too, each time as a
+# process of its own (rows `command`). References and finished answers are kept in a folder, so that a study that was
 # interrupted goes on there.
 # Usage: answers.sh DETP FOLDER SEEDS SECONDS SCENE... > answers.csv
 set -eu
 detp=$1 folder=$2 seeds=$3 seconds=$4
 shift 4
+# The seconds of a command, tracing included.
+timed() {
+  "$detp" "$@" --quiet --format csv |
+    sed 's/"[^"]*"//g' | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i } NR == 2 { print $at["seconds"] + $at["trace_seconds"] }'
+}
 mkdir -p "$folder"
 for scene in "$@"; do
   name=$(basename "$scene" | tr -d @)
+  # Without a time limit, because a reference takes up to a minute.
+  [ -s "$folder/$name.reference" ] ||
+    "$detp" accuracy "$scene" --reference "$folder/$name.reference" --estimators disc --quiet > "$folder/$name.first"
   for target in noise:5% error:10% error:5% error:2%; do
     kept=$folder/$name-${target%:*}-${target#*:}.csv
-    [ -s "$kept" ] && continue
     # Exit code 3: the error is not reached, or not all seeds were run within the time limit.
-    "$detp" accuracy "$scene" --target-"${target%:*}" "${target#*:}" --reference "$folder/$name.reference" \
+    [ -s "$kept" ] || "$detp" accuracy "$scene" --target-"${target%:*}" "${target#*:}" --reference "$folder/$name.reference" \
       --seeds "$seeds" --time-limit "$seconds" --quiet --format csv -o "$kept" || [ $? = 3 ]
+    [ -s "$kept.runs" ] && continue
+    command=$(awk -F, '$2 == "answer" { print $31 }' "$kept")
+    awk -F, '$2 == "answer" { exit $22 >= 6 }' "$kept" || continue
+    for seed in 5001 5002 5003; do
+      awk -F, -v OFS=, -v seed=$seed -v seconds="$(timed ${command#detp } --seed $seed)" \
+        '$2 == "answer" { print $1, "command", $3, $4, ",,,,,,,,,,,,,,,,,,", seed, ",,", seconds, ",," }' "$kept"
+    done >> "$kept.runs"
   done
 done
-cat "$folder"/*.csv | awk -F, 'NR == 1 || $2 == "answer" || $2 == "rival" || $2 == "run"' | sed "s,^${DETP_SCENES:-/}/,,"
+# An answer that was stopped has three columns more.
+cat "$folder"/*.csv "$folder"/*.runs | cut -d, -f1-31 | awk -F, 'NR == 1 || $2 == "answer" || $2 == "rival" || $2 == "run" || $2 == "command"' | sed "s,^${DETP_SCENES:-/}/,,"

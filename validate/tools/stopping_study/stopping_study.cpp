@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -40,12 +41,14 @@ struct Case {
   sim::Estimator estimator = sim::Estimator::disc;
   double target = 0.1;
   bool lines = false;
+  std::uint64_t least_seeds = 0;
 };
 
 std::vector<Case> cases() {
   using enum sim::Estimator;
   return {{"@furnace", "@furnace", disc, 0.05},
           {"@cornell", "@cornell", disc, 0.1},
+          {"@cornell", "@cornell", disc, 0.05, false, 100},
           {"@caustic", "@caustic", disc, 0.1},
           {"@tree", "@tree", disc, 0.2},
           {"lines in @cornell", "@cornell", disc, 0.1, true},
@@ -135,6 +138,7 @@ validate::UntilResult naive(Batches& batches, double target) {
 std::string label(const Case& one) { return fmt::format("{},{},{}", one.name, name(one.estimator), one.target); }
 
 void run(const Case& one, std::uint64_t seeds, std::ostream& table) {
+  seeds = std::max(seeds, one.least_seeds);
   std::vector<std::pair<std::string, validate::UntilResult>> results;
   std::vector<double> rays;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {

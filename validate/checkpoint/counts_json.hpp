@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+
+#include "detp/model/vocabulary/counts.hpp"
+
+namespace detp {
+
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Counts<std::uint64_t>, loaded, segments, cull_tests, culls, listed, visits,
+                                   disc_tests, doubtful, steps, nodes, references, placements, made, sorted, hits)
+
+}  // namespace detp
