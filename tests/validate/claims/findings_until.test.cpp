@@ -94,6 +94,21 @@ TEST_SUITE("statistical") {
 }
 
 TEST_SUITE("claims") {
+  TEST_CASE("where nothing was met, the error is not known") {
+    const ExperimentStep dark{
+        "dark",
+        [](const Experiment&) {
+          return std::vector<Finding>{{.id = "hits", .quantity = "hits", .batches = 8, .lines = 100}};
+        },
+        [](const Experiment&) { return 1.0; }, 1, true};
+    const FindingsUntil until = findings_until(small(100, 1), {.most_lines = 400}, {}, nullptr, {}, {&dark, 1});
+    REQUIRE(until.refinements.size() == 1);
+    CHECK_FALSE(until.refinements[0].reached);
+    CHECK(std::isinf(until.refinements[0].relative_error));
+    CHECK_FALSE(until.refinements[0].more_lines);
+    CHECK(until.findings[0].lines == 400);
+  }
+
   TEST_CASE("targets out of range are refused") {
     for (const double wrong : {0.0, 1.0, std::numeric_limits<double>::quiet_NaN()}) {
       CHECK_THROWS_AS(check(FindingsTarget{.relative_error = wrong}), std::invalid_argument);
