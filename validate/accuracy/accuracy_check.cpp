@@ -37,6 +37,15 @@ std::optional<double> error_of(const std::vector<double>& found, const Reference
   return std::sqrt(std::max(0.0, square / static_cast<double>(found.size()) / mean_square));
 }
 
+/// Nothing without a reference.
+std::optional<double> share_within(const std::vector<double>& found, const Reference* reference, double error) {
+  if (reference == nullptr) return std::nullopt;
+  double count = 0;
+  for (std::size_t i = 0; i < found.size(); ++i)
+    count += std::abs(found[i] - reference->irradiance[i]) <= error ? 1 : 0;
+  return count / static_cast<double>(found.size());
+}
+
 /// One run, with the time that it takes at all of the scene's samples.
 struct TimedEstimate {
   sim::Paths paths;
@@ -61,7 +70,7 @@ TimedEstimate timed_estimate(ReplicateMaker& maker, const sim::Scene& scene, con
 }  // namespace
 
 AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
-                             const AccuracyPilotOptions& options) {
+                             const AccuracyPilotOptions& options, double within) {
   const sim::DefaultFloatingPoint mode;
   ReplicateMaker maker(scene, options.front_facing, options.threads, options.stop);
   const JudgedSamples judged = judged_samples(scene, options.reference, scene.samples.size());
@@ -77,7 +86,8 @@ AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, doub
           .seconds = whole.seconds,
           .trace_seconds = whole.trace_seconds,
           .rays = static_cast<double>(whole.paths.rays.size()),
-          .error = error_of(whole.irradiance, options.reference, mean_square)};
+          .error = error_of(whole.irradiance, options.reference, mean_square),
+          .share_within = share_within(whole.irradiance, options.reference, within * std::sqrt(mean_square))};
 }
 
 double correct_answer(AccuracyPlan& plan, const AccuracyCheck& check) {

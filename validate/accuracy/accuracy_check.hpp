@@ -19,11 +19,13 @@ struct AccuracyCheck {
   double rays = 0;
   /// Error against the reference, its variance subtracted; nothing without one.
   std::optional<double> error = {};
+  /// Share of the reference's samples whose error is at most `within` times the root mean square irradiance; nothing without one.
+  std::optional<double> share_within = {};
 };
 
 /// Throws as sim::estimate; sim::Stopped on a stop request.
 [[nodiscard]] AccuracyCheck check_accuracy(sim::Scene& scene, const AccuracyPoint& point, double mean_square,
-                                           const AccuracyPilotOptions& options);
+                                           const AccuracyPilotOptions& options, double within = 0.05);
 
 /// If the check had clearly another noise than predicted (by more than 10 %) and the target is a noise: sets the answer's rays and seconds
 /// to those that the check says are needed. Returns the factor by which the rays changed.

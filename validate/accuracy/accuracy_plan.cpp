@@ -15,7 +15,7 @@ constexpr int scales_tried = 49;
 constexpr double interval = 1.96;
 constexpr double share_for_bias = 0.98;  // a total target leaves at least 2 % of its square to noise
 
-double squared(double x) { return x * x; }
+double square_of(double x) { return x * x; }
 
 double root(double square) { return std::sqrt(std::max(0.0, square)); }
 
@@ -48,13 +48,22 @@ class Ways {
     point.bias_high = root(bias.mean + interval * bias.standard_error);
     const auto bias_squared = [&](double shift) { return std::max(0.0, bias.mean + shift * bias.standard_error); };
     const double square = noise_squared + bias_squared(0);
-    const double down = std::hypot(noise_squared - squared(point.noise_low), bias_squared(0) - bias_squared(-interval));
-    const double up = std::hypot(squared(point.noise_high) - noise_squared, bias_squared(interval) - bias_squared(0));
+    const double down =
+        std::hypot(noise_squared - square_of(point.noise_low), bias_squared(0) - bias_squared(-interval));
+    const double up = std::hypot(square_of(point.noise_high) - noise_squared, bias_squared(interval) - bias_squared(0));
     point.total = root(square);
     point.total_low = root(square - down);
     point.total_high = root(square + up);
     point.trace_seconds = pilot_.trace_seconds(rays);
     point.seconds = point.trace_seconds + own_.fixed_seconds(scale) + own_.seconds_per_ray(scale) * rays;
+    // The noise's share of total² is that of d ln total / d ln rays = -1/2 noise²/total².
+    const double seconds_slope = (pilot_.trace_seconds_per_ray + own_.seconds_per_ray(scale)) * rays / point.seconds;
+    const auto slope = [&](double noise, double total) {
+      return -0.5 * std::min(1.0, square_of(noise / total)) / seconds_slope;
+    };
+    point.slope = slope(point.noise, point.total);
+    point.slope_low = slope(point.noise, std::max(point.noise, point.total_low));
+    point.slope_high = slope(point.noise, point.total_high);
     return point;
   }
 
@@ -200,6 +209,19 @@ AccuracyPlan plan_accuracy(const AccuracyPilot& pilot, const AccuracyTarget& tar
   return plan;
 }
 
+namespace {
+
+/// Reports with the time that is left of the expected seconds.
+sim::ReportPhase with_time_left(const sim::ReportPhase& report, double expected) {
+  if (!report) return {};
+  return [report, expected, watch = sim::Stopwatch{}](const sim::Phase& phase) {
+    const double done = std::min(1.0, watch.seconds() / expected);
+    report({phase.what, done, 1, 0, (1 - done) * expected});
+  };
+}
+
+}  // namespace
+
 PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                           double most_rays) {
   constexpr double price = 2;                // pilots may take so many times as long as the answer
@@ -210,7 +232,9 @@ PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, Accur
   const sim::Stopwatch watch;
   if (!(options.rays > 0)) options.rays = usual_pilot_rays;
   PilotedPlan found;
+  const sim::ReportPhase report = options.progress;
   for (bool first = true;; first = false, options.rays *= 4) {
+    if (!first) options.progress = with_time_left(report, 4 * found.pilot.seconds);
     try {
       found.pilot = make_accuracy_pilot(scene, options);
     } catch (const sim::Stopped&) {

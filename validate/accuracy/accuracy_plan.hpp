@@ -31,7 +31,11 @@ struct AccuracyPoint {
   double total_low = 0;  ///< of one run, 95 %: both intervals, whose errors are independent
   double total_high = 0;
   double trace_seconds = 0;
-  double seconds = 0;        ///< predicted, tracing included
+  double seconds = 0;  ///< predicted, tracing included
+  /// The total error changes as this power of the seconds, at this setting: d ln total / d ln seconds; its interval is that of the total
+  double slope = 0;
+  double slope_low = 0;
+  double slope_high = 0;
   bool on_frontier = false;  ///< no other point is more accurate and faster, their intervals apart
 
   [[nodiscard]] AccuracySetting setting() const { return {estimator, radius, nearest}; }

@@ -80,6 +80,25 @@ TEST_SUITE("plans of accuracy") {
     CHECK(twice.answer.total * std::sqrt(2.0) == doctest::Approx(without.answer.total).epsilon(1e-4));
   }
 
+  TEST_CASE("the slope is that of the total error between two times near by, and its interval contains it") {
+    AccuracyPilot pilot = made_pilot(0.1, 1e-4);
+    pilot.trace_fixed_seconds = 0.01;
+    const auto in = [&](double seconds) {
+      AccuracyPilot one_radius = pilot;
+      one_radius.estimators[0].settings.resize(1);
+      return plan_accuracy(one_radius, {Kind::seconds, seconds}).answer;
+    };
+    for (const double seconds : {0.1, 1.0, 10.0}) {
+      const AccuracyPoint before = in(seconds / 1.01);
+      const AccuracyPoint after = in(seconds * 1.01);
+      const double slope = std::log(after.total / before.total) / std::log(after.seconds / before.seconds);
+      const AccuracyPoint point = in(seconds);
+      CHECK(point.slope == doctest::Approx(slope).epsilon(1e-3));
+      CHECK(point.slope_low <= point.slope);
+      CHECK(point.slope <= point.slope_high);
+    }
+  }
+
   TEST_CASE("a point is on the frontier unless another is faster and more accurate beyond both intervals") {
     AccuracyPilot pilot = made_pilot(0.1);
     EstimatorPilot slow = pilot.estimators.front();

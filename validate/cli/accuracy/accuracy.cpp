@@ -189,7 +189,9 @@ std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& sce
   if (!state.check) try {
       const sim::Stopwatch of_check;
       pilot.seed += seeds_apart;
-      state.check = validate::check_accuracy(scene, answer.plan.answer, answer.pilot.mean_square, pilot);
+      if (pilot.progress) pilot.progress({"run to check", 0, 1, 0, answer.plan.answer.seconds});
+      state.check =
+          validate::check_accuracy(scene, answer.plan.answer, answer.pilot.mean_square, pilot, within_of(target));
       state.planning_seconds += of_check.seconds();
       saved.write_if_due();
     } catch (const sim::Stopped&) {

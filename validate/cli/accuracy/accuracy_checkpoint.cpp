@@ -26,9 +26,9 @@ SavedAccuracy accuracy_of(const nlohmann::json& json) {
   if (const nlohmann::json& pilot = json.at("pilot"); !pilot.is_null())
     saved.pilot = pilot.get<validate::AccuracyPilot>();
   if (const nlohmann::json& check = json.at("check"); !check.is_null())
-    saved.check = validate::AccuracyCheck{check.at("noise").get<double>(), check.at("seconds").get<double>(),
-                                          check.at("trace_seconds").get<double>(), check.at("rays").get<double>(),
-                                          number_of(check.at("error"))};
+    saved.check = validate::AccuracyCheck{
+        check.at("noise").get<double>(), check.at("seconds").get<double>(), check.at("trace_seconds").get<double>(),
+        check.at("rays").get<double>(),  number_of(check.at("error")),      number_of(check.at("share_within"))};
   json.at("planning_seconds").get_to(saved.planning_seconds);
   for (const nlohmann::json& run : json.at("runs"))
     saved.runs.push_back({run.at("seed").get<std::uint64_t>(), run.at("seconds").get<double>(),
@@ -56,7 +56,8 @@ void write_accuracy(validate::CheckpointFile& file, const SavedAccuracy& saved) 
                       {"seconds", saved.check->seconds},
                       {"trace_seconds", saved.check->trace_seconds},
                       {"rays", saved.check->rays},
-                      {"error", or_null(saved.check->error)}};
+                      {"error", or_null(saved.check->error)},
+                      {"share_within", or_null(saved.check->share_within)}};
   state["runs"] = nlohmann::json::array();
   for (const validate::MadeRerun& run : saved.runs)
     state["runs"].push_back(

@@ -38,6 +38,11 @@ struct AccuracyAnswer {
 /// Whether the point has the target's error; of a time, always.
 [[nodiscard]] bool reaches(const AccuracyAnswer& answer, const validate::AccuracyPoint& point);
 
+/// The error for which AccuracyCheck::share_within counts samples: the target's, else 5 %.
+[[nodiscard]] inline double within_of(const validate::AccuracyTarget& target) {
+  return target.kind == validate::AccuracyTarget::Kind::seconds ? 0.05 : target.value;
+}
+
 /// How many of the reruns have a noise in the answer's interval.
 [[nodiscard]] std::size_t inside(const AccuracyAnswer& answer);
 

@@ -40,6 +40,8 @@ Json point_json(const AccuracyAnswer& answer, const AccuracyPoint& point) {
           {"error", point.total},
           {"error_interval", {point.total_low, point.total_high}},
           {"variance", point.noise * point.noise},
+          {"slope", point.slope},
+          {"slope_interval", {point.slope_low, point.slope_high}},
           {"predicted_seconds", point.seconds},
           {"measured_seconds", nullptr},
           {"processor_seconds", nullptr},
@@ -110,6 +112,8 @@ Json to_json(const AccuracyAnswer& answer) {
     chosen["measured_rays"] = answer.check->rays;
     chosen["correction"] = answer.correction;
     chosen["measured_error"] = json_of(answer.check->error);
+    chosen["within"] = within_of(answer.plan.target);
+    chosen["share_within"] = json_of(answer.check->share_within);
   }
   chosen["text"] = answer_words(answer);
   Json points = Json::array();
@@ -178,7 +182,8 @@ std::string csv_of(const AccuracyAnswer& answer) {
     cells["noise_high"] = point.noise_high;
     cells["error_low"] = point.total_low;
     cells["error_high"] = point.total_high;
-    for (const char* other : {"axis", "noise_interval", "error_interval", "variance", "processor_seconds", "cut_off"})
+    for (const char* other : {"axis", "noise_interval", "error_interval", "variance", "slope", "slope_interval",
+                              "processor_seconds", "cut_off"})
       cells.erase(other);
     cells.update(measured);
     add_row(role, cells);

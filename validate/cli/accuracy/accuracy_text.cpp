@@ -152,6 +152,9 @@ std::string answer_words(const AccuracyAnswer& answer) {
                         answer.check->seconds);
   else
     text += answer.no_check + " ";
+  if (answer.check && answer.check->share_within)
+    text += fmt::format("{} of the samples are within {}. ", percent(*answer.check->share_within),
+                        percent(within_of(target)));
   return text + command_of(answer, best);
 }
 
@@ -173,9 +176,11 @@ std::size_t inside(const AccuracyAnswer& answer) {
 std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   std::string text = wrapped("answer    " + answer_words(answer), screen.text_width(), 10);
   text += wrapped(
-      "          " + fmt::format("In {:.2g} s, twice the time: {} total ({} noise, {} bias): {}.",
+      "          " + fmt::format("In {:.2g} s, twice the time: {} total ({} noise, {} bias): {}. With the answer's "
+                                 "setting, the total falls as the time to the power {:.2f} ({:.2f} to {:.2f}).",
                                  answer.in_time.seconds, percent(answer.in_time.total), percent(answer.in_time.noise),
-                                 percent(answer.in_time.bias), way(answer, answer.in_time)),
+                                 percent(answer.in_time.bias), way(answer, answer.in_time), answer.plan.answer.slope,
+                                 answer.plan.answer.slope_low, answer.plan.answer.slope_high),
       screen.text_width(), 10);
   text += wrapped("estimator " + rivals_words(answer), screen.text_width(), 10);
   if (!answer.reruns.empty()) text += wrapped("runs      " + reruns_words(answer), screen.text_width(), 10);
@@ -223,11 +228,12 @@ std::string to_text(const AccuracyAnswer& answer, const Screen& screen) {
   }
   if (!answered) add(answer.plan.answer, "<- answer");
   text += table.text(screen) + "\n" + axes_text(answer, screen);
-  text += wrapped(
-      fmt::format("noise, bias, total: root mean square over {}, relative to the root mean square irradiance. Bias: {}",
-                  answer.reference ? "the reference's samples, spread by area" : "the samples by area",
-                  bias_source(answer)),
-      screen.text_width(), 0);
+  text +=
+      wrapped(fmt::format("noise, bias, total: root mean square over {}, relative to the root mean square irradiance. "
+                          "Seconds: wall clock, tracing included. Bias: {}",
+                          answer.reference ? "the reference's samples, spread by area" : "the samples by area",
+                          bias_source(answer)),
+              screen.text_width(), 0);
   return text + fmt::format("planning  {:.2g} s: a pilot of {:.2g} pieces{}\n", answer.seconds, answer.pilot.rays,
                             answer.check ? ", one check" : "");
 }

@@ -46,6 +46,10 @@ TEST_SUITE("accuracy") {
     const Json json = result_of(command);
     CHECK(json["reference"]["kind"] == "known");
     CHECK(json["reference"]["error"] == 0);
+    CHECK(json["answer"]["within"] == 0.2);
+    CHECK(json["answer"]["share_within"].get<double>() > 0.5);
+    CHECK(json["answer"]["share_within"].get<double>() < 1);
+    CHECK(json["answer"]["slope"].get<double>() < 0);
     const Json& runs = json["reruns"]["runs"];
     REQUIRE(runs.size() == 5);
     CHECK(runs[0]["seed"] == 3);
