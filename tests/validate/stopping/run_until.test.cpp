@@ -101,13 +101,15 @@ TEST_SUITE("statistical") {
   TEST_CASE("the error at the end is below the target in 95 % of the runs, and the naive rule's is not") {
     constexpr int runs = 200;
     constexpr int least = 182;  // of a binomial 0.95, less happens in 0.1 %
-    for (const auto& [light, target] :
+    for (const auto& one :
          std::vector<std::pair<Light, double>>{{{.discs = 1, .hit = 0.1, .spread = 1}, 0.05},
                                                {{.discs = 1, .hit = 0.01}, 0.1},
                                                {{.discs = 100, .hit = 0.5, .spread = 1}, 0.1},
                                                {{.discs = 100, .group = 50, .hit = 0.5, .spread = 1}, 0.05},
                                                {{.discs = 1000, .hit = 0.5}, 0.1},
                                                {{.discs = 10, .hit = 0.1, .spread = 1.5, .pieces = 7}, 0.1}}) {
+      const Light& light = one.first;
+      const double target = one.second;
       CAPTURE(light.discs);
       CAPTURE(light.group);
       CAPTURE(light.hit);

@@ -138,13 +138,11 @@ Json refinement_json(const validate::Refinement& one) {
 /// What --until-relative-error came to.
 std::string until_summary(const validate::FindingsUntil& until, const validate::FindingsTarget& target) {
   std::size_t reached = 0;
-  double lines = 0;
   std::string missing;
   std::string fixed;
   for (std::size_t i = 0; i < until.findings.size(); ++i) {
     const validate::Refinement& one = until.refinements[i];
     const std::string& id = until.findings[i].id;
-    lines += static_cast<double>(until.findings[i].lines);
     if (one.reached)
       ++reached;
     else if (one.more_lines)
