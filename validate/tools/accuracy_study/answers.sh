@@ -33,4 +33,4 @@ for scene in "$@"; do
   done
 done
 # An answer that was stopped has three columns more.
-cat "$folder"/*.csv "$folder"/*.runs | cut -d, -f1-31 | awk -F, 'NR == 1 || $2 == "answer" || $2 == "rival" || $2 == "run" || $2 == "command"' | sed "s,^${DETP_SCENES:-/}/,,"
+cat "$folder"/*.csv "$folder"/*.runs | cut -d, -f1-31 | awk -F, 'NR == 1 || $2 == "answer" || $2 == "rival" || $2 == "run" || $2 == "command"' | sed "s,^${DETP_SCENES:-/}/,,; s,${DETP_SCENES:-/}/,\$DETP_SCENES/,"
