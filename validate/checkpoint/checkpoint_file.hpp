@@ -14,7 +14,7 @@ namespace detp::validate {
 
 class CheckpointFile {
  public:
-  /// `work` names the kind of work, as "sweep". `key` is an object of numbers and words: all that decides what the work finds, as
+  /// `work` names the kind of work, as "map". `key` is an object of numbers and words: all that decides what the work finds, as
   /// {"seed": 1}. Only a file with the same work and key can be continued.
   CheckpointFile(std::filesystem::path path, std::string work, nlohmann::json key);
 

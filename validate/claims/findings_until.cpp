@@ -156,7 +156,7 @@ class Findings {
     return count;
   }
 
-  [[nodiscard]] double allowed(int test) const { return (1 - target_.confidence) * 2 * std::pow(3.0, -test); }
+  [[nodiscard]] double allowed(int test) const { return error_of_test(target_.confidence, test); }
 
   /// Number of repetitions that the experiment needs in all, by what is known; within its limits of lines.
   [[nodiscard]] double needed(const Repeated& one) const {
@@ -168,8 +168,8 @@ class Findings {
       const double by_error = std::isfinite(error)
                                   ? safety * one.repetitions() * std::pow(error / target_.relative_error, 2)
                                   : std::numeric_limits<double>::infinity();
-      most = std::max(most, std::clamp(by_error, std::ceil(target_.least_lines / lines_of_one),
-                                       std::max(1.0, std::floor(target_.most_lines / lines_of_one))));
+      const double limit = std::max(1.0, std::floor(target_.most_lines / lines_of_one));
+      most = std::max(most, std::min(limit, std::max(by_error, std::ceil(target_.least_lines / lines_of_one))));
     }
     return most;
   }
@@ -218,7 +218,7 @@ class Findings {
   [[nodiscard]] Refinement refinement(const Repeated& one, std::size_t i) const {
     Refinement found{.relative_error = one.relative_error(i, allowed(one.plan.test), findings())};
     found.reached = found.relative_error <= target_.relative_error;
-    if (found.reached || !one.grows(i) || !std::isfinite(found.relative_error)) return found;
+    if (found.reached || !one.grows(i)) return found;
     const double times = std::pow(found.relative_error / target_.relative_error, 2) - 1;
     found.more_lines = times * static_cast<double>(one.finding(i).lines);
     found.more_seconds = times * one.repetitions() * one.seconds_of_one();

@@ -25,8 +25,8 @@ void check(const FindingsTarget& target);
 struct Refinement {
   double relative_error = 0;  ///< not finite if nothing was met
   bool reached = false;
-  /// That the target would still take, by the error so far; nothing if it is reached, if nothing was met, or if the finding counts on
-  /// given rays.
+  /// That the target would still take, by the error so far; infinite if nothing was met. Nothing if the target is reached, or if the
+  /// finding counts on given rays.
   std::optional<double> more_lines = {};
   std::optional<double> more_seconds = {};
 };

@@ -152,7 +152,13 @@ class MapMaker {
       }
     std::stable_sort(places.begin(), places.end(),
                      [](const Place& a, const Place& b) { return a.seconds < b.seconds; });
-    std::optional<MapCheckpoint> kept = checkpoint();
+    std::optional<MapCheckpoint> kept;
+    try {
+      kept = checkpoint();
+    } catch (const sim::Stopped&) {
+      map_.stopped = {0, places.size(), "cells measured"};
+      return;
+    }
     double before = 0;
     std::size_t done = 0;
     const auto share = [&](double seconds) { return share_of_predicting + (1 - share_of_predicting) * seconds / all; };

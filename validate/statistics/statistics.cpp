@@ -67,6 +67,8 @@ double interval_width(double budget, int comparisons, int batches) {
   return boost::math::quantile(boost::math::complement(student, budget / comparisons / 2));
 }
 
+double error_of_test(double confidence, int test) { return (1 - confidence) * 2 * std::pow(3.0, -test); }
+
 Verdict judge(double predicted, const Estimate& observed, double tolerance, double width) {
   const double deviation = std::abs(observed.mean - predicted);
   const double reach = width * observed.standard_error;

@@ -41,6 +41,10 @@ struct Estimate {
 /// Throws std::invalid_argument unless 0 < budget < 1, comparisons >= 1 and batches >= 2.
 [[nodiscard]] double interval_width(double budget, int comparisons, int batches);
 
+/// The error that test 1, 2, … of a target may make, so that all tests together, however many, err with 1 - `confidence`:
+/// (1 - confidence) 2/3ᵗ.
+[[nodiscard]] double error_of_test(double confidence, int test);
+
 /// Compares predicted with observed, with z = `width` and SE the standard error of `observed`. Undecided if SE is
 /// infinite.
 ///

@@ -77,9 +77,7 @@ class UntilRun {
     return {batches_.state(), result_.rays, result_.tests, stage_.rays, stage_.is_test, stage_.is_last, stage_.batches};
   }
 
-  [[nodiscard]] double confidence_of_test(int test) const {
-    return 1 - (1 - target_.confidence) * 2 * std::pow(3.0, -test);
-  }
+  [[nodiscard]] double confidence_of_test(int test) const { return 1 - error_of_test(target_.confidence, test); }
 
   [[nodiscard]] double noise_allowed() const { return std::sqrt(std::max(0.0, squared(target_.error) - bias_)); }
 

@@ -146,6 +146,21 @@ TEST_SUITE("published accuracy") {
     const auto says = [&](const char* what, const std::vector<double>& ratios) {
       check_says(page, fmt::format("| {} | {} | {} |", what, ratios.size(), ratio_words(ratios)));
     };
+    const auto deviation = [](std::vector<double> ratios) {
+      for (double& ratio : ratios) ratio = std::abs(ratio - 1);
+      return validate::median(ratios);
+    };
+    check_says(page, fmt::format("The median deviation from the command is {:.0f} %", 100 * deviation(command)));
+    const auto within =
+        std::ranges::count_if(first, [](double ratio) { return std::abs(std::log(ratio)) <= std::log(1.5); });
+    check_says(page, fmt::format("{} of {} first runs took within a factor of 1.5 of the predicted seconds", within,
+                                 first.size()));
+    for (const Answer& answer : answers)
+      for (const char* scene : {"@tree", "tangerine_coarse.ply", "bedroom.ply"})
+        if (answer.row.at("scene") == scene && answer.row.at("target_kind") == "error" &&
+            answer.row.at("target") == "0.1")
+          check_says(page, fmt::format("{}: {:.0f} %, between {:.0f} and {:.0f} %", scene, 100 * total_found(answer),
+                                       100 * number(answer.row, "error_low"), 100 * number(answer.row, "error_high")));
     says("seconds, run to check", first);
     says("seconds, its command", command);
     says("noise, runs with other seeds", noise);

@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 
+#include "detp/validate/checkpoint/estimate_json.hpp"
+#include "support/scratch_file.hpp"
+
 namespace detp::validate {
 namespace {
 
@@ -105,8 +108,18 @@ TEST_SUITE("claims") {
     REQUIRE(until.refinements.size() == 1);
     CHECK_FALSE(until.refinements[0].reached);
     CHECK(std::isinf(until.refinements[0].relative_error));
-    CHECK_FALSE(until.refinements[0].more_lines);
+    CHECK(std::isinf(until.refinements[0].more_lines.value()));
     CHECK(until.findings[0].lines == 400);
+  }
+
+  TEST_CASE("a standard error that is not known survives a checkpoint") {
+    const support::ScratchFolder folder;
+    CheckpointFile file(folder.path("checkpoint.json"), "test", nlohmann::json::object());
+    file.write(Estimate{2, std::numeric_limits<double>::infinity()});
+    const auto read = file.read();
+    REQUIRE(read);
+    CHECK(read->get<Estimate>().mean == 2);
+    CHECK(std::isinf(read->get<Estimate>().standard_error));
   }
 
   TEST_CASE("targets out of range are refused") {

@@ -164,14 +164,18 @@ std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& sce
   const sim::Stopwatch watch;
   SavedAccuracy& state = saved.state;
   bool stopped = false;
-  if (!state.pilot) {
+  if (state.pilot) {
+    answer.pilot = *state.pilot;
+  } else {
     validate::PilotedPlan planned = validate::plan_accuracy(scene, target, pilot, most_rays);
     stopped = planned.stopped;
-    state.pilot = std::move(planned.pilot);
+    answer.pilot = std::move(planned.pilot);
     state.planning_seconds = watch.seconds();
-    if (!stopped) saved.write();
+    if (!stopped) {  // else a resumed command makes the pilots that are missing
+      state.pilot = answer.pilot;
+      saved.write();
+    }
   }
-  answer.pilot = *state.pilot;
   answer.plan = validate::plan_accuracy(answer.pilot, target, most_rays);
   answer.seconds = state.planning_seconds;
   if (stopped) {

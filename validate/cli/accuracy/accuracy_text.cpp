@@ -28,7 +28,7 @@ std::string way(const AccuracyAnswer& answer, const AccuracyPoint& point) {
   return text + fmt::format(", estimator {}", name(point.estimator));
 }
 
-/// Two thirds of the runs take within this factor of the predicted seconds (validate/accuracy/README.md, first runs).
+/// 15 of 24 first runs took within this factor of the predicted seconds (validate/accuracy/README.md).
 constexpr double seconds_factor = 1.5;
 
 std::string bias_words(const AccuracyPoint& best) {

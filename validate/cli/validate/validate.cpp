@@ -1,8 +1,6 @@
+#include "claims_until.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/base/digest.hpp"
-#include "detp/validate/checkpoint/checkpoint_file.hpp"
 #include "detp/validate/claims/experiments.hpp"
-#include "detp/validate/claims/findings_until.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/outputs.hpp"
@@ -29,29 +27,6 @@ using validate::Verdict;
 
 constexpr double default_lines = 1e6;
 constexpr double share_of_claims = 0.03;  ///< of the time of a thorough validation
-
-/// Of --until-relative-error.
-struct UntilOptions {
-  std::optional<std::string> relative_error;
-  std::optional<std::string> confidence;
-  std::optional<double> least_lines;
-  std::optional<double> most_lines;
-
-  /// Nothing if claims are judged after their usual number of lines.
-  [[nodiscard]] std::optional<validate::FindingsTarget> target() const {
-    if (!relative_error) {
-      if (confidence || least_lines || most_lines)
-        throw std::invalid_argument("--confidence, --min-lines and --max-lines belong to --until-relative-error");
-      return std::nullopt;
-    }
-    validate::FindingsTarget target{.relative_error = parse_share("--until-relative-error", *relative_error)};
-    if (confidence) target.confidence = parse_share("--confidence", *confidence);
-    target.least_lines = least_lines.value_or(target.least_lines);
-    target.most_lines = most_lines.value_or(target.most_lines);
-    check(target);
-    return target;
-  }
-};
 
 struct ValidateOptions {
   WorkloadOptions workload;
@@ -117,46 +92,6 @@ validate::Experiment make_experiment(const validate::JobRequest& request, const 
   experiment.seed = request.seed;
   result.inputs["seed"] = request.seed;
   return experiment;
-}
-
-/// The refinement of the claim's finding.
-const validate::Refinement* refinement_of(const Claim& claim, const validate::FindingsUntil& until) {
-  for (std::size_t i = 0; i < until.findings.size(); ++i)
-    if (until.findings[i].id == stem(claim)) return &until.refinements[i];
-  return nullptr;
-}
-
-Json optional_json(const std::optional<double>& value) { return value ? Json(*value) : Json(); }
-
-Json refinement_json(const validate::Refinement& one) {
-  return {{"relative_error", known(one.relative_error)},
-          {"reached", one.reached},
-          {"more_lines", optional_json(one.more_lines)},
-          {"more_seconds", optional_json(one.more_seconds)}};
-}
-
-/// What --until-relative-error came to.
-std::string until_summary(const validate::FindingsUntil& until, const validate::FindingsTarget& target) {
-  std::size_t reached = 0;
-  std::string missing;
-  std::string fixed;
-  for (std::size_t i = 0; i < until.findings.size(); ++i) {
-    const validate::Refinement& one = until.refinements[i];
-    const std::string& id = until.findings[i].id;
-    if (one.reached)
-      ++reached;
-    else if (one.more_lines)
-      missing += fmt::format("{} (now {:.2g} %) about {:.2g} more lines, {:.2g} s; ", id, 100 * one.relative_error,
-                             *one.more_lines, *one.more_seconds);
-    else
-      fixed += (fixed.empty() ? "" : ", ") + id;
-  }
-  std::string text =
-      fmt::format("errors    {} of {} counts are known within {:.2g} % ({:.3g} % confidence for all together)\n",
-                  reached, until.findings.size(), 100 * target.relative_error, 100 * target.confidence);
-  if (!missing.empty()) text += "          undecided, needs: " + missing.substr(0, missing.size() - 2) + "\n";
-  if (!fixed.empty()) text += "          not more accurate with more lines: " + fixed + "\n";
-  return text;
 }
 
 Json claim_json(const Claim& claim, const Claims& claims) {
@@ -268,49 +203,10 @@ Table table_of(const std::vector<Claim>& claims, const validate::FindingsUntil& 
     row["control_predicted"] = known(claim.control);
     row["control_verdict"] = control_name(claim.control_verdict);
     row.erase("control");
-    if (!until.refinements.empty()) row.update(refinement_json(*refinement_of(claim, until)));
+    if (!until.refinements.empty()) row.update(refinement_json(until, stem(claim)));
     table.add(row);
   }
   return table;
-}
-
-std::string digest_of(const validate::Experiment& experiment) {
-  validate::Digest digest;
-  const Workload& workload = experiment.workload;
-  for (const double value : {workload.rays, workload.samples, workload.disc_radius, workload.sphere_radius,
-                             workload.dimension, workload.path_length, workload.ray_density, workload.hit_ratio})
-    digest.add(value);
-  for (const double side : workload.box) digest.add(side);
-  for (const sim::Disc& disc : experiment.discs) {
-    digest.add(disc.centre);
-    digest.add(disc.normal);
-    digest.add(disc.radius);
-  }
-  if (experiment.choice)
-    for (const sim::Ray& ray : experiment.choice->rays) {
-      digest.add(ray.origin);
-      digest.add(ray.direction);
-      digest.add(ray.length);
-    }
-  return digest.text();
-}
-
-/// Counts until the target is reached, with the checkpoint if there is one.
-validate::FindingsUntil refined(const ValidateOptions& options, const validate::Experiment& experiment,
-                                const validate::FindingsTarget& target, const sim::ReportPhase& report,
-                                const std::stop_token& stop) {
-  if (!options.sweep.checkpoint) return validate::findings_until(experiment, target, report);
-  validate::CheckpointFile file(*options.sweep.checkpoint, "validate --until-relative-error",
-                                {{"seed", experiment.seed},
-                                 {"relative error", target.relative_error},
-                                 {"confidence", target.confidence},
-                                 {"least lines", target.least_lines},
-                                 {"most lines", target.most_lines},
-                                 {"digest of workload, discs and rays", digest_of(experiment)}});
-  nlohmann::json saved;
-  if (options.sweep.resume)
-    if (auto state = file.read(stop)) saved = std::move(*state);
-  return validate::findings_until(experiment, target, report, &file, saved);
 }
 
 void check_effort(const ValidateOptions& options, const validate::JobRequest& request) {
@@ -371,7 +267,7 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   const auto report = sim::part_of(progress.report(), 0, options.thorough ? share_of_claims : 1);
   validate::FindingsUntil until;
   if (target)
-    until = refined(options, experiment, *target, report, stop);
+    until = find_until(experiment, *target, options.sweep.checkpoint, options.sweep.resume, report, stop);
   else
     until.findings = validate::all_findings(experiment, report, &done);
   const std::vector<Claim> claims = validate::judge_all(until.findings);
@@ -379,21 +275,11 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   result.json["claims"] = Json::array();
   for (const Claim& claim : claims) {
     result.json["claims"].push_back(claim_json(claim, claims));
-    if (target) result.json["claims"].back().update(refinement_json(*refinement_of(claim, until)));
+    if (target) result.json["claims"].back().update(refinement_json(until, stem(claim)));
   }
   if (done.done < done.of) result.stopped = done;
   if (target) {
-    result.inputs["until_relative_error"] = target->relative_error;
-    result.inputs["confidence"] = target->confidence;
-    result.inputs["min_lines"] = target->least_lines;
-    result.inputs["max_lines"] = target->most_lines;
-    const auto reached =
-        static_cast<std::uint64_t>(std::ranges::count(until.refinements, true, &validate::Refinement::reached));
-    if (until.stopped) result.stopped = sim::Progress{reached, until.findings.size(), "counts"};
-    result.not_reached = !until.stopped && std::ranges::any_of(until.refinements, [](const auto& one) {
-      return !one.reached && one.more_lines;
-    });
-    result.text = until_summary(until, *target) + result.text;
+    add_until(until, *target, result);
   }
   const Screen screen = common.screen();
   result.text = (claims.empty() ? "answer    no claim was judged\n" : summary_text(claims, screen)) + "\n" +

@@ -80,6 +80,18 @@ TEST_SUITE("kills") {
 }
 
 TEST_SUITE("end to end") {
+  TEST_CASE("pilots that were stopped before they knew enough are made again, not kept") {
+    const ScratchFolder folder;
+    const std::string checkpoint = folder.path("checkpoint.json");
+    const std::string command = "accuracy @cornell --target-error 1% --format json --checkpoint " + checkpoint;
+    const Finished stopped = stopped_in_time(command, [](const Finished& one) {
+      return one.code == 3 && one.out.find("predicted_seconds") != std::string::npos &&
+             one.json()["stopped_after"]["done"] == 1;
+    });
+    REQUIRE(stopped.json()["stopped_after"]["done"] == 1);
+    CHECK(Json::parse(content_of(checkpoint)).at("state").at("pilot").is_null());
+  }
+
   TEST_CASE("a run that was stopped goes on; checkpoints of other runs, damaged ones and wrong options are refused") {
     const ScratchFolder folder;
     const std::string checkpoint = folder.path("checkpoint.json");
