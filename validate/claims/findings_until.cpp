@@ -219,8 +219,12 @@ class Findings {
     Refinement found{.relative_error = one.relative_error(i, allowed(one.plan.test), findings())};
     found.reached = found.relative_error <= target_.relative_error;
     if (found.reached || !one.grows(i)) return found;
+    const Finding mean = one.finding(i);
+    if (mean.observed.mean == 0)
+      found.share_bound =
+          -std::log(allowed(one.plan.test) / static_cast<double>(findings())) / static_cast<double>(mean.lines);
     const double times = std::pow(found.relative_error / target_.relative_error, 2) - 1;
-    found.more_lines = times * static_cast<double>(one.finding(i).lines);
+    found.more_lines = times * static_cast<double>(mean.lines);
     found.more_seconds = times * one.repetitions() * one.seconds_of_one();
     return found;
   }

@@ -29,6 +29,9 @@ struct Refinement {
   /// finding counts on given rays.
   std::optional<double> more_lines = {};
   std::optional<double> more_seconds = {};
+  /// If nothing was met: bound of the share of lines that meet anything, -ln(error allowed to this finding)/lines. Holds if lines are
+  /// independent.
+  std::optional<double> share_bound = {};
 };
 
 struct FindingsUntil {

@@ -110,6 +110,27 @@ TEST_SUITE("claims") {
     CHECK(std::isinf(until.refinements[0].relative_error));
     CHECK(std::isinf(until.refinements[0].more_lines.value()));
     CHECK(until.findings[0].lines == 400);
+    // The first test may err with (1 - 0.95) 2/3; a test that had decided would leave less.
+    CHECK(until.refinements[0].share_bound.value() >= -std::log(0.05 * 2 / 3) / 400);
+    CHECK(until.refinements[0].share_bound.value() <= -std::log(0.05 * 2 / 9) / 400);
+  }
+
+  TEST_CASE("the second test of a target may err less than the first") {
+    // The first repetition promises more than the others keep, so the first test fails.
+    const ExperimentStep uneven{
+        "uneven",
+        [](const Experiment& one) {
+          const double error = one.seed == 1 ? 0.05 : 0.08;
+          return std::vector<Finding>{
+              {.id = "hits", .quantity = "hits", .observed = {1, error}, .batches = 8, .lines = 100}};
+        },
+        [](const Experiment&) { return 1.0; }, 1, true};
+    const FindingsUntil until = findings_until(small(100, 1), {.relative_error = 0.1}, {}, nullptr, {}, {&uneven, 1});
+    REQUIRE(until.refinements.size() == 1);
+    CHECK(until.refinements[0].reached);
+    CHECK(until.refinements[0].relative_error ==
+          doctest::Approx(interval_width(0.05 * 2 / 9, 1, until.findings[0].batches) *
+                          until.findings[0].observed.standard_error));
   }
 
   TEST_CASE("a standard error that is not known survives a checkpoint") {

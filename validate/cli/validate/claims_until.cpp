@@ -41,7 +41,7 @@ std::string until_summary(const validate::FindingsUntil& until, const validate::
     if (!one.more_lines)
       add(fixed, id);
     else if (!std::isfinite(*one.more_lines))
-      add(dark, id);
+      add(dark, fmt::format("{} (at most {:.2g} of its lines meet anything)", id, one.share_bound.value_or(1)));
     else
       add(missing, fmt::format("{} (now {:.2g} %) about {:.2g} more lines, {:.2g} s", id, 100 * one.relative_error,
                                *one.more_lines, *one.more_seconds));
@@ -95,7 +95,8 @@ Json refinement_json(const validate::FindingsUntil& until, const std::string& id
   return {{"relative_error", known(one.relative_error)},
           {"reached", one.reached},
           {"more_lines", finite_json(one.more_lines)},
-          {"more_seconds", finite_json(one.more_seconds)}};
+          {"more_seconds", finite_json(one.more_seconds)},
+          {"share_bound", finite_json(one.share_bound)}};
 }
 
 void add_until(const validate::FindingsUntil& until, const validate::FindingsTarget& target, Result& result) {
