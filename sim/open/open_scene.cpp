@@ -1,5 +1,8 @@
 #include "open_scene.hpp"
 
+#include <fmt/format.h>
+
+#include <charconv>
 #include <stdexcept>
 
 #include "detp/model/vocabulary/nearest_name.hpp"
@@ -9,6 +12,7 @@
 #include "detp/sim/photons/emitter.hpp"
 #include "detp/sim/photons/placed_lights.hpp"
 #include "detp/sim/scene/built_in/built_in.hpp"
+#include "detp/sim/scene/families/families.hpp"
 #include "resample.hpp"
 
 namespace detp::sim {
@@ -34,6 +38,22 @@ const std::vector<BuiltIn>& built_ins() {
   return all;
 }
 
+/// The scene "@room:7" of a family; nothing if no family has the name.
+std::optional<built_in::LitMesh> scene_of_family(const std::string& name) {
+  for (const families::Family& family : families::all_families()) {
+    const std::string prefix = fmt::format("@{}:", family.name);
+    if (!name.starts_with(prefix)) continue;
+    const std::string_view digits = std::string_view(name).substr(prefix.size());
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
+    if (error != std::errc() || end != digits.data() + digits.size())
+      throw std::invalid_argument(
+          fmt::format("the scene {} needs a whole number as seed, as in {}7", shortened(name), prefix));
+    return family.make(seed);
+  }
+  return std::nullopt;
+}
+
 const BuiltIn& built_in_named(const std::string& name) {
   std::string known;
   std::vector<std::string_view> names;
@@ -42,6 +62,7 @@ const BuiltIn& built_in_named(const std::string& name) {
     known += (known.empty() ? "" : ", ") + scene.name;
     names.emplace_back(scene.name);
   }
+  for (const families::Family& family : families::all_families()) known += fmt::format(", @{}:SEED", family.name);
   throw std::invalid_argument("there is no built-in scene " + shortened(name) + "; known scenes are " + known +
                               did_you_mean(name, names));
 }
@@ -88,11 +109,15 @@ Scene uniform_scene(const SceneRequest& request, const std::stop_token& stop) {
 }
 
 Scene built_in_scene(const SceneRequest& request, const std::stop_token& stop) {
-  const BuiltIn& known = built_in_named(request.name);
-  if (known.make == nullptr) return uniform_scene(request, stop);
+  std::optional<built_in::LitMesh> made = scene_of_family(request.name);
+  if (!made) {
+    const BuiltIn& known = built_in_named(request.name);
+    if (known.make == nullptr) return uniform_scene(request, stop);
+    made = known.make();
+  }
+  built_in::LitMesh lit_mesh = std::move(*made);
   Scene scene;
   scene.name = request.name;
-  built_in::LitMesh lit_mesh = known.make();
   scene.mesh = std::move(lit_mesh.mesh);
   scene.lights = std::move(lit_mesh.lights);
   if (request.lights.empty()) scene.known_irradiance = lit_mesh.known_irradiance;

@@ -10,7 +10,7 @@
 namespace detp::sim {
 
 struct SceneRequest {
-  std::string name;                    ///< "@tree" or a path
+  std::string name;                    ///< "@tree", "@room:7" (a seed) or a path
   std::optional<std::size_t> samples;  ///< number of samples; default: the number of vertices (@uniform: 100 000)
   std::uint64_t seed = 1;
   std::vector<LightKind> lights = {};  ///< none: the scene's own, or if it has none, an area light

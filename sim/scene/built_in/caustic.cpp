@@ -20,19 +20,6 @@ constexpr double ring_height = 0.25;
 
 enum CausticPaint : std::uint16_t { floor_plaster, ball_glass, ring_brass };
 
-/// The six faces of a cube, blown up to a sphere.
-void add_ball(Mesh& mesh) {
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double sign : {1.0, -1.0})
-      add_patch(mesh, {32, 32}, [&](double u, double v) {
-        glm::dvec3 point;
-        point[axis] = sign;
-        point[(axis + 1) % 3] = std::tan(pi / 4 * (2 * u - 1));
-        point[(axis + 2) % 3] = sign * std::tan(pi / 4 * (2 * v - 1));
-        return ball + ball_radius * glm::normalize(point);
-      });
-}
-
 /// A strip that stands on the floor around two thirds of a circle. Its inside is polished.
 void add_ring(Mesh& mesh) {
   add_patch(mesh, {80, 6}, [](double u, double v) {
@@ -52,7 +39,7 @@ LitMesh caustic() {
   add_quad(mesh, {{{0, 0, 0}, {0, 0, floor_side}, {floor_side, 0, floor_side}, {floor_side, 0, 0}}}, floor_cell);
   add_quad(mesh, {{{0, 0, 0}, {floor_side, 0, 0}, {floor_side, 2.5, 0}, {0, 2.5, 0}}}, 2 * floor_cell);
   paint(mesh, floor_plaster);
-  add_ball(mesh);
+  add_ball(mesh, ball, ball_radius, 32);
   paint(mesh, ball_glass);
   add_ring(mesh);
   paint(mesh, ring_brass);

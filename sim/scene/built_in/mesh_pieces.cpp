@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <numbers>
 
 #include "detp/sim/geometry/directions.hpp"
@@ -61,6 +62,18 @@ void add_box(Mesh& mesh, const glm::dvec3& corner, const std::array<glm::dvec3, 
     add_quad(mesh, {corner, corner + v, corner + u + v, corner + u}, cell);
     add_quad(mesh, {far, far + u, far + u + v, far + v}, cell);
   }
+}
+
+void add_ball(Mesh& mesh, const glm::dvec3& centre, double radius, int cells) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double sign : {1.0, -1.0})
+      add_patch(mesh, {cells, cells}, [&](double u, double v) {
+        glm::dvec3 point;
+        point[axis] = sign;
+        point[(axis + 1) % 3] = std::tan(std::numbers::pi / 4 * (2 * u - 1));
+        point[(axis + 2) % 3] = sign * std::tan(std::numbers::pi / 4 * (2 * v - 1));
+        return centre + radius * glm::normalize(point);
+      });
 }
 
 void add_tube(Mesh& mesh, const Tube& tube) {

@@ -29,6 +29,9 @@ void add_quad(Mesh& mesh, const std::array<glm::dvec3, 4>& corners, double cell)
 /// Adds a box with this corner and the right-handed edges that start there. All six faces look outwards.
 void add_box(Mesh& mesh, const glm::dvec3& corner, const std::array<glm::dvec3, 3>& edges, double cell);
 
+/// Adds a sphere that looks outwards: the six faces of a cube, blown up, each of `cells` squares along a side.
+void add_ball(Mesh& mesh, const glm::dvec3& centre, double radius, int cells);
+
 /// Gives the material to all triangles that have none yet.
 inline void paint(Mesh& mesh, std::uint16_t material) {
   mesh.materials.of_triangle.resize(mesh.triangles.size(), material);

@@ -138,7 +138,8 @@ TEST_SUITE("bad input") {
     CHECK_THROWS_WITH_AS(
         (void)open_scene({.name = "@forest", .samples = {}}),
         "there is no built-in scene @forest; known scenes are @uniform, @tree, @tree-coarse, @courtyard, "
-        "@cornell, @caustic, @interior, @furnace, @sunlit",
+        "@cornell, @caustic, @interior, @furnace, @sunlit, "
+        "@room:SEED, @plant:SEED, @machine:SEED, @terrain:SEED, @shells:SEED, @details:SEED",
         std::invalid_argument);
   }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "detp/validate/statistics/statistics.hpp"
 #include "support/pages.hpp"
 
 namespace detp::support {
@@ -21,9 +22,51 @@ unsigned gamma_bernoulli_hits(double error) {
   return hits;
 }
 
+/// The runs of one scene, estimator and target with one rule.
+struct Runs {
+  int count = 0;
+  int below = 0;   ///< the target
+  int inside = 0;  ///< the stated interval of the noise
+  std::vector<double> rays;
+
+  void add(const CsvRow& row) {
+    const double error = number(row, "error");
+    ++count;
+    below += error <= number(row, "target") ? 1 : 0;
+    inside += number(row, "noise_low") <= error && error <= number(row, "noise_high") ? 1 : 0;
+    rays.push_back(number(row, "rays"));
+  }
+  [[nodiscard]] double median_rays() const { return validate::median(rays); }
+};
+
+struct BothRules {
+  Runs planned;
+  Runs naive;
+};
+
 }  // namespace
 
 TEST_SUITE("published stopping") {
+  TEST_CASE("the page's runs in scenes are those of stopping.csv") {
+    const std::string page = source_text("validate/stopping/README.md");
+    std::map<std::string, BothRules> cases;
+    BothRules all;
+    for (const CsvRow& row : published("stopping.csv")) {
+      const bool naive = row.at("rule") == "naive";
+      BothRules& one =
+          cases[fmt::format("| {} | {} | {:.0f} %", row.at("scene"), row.at("estimator"), 100 * number(row, "target"))];
+      for (BothRules* rules : {&one, &all}) (naive ? rules->naive : rules->planned).add(row);
+    }
+    REQUIRE(cases.size() >= 6);
+    for (const auto& [name, one] : cases)
+      check_says(page, fmt::format("{} | {} of {} | {} of {} | {:.2g} | {} of {} | {:.2g} |", name, one.planned.below,
+                                   one.planned.count, one.planned.inside, one.planned.count, one.planned.median_rays(),
+                                   one.naive.below, one.naive.count, one.naive.median_rays()));
+    check_says(page, fmt::format("{} of {} runs end below the target, {} with the naive rule", all.planned.below,
+                                 all.planned.count, all.naive.below));
+    CHECK(all.planned.below >= 0.92 * all.planned.count);  // 276 of 300
+  }
+
   TEST_CASE("the page's rules for one mean are those of stopping_rules.csv") {
     const std::string page = source_text("validate/stopping/README.md");
     std::vector<std::string> rules;

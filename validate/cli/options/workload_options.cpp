@@ -61,9 +61,11 @@ std::pair<sim::Field, sim::FieldShares> parse_field(const std::string& text) {
 
 void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Values> axes) {
   using enum ValueLists::Kind;
-  command.add_option("SCENE", request_.scene,
-                     "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell, @caustic, "
-                     "@interior, @furnace, @sunlit");
+  command.add_option(
+      "SCENE", request_.scene,
+      "a mesh (.obj, .ply) or @uniform, @tree, @tree-coarse, @courtyard, @cornell, @caustic, "
+      "@interior, @furnace, @sunlit, or one of many with a seed: @room:7, @plant:7, @machine:7, @terrain:7, "
+      "@shells:7, @details:7");
   command.add_option("--discs", request_.disc_file,
                      "discs from a CSV or PLY file; default: one at each of the scene's samples");
   command.add_option("--ray-file", request_.ray_file, "rays from a CSV or PLY file; default: made, as --field says");
