@@ -8,13 +8,6 @@
 namespace detp::model {
 namespace {
 
-/// The technique's defaults with the values in `fixed`. Throws as set_parameter.
-Candidate candidate_with(Technique technique, const FixedParameters& fixed) {
-  Candidate candidate = default_candidate(technique);
-  for (const auto& [name, value] : fixed.values) set_parameter(candidate, name, value);
-  return candidate;
-}
-
 bool is_number(const Parameter& parameter) { return parameter.choices.empty(); }
 
 bool are_all_numbers_fixed(const FixedParameters& fixed, Technique technique) {
@@ -35,7 +28,7 @@ struct Completed {
 std::optional<Completed> completed(Technique technique, const FixedParameters& fixed, const Valid<Workload>& workload,
                                    const Valid<CostTable>& costs, const SearchLimits& limits) {
   Candidate candidate = candidate_with(technique, fixed);
-  if (model_of(technique).best == nullptr || are_all_numbers_fixed(fixed, technique)) return Completed{candidate};
+  if (!is_open(technique, fixed)) return Completed{candidate};
   SearchLimits of_engine = limits;
   of_engine.engine = costs.engine;
   const auto best = model_of(technique).best(workload, costs_of(costs, technique), fixed, of_engine);
@@ -62,6 +55,16 @@ bool is_faster(const Prediction& a, const Prediction& b) {
 }
 
 }  // namespace
+
+Candidate candidate_with(Technique technique, const FixedParameters& fixed) {
+  Candidate candidate = default_candidate(technique);
+  for (const auto& [name, value] : fixed.values) set_parameter(candidate, name, value);
+  return candidate;
+}
+
+bool is_open(Technique technique, const FixedParameters& fixed) {
+  return model_of(technique).best != nullptr && !are_all_numbers_fixed(fixed, technique);
+}
 
 Prediction assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate, const Valid<CostTable>& costs,
                   int most_threads) {

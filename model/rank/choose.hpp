@@ -47,6 +47,12 @@ namespace detp::model {
                                                 const Valid<Workload>& workload, const Valid<CostTable>& costs,
                                                 const SearchLimits& limits = {});
 
+/// Whether `complete` chooses a parameter by the workload.
+[[nodiscard]] bool is_open(Technique technique, const FixedParameters& fixed);
+
+/// The technique with the parameters in `fixed`, the others by default. Throws as `complete`.
+[[nodiscard]] Candidate candidate_with(Technique technique, const FixedParameters& fixed);
+
 /// One candidate as `rank` would return it, on the number of threads, at most `most_threads`, that is fastest.
 [[nodiscard]] Prediction assess(const Valid<Workload>& workload, const Valid<Candidate>& candidate,
                                 const Valid<CostTable>& costs, int most_threads = 1);

@@ -62,20 +62,6 @@ EffectReport judged(const Effect& effect, double value, double standard_error, c
   return report;
 }
 
-/// Uniform lines, samples that fill the volume of their box, discs of one radius, both faces.
-Workload without_effects(const Problem& problem) {
-  const glm::dvec3 size = problem.centres().size();
-  Workload workload{.rays = static_cast<double>(problem.rays().size()),
-                    .samples = static_cast<double>(problem.discs().size()),
-                    .disc_radius = problem.radii().rms,
-                    .sphere_radius = problem.enclosing().radius,
-                    .box = {size.x, size.y, size.z},
-                    .rays_end = problem.segments()};
-  // If all samples are at one point, their box has no size. Then uses a cube with the discs' diameter as side.
-  if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
-  return workload;
-}
-
 }  // namespace
 
 EffectSelection::EffectSelection(std::string_view text) : automatic_(text == "auto") {
@@ -130,6 +116,19 @@ Observed observe(const Problem& problem, const SurfaceFacts& surface, const Effe
   }
   observed.seconds = watch.seconds();
   return observed;
+}
+
+Workload without_effects(const Problem& problem) {
+  const glm::dvec3 size = problem.centres().size();
+  Workload workload{.rays = static_cast<double>(problem.rays().size()),
+                    .samples = static_cast<double>(problem.discs().size()),
+                    .disc_radius = problem.radii().rms,
+                    .sphere_radius = problem.enclosing().radius,
+                    .box = {size.x, size.y, size.z},
+                    .rays_end = problem.segments()};
+  // If all samples are at one point, their box has no size. Then uses a cube with the discs' diameter as side.
+  if (!(scene_side(workload) > 0)) workload.box.fill(2 * workload.disc_radius);
+  return workload;
 }
 
 std::vector<EffectReport> effects_of_numbers(const Workload& workload) {

@@ -53,9 +53,11 @@ struct Observed {
   double seconds = 0;                      ///< for all of it
 };
 
-/// The workload of the problem: numbers of rays and discs, S₀, the samples' box, the root mean square disc radius d, and
-/// what the effects add that are on. With none, it is a workload of lines and of samples that fill the volume of the
-/// box. Throws Stopped if a stop was requested.
+/// The workload of the problem if there are no effects: lines, and samples that fill the volume of their box, with discs of the root
+/// mean square radius, both of whose faces count. Needs no evidence.
+[[nodiscard]] Workload without_effects(const Problem& problem);
+
+/// without_effects, and what the effects add that are on. Throws Stopped if a stop was requested.
 [[nodiscard]] Observed observe(const Problem& problem, const SurfaceFacts& surface = {},
                                const EffectSelection& selection = {}, const std::stop_token& stop = {});
 

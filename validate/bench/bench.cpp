@@ -90,7 +90,7 @@ class Benchmark {
     if (too_many_hits(workload, hits_per_ray_ * workload.rays)) return true;
     const Job job =
         make_job(request_of(workload, options_.seed), options_.stop, part(workload, "making rays", 0, share_of_job));
-    const Contenders ours = contenders(job.workload, options_.techniques, options_.hopeless);
+    const Contenders ours = contenders(job.workload(), options_.techniques, options_.hopeless);
     if (ours.candidates.empty()) {
       result_.skipped.push_back({workload, "none of the techniques named fits in memory on it"});
       return true;
@@ -122,7 +122,7 @@ class Benchmark {
       const bool complete = found.complete;
       if (!found.results.empty())
         result_.entries.push_back(
-            {workload, job.workload.samples, job.workload.disc_radius, threads, right->judge, std::move(found)});
+            {workload, job.given.samples, job.given.disc_radius, threads, right->judge, std::move(found)});
       if (!complete) return false;
     }
     return true;

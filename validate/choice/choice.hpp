@@ -37,6 +37,7 @@ struct Question {
   /// For closed forms; default: measured on discs and rays, with `effects`, if it is needed.
   std::optional<Workload> workload = {};
   sim::EffectSelection effects = {};
+  const sim::SurfaceFacts* surface = nullptr;  ///< of the discs' scene; null: not known
   /// estimate, structural or pilot; default: reachable_rigor
   std::optional<Rigor> rigor = {};
   Purpose purpose = Purpose::prediction;

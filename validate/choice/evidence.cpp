@@ -8,15 +8,16 @@ bool can_measure(const Question& question) {
 }
 
 Workload evidence(const Question& question, double rays) {
+  const sim::SurfaceFacts surface = question.surface != nullptr ? *question.surface : sim::SurfaceFacts{};
   Workload found;
   if (question.workload) {
     found = *question.workload;
   } else if (question.problem->rays().empty()) {
     sim::Problem with_rays = *question.problem;
     sim::set_rays(with_rays, question.rays, question.threads);
-    found = sim::observe(with_rays, {}, question.effects, question.stop).workload;
+    found = sim::observe(with_rays, surface, question.effects, question.stop).workload;
   } else {
-    found = sim::observe(*question.problem, {}, question.effects, question.stop).workload;
+    found = sim::observe(*question.problem, surface, question.effects, question.stop).workload;
   }
   found.rays = rays;
   return found;

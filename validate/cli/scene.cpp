@@ -60,31 +60,31 @@ std::string csv_of(const Json& inputs, const Json& json) {
 std::vector<std::string> remarks_on(const validate::Job& job, const validate::JobRequest& request) {
   constexpr double nearly_curves = 1.5;
   constexpr double enough = 5;
-  if (job.triangles == 0 || request.disc_file || job.workload.dimension >= nearly_curves) return {};
+  if (job.triangles == 0 || request.disc_file || job.workload().dimension >= nearly_curves) return {};
   const double vertices = std::max(static_cast<double>(job.discs.size()), 0.5 * static_cast<double>(job.triangles));
   return {fmt::format(
       "D = {:.2f}: the samples lie along lines more than on surfaces. Vertices are few on large faces, and many along "
       "edges and on small parts, so the irradiance of large faces is hardly sampled. --samples {:.0f} adds samples "
       "that are "
       "spread evenly over the faces.",
-      job.workload.dimension, enough * vertices)};
+      job.workload().dimension, enough * vertices)};
 }
 
 std::string to_text(const validate::Job& job, const std::vector<double>& if_switched,
                     const std::vector<std::string>& remarks, const Screen& screen) {
-  const Workload& w = job.workload;
+  const Workload& w = job.workload();
   std::string text = wrapped(describe(job), screen.text_width(), 10);
   text += fmt::format("box       {:.5g} x {:.5g} x {:.5g}, r0 = {:.5g}\nsamples   {:.4g} apart, dimension D = {:.2f}\n",
                       w.box[0], w.box[1], w.box[2], w.sphere_radius, sample_distance(w), w.dimension);
   for (const std::string& remark : remarks) text += wrapped("remark    " + remark, screen.text_width(), 10);
   text += "\n";
-  text += effects_table(job.observed, if_switched, screen);
+  text += effects_table(job.observed(), if_switched, screen);
   text += legend(screen,
                  "X: distance between neighbouring samples over the discs' radius d. D: dimension of the samples, 2 on "
                  "surfaces, 3 in a volume. r0: radius of S0, the sphere around all discs. on: predictions take the "
                  "effect into account. Tests if switched: predicted tests of a tree of boxes with the effect switched "
                  "by hand, over those as it is.");
-  const sim::Observed& observed = job.observed;
+  const sim::Observed& observed = job.observed();
   return text +
          fmt::format(
              "\nmeasured in {:.2g} ms on {} rays and {} discs; scene read or made in {:.3g} s, rays in {:.3g} s\n",
@@ -102,6 +102,7 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
   if (options.mesh_file) write_mesh(*options.mesh_file, request, stop);
   const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, writes ? 0.5 : 1));
   note_all(common, job);
+  const Workload& w = job.workload();
   Result result;
   try {
     const std::size_t written = (options.disc_file ? job.discs.size() : 0) + (options.ray_file ? job.rays.size() : 0);
@@ -113,7 +114,6 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
     result.stopped = stopped.progress();
   }
 
-  const Workload& w = job.workload;
   const std::vector<std::string> remarks = remarks_on(job, request);
   result.inputs = to_json(job, request);
   result.json = {{"scene", job.name},
@@ -128,8 +128,8 @@ Result run_scene(const SceneOptions& options, const CommonOptions& common, const
                  {"distance_over_radius", sample_distance(w) / w.disc_radius},
                  {"dimension", w.dimension},
                  {"path_length", w.path_length},
-                 {"effects", to_json(job.observed.effects)},
-                 {"effects_seconds", job.observed.seconds},
+                 {"effects", to_json(job.observed().effects)},
+                 {"effects_seconds", job.observed().seconds},
                  {"notices", job.notices},
                  {"warnings", job.warnings},
                  {"remarks", remarks},

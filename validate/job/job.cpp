@@ -28,6 +28,7 @@ namespace detp::validate {
 namespace {
 
 constexpr double rays_by_default = 100'000;
+constexpr std::size_t rays_looked_at = 4096;  // of a stream, for outliers; a stream has more
 
 /// `count` as an integer. Throws unless it is a whole number from 1 to 1e18, and `count` things of `bytes` bytes each
 /// fit in memory.
@@ -100,7 +101,7 @@ class JobMaker {
     sim::in_memory("making rays", [&] { make_rays(); });
     (job_.rays_from_file ? job_.read_seconds : job_.trace_seconds) += watch.lap();
     progress_.measure(job_.rays.size(), job_.discs.size());
-    sim::in_memory("measuring rays and discs", [&] { measure_workload(); });
+    sim::in_memory("checking rays and discs", [&] { check_rays_and_discs(); });
     if (request_.keep_scene && scene_) {
       job_.scene = std::make_shared<sim::Scene>(std::move(*scene_));
       job_.caster = caster_;
@@ -228,39 +229,37 @@ class JobMaker {
     job_.stream = std::make_unique<sim::PhotonSource>(scene, count, request_.seed, caster_, stop_);
   }
 
-  /// Measures a stream on its first block of rays.
-  Workload measure_rays_and_discs() {
-    std::vector<sim::Ray> block;
-    if (job_.stream) {
-      block.resize(sim::default_block(job_.discs.size()));
-      job_.stream->read(0, block, stop_);
-    }
-    std::optional<sim::Problem> of_block;
-    if (job_.stream)
-      of_block = sim::make_problem(block, job_.discs, job_.front_facing, request_.threads, stop_);
-    else
-      job_.check_problem(request_.threads, stop_);
-    const sim::Problem& problem = of_block ? *of_block : job_.problem();
-    job_.warnings = outlier_warnings(problem, stop_);
-    job_.observed = sim::observe(problem, job_.surface, request_.effects, stop_);
-    Workload workload = job_.observed.workload;
-    if (job_.stream)
-      workload.rays = static_cast<double>(job_.stream->size());
-    else if (request_.workload_only && !request_.ray_file)
-      workload.rays = std::max(workload.rays, request_.rays.value_or(rays_by_default));
-    return workload;
+  /// What is out of range must be refused here, not when the workload is measured.
+  void check_numbers() const {
+    Workload workload = cube_workload(1, 1, 1, 1, request_.dimension.value_or(3));
+    workload.sample_extent = request_.sample_extent.value_or(0);
+    check(workload);
   }
 
-  void measure_workload() {
-    job_.workload = measure_rays_and_discs();
-    if (request_.numbers_alone()) {
-      const Workload numbers = workload_of_numbers(request_);
-      job_.workload.dimension = numbers.dimension;
-      job_.workload.sample_extent = numbers.sample_extent;
+  /// Outliers of a stream are those of its discs and first rays.
+  void check_rays_and_discs() {
+    check_numbers();
+    std::vector<sim::Ray> first;
+    std::optional<sim::Problem> of_first;
+    if (job_.stream) {
+      first.resize(rays_looked_at);
+      job_.stream->read(0, first, stop_);
+      of_first = sim::make_problem(first, job_.discs, job_.front_facing, request_.threads, stop_);
+      job_.given = sim::without_effects(*of_first);
+      job_.given.rays = static_cast<double>(job_.stream->size());
+    } else {
+      job_.check_problem(request_.threads, stop_);
     }
-    if (request_.dimension) job_.workload.dimension = *request_.dimension;
-    if (request_.sample_extent) job_.workload.sample_extent = *request_.sample_extent;
-    check(job_.workload);
+    job_.warnings = outlier_warnings(of_first ? *of_first : job_.problem(), stop_);
+    if (request_.workload_only && !request_.ray_file)
+      job_.given.rays = std::max(job_.given.rays, request_.rays.value_or(rays_by_default));
+    const bool numbers = request_.numbers_alone();
+    const Workload known = numbers ? workload_of_numbers(request_) : Workload{};
+    job_.measuring = {.effects = request_.effects,
+                      .dimension = numbers ? std::optional(known.dimension) : request_.dimension,
+                      .sample_extent = numbers ? std::optional(known.sample_extent) : request_.sample_extent,
+                      .threads = request_.threads,
+                      .stop = stop_};
   }
 
   const JobRequest& request_;
@@ -277,6 +276,7 @@ void Job::check_problem(int threads, const std::stop_token& stop) {
   const sim::Stopwatch watch;
   problem_ = sim::make_problem(paths(), discs, front_facing, threads, stop);
   check_seconds = watch.seconds();
+  given = sim::without_effects(*problem_);
 }
 
 sim::Paths Job::more_rays(std::uint64_t made, std::size_t count, const std::stop_token& stop_request) const {
@@ -290,6 +290,33 @@ sim::Paths Job::more_rays(std::uint64_t made, std::size_t count, const std::stop
   field_of_rays(*this, made + count, stop_request)->read(made, lines.rays, stop_request);
   lines.photon_count = count;
   return lines;
+}
+
+void Job::measure() const {
+  std::vector<sim::Ray> block;
+  std::optional<sim::Problem> of_block;
+  if (stream) {
+    block.resize(sim::default_block(discs.size()));
+    stream->read(0, block, measuring.stop);
+    of_block = sim::make_problem(block, discs, front_facing, measuring.threads, measuring.stop);
+  }
+  sim::Observed found = sim::observe(of_block ? *of_block : problem(), surface, measuring.effects, measuring.stop);
+  workload_ = found.workload;
+  workload_.rays = given.rays;
+  if (measuring.dimension) workload_.dimension = *measuring.dimension;
+  if (measuring.sample_extent) workload_.sample_extent = *measuring.sample_extent;
+  check(workload_);
+  observed_ = std::move(found);
+}
+
+const sim::Observed& Job::observed() const {
+  if (!observed_) measure();
+  return *observed_;
+}
+
+const Workload& Job::workload() const {
+  if (!observed_) measure();
+  return workload_;
 }
 
 const sim::Problem& Job::problem() const {

@@ -69,6 +69,15 @@ struct JobRequest {
 /// The name of a workload without a scene: "uniform samples in a cube", or "… on the faces of a cube".
 [[nodiscard]] std::string_view name_of_numbers(const Workload& workload);
 
+/// How a job's workload is measured.
+struct Measuring {
+  sim::EffectSelection effects = {};
+  std::optional<double> dimension = {};  ///< instead of the measured one
+  std::optional<double> sample_extent = {};
+  int threads = 1;  ///< for checking the first block of a stream
+  std::stop_token stop = {};
+};
+
 struct Job {
   std::string name;  ///< "@tree", a file, or "uniform samples in a cube"
   std::vector<sim::Disc> discs;
@@ -87,8 +96,7 @@ struct Job {
   std::shared_ptr<const sim::RayCaster> caster = {};  ///< of photon paths, if the scene was to be kept
   std::vector<sim::Light> lights;                     ///< of the scene
   sim::Up up;                                         ///< by which lights were placed
-  Workload workload;          ///< measured on discs and rays (the path length of a stream on its first block)
-  sim::Observed observed;     ///< the effects, and what finding them cost; its workload is that of the first block
+  Workload given;             ///< without effects: numbers of rays and discs, sizes; known without measuring
   sim::SurfaceFacts surface;  ///< of the scene's mesh
   sim::Notices notices;
   /// warnings about a few discs or rays that distort the workload (outliers.hpp)
@@ -98,13 +106,21 @@ struct Job {
   double read_seconds = 0;   ///< time for reading or making the scene and the discs, and for reading rays from a file
   double trace_seconds = 0;  ///< time for making rays: tracing photons, or drawing lines
   double check_seconds = 0;  ///< time for checking rays and discs, and for S₀
+  Measuring measuring = {};
 
-  /// Checks rays and discs, as sim::make_problem; `make_job` has done so. Rays and discs must not change afterwards.
+  /// Checks rays and discs, as sim::make_problem, and sets `given`; `make_job` has done so. Rays and discs must not change afterwards.
   void check_problem(int threads = 1, const std::stop_token& stop = {});
   /// Further rays of the same kind, independent of the first `made`, of which the job's own are the beginning: at least so many, to the
   /// end of the last photon's path. A function of the seed, `made` and `rays`. Throws std::invalid_argument for rays of a file, and for
   /// photon paths without keep_scene; sim::Stopped on a stop request.
   [[nodiscard]] sim::Paths more_rays(std::uint64_t made, std::size_t rays, const std::stop_token& stop = {}) const;
+  /// Measured on discs and rays (of a stream on its first block) when it is first asked for; not for use from several threads. Throws
+  /// as sim::observe, sim::Stopped on the stop request of `measuring`, and std::invalid_argument as check(Workload).
+  [[nodiscard]] const Workload& workload() const;
+  /// The effects, and what finding them cost; as workload().
+  [[nodiscard]] const sim::Observed& observed() const;
+  /// Whether the workload has been asked for.
+  [[nodiscard]] bool is_measured() const { return observed_.has_value(); }
   /// The problem. It refers to this job's rays and discs; moving the job does not change that. Throws std::invalid_argument
   /// if the rays are a stream.
   [[nodiscard]] const sim::Problem& problem() const;
@@ -117,10 +133,14 @@ struct Job {
   }
 
  private:
+  void measure() const;
+
   std::optional<sim::Problem> problem_;
+  mutable std::optional<sim::Observed> observed_;  ///< of the first block
+  mutable Workload workload_;
 };
 
-/// Makes and measures what is requested. Throws sim::FileError for a bad file, std::invalid_argument for a bad request,
+/// Makes what is requested; nothing is measured yet. Throws sim::FileError for a bad file, std::invalid_argument for a bad request,
 /// std::length_error if the rays or samples would not fit in memory, and sim::Stopped within 0.1 s of a stop request.
 [[nodiscard]] Job make_job(const JobRequest& request, std::stop_token stop = {}, const sim::ReportPhase& progress = {});
 

@@ -79,7 +79,7 @@ class MapMaker {
       map_.name = name_of_numbers(made.row.workload);
     } else {
       made.job = make_job(request_, options_.stop, sim::part_of(options_.progress, share(number), share(number + 1)));
-      made.row.workload = made.job.workload;
+      made.row.workload = made.job.workload();
       map_.name = made.job.name;
       map_.field = made.job.field;
       for (const std::string& notice : made.job.notices) add_new(map_.notices, notice);
@@ -178,7 +178,7 @@ class MapMaker {
   }
 
   static std::string cell_name(const Job& job, const MapCell& cell) {
-    return fmt::format("{} rays, radius {}", cell.rays, job.workload.disc_radius);
+    return fmt::format("{} rays, radius {}", cell.rays, job.given.disc_radius);
   }
 
   /// Of this map's cells, whose rays, discs and choices are known; read if the map is resumed.

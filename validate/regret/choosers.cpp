@@ -15,8 +15,8 @@ Chosen pilot(const sim::Problem& problem, const CostTable& costs, int threads, P
 }
 
 Chosen by_workload(Rigor rigor, const sim::Problem& problem, const Job& job, const CostTable& costs, int threads) {
-  return chosen(choose({.problem = &problem, .workload = job.workload, .rigor = rigor, .threads = threads}, costs),
-                job.observed.seconds);
+  return chosen(choose({.problem = &problem, .workload = job.workload(), .rigor = rigor, .threads = threads}, costs),
+                job.observed().seconds);
 }
 
 /// The candidates of the pilot, the other techniques and neighbours of the fastest, each run several times.

@@ -69,7 +69,7 @@ class Runner {
     std::vector<Chosen> choices;
     for (const Chooser& chooser : choosers_) choices.push_back(choice_of(chooser, problem, job, threads));
     std::vector<std::vector<Candidate>> options;
-    for (const Baseline& baseline : baselines()) options.push_back(baseline.candidates(job.workload));
+    for (const Baseline& baseline : baselines()) options.push_back(baseline.candidates(job.workload()));
     std::vector<Contender> asked;
     for (const Chosen& choice : choices) asked.push_back({choice.prediction.candidate, choice.prediction.threads});
     for (const auto& candidates : options)
@@ -82,9 +82,9 @@ class Runner {
     if (found.stopped) return false;
     if (!found.best) throw std::length_error("no candidate's index fits in memory");
     RegretRow row{.workload = workload,
-                  .rays = job.workload.rays,
-                  .samples = job.workload.samples,
-                  .disc_radius = job.workload.disc_radius,
+                  .rays = job.given.rays,
+                  .samples = job.given.samples,
+                  .disc_radius = job.given.disc_radius,
                   .threads = threads,
                   .best = found.candidates[*found.best].contender.candidate,
                   .best_threads = found.candidates[*found.best].contender.threads,
@@ -94,7 +94,7 @@ class Runner {
                   .choices = {},
                   .baselines = {}};
     for (std::size_t i = 0; i < choices.size(); ++i)
-      row.choices.push_back(choice_row(choosers_[i].name, choices[i], job.workload, found));
+      row.choices.push_back(choice_row(choosers_[i].name, choices[i], job.workload(), found));
     for (const auto& candidates : options) {
       BaselineRow& regrets = row.baselines.emplace_back();
       for (const Candidate& candidate : candidates) regrets.push_back(regret(found, found.find({candidate, threads})));

@@ -97,8 +97,7 @@ Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const st
   job.rays = sim::LineField(sim::enclosing_sphere(job.discs, stop), seed)
                  .lines(0, static_cast<std::size_t>(workload.rays), stop);
   job.check_problem(1, stop);
-  job.observed = sim::observe(job.problem(), {}, workload.effects, stop);
-  job.workload = job.observed.workload;
+  job.measuring = {.effects = workload.effects, .stop = stop};
   return job;
 }
 

@@ -74,12 +74,12 @@ void time_all(const sim::Problem& problem, Engine engine, std::vector<Timed>& al
 void compare(const Setting& setting, const validate::Job& job, const sim::Problem& problem, const CostTable& table) {
   const UnitCosts& costs = table[Technique::sphere_cache];
   const Engine engine = table.engine;
-  const model::BestRatio chosen = model::best_ratio_and_stop(job.workload, costs);
+  const model::BestRatio chosen = model::best_ratio_and_stop(job.workload(), costs);
   if (chosen.spheres == 0) return;
   std::vector<Timed> all{{.contender = {cache(chosen.ratio, chosen.spheres)}}};
   for (int i = 0; i < ratios; ++i) {
     const double ratio = least_ratio + step * i;
-    const std::int64_t best = model::best_stop(job.workload, costs, {ratio}).spheres;
+    const std::int64_t best = model::best_stop(job.workload(), costs, {ratio}).spheres;
     for (const std::int64_t spheres : {best - 1, best, best + 1})
       if (spheres >= 1) all.push_back({.contender = {cache(ratio, spheres)}});
   }
@@ -97,8 +97,8 @@ void compare(const Setting& setting, const validate::Job& job, const sim::Proble
   const SphereCacheParameters& best = parameters_of(fastest);
   fmt::print("{},{},{},{:.0f},{:.0f},{:.5g},{:.3f},{},{:.3f},{},{:.4g},{:.3f},{:.3f},{:.3f},{:.3f}\n",
              std::filesystem::path(setting.scene).stem().string(),
-             setting.field == sim::Field::photons ? "photons" : "isotropic", name(engine), job.workload.rays,
-             job.workload.samples, job.workload.disc_radius, chosen.ratio, chosen.spheres, best.ratio, best.spheres,
+             setting.field == sim::Field::photons ? "photons" : "isotropic", name(engine), job.given.rays,
+             job.given.samples, job.given.disc_radius, chosen.ratio, chosen.spheres, best.ratio, best.spheres,
              judged[1].judging_seconds(), judged[0].judged_ratio(judged[1]), judged[2].judged_ratio(judged[1]), low,
              high);
   std::fflush(stdout);

@@ -36,7 +36,7 @@ TEST_SUITE("statistical") {
         const validate::Job job = validate::make_job(request);
         const sim::Problem& problem = job.problem();
         const auto counted = sim::run(problem, Candidate{Technique::box_tree, BoxTreeParameters{8, 16}}, {}).counts;
-        with.push_back(off_by(job, job.workload, counted));
+        with.push_back(off_by(job, job.workload(), counted));
         const sim::EffectSelection two("surface-samples,finite-paths");
         without.push_back(off_by(job, sim::observe(problem, job.surface, two).workload, counted));
       }

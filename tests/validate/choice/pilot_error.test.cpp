@@ -46,7 +46,7 @@ void search_sparse(const std::string& mesh, std::uint64_t seed, Coverage& covera
   const validate::Job job = validate::make_job(request);
   const sim::Problem& problem = job.problem();
   const auto found =
-      validate::choose({.problem = &problem, .workload = job.workload, .disabled = {Technique::brute_force}},
+      validate::choose({.problem = &problem, .workload = job.workload(), .disabled = {Technique::brute_force}},
                        validate::built_in_unit_costs());
   CAPTURE(seed);
   REQUIRE(found.best().candidate.technique == Technique::box_tree);
@@ -81,13 +81,13 @@ TEST_SUITE("known answer") {
       const sim::Problem& problem = job.problem();
       const auto costs = validate::built_in_unit_costs();
       const auto with = validate::choose(
-          {.problem = &problem, .workload = job.workload, .disabled = {Technique::brute_force}}, costs);
+          {.problem = &problem, .workload = job.workload(), .disabled = {Technique::brute_force}}, costs);
       const auto sample = validate::pilot_sample(problem.rays(), problem.discs().size());
       const sim::Problem without_rays = sim::make_problem_without_rays(job.discs, problem.farthest());
       const auto without = validate::choose({.problem = &without_rays,
                                              .rays = sample,
                                              .ray_count = static_cast<double>(job.rays.size()),
-                                             .workload = job.workload,
+                                             .workload = job.workload(),
                                              .disabled = {Technique::brute_force}},
                                             costs);
       CHECK(with.best().counts_error.disc_tests > 0);

@@ -33,8 +33,8 @@ TEST_SUITE("identity") {
     REQUIRE(job.stream);
     CHECK(job.rays.empty());
     CHECK(job.stream->size() == in_memory.rays.size());
-    CHECK(job.workload.rays == in_memory.workload.rays);
-    CHECK(job.workload.path_length == in_memory.workload.path_length);
+    CHECK(job.workload().rays == in_memory.workload().rays);
+    CHECK(job.workload().path_length == in_memory.workload().path_length);
     CHECK_THROWS_AS(static_cast<void>(job.problem()), std::invalid_argument);
     const Candidate grid{Technique::grid, GridParameters{2}};
     const sim::StreamedOutcome streamed = sim::run_streamed(job.discs, *job.stream, grid);
@@ -51,10 +51,10 @@ TEST_SUITE("identity") {
     request.workload_only = true;
     const Job job = make_job(request);
     CHECK(job.rays.size() == 1U << 20);
-    CHECK(job.workload.rays == 0x1p20 + 1);
-    CHECK(job.workload.path_length == stream.workload.path_length);
+    CHECK(job.workload().rays == 0x1p20 + 1);
+    CHECK(job.workload().path_length == stream.workload().path_length);
     request.rays = 1e15;
-    CHECK(make_job(request).workload.rays == 1e15);
+    CHECK(make_job(request).workload().rays == 1e15);
   }
 
   TEST_CASE("rays that fill no more than a block are in memory") {

@@ -32,7 +32,7 @@ TEST_SUITE("known answer") {
       request.rays = 1000;
       request.field = field;
       const validate::Job job = validate::make_job(request);
-      for (const sim::EffectReport& report : job.observed.effects) {
+      for (const sim::EffectReport& report : job.observed().effects) {
         if (report.effect != &sim::concave_surfaces) continue;
         CHECK(report.on == (field == sim::Field::photons));
         CHECK((report.value > 0.01) == (field == sim::Field::photons));

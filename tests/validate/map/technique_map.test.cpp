@@ -50,7 +50,7 @@ TEST_SUITE("identity") {
         own.rays = cell.rays;
         own.disc_radius = axes.radii[j];
         const Job job = make_job(own);
-        CHECK(job.workload.disc_radius == map.rows[j].workload.disc_radius);
+        CHECK(job.workload().disc_radius == map.rows[j].workload.disc_radius);
         const sim::Problem& problem = job.problem();
         const Choice pilot = choose({.problem = &problem}, built_in_unit_costs());
         REQUIRE(cell.choice);
@@ -58,7 +58,7 @@ TEST_SUITE("identity") {
         CHECK(cell.choice->best().candidate == pilot.best().candidate);
         CHECK(cell.choice->best().time.total() == pilot.best().time.total());
         CHECK(cell.choice->best().error == pilot.best().error);
-        CHECK(cell.paper == model::paper_rule(job.workload));
+        CHECK(cell.paper == model::paper_rule(job.workload()));
         CHECK_FALSE(cell.analysis);
       }
     }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <optional>
 
 #include "detp/validate/regret/regret_summary.hpp"
@@ -58,26 +57,13 @@ std::vector<RegretRow> half_of(const std::vector<RegretRow>& rows, bool held_out
   return some;
 }
 
-/// The median time for evidence, by scene and field.
-std::map<std::string, double> seconds_for_evidence() {
-  std::map<std::string, std::vector<double>> all;
-  for (const CsvRow& row : published("effects_choice.csv"))
-    all[row.at("scene") + row.at("field")].push_back(number(row, "evidence_seconds_auto"));
-  std::map<std::string, double> medians;
-  for (const auto& [scene, seconds] : all) medians[scene] = median(seconds);
-  return medians;
-}
-
-/// (Choosing + run) over the best, where the best takes at least `least` seconds. `evidence` is added if it is not empty.
-Figures price_of(const std::vector<RegretRow>& rows, std::size_t tier, double least,
-                 const std::map<std::string, double>& evidence = {}) {
+/// (Choosing + run) over the best, where the best takes at least `least` seconds.
+Figures price_of(const std::vector<RegretRow>& rows, std::size_t tier, double least) {
   std::vector<Regret> prices;
   for (const RegretRow& row : rows) {
     if (row.best_seconds < least) continue;
-    const std::string field = row.workload.field == sim::Field::photons ? "photons" : "isotropic";
-    const double more = evidence.empty() ? 0 : evidence.at(row.workload.scene + field);
     const ChoiceRow& choice = row.choices[tier];
-    prices.push_back({(choice.choice.choosing_seconds + choice.seconds + more) / row.best_seconds});
+    prices.push_back({(choice.choice.choosing_seconds + choice.seconds) / row.best_seconds});
   }
   return figures_of(prices);
 }
@@ -95,7 +81,6 @@ TEST_SUITE("figures of pages") {
     const std::string page = source_text("validate/regret/README.md");
     const auto rows = published_regrets();
     const auto held_out = half_of(rows, true);
-    const auto evidence = seconds_for_evidence();
     const RegretSummary one = summarise(rows, 1);
     const RegretSummary two = summarise(rows, 2);
     check_says(
@@ -105,16 +90,13 @@ TEST_SUITE("figures of pages") {
     const auto both = [](const RegretFigures& regret) {
       return cells_of(regret.fitted) + " | " + cells_of(regret.held_out);
     };
-    const auto prices = [&](std::size_t tier, const std::map<std::string, double>& more) {
-      return cells_of(price_of(held_out, tier, 0, more)) + " | " +
-             cells_of(price_of(held_out, tier, shortest_priced_run, more));
+    const auto prices = [&](std::size_t tier) {
+      return cells_of(price_of(held_out, tier, 0)) + " | " + cells_of(price_of(held_out, tier, shortest_priced_run));
     };
     for (std::size_t i = 0; i < one.tiers.size(); ++i) {
       const TierSummary& tier = one.tiers[i];
       check_says(page, fmt::format("| {} | {} |\n", tier.tier, both(tier.regret)));
-      check_says(page, fmt::format("| {} | {} |\n", tier.tier, prices(i, {})));
-      if (tier.tier == "run")
-        check_says(page, fmt::format("| run, with the evidence for its report | {} |\n", prices(i, evidence)));
+      check_says(page, fmt::format("| {} | {} |\n", tier.tier, prices(i)));
       check_says(page, fmt::format("| {} | {} |\n", tier.tier, cells_of(two.tiers[i].regret.all)));
       check_says(page, fmt::format("| {} | {} | {:.0f} % | {:.0f} % |\n", tier.tier, tier.prediction.rows,
                                    100 * tier.prediction.median_error, 100 * tier.prediction.p95_error));
@@ -137,14 +119,12 @@ TEST_SUITE("figures of pages") {
     const auto run = static_cast<std::size_t>(std::ranges::find(choices, "run", &ChoiceRow::tier) - choices.begin());
     const Figures price = price_of(held_out, run, 0);
     check_says(page, fmt::format("[{} workloads of held-out scenes](validate/regret/README.md)", price.rows));
-    const auto evidence = seconds_for_evidence();
     const auto row = [&](const std::string& what, const Figures& figures) {
       check_says(page, fmt::format("| {} | {:.2f} | {:.2f} | {:.2f} |\n", what, figures.geometric_mean, figures.p95,
                                    figures.worst));
     };
     row("Time of choosing and running with `detp run`, over that of the best candidate", price);
-    row("the same with the evidence of effects for its report (about 1 ms)", price_of(held_out, run, 0, evidence));
-    row("the same where the best takes at least 5 ms", price_of(held_out, run, shortest_priced_run, evidence));
+    row("the same where the best takes at least 5 ms", price_of(held_out, run, shortest_priced_run));
     std::vector<Regret> constant;
     for (const RegretRow& one : held_out) constant.push_back(one.baselines.front().front().value());
     row("Time of the best constant, a box tree of one shape, over that of the best candidate", figures_of(constant));

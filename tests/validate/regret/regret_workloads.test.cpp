@@ -95,9 +95,9 @@ TEST_SUITE("known answer") {
       const Job job = make_regret_job(workload, 1, {});
       CHECK(job.rays.size() == 100);
       CHECK(job.discs.size() == 200);
-      CHECK(job.workload.rays == 100);
-      CHECK(job.workload.samples == 200);
-      CHECK(job.workload.disc_radius / scene_side(job.workload) == doctest::Approx(0.04).epsilon(0.1));
+      CHECK(job.workload().rays == 100);
+      CHECK(job.workload().samples == 200);
+      CHECK(job.workload().disc_radius / scene_side(job.workload()) == doctest::Approx(0.04).epsilon(0.1));
     }
   }
 }

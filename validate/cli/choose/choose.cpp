@@ -115,7 +115,7 @@ Prediction priced(const Candidate& candidate, const Counts<double>& counts, cons
 Prediction assess_structurally(const validate::Job& job, const Candidate& candidate, const CostTable& costs,
                                int threads, const std::stop_token& stop) {
   const Counts<double> counts =
-      validate::structural_counts(job.discs, job.workload.rays, candidate, stop, job.front_facing, costs.engine);
+      validate::structural_counts(job.discs, job.given.rays, candidate, stop, job.front_facing, costs.engine);
   return priced(candidate, counts, costs, threads);
 }
 
@@ -125,7 +125,7 @@ std::optional<Prediction> predicted(const Candidate& candidate, const validate::
                                     const CostTable& costs, int threads, const std::stop_token& stop) {
   try {
     return structural ? assess_structurally(job, candidate, costs, threads, stop)
-                      : model::assess(job.workload, candidate, costs, threads);
+                      : model::assess(job.workload(), candidate, costs, threads);
   } catch (const std::invalid_argument&) {
     return std::nullopt;
   } catch (const std::length_error&) {
@@ -222,14 +222,14 @@ Result run_choose(ChooseOptions& options, const CommonOptions& common, const std
     const double share_of_job = analyze ? 0.3 : 1;  // a guess
     const validate::Job job = validate::make_job(request, stop, sim::part_of(progress.report(), 0, share_of_job));
     note_all(common, job);
-    answer.workload = job.workload;
-    answer.effects = job.observed.effects;
+    answer.workload = job.workload();
+    answer.effects = job.observed().effects;
     const sim::Problem& problem = job.problem();
     question.problem = &problem;
-    question.workload = job.workload;
-    question.ray_count = job.workload.rays;
+    question.workload = job.workload();
+    question.ray_count = job.given.rays;
     if (question.rigor.value_or(validate::reachable_rigor(question, costs)) != Rigor::pilot)
-      answer.evidence_seconds = job.observed.seconds;
+      answer.evidence_seconds = job.observed().seconds;
     result.stopped = decide(answer, question, costs);
     if (analyze && !result.stopped) {
       const CostTable priced = validate::costs_for(question, costs);

@@ -163,7 +163,7 @@ Measured measure(const ModelOptions& options, const CommonOptions& common, const
   }
   const validate::Job job = validate::make_job(request, stop);
   note_all(common, job);
-  return {job.workload, to_json(job, request)};
+  return {job.workload(), to_json(job, request)};
 }
 
 AnswerRow answer_row(const ModelOptions& options, const Measured& measured, const UnitCosts& costs,

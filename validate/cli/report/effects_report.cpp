@@ -120,9 +120,9 @@ std::string short_effects_line(const std::vector<sim::EffectReport>& effects) {
 }
 
 std::vector<double> tests_if_switched(const validate::Job& job, const std::stop_token& stop) {
-  const auto& effects = job.observed.effects;
+  const auto& effects = job.observed().effects;
   const sim::Problem& problem = job.problem();
-  const double as_is = tests(job.observed.workload);
+  const double as_is = tests(job.observed().workload);
   std::vector<double> ratios;
   for (const sim::EffectReport& report : effects) {
     const bool is_input = report.effect->is_input;

@@ -40,12 +40,25 @@ std::string photons_of(const validate::Job& job) {
   return job.numbered() ? fmt::format(", {} photons", spaced(static_cast<double>(job.independent_photons()))) : "";
 }
 
+std::string scene_line(const validate::Job& job, const std::string& measured) {
+  const Workload& w = job.given;
+  std::string text = fmt::format("scene     {}: ", shown_path(job.name));
+  if (job.triangles > 0) text += fmt::format("{} triangles, ", spaced(static_cast<double>(job.triangles)));
+  return text + fmt::format("{} discs of radius d = {:.4g} ({:.3g} % of the scene){}\n", spaced(w.samples),
+                            w.disc_radius, 100 * w.disc_radius / scene_side(w), measured);
+}
+
+std::string rays_line(const validate::Job& job, std::string_view before, const std::string& lengths) {
+  return fmt::format("rays      {}{} {}{}{}{}\n", before, spaced(job.given.rays), rays_of(job), photons_of(job),
+                     lengths, lights_of(job));
+}
+
 /// ", mean length 0.30 of the scene's side", or that predictions neglect the ends; empty for lines.
 std::string lengths_of(const validate::Job& job) {
   const bool end = job.rays_from_file ? std::ranges::any_of(job.rays, has_ends) : job.field == sim::Field::photons;
   if (!end) return "";
-  if (job.workload.path_length > 0)
-    return fmt::format(", mean length {:.2f} of the scene's side", job.workload.path_length / scene_side(job.workload));
+  if (job.workload().path_length > 0)
+    return fmt::format(", mean length {:.2f} of the scene's side", job.workload().path_length / scene_side(job.given));
   return ", predicted as if they were lines (effect finite paths: off)";
 }
 
@@ -111,7 +124,7 @@ Json to_json(const validate::Job& job, const validate::JobRequest& request) {
     json["light"] = lights_json(job.lights);
     json["up"] = sim::name(job.up);
   }
-  json.update(to_json(job.workload));
+  json.update(to_json(job.workload()));
   return json;
 }
 
@@ -120,15 +133,14 @@ void note_all(const CommonOptions& common, const validate::Job& job) {
   for (const std::string& warning : job.warnings) note(common, "warning: " + warning);
 }
 
-std::string describe(const validate::Job& job, std::string_view before_rays) {
-  const Workload& w = job.workload;
-  const double x = sample_distance(w) / w.disc_radius;
-  std::string text = fmt::format("scene     {}: ", shown_path(job.name));
-  if (job.triangles > 0) text += fmt::format("{} triangles, ", spaced(static_cast<double>(job.triangles)));
-  text += fmt::format("{} discs of radius d = {:.4g} ({:.3g} % of the scene), X = {:.2f}, D = {:.2f}\n",
-                      spaced(w.samples), w.disc_radius, 100 * w.disc_radius / scene_side(w), x, w.dimension);
-  return text + fmt::format("rays      {}{} {}{}{}{}\n", before_rays, spaced(w.rays), rays_of(job), photons_of(job),
-                            lengths_of(job), lights_of(job));
+std::string describe(const validate::Job& job) {
+  const Workload& w = job.workload();
+  return scene_line(job, fmt::format(", X = {:.2f}, D = {:.2f}", sample_distance(w) / w.disc_radius, w.dimension)) +
+         rays_line(job, "", lengths_of(job));
+}
+
+std::string describe_given(const validate::Job& job, std::string_view before_rays) {
+  return scene_line(job, "") + rays_line(job, before_rays, "");
 }
 
 std::string threads_text(int threads) { return fmt::format("{} thread{}", threads, threads == 1 ? "" : "s"); }

@@ -44,8 +44,11 @@ template <class T>
 /// The notices and warnings of the job, as notes.
 void note_all(const CommonOptions& common, const validate::Job& job);
 
-/// The lines "scene" and "rays" of the text output; `before_rays` is written before the number of rays.
-[[nodiscard]] std::string describe(const validate::Job& job, std::string_view before_rays = {});
+/// The lines "scene" and "rays" of the text output.
+[[nodiscard]] std::string describe(const validate::Job& job);
+
+/// The same without what has to be measured; `before_rays` is written before the number of rays.
+[[nodiscard]] std::string describe_given(const validate::Job& job, std::string_view before_rays = {});
 
 /// "1 thread", "2 threads".
 [[nodiscard]] std::string threads_text(int threads);

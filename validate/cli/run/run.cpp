@@ -39,6 +39,7 @@ struct RunOptions {
   std::optional<std::string> per_disc;
   bool standard_error = false;
   std::optional<std::string> pairs;
+  bool verbose = false;
   TargetOptions target;
 };
 
@@ -84,8 +85,14 @@ int chosen_threads(const Candidate& candidate, const Workload& workload, const C
 }
 
 /// Returns the requested technique on `threads` threads, or the technique that the closed forms predict to be fastest, on
-/// at most so many. The closed forms also choose the parameters that the options leave open.
-Requested complete(const CandidateOptions& options, const Workload& workload, const CostTable& costs, int threads) {
+/// at most so many. The closed forms also choose the parameters that the options leave open. The job is measured only if they choose.
+Requested complete(const CandidateOptions& options, const validate::Job& job, const CostTable& costs, int threads) {
+  if (options.technique && !options.stop) {
+    const Technique given = options.technique_or(Technique::brute_force);
+    const model::FixedParameters fixed = options.fixed_parameters(given);
+    if (!model::is_open(given, fixed)) return {candidate_with(given, fixed), sim::thread_count(threads)};
+  }
+  const Workload& workload = job.workload();
   const int most = sim::useful_threads(threads);
   const Technique technique =
       options.technique ? options.technique_or(Technique::brute_force)
@@ -101,13 +108,12 @@ Requested complete(const CandidateOptions& options, const Workload& workload, co
 }
 
 /// The same for any estimator: those that search no pairs have no technique, and run on `threads` threads.
-Requested requested(const CandidateOptions& options, sim::Estimator estimator, const Workload& workload,
+Requested requested(const CandidateOptions& options, sim::Estimator estimator, const validate::Job& job,
                     const CostTable& costs, int threads) {
-  if (sim::record_of(estimator).finds_pairs) return complete(options, workload, costs, threads);
+  if (sim::record_of(estimator).finds_pairs) return complete(options, job, costs, threads);
   if (estimator != sim::Estimator::nearest) return {{}, sim::thread_count(threads)};
-  auto candidate =
-      model::complete(Technique::photon_map, options.fixed_parameters(Technique::photon_map), workload, costs);
-  return {*candidate, sim::thread_count(threads)};
+  return {model::candidate_with(Technique::photon_map, options.fixed_parameters(Technique::photon_map)),
+          sim::thread_count(threads)};
 }
 
 sim::EstimateRequest request_of(const RunAnswer& answer, const validate::Job& job) {
@@ -241,7 +247,8 @@ void choose_and_run(RunAnswer& answer, const validate::Question& question, const
 RunAnswer run_one(const RunOptions& options, const validate::Job& job, const CostTable& costs,
                   const CommonOptions& common, const std::stop_token& stop, const sim::ReportPhase& progress) {
   const validate::Question question{.problem = job.stream ? nullptr : &job.problem(),
-                                    .workload = job.workload,
+                                    .effects = job.measuring.effects,
+                                    .surface = &job.surface,
                                     .purpose = validate::Purpose::one_search,
                                     .threads = common.threads,
                                     .stop = stop};
@@ -251,7 +258,7 @@ RunAnswer run_one(const RunOptions& options, const validate::Job& job, const Cos
       searches && !options.candidate.technique && validate::reachable_rigor(question, costs) == Rigor::pilot;
   const CostTable priced = validate::costs_for(question, costs);
   const Requested choice =
-      by_pilot ? Requested{} : requested(options.candidate, estimator, job.workload, priced, common.threads);
+      by_pilot ? Requested{} : requested(options.candidate, estimator, job, priced, common.threads);
   RunAnswer answer{.candidate = choice.candidate,
                    .estimator = estimator,
                    .threads = choice.threads,
@@ -330,6 +337,8 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
   const CostsInUse costs = options.costs.costs(common);
   const ProgressLine progress(common.quiet);
   RowProgress rows(options, common);
+  // Short text shows nothing that has to be measured.
+  const bool is_short = common.format == "text" && expected == 1 && !options.verbose;
   Json inputs;
   std::string text;
   std::optional<sim::Progress> stopped;
@@ -344,13 +353,16 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
     note_all(common, job);
     if (options.standard_error && request.ray_file && !job.numbered())
       note(common, "standard errors: the rays have no column photon, so each ray counts as a photon of its own");
-    inputs = to_json(job, request);
+    if (!is_short) inputs = to_json(job, request);
     return job;
   };
   const auto answer = [&](const validate::Job& job) {
     const RunAnswer found =
         run_one(options, job, costs.of(options.candidate.engine), common, stop, rows.next(progress.report()));
     stopped = write_hits(options, job, found, common, stop);
+    not_reached = found.until && found.until->result.reason != validate::StopReason::target;
+    if (expected == 1) text = to_text(job, found, common.screen(), options.verbose);
+    if (is_short) return AnswerRow{Json::object(), {{"stopped", found.run.outcome.stopped}}, {Json::object()}};
     inputs["engine"] = name(options.candidate.engine);
     inputs["threads"] = sim::thread_count(common.threads);  // a cap if the command chooses
     inputs["repeat"] = options.repeat;
@@ -360,8 +372,6 @@ Result run_run(RunOptions& options, const CommonOptions& common, const std::stop
       if (!options.workload.request(common).ray_file)
         inputs["rays"] = options.workload.request(common).rays.value_or(most_rays_by_default);
     }
-    not_reached = found.until && found.until->result.reason != validate::StopReason::target;
-    if (expected == 1) text = to_text(job, found, common.screen());
     return run_row(inputs, job, found);
   };
   Result result = result_of(answer_all(problems, candidates, stop, prepare, answer), expected, run_columns(),
@@ -398,6 +408,8 @@ Command run_command(CLI::App& program) {
       "surfaces "
       "there; triangle-hits: photons of a triangle, over its area; default: disc");
   options->costs.add_calibration_to(*app);
+  app->add_flag("--verbose", options->verbose,
+                "also print effects, and the counts with their predictions; default: a short answer");
   add_number(*app, "--repeat", options->repeat,
              "time that many further runs, which do not count; the median is shown; default: 0");
   app->add_option("--per-disc", options->per_disc, "write disc,hits,irradiance as CSV, in input order");

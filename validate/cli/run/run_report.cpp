@@ -40,9 +40,9 @@ double hits_per_disc(const sim::Outcome& outcome) {
   return static_cast<double>(outcome.total_hits) / static_cast<double>(outcome.hits.size());
 }
 
-/// The choice has a prediction, not a guess.
+/// The counts of the choice come from a pilot. Of brute force it knows all but the hits.
 bool is_predicted(const RunAnswer& answer) {
-  return answer.estimator == sim::Estimator::disc && answer.choice && answer.choice->best().source != Source::guess;
+  return answer.estimator == sim::Estimator::disc && answer.choice && answer.choice->sampled_rays > 0;
 }
 
 /// The counts that a pilot predicted, or else the closed form; nothing if the candidate has none.
@@ -119,13 +119,13 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
   if (has_technique(answer)) {
     json["technique"] = name(answer.candidate.technique);
     json["parameters"] = to_json(answer.candidate);
-    add_stops(job.workload, answer.candidate, answer.costs, json);
+    add_stops(job.workload(), answer.candidate, answer.costs, json);
   }
   json.update(outcome.stopped ? hits_so_far(answer)
                               : Json{{"hits", outcome.total_hits},
                                      {"hits_per_disc", hits_per_disc(outcome)},
                                      {"mean_irradiance", mean_irradiance(outcome)}});
-  json["rays"] = whole(job.workload.rays);
+  json["rays"] = whole(job.given.rays);
   json["photons"] = job.independent_photons();
   if (answer.until) json.update(to_json(*answer.until));
   json["counts"] = to_json(outcome.counts);
@@ -135,7 +135,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
     json["predicted_error"] = to_json(answer.choice->best().counts_error);
     json["predicted_seconds_error"] = answer.choice->best().error;
   }
-  if (const auto predicted = prediction(job.workload, answer); predicted && !answer.until) {
+  if (const auto predicted = prediction(job.workload(), answer); predicted && !answer.until) {
     json["predicted"] = to_json(*predicted);
     json.update(unit_times(*predicted, answer.candidate.technique, "predicted_"));
     const double search =
@@ -148,7 +148,7 @@ Json answer_json(const validate::Job& job, const RunAnswer& answer) {
                {"read_seconds", job.read_seconds},
                {"trace_seconds", job.trace_seconds + answer.run.trace_seconds},
                {"rays_in_memory", answer.run.rays_in_memory},
-               {"effects", to_json(job.observed.effects)},
+               {"effects", to_json(job.observed().effects)},
                {"warnings", job.warnings},
                {"stopped", outcome.stopped}});
   if (answer.until && answer.until->result.reason == validate::StopReason::time) json["stopped"] = true;
@@ -214,7 +214,7 @@ std::string_view meaning(std::string_view term) {
 }
 
 std::string counts_table(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
-  const auto predicted = answer.until ? std::nullopt : prediction(job.workload, answer);
+  const auto predicted = answer.until ? std::nullopt : prediction(job.workload(), answer);
   TextTable table({{.head = "count", .align = Align::left},
                    {.head = "counted"},
                    {.head = "predicted"},
@@ -288,11 +288,11 @@ TextColumns run_text_columns(const Screen& screen) {
           "against discs. Both as in detp model, whose unit costs are 1."};
 }
 
-std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen) {
+std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen, bool verbose) {
   const Timing& timing = answer.timing;
   std::string text;
-  if (answer.until) text += wrapped(until_text(*answer.until, scene_side(job.workload)), screen.text_width(), 10);
-  text += wrapped(describe(job, answer.until ? "of the first stage: " : ""), screen.text_width(), 10);
+  if (answer.until) text += wrapped(until_text(*answer.until, scene_side(job.given)), screen.text_width(), 10);
+  text += wrapped(describe_given(job, answer.until ? "of the first stage: " : ""), screen.text_width(), 10);
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 10); };
   if (answer.estimator != sim::Estimator::disc)
     add(fmt::format("estimator {}{}", name(answer.estimator),
@@ -304,14 +304,14 @@ std::string to_text(const validate::Job& job, const RunAnswer& answer, const Scr
          : is_predicted(answer) ? fmt::format(", chosen in {:.2g} ms by a pilot of {} rays",
                                               1e3 * answer.choice->choosing_seconds, answer.choice->sampled_rays)
                                 : ", by the numbers of rays and discs: a pilot would take longer than it saves"));
-  add(effects_line(job.observed.effects));
+  if (verbose) add(effects_line(job.observed().effects));
   add("hits      " + hits_text(answer));
   add(
       fmt::format("seconds   {:.4g}: prepare {:.3g}, order {:.3g}, build {:.3g}, search {:.3g}{}; not included: "
                   "reading {:.3g}, making rays {:.3g}",
                   timing.total(), timing.prepare, timing.phases.order, timing.phases.build, timing.phases.search,
                   repeats_text(timing), job.read_seconds, job.trace_seconds + answer.run.trace_seconds));
-  return text + "\n" + counts_table(job, answer, screen);
+  return verbose ? text + "\n" + counts_table(job, answer, screen) : text;
 }
 
 }  // namespace detp::cli

@@ -61,6 +61,8 @@ struct RunAnswer {
 [[nodiscard]] Columns run_columns();
 [[nodiscard]] TextColumns run_text_columns(const Screen& screen);
 
-[[nodiscard]] std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen);
+/// `verbose`: also the effects, and the table of counts. Without it, nothing is measured.
+[[nodiscard]] std::string to_text(const validate::Job& job, const RunAnswer& answer, const Screen& screen,
+                                  bool verbose);
 
 }  // namespace detp::cli

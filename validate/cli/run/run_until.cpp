@@ -30,7 +30,7 @@ bool has_bias(const validate::Job& job) {
 /// `most_rays`, until the standard error of bias² is at most half of the target's square.
 BiasEstimate bias_of(const validate::Job& job, sim::Estimator estimator, double target, double most_rays, int threads,
                      const std::stop_token& stop) {
-  const double radius = job.workload.disc_radius;
+  const double radius = job.given.disc_radius;
   const double overshoot = job.scene->overshoot;
   BiasEstimate bias;
   for (double rays = validate::usual_pilot_rays;; rays *= 4) {
@@ -103,7 +103,8 @@ void run_to_target(RunAnswer& answer, const validate::Job& job, const TargetOpti
   UntilAnswer until{.target = target.error, .total = options.error.has_value(), .confidence = target.confidence};
   if (choose) {
     const validate::Choice choice = validate::choose({.problem = &job.problem(),
-                                                      .workload = job.workload,
+                                                      .effects = job.measuring.effects,
+                                                      .surface = &job.surface,
                                                       .purpose = validate::Purpose::one_search,
                                                       .threads = threads,
                                                       .stop = stop},

@@ -30,10 +30,10 @@ TimedRun run_job(const validate::Job& job, const sim::EstimateRequest& request, 
   const Candidate& candidate = request.candidate;
   const bool pairs = record_of(request.estimator).finds_pairs;
   const std::string doing(pairs ? name(candidate.technique) : name(request.estimator));
-  const double work = progress && pairs ? predicted_work(job.workload, candidate, options.engine) : 0;
-  const double block = job.stream ? static_cast<double>(sim::default_block(job.discs.size())) : job.workload.rays;
-  const double each = std::min(1.0, block / job.workload.rays);  // a block's share of the rays
-  double begun = 0;                                              // share of the rays before the current block
+  const double work = progress && pairs ? predicted_work(job.given, candidate, options.engine) : 0;
+  const double block = job.stream ? static_cast<double>(sim::default_block(job.discs.size())) : job.given.rays;
+  const double each = std::min(1.0, block / job.given.rays);  // a block's share of the rays
+  double begun = 0;                                           // share of the rays before the current block
   const auto show = [&](double done) {
     begun = done;
     if (progress) progress({doing, done, std::min(1.0, done + each), each * work});

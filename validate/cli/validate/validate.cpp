@@ -76,10 +76,10 @@ validate::Experiment scene_experiment(const validate::JobRequest& request, const
   result.json["warnings"] = job.warnings;
   result.inputs = to_json(job, request);
   result.text = describe(job);
-  add_effects(job.observed.effects, result);
+  add_effects(job.observed().effects, result);
   validate::Experiment experiment{
-      .workload = with_lines(job.workload, request.rays.value_or(default_lines)), .discs = {}, .stop = stop};
-  experiment.choice = {job.workload, std::move(job.rays), effects_on(job.observed.effects)};
+      .workload = with_lines(job.workload(), request.rays.value_or(default_lines)), .discs = {}, .stop = stop};
+  experiment.choice = {job.workload(), std::move(job.rays), effects_on(job.observed().effects)};
   experiment.discs = std::move(job.discs);
   result.inputs["lines"] = whole(experiment.workload.rays);
   return experiment;

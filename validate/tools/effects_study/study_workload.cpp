@@ -43,8 +43,8 @@ Counts<double> StudyWorkload::count(const Candidate& candidate) const {
 
 std::string StudyWorkload::row() const {
   return fmt::format("{},{},{},{:.5g},{:.0f},{:.0f}", workload_.scene, !workload_.held_out,
-                     workload_.field == sim::Field::photons ? "photons" : "isotropic", job_.workload.disc_radius,
-                     job_.workload.rays, job_.workload.samples);
+                     workload_.field == sim::Field::photons ? "photons" : "isotropic", job_.given.disc_radius,
+                     job_.given.rays, job_.given.samples);
 }
 
 Candidate chosen_for(const Workload& workload) {

@@ -20,7 +20,7 @@ class StudyWorkload {
 
   [[nodiscard]] const validate::RegretWorkload& workload() const { return workload_; }
   /// The effects that evidence calls for.
-  [[nodiscard]] const sim::Observed& automatic() const { return job_.observed; }
+  [[nodiscard]] const sim::Observed& automatic() const { return job_.observed(); }
   [[nodiscard]] sim::Observed observe(const sim::EffectSelection& selection) const;
   /// With this effect the other way round than evidence says, and all others as they are; with the same rays.
   [[nodiscard]] sim::Observed observe_switched(const sim::Effect& effect) const;

@@ -68,7 +68,7 @@ std::vector<study::StatedError> judge(const study::SparseSearch& search, const s
   std::filesystem::remove(mesh_file);
   const sim::Problem& problem = job.problem();
   const auto found =
-      validate::choose({.problem = &problem, .workload = job.workload, .disabled = {Technique::brute_force}}, costs);
+      validate::choose({.problem = &problem, .workload = job.workload(), .disabled = {Technique::brute_force}}, costs);
   const Prediction& choice = found.best();
   if (choice.source == Source::closed_form) return {};
   const auto counted = as_expected(sim::run(problem, choice.candidate).counts);

@@ -258,8 +258,15 @@ TEST_SUITE("end to end") {
       CHECK(row.at(column) == effect.at("on").dump());
       CHECK_FALSE(effect.at("reason").get<std::string>().empty());
     }
-    CHECK(detp(run).out.find("effects   on: ") != std::string::npos);
-    CHECK(detp(run).out.find(fmt::format("hits      {},", json.at("hits").get<int>())) != std::string::npos);
+    const std::string hits = fmt::format("hits      {},", json.at("hits").get<int>());
+    const std::string text = detp(run).out;
+    CHECK(text.find(hits) != std::string::npos);
+    CHECK(text.find("effects") == std::string::npos);
+    CHECK(std::ranges::count(text, '\n') <= 6);
+    const std::string more = detp(run + " --verbose").out;
+    CHECK(more.find(hits) != std::string::npos);
+    CHECK(more.find("effects   on: ") != std::string::npos);
+    CHECK(more.find("predicted / counted") != std::string::npos);
   }
 
   TEST_CASE("the plain engine finds the hits of the float kernels, and the result names it") {
