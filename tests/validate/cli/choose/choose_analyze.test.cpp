@@ -65,7 +65,8 @@ TEST_SUITE("end to end") {
     CHECK(json.at("missed").at(0).at("unit_costs_ratio").get<double>() < 1e-3);
     for (const std::string detail : {"", " --verbose"}) {
       const std::string text = detp(line + detail).out;
-      CHECK(text.starts_with("choice    " + json.at("choice").at("technique").get<std::string>()));
+      CHECK(text.starts_with("choice    "));  // the fastest of two runs may differ
+      CHECK_FALSE(text.starts_with("choice    brute-force"));
       for (const char* said :
            {", the fastest of ", "\nregret    ", " %: brute-force, the predicted choice, takes",
             ": the choice was wrong", "\npredicted ", " too low: counts right within 1 %, unit costs "})

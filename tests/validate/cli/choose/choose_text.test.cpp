@@ -99,7 +99,7 @@ TEST_SUITE("end to end") {
     CHECK(mentions(text, "\nrival     " + rival + " is ruled out: "));
     CHECK(mentions(line_of_label(text, "rival     "), fmt::format("({:.3g} s)", least)));
     CHECK(mentions(line_of_label(text, "costs     "), json.at("unit_costs")));
-    CHECK(mentions(line_of_label(text, "planning  "), "% of the predicted run): a pilot of "));
+    CHECK(mentions(line_of_label(text, "planning  "), " the predicted run): a pilot of "));
   }
 
   TEST_CASE("by closed forms, the text says what the error of the seconds does not cover; given costs have none") {

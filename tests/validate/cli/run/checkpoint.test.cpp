@@ -96,7 +96,9 @@ TEST_SUITE("end to end") {
     const ScratchFolder folder;
     const std::string checkpoint = folder.path("checkpoint.json");
     const std::string run = "run @cornell --target-noise 5% --technique box-tree --calibration none --format json ";
-    const Finished stopped = detp(run + "--time-limit 0.5 --checkpoint " + checkpoint);
+    const Finished stopped = stopped_in_time(run + "--checkpoint " + checkpoint, [&](const Finished& one) {
+      return one.code == 3 && !content_of(checkpoint).empty();
+    });
     CHECK(stopped.code == 3);
     const std::string content = content_of(checkpoint);
     REQUIRE_FALSE(content.empty());
