@@ -86,7 +86,7 @@ Finding concavity(std::span<const Disc> discs, const CurveSample& sample, const 
 }
 
 Finding concavity(std::span<const Disc> discs, const std::stop_token& stop) {
-  return concavity(discs, curve_sample(discs, enclosing_sphere(discs, stop), stop), stop);
+  return concavity(discs, curve_sample(discs, enclosing_sphere(discs, stop), EvidenceEffort{}.discs, stop), stop);
 }
 
 constinit const Effect concave_surfaces{

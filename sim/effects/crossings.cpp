@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <vector>
 
 #include "all_effects.hpp"
@@ -11,8 +12,6 @@
 
 namespace detp::sim {
 namespace {
-
-constexpr std::size_t most_crossing = 512;  // rays
 
 /// The discs that are looked at, and the shares of uniform rays that cross the spheres around them. Lines have one size
 /// of spheres and need fewer discs.
@@ -63,6 +62,38 @@ CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a
   return {ratio / uniform, std::sqrt(squares * count / (count - 1)) / below / uniform};
 }
 
+/// A measured ratio and the prior knowledge that such ratios are 1 ± 0.5: the mean of both, by the inverse of their variances. The standard
+/// error is at least `least`, that of rays which are as many as is expected.
+CountedRatio shrunk(const CountedRatio& ratio, double least) {
+  constexpr double spread = 0.5;
+  const double error = std::max(ratio.standard_error, least);
+  const double trust = spread * spread / (spread * spread + error * error);
+  return {1 + trust * (ratio.value - 1), error};
+}
+
+/// Σ m² over clusters of m of every `step`-th sampled discs, over the square of their number: the square of the relative error of
+/// a mean over samples for each expected ray that crosses a cluster, which all rays do alike for all its samples. Clusters are the largest
+/// nodes with a radius of at most `reach`.
+double unevenness(const EffectSample& sample, std::uint32_t step, double reach) {
+  const auto local = static_cast<float>(reach / sample.discs().unit);
+  const std::vector<SampledNode>& tree = sample.tree();
+  const auto kept_before = [step](std::uint32_t place) { return (place + step - 1) / step; };
+  double squares = 0;
+  double samples = 0;
+  for (std::uint32_t i = 0; i < tree.size();) {
+    const SampledNode& node = tree[i];
+    const bool is_leaf = node.next == i + 1;
+    const bool is_cluster = glm::length(node.high - node.low) <= 2 * local;
+    if (is_cluster || is_leaf) {
+      const double kept = kept_before(node.end) - kept_before(node.first);
+      squares += is_cluster ? kept * kept : kept;
+      samples += kept;
+    }
+    i = is_cluster ? node.next : i + 1;
+  }
+  return samples > 0 ? squares / (samples * samples) : 0;
+}
+
 class CrossingCounter {
  public:
   CrossingCounter(const EffectSample& sample, const Effort& effort)
@@ -71,6 +102,8 @@ class CrossingCounter {
         step_(static_cast<std::uint32_t>((sample.discs().discs.size() + effort.discs - 1) / effort.discs)),
         around_(uniform_.radius_for(effort.crossed_around)),
         near_(std::max(sample.problem.radii().rms, uniform_.radius_for(effort.crossed_near))),
+        unevenness_(unevenness(sample, step_, around_)),
+        unevenness_near_(unevenness(sample, step_, near_)),
         groups_(sample.discs(), sample.tree(), step_, around_, near_) {}
 
   void count(const Ray& ray) {
@@ -92,9 +125,15 @@ class CrossingCounter {
     const double sphere = uniform_.sphere(near_);
     Crossings found;
     found.radius = around_;
-    found.around = ratio_of(rays_, samples * uniform_.sphere(around_), around, [](const OfRay&) { return 1.0; });
-    if (sample_.problem.segments()) found.near = ratio_of(rays_, sphere / uniform_.sphere(around_), near, around);
-    found.discs = ratio_of(rays_, uniform_.disc(near_, sample_.problem.front_facing()) / sphere, discs, near);
+    const auto rays = static_cast<double>(rays_.size());
+    const double unmet = std::sqrt(unevenness_ / (rays * uniform_.sphere(around_)));
+    found.around =
+        shrunk(ratio_of(rays_, samples * uniform_.sphere(around_), around, [](const OfRay&) { return 1.0; }), unmet);
+    const double unmet_near = std::sqrt(unevenness_near_ / (rays * sphere));
+    if (sample_.problem.segments())
+      found.near = shrunk(ratio_of(rays_, sphere / uniform_.sphere(around_), near, around), unmet_near);
+    found.discs =
+        shrunk(ratio_of(rays_, uniform_.disc(near_, sample_.problem.front_facing()) / sphere, discs, near), 0);
     return found;
   }
 
@@ -104,6 +143,8 @@ class CrossingCounter {
   std::uint32_t step_;
   double around_;
   double near_;
+  double unevenness_;
+  double unevenness_near_;
   SampleGroups groups_;
   std::vector<OfRay> rays_;
 };
@@ -123,7 +164,7 @@ UniformRays uniform_rays(const Workload& workload) {
 
 Crossings count_crossings(const EffectSample& sample) {
   StopCheck check(sample.stop, "looking for uneven rays");
-  const auto rays = stratified_sample(sample.problem.rays().size(), most_crossing, 2, Stream::evidence);
+  const auto rays = stratified_sample(sample.problem.rays().size(), sample.effort.crossing_rays, 2, Stream::evidence);
   CrossingCounter counter(sample, sample.problem.segments() ? for_segments : for_lines);
   for (const std::size_t first : {0, 1}) {  // every second ray, then the others
     for (std::size_t i = first; i < rays.size(); i += 2) {

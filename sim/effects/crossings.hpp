@@ -57,7 +57,7 @@ struct Crossings {
   CountedRatio discs;   ///< share of the rays through a small sphere that cross its disc in the tangent plane
 };
 
-/// Counts 512 of the rays, or 256 if they show for each value whether it passes its threshold, to two standard errors.
+/// Counts some of the rays (EvidenceEffort), or half of these if they show for each value whether it passes its threshold, to two standard errors.
 /// Looks at 4096 discs, or at 512 if the rays are lines. The small spheres are crossed by 3 in 10 000 uniform segments;
 /// for lines they are as large as the others. They are not smaller than discs. Throws Stopped if a stop was requested.
 [[nodiscard]] Crossings count_crossings(const EffectSample& sample);

@@ -81,9 +81,9 @@ CurveSample curve_sample(std::span<const Disc> discs, std::span<const std::size_
   return sorted;
 }
 
-CurveSample curve_sample(std::span<const Disc> discs, const Sphere& sphere, const std::stop_token& stop) {
-  constexpr std::size_t most_discs = std::size_t{1} << 13;
-  return curve_sample(discs, stratified_sample(discs.size(), most_discs, 1, Stream::evidence), sphere, stop);
+CurveSample curve_sample(std::span<const Disc> discs, const Sphere& sphere, std::size_t most,
+                         const std::stop_token& stop) {
+  return curve_sample(discs, stratified_sample(discs.size(), most, 1, Stream::evidence), sphere, stop);
 }
 
 }  // namespace detp::sim

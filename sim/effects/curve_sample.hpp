@@ -34,8 +34,8 @@ struct CurveSample {
 [[nodiscard]] CurveSample curve_sample(std::span<const Disc> discs, std::span<const std::size_t> sample,
                                        const Sphere& sphere, const std::stop_token& stop = {});
 
-/// The same of at most 8192 discs, stratified.
-[[nodiscard]] CurveSample curve_sample(std::span<const Disc> discs, const Sphere& sphere,
+/// The same of at most `most` discs, stratified.
+[[nodiscard]] CurveSample curve_sample(std::span<const Disc> discs, const Sphere& sphere, std::size_t most = 1U << 13,
                                        const std::stop_token& stop = {});
 
 }  // namespace detp::sim

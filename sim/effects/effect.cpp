@@ -5,18 +5,23 @@
 #include "detp/sim/geometry/random.hpp"
 
 namespace detp::sim {
-namespace {
 
-constexpr std::size_t most_rays = 1U << 11;
-
-}  // namespace
+EvidenceEffort EvidenceEffort::for_search(double rays, double discs) {
+  constexpr double seconds_of_all = 1e-3;
+  constexpr double least_seconds = 0.15e-3;
+  const double search = 60e-9 * discs + 150e-9 * rays;
+  const double share = std::min(1.0, std::max(least_seconds, 0.005 * search) / seconds_of_all);
+  const auto part = [share](std::size_t all) { return static_cast<std::size_t>(share * static_cast<double>(all)); };
+  const EvidenceEffort all;
+  return {part(all.discs), part(all.rays), part(all.crossing_rays)};
+}
 
 const std::vector<std::size_t>& EffectSample::rays() const {
-  return once(rays_, [&] { return stratified_sample(problem.rays().size(), most_rays, 1, Stream::evidence); });
+  return once(rays_, [&] { return stratified_sample(problem.rays().size(), effort.rays, 1, Stream::evidence); });
 }
 
 const CurveSample& EffectSample::discs() const {
-  return once(discs_, [&] { return curve_sample(problem.discs(), problem.enclosing(), stop); });
+  return once(discs_, [&] { return curve_sample(problem.discs(), problem.enclosing(), effort.discs, stop); });
 }
 
 const SampleDimension& EffectSample::dimension() const {

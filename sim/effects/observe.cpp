@@ -100,10 +100,10 @@ bool EffectReport::is_close() const {
 }
 
 Observed observe(const Problem& problem, const SurfaceFacts& surface, const EffectSelection& selection,
-                 const std::stop_token& stop) {
+                 const std::stop_token& stop, const EvidenceEffort& effort) {
   const DefaultFloatingPoint mode;
   const Stopwatch watch;
-  const EffectSample sample(problem, surface, stop);
+  const EffectSample sample(problem, surface, effort, stop);
   Observed observed{
       .workload = without_effects(problem), .rays = sample.rays().size(), .discs = sample.discs().discs.size()};
   for (const Effect* effect : all_effects) {

@@ -59,7 +59,8 @@ struct Observed {
 
 /// without_effects, and what the effects add that are on. Throws Stopped if a stop was requested.
 [[nodiscard]] Observed observe(const Problem& problem, const SurfaceFacts& surface = {},
-                               const EffectSelection& selection = {}, const std::stop_token& stop = {});
+                               const EffectSelection& selection = {}, const std::stop_token& stop = {},
+                               const EvidenceEffort& effort = {});
 
 /// The effects of a workload that is given by numbers.
 [[nodiscard]] std::vector<EffectReport> effects_of_numbers(const Workload& workload);

@@ -300,7 +300,8 @@ void Job::measure() const {
     stream->read(0, block, measuring.stop);
     of_block = sim::make_problem(block, discs, front_facing, measuring.threads, measuring.stop);
   }
-  sim::Observed found = sim::observe(of_block ? *of_block : problem(), surface, measuring.effects, measuring.stop);
+  sim::Observed found =
+      sim::observe(of_block ? *of_block : problem(), surface, measuring.effects, measuring.stop, measuring.effort);
   workload_ = found.workload;
   workload_.rays = given.rays;
   if (measuring.dimension) workload_.dimension = *measuring.dimension;

@@ -72,6 +72,7 @@ struct JobRequest {
 /// How a job's workload is measured.
 struct Measuring {
   sim::EffectSelection effects = {};
+  sim::EvidenceEffort effort = {};
   std::optional<double> dimension = {};  ///< instead of the measured one
   std::optional<double> sample_extent = {};
   int threads = 1;  ///< for checking the first block of a stream

@@ -1,9 +1,14 @@
 #include "regret_workloads.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
+#include <cmath>
 #include <filesystem>
 
+#include "detp/sim/geometry/random.hpp"
 #include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/scene/families/families.hpp"
 
 namespace detp::validate {
 namespace {
@@ -61,6 +66,12 @@ bool is_in(RegretEffort effort, const RegretWorkload& one, std::size_t place) {
   return one.rays < 1e6 || one.radius < 0.02;
 }
 
+/// The effort of evidence that `choose` takes.
+Job with_effort(Job job) {
+  job.measuring.effort = sim::EvidenceEffort::for_search(job.given.rays, job.given.samples);
+  return job;
+}
+
 }  // namespace
 
 RegretSet regret_set(RegretEffort effort, const std::string& folder) {
@@ -78,6 +89,26 @@ RegretSet regret_set(RegretEffort effort, const std::string& folder) {
   return set;
 }
 
+std::vector<RegretWorkload> family_workloads(std::uint64_t seed) {
+  constexpr int scenes_of_family = 2;
+  constexpr int workloads_of_scene = 7;
+  constexpr int photons_of_scene = 5;
+  std::vector<RegretWorkload> workloads;
+  std::uint64_t place = 0;
+  for (const sim::families::Family& family : sim::families::all_families())
+    for (int scene = 0; scene < scenes_of_family; ++scene)
+      for (int i = 0; i < workloads_of_scene; ++i) {
+        const std::string name = fmt::format("@{}:{}", family.name, 100 * seed + static_cast<std::uint64_t>(scene));
+        const sim::Field field = i < photons_of_scene ? sim::Field::photons : sim::Field::isotropic;
+        const auto random = sim::uniform4(seed, sim::Stream::scene, place++);
+        const double radius = radii.front() * std::pow(radii.back() / radii.front(), random[0]);
+        const double most_rays = std::min(ray_counts.back(), most_hits / (usual_vertices * radius * radius));
+        const double rays = std::round(ray_counts.front() * std::pow(most_rays / ray_counts.front(), random[1]));
+        workloads.push_back({name, name, field, 0, radius, rays, true});
+      }
+  return workloads;
+}
+
 Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const std::stop_token& stop) {
   if (const auto* path = std::get_if<std::string>(&workload.discs)) {
     JobRequest request;
@@ -88,7 +119,7 @@ Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const st
     request.rays = workload.rays;
     request.seed = seed;
     request.effects = workload.effects;
-    return make_job(request, stop);
+    return with_effort(make_job(request, stop));
   }
   Job job;
   job.name = workload.scene;
@@ -98,7 +129,7 @@ Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const st
                  .lines(0, static_cast<std::size_t>(workload.rays), stop);
   job.check_problem(1, stop);
   job.measuring = {.effects = workload.effects, .stop = stop};
-  return job;
+  return with_effort(std::move(job));
 }
 
 }  // namespace detp::validate

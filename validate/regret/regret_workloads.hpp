@@ -37,6 +37,10 @@ struct RegretSet {
 /// and samples vary. Workloads with more than about 3·10⁷ hits are left out, and so are 10⁶ rays on large discs.
 [[nodiscard]] RegretSet regret_set(RegretEffort effort, const std::string& folder);
 
+/// 84 workloads in 12 scenes, two of each family (sim/scene/families): photon paths and lines, radii from 0.25 to 16 % of the scene and 10² to 10⁶
+/// rays, log-uniform at random; at most about 3·10⁷ hits. All are held out if nobody has looked at results of this seed.
+[[nodiscard]] std::vector<RegretWorkload> family_workloads(std::uint64_t seed);
+
 /// The rays and discs. Throws as make_job does.
 [[nodiscard]] Job make_regret_job(const RegretWorkload& workload, std::uint64_t seed, const std::stop_token& stop);
 

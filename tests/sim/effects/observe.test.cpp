@@ -235,6 +235,44 @@ TEST_SUITE("effects") {
     CHECK(found.workload.ray_density == report.value);
   }
 
+  TEST_CASE("clusters that no sampled ray met do not make the density of rays certain") {
+    // Nearly all samples are in one cluster, which one or two of the sampled rays meet, or none; the rays are uniform.
+    constexpr int seeds = 30;
+    int wrong = 0;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+      auto discs = sim::uniform_discs(sim::Body::cube, 2, 2000, 0.01, 1);
+      for (std::size_t i = 0; i < discs.size(); ++i)
+        if (i % 20 != 0) discs[i].centre = 0.01 * discs[i].centre + glm::dvec3(0.5, 0.3, 0.4);
+      std::vector<sim::Ray> rays = sim::LineField(sim::enclosing_sphere(discs), seed).lines(0, 2000);
+      const auto origins = sim::uniform_discs(sim::Body::cube, 2, rays.size(), 0.01, 100 + seed);
+      for (std::size_t i = 0; i < origins.size(); ++i)
+        rays[i] = {.origin = origins[i].centre, .direction = rays[i].direction, .length = 0.2};
+      const sim::EffectReport density = report_of(sim::observe(sim::make_problem(rays, discs)), sim::uneven_rays);
+      wrong += std::abs(density.value - 1) > 2.5 * density.standard_error ? 1 : 0;
+    }
+    CHECK(wrong <= 2);
+  }
+
+  TEST_CASE("the effort of evidence follows the length of the search, and a small one samples less") {
+    const auto short_search = sim::EvidenceEffort::for_search(1e3, 1e3);
+    const auto long_search = sim::EvidenceEffort::for_search(1e7, 1e6);
+    CHECK(long_search.discs == 8192);
+    CHECK(long_search.rays == 2048);
+    CHECK(long_search.crossing_rays == 512);
+    CHECK(short_search.discs < 0.2 * 8192);
+    CHECK(short_search.discs >= 1024);  // the least for a dimension
+    CHECK(short_search.crossing_rays < 0.2 * 512);
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 1);
+    const auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 5000);
+    const sim::Problem problem = sim::make_problem(rays, discs);
+    const sim::Observed few = sim::observe(problem, {}, {}, {}, short_search);
+    CHECK(few.discs == short_search.discs);
+    CHECK(few.rays == short_search.rays);
+    for (const sim::EffectReport& report : few.effects) CHECK_FALSE(report.on);
+    CHECK(report_of(few, sim::uneven_rays).standard_error >
+          report_of(sim::observe(problem), sim::uneven_rays).standard_error);
+  }
+
   TEST_CASE("samples in the shade make fewer hits than the rays around them; lines are not stopped") {
     // light from above falls on a roof; half of the samples are close below it
     auto discs = sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 1);

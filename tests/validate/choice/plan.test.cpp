@@ -91,7 +91,9 @@ TEST_SUITE("known answer") {
     std::vector<double> seconds;
     for (const char* effects : {"auto", "none"}) {
       const validate::PlanOptions options{.farthest = 2e12, .effects = sim::EffectSelection(effects)};
-      Workload workload = sim::observe(sim::make_problem(rays, discs), {}, options.effects).workload;
+      const auto effort =
+          sim::EvidenceEffort::for_search(static_cast<double>(rays.size()), static_cast<double>(discs.size()));
+      Workload workload = sim::observe(sim::make_problem(rays, discs), {}, options.effects, {}, effort).workload;
       const auto made = validate::plan(discs, rays, options);
       CHECK(made.predicted_seconds() == validate::allowed_ranking(workload, options.costs, {}).front().time.total());
       const auto again = replan(made, 0.06);

@@ -57,6 +57,9 @@ void RegretCommand::add_to(CLI::App& bench) {
       "--regret", wanted_,
       "how much slower the chosen candidates are than the best of all, instead of a race with Embree; the effort quick "
       "takes a minute, thorough hours; SCENE and --field select some of its workloads");
+  bench.add_option(
+      "--families", families_,
+      "with --regret: 84 workloads in scenes that this seed makes, instead of those of the effort; default: not");
   costs_.add_to(bench);
 }
 
@@ -67,6 +70,7 @@ bool RegretCommand::is_wanted() const {
     if (wanted_ && is_given(option))
       throw std::invalid_argument(fmt::format(
           "{} and --regret exclude each other; SCENE, --field and --effort select the workloads of --regret", option));
+  if (families_ && !wanted_) throw std::invalid_argument("--families belongs to --regret");
   return wanted_;
 }
 
@@ -75,8 +79,11 @@ Result run_bench_regret(const RegretCommand& command, const std::string& effort,
                         const CommonOptions& common, const std::stop_token& stop) {
   const bool thorough = effort == "thorough";
   const char* folder = std::getenv("DETP_SCENES");
-  validate::RegretSet set = validate::regret_set(
-      thorough ? validate::RegretEffort::thorough : validate::RegretEffort::quick, folder != nullptr ? folder : "");
+  validate::RegretSet set =
+      command.families()
+          ? validate::RegretSet{validate::family_workloads(*command.families()), {}}
+          : validate::regret_set(thorough ? validate::RegretEffort::thorough : validate::RegretEffort::quick,
+                                 folder != nullptr ? folder : "");
   if (scene) keep_scene(set.workloads, *scene);
   if (!fields.empty()) keep_fields(set.workloads, fields);
   const CostsInUse costs = command.costs(common);
@@ -93,6 +100,7 @@ Result run_bench_regret(const RegretCommand& command, const std::string& effort,
       validate::run_regret(set.workloads, validate::all_choosers(costs.simd), options);
   Result result = report_regret(regret, threads, set.missing, common.screen());
   result.inputs = inputs_json(set.workloads, effort, costs.simd, threads);
+  if (command.families()) result.inputs["families"] = *command.families();
   result.json["unit_costs"] = costs.origin;
   result.text += wrapped("costs     " + costs.origin, common.screen().text_width(), 10);
   return result;

@@ -15,16 +15,19 @@ namespace detp::cli {
 
 class RegretCommand {
  public:
-  /// Adds --regret, --costs and --calibration.
+  /// Adds --regret, --families, --costs and --calibration.
   void add_to(CLI::App& bench);
 
   /// Whether --regret was given. Throws std::invalid_argument if options were given that it excludes.
   [[nodiscard]] bool is_wanted() const;
 
+  /// Seed of the families of scenes that replace the other workloads.
+  [[nodiscard]] std::optional<std::uint64_t> families() const { return families_; }
   [[nodiscard]] CostsInUse costs(const CommonOptions& common) const { return costs_.costs(common); }
 
  private:
   bool wanted_ = false;
+  std::optional<std::uint64_t> families_;
   CostOptions costs_;
   const CLI::App* bench_ = nullptr;
 };

@@ -1,7 +1,9 @@
 // What does each effect change, and does `auto` choose as well as `all`? On many scenes.
 //
 //   cmake --build build --target effects_study && build/effects_study FOLDER [FOLDER OF MESHES] > summary.md
+//   build/effects_study FOLDER --families SEED
 //
+// The second form takes the scenes that the seed makes, and writes FOLDER/effects_families.csv, as effects_choice.csv.
 // Writes FOLDER/effects.csv, a row for each effect of each scene, field and radius: evidence, whether the effect is on,
 // and what switching it by hand changes; and FOLDER/effects_choice.csv, a row for each workload: predicted tests and the
 // choice by closed forms with the effects that evidence calls for, with all and with none. Prints summaries of both.
@@ -12,6 +14,7 @@
 #include <exception>
 #include <fstream>
 #include <string>
+#include <string_view>
 
 #include "choice_table.hpp"
 #include "effects_table.hpp"
@@ -38,10 +41,17 @@ void add(Table& table, const validate::RegretWorkload& workload) {
 
 int main(int argc, char** argv) {
   if (argc < 2) {
-    fmt::print(stderr, "usage: effects_study FOLDER [FOLDER OF MESHES]\n");
+    fmt::print(stderr, "usage: effects_study FOLDER [FOLDER OF MESHES | --families SEED]\n");
     return 2;
   }
   const std::string folder = argv[1];
+  if (argc == 4 && std::string_view(argv[2]) == "--families") {
+    study::ChoiceTable choices;
+    for (const auto& workload : validate::family_workloads(std::stoull(argv[3]))) add(choices, workload);
+    std::ofstream(folder + "/effects_families.csv") << choices.csv();
+    fmt::print("{}", choices.summary());
+    return 0;
+  }
   study::EffectsTable effects;
   study::ChoiceTable choices;
   for (const study::StudyScene& scene : study::study_scenes(argc > 2 ? argv[2] : "")) {

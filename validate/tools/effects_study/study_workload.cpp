@@ -18,7 +18,8 @@ StudyWorkload::StudyWorkload(const validate::RegretWorkload& workload)
 }
 
 sim::Observed StudyWorkload::observe(const sim::EffectSelection& selection) const {
-  return sim::observe(problem_, job_.surface, selection);
+  return sim::observe(problem_, job_.surface, selection, {},
+                      sim::EvidenceEffort::for_search(job_.given.rays, job_.given.samples));
 }
 
 sim::EffectSelection StudyWorkload::switched(const sim::Effect& effect) const {
