@@ -15,9 +15,10 @@ constexpr std::size_t on_curve = 8;
 constexpr double tolerated = 0.02;  // height over the plane, in disc radii
 constexpr double farthest = 4;      // in disc radii
 
-bool is_in_front(const Disc& disc, const glm::dvec3& neighbour) {
+bool is_in_front(const Disc& disc, const glm::dvec3& neighbour, bool front_facing) {
   const glm::dvec3 to = (neighbour - disc.centre) / disc.radius;
-  const double height = glm::dot(to, disc.normal);
+  const double signed_height = glm::dot(to, disc.normal);
+  const double height = front_facing ? signed_height : std::abs(signed_height);
   const double squared = glm::dot(to, to);
   if (!(height > tolerated) || squared > farthest * farthest) return false;
   return squared <= 1 || (height > tolerated * squared && 2 * height * height < squared);
@@ -25,16 +26,17 @@ bool is_in_front(const Disc& disc, const glm::dvec3& neighbour) {
 
 class Neighbours {
  public:
-  Neighbours(std::span<const Disc> discs, std::span<const SampledDisc> sampled) : discs_(discs), sampled_(sampled) {}
+  Neighbours(std::span<const Disc> discs, std::span<const SampledDisc> sampled, bool front_facing)
+      : discs_(discs), sampled_(sampled), front_facing_(front_facing) {}
 
   /// Whether a neighbour of the disc with this place is in front of it.
   [[nodiscard]] bool any_in_front(std::size_t place) const {
     const std::size_t number = sampled_[place].number;
     const Disc& disc = discs_[number];
     for (std::size_t i = from(number, in_array); i < end(number, in_array, discs_.size()); ++i)
-      if (is_in_front(disc, discs_[i].centre)) return true;
+      if (is_in_front(disc, discs_[i].centre, front_facing_)) return true;
     for (std::size_t i = from(place, on_curve); i < end(place, on_curve, sampled_.size()); ++i)
-      if (is_in_front(disc, discs_[sampled_[i].number].centre)) return true;
+      if (is_in_front(disc, discs_[sampled_[i].number].centre, front_facing_)) return true;
     return false;
   }
 
@@ -46,6 +48,7 @@ class Neighbours {
 
   std::span<const Disc> discs_;
   std::span<const SampledDisc> sampled_;
+  bool front_facing_;
 };
 
 /// The share, with the standard error of a binomial share of (found + ½)/(tried + 1): never 0.
@@ -66,10 +69,11 @@ double concavity_of_numbers(const Workload&) { return 0; }
 
 }  // namespace
 
-Finding concavity(std::span<const Disc> discs, const CurveSample& sample, const std::stop_token& stop) {
+Finding concavity(std::span<const Disc> discs, const CurveSample& sample, bool front_facing,
+                  const std::stop_token& stop) {
   StopCheck check(stop, "looking for concave surfaces");
   check.now();
-  const Neighbours neighbours(discs, sample.discs);
+  const Neighbours neighbours(discs, sample.discs, front_facing);
   const std::size_t centres = std::min(most_centres, sample.discs.size());
   double found = 0;
   double tried = 0;
@@ -85,8 +89,9 @@ Finding concavity(std::span<const Disc> discs, const CurveSample& sample, const 
   return share_of(found, tried);
 }
 
-Finding concavity(std::span<const Disc> discs, const std::stop_token& stop) {
-  return concavity(discs, curve_sample(discs, enclosing_sphere(discs, stop), EvidenceEffort{}.discs, stop), stop);
+Finding concavity(std::span<const Disc> discs, bool front_facing, const std::stop_token& stop) {
+  return concavity(discs, curve_sample(discs, enclosing_sphere(discs, stop), EvidenceEffort{}.discs, stop),
+                   front_facing, stop);
 }
 
 constinit const Effect concave_surfaces{

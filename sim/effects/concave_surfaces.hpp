@@ -9,7 +9,8 @@ namespace detp::sim {
 
 /// Whether discs would be shadowed by their own surface if rays ended at their first intersection with it.
 ///
-/// The value is the share of discs that have a neighbour in front of their tangent plane. With z its height over the
+/// The value is the share of discs that have a neighbour in front of their tangent plane; if both faces count, on either side of it, because
+/// a surface that is convex from outside is concave for light that arrives inside, as in a glass ball. With z its height over the
 /// plane and r its distance from the disc's centre, the neighbour is in front if
 ///
 ///     z > 0.02 d                              for r <= d
@@ -26,10 +27,11 @@ namespace detp::sim {
 /// at random by area, if 8192 sampled discs are much more than 4d apart.
 ///
 /// Needs no rays, so that it can be known before photon paths are made. Throws Stopped if a stop was requested.
-[[nodiscard]] Finding concavity(std::span<const Disc> discs, const std::stop_token& stop = {});
+[[nodiscard]] Finding concavity(std::span<const Disc> discs, bool front_facing = true,
+                                const std::stop_token& stop = {});
 
 /// The same, with the discs already sampled.
-[[nodiscard]] Finding concavity(std::span<const Disc> discs, const CurveSample& sample,
+[[nodiscard]] Finding concavity(std::span<const Disc> discs, const CurveSample& sample, bool front_facing = true,
                                 const std::stop_token& stop = {});
 
 }  // namespace detp::sim

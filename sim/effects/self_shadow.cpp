@@ -22,6 +22,7 @@ constexpr double still_in_plane = 0.05;  // below the surface's plane, in disc r
 struct LandedAt {
   double distance;    ///< from the piece's start to the surface
   glm::dvec3 normal;  ///< of the surface, on the side from which the photon came
+  bool front;         ///< the photon came from the surface's front
 };
 
 /// Keeps pieces that end on a surface. PhotonWalk tells of each piece before it tells of its surface.
@@ -37,7 +38,7 @@ struct Landings {
     const glm::dvec3 normal = glm::normalize(glm::cross(mesh.positions[b] - corner, mesh.positions[c] - corner));
     const double cosine = glm::dot(normal, last.direction);
     rays.push_back(last);
-    landings.push_back({glm::dot(corner - last.origin, normal) / cosine, cosine < 0 ? normal : -normal});
+    landings.push_back({glm::dot(corner - last.origin, normal) / cosine, cosine < 0 ? normal : -normal, cosine < 0});
   }
   void escaped(double) {}
   void cut_off(double) {}
@@ -70,15 +71,17 @@ std::vector<Power> hits_of(const Landings& all, std::span<const Disc> discs, boo
   for (const Pair& pair : outcome.pairs) {
     const Ray& ray = all.rays[pair.ray];
     const Disc& disc = discs[pair.disc];
-    const auto& [distance, normal] = all.landings[pair.ray];
-    const double crossing = glm::dot(disc.centre - ray.origin, disc.normal) / glm::dot(ray.direction, disc.normal);
+    const auto& [distance, normal, front] = all.landings[pair.ray];
+    const double cosine = glm::dot(ray.direction, disc.normal);
+    const double crossing = glm::dot(disc.centre - ray.origin, disc.normal) / cosine;
     if (crossing <= distance + 1e-6 * disc.radius) {
       power[pair.ray].before += ray.power;
       continue;
     }
     const glm::dvec3 landing = ray.origin + distance * ray.direction;
     const bool in_front = glm::dot(disc.centre - landing, normal) > -still_in_plane * disc.radius;
-    power[pair.ray].gained += in_front ? ray.power : -ray.power;
+    const bool same_side = (cosine < 0) == front;
+    power[pair.ray].gained += in_front && same_side ? ray.power : -ray.power;
   }
   return power;
 }
@@ -93,7 +96,7 @@ double overshoot_for(std::span<const Disc> discs) {
 
 Finding self_shadow(const Scene& scene, std::shared_ptr<const RayCaster> caster, std::span<const Disc> discs,
                     bool front_facing, std::uint64_t seed, const std::stop_token& stop) {
-  const Finding neighbours = concavity(discs, stop);
+  const Finding neighbours = concavity(discs, front_facing, stop);
   if (!concave_surfaces.threshold.passed(neighbours.value)) return {};
   PhotonWalk walk(scene, seed, std::move(caster));
   walk.set_overshoot(overshoot_for(discs));

@@ -22,7 +22,8 @@ inline constexpr double overshoot_over_radius = 2;
 /// and in corners, and all around on rough ones. Paths that go on miss no disc, but reach discs behind thin sheets. The
 /// value is what going on by 2 d would add of the first kind, less what it would add of the second, in power of hits,
 /// over that of all hits of paths that end at once. A crossing beyond the surface is of the first kind if the disc's
-/// centre is in front of the surface's plane, or less than 0.05 d behind it.
+/// centre is in front of the surface's plane, or less than 0.05 d behind it, and the photon meets the same side of disc and surface: the front of
+/// both, or the back of both.
 ///
 /// If concavity (concave_surfaces.hpp) finds too few discs with a neighbour in front, no path is traced, and the value is
 /// 0. Otherwise the cost is that of tracing the paths and of a tree of boxes over the discs. Throws as photon_paths.

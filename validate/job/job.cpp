@@ -194,6 +194,8 @@ class JobMaker {
   }
 
   void refuse_lights(std::string_view rays) const {
+    if (request_.second_intersection)
+      throw std::invalid_argument(fmt::format("--second-intersection is for photon paths; these are {}", rays));
     if (!request_.lights.empty() || request_.up)
       throw std::invalid_argument(fmt::format("--light and --up are for photon paths; these are {}", rays));
   }
@@ -212,6 +214,10 @@ class JobMaker {
   const sim::Scene& scene_for_photons() {
     if (!scene_) throw std::invalid_argument("photon paths need a scene; name one, or choose the isotropic field");
     caster_ = sim::caster_for(*scene_, stop_);
+    if (request_.second_intersection) {
+      scene_->overshoot = sim::unbounded;
+      return *scene_;
+    }
     const sim::Finding shadow =
         sim::self_shadow(*scene_, caster_, job_.discs, request_.front_facing, request_.seed, stop_);
     if (request_.effects.is_on(sim::concave_surfaces, shadow.value, shadow.standard_error))

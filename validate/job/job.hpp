@@ -49,6 +49,8 @@ struct JobRequest {
   std::vector<sim::LightKind> lights;  ///< default: the scene's own; in a mesh file without lights an area light
   std::optional<sim::Up> up;           ///< default: y in built-in scenes, found from the shape in mesh files
   bool front_facing = false;
+  bool second_intersection =
+      false;                     ///< photon paths go on to the second surface that they meet, as in the paper (§2.1)
   sim::EffectSelection effects;  ///< that the workload has, and that photon paths are made with
   std::uint64_t seed = 1;
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first

@@ -58,6 +58,7 @@ TEST_SUITE("effects") {
       CHECK(inside.value == (radius > 0.05 ? 1 : 0));  // the sphere is r/2 over the rim of a disc of radius r
       CHECK(is_on(inside) == (radius > 0.05));
       const sim::Finding outside = sim::concavity(globe(1, radius));
+      CHECK(sim::concavity(globe(1, radius), false).value == inside.value);  // light inside of a glass ball
       CHECK(outside.value == 0);
       CHECK_FALSE(is_on(outside));
     }
@@ -109,6 +110,6 @@ TEST_SUITE("bad input") {
   TEST_CASE("a stop request ends the search for concave surfaces") {
     std::stop_source source;
     source.request_stop();
-    CHECK_THROWS_AS((void)sim::concavity(std::vector<sim::Disc>(100'000), source.get_token()), sim::Stopped);
+    CHECK_THROWS_AS((void)sim::concavity(std::vector<sim::Disc>(100'000), true, source.get_token()), sim::Stopped);
   }
 }

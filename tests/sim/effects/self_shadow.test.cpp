@@ -51,6 +51,21 @@ TEST_SUITE("known answer") {
     CHECK(shadow_in(scene_of(box), 0.1).value == 0);
   }
 
+  TEST_CASE(
+      "if both faces count, a ball of glass shadows the discs where light arrives inside, an opaque one does not") {
+    for (const double glass : {0.0, 1.0}) {
+      Mesh ball;
+      ball.materials.all = {{.name = "ball", .diffuse = 0, .glass = glass, .index = 1.5}};
+      built_in::add_ball(ball, {0, 0, 0}, 1, 16);
+      const Scene scene = scene_of(ball);
+      const Finding found = self_shadow(scene, caster_for(scene), discs_at(scene, 0.05), false, 1);
+      if (glass > 0)
+        CHECK(found.value > 0.3);
+      else
+        CHECK(found.value < 0.01);
+    }
+  }
+
   TEST_CASE("a stack of thin uneven sheets: light through them outweighs shadow") {
     Mesh sheets;
     for (int i = 0; i < 6; ++i)

@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -100,6 +101,55 @@ Given a_few_far_discs() {
   return with_lines(std::move(discs));
 }
 
+/// Closed boxes that stop the rays; six of seven samples lie inside of them, a little below the walls, the others on the walls.
+class ClosedBoxes {
+ public:
+  [[nodiscard]] Given given() const {
+    Given given{.discs = {}, .rays = {}};
+    for (std::size_t i = 0; i < 20'000; ++i) {
+      const auto u = random_for(i, 11);
+      const int axis = static_cast<int>(i % 3);
+      const double side = i % 2 == 0 ? 1 : -1;
+      const double depth = i % 7 == 0 ? 0 : 0.06;
+      glm::dvec3 at(0.0);
+      at[axis] = side * (half - depth);
+      at[(axis + 1) % 3] = half * (2 * u[0] - 1);
+      at[(axis + 2) % 3] = half * (2 * u[1] - 1);
+      glm::dvec3 normal(0.0);
+      normal[axis] = side;
+      given.discs.push_back({centre(i / 30 % boxes) + at, normal, 0.01});
+    }
+    for (std::size_t i = 0; given.rays.size() < ray_count; ++i) {
+      const auto u = random_for(i, 12);
+      sim::Ray ray{place_in_cube(100'000 + i), sim::uniform_direction(u[0], u[1]), 2};
+      for (std::size_t box = 0; box < boxes; ++box) ray.length = std::min(ray.length, entry(ray, centre(box)));
+      if (!(ray.length > 0)) continue;
+      ray.length += 1e-9;  // through the wall, as photon paths
+      given.rays.push_back(ray);
+    }
+    return given;
+  }
+
+ private:
+  static constexpr double half = 0.25;
+  static constexpr std::size_t boxes = 8;
+
+  static glm::dvec3 centre(std::size_t box) { return 0.85 * place_in_cube(box); }
+
+  /// Where the ray enters the box; 0 if it starts inside, infinite if it misses.
+  static double entry(const sim::Ray& ray, const glm::dvec3& middle) {
+    double from = 0;
+    double to = HUGE_VAL;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double a = (middle[axis] - half - ray.origin[axis]) / ray.direction[axis];
+      const double b = (middle[axis] + half - ray.origin[axis]) / ray.direction[axis];
+      from = std::max(from, std::min(a, b));
+      to = std::min(to, std::max(a, b));
+    }
+    return from < to ? from : HUGE_VAL;
+  }
+};
+
 sim::Observed seen(const Given& given, const std::string& effects) {
   return sim::observe(sim::make_problem(given.rays, given.discs), given.surface, sim::EffectSelection(effects));
 }
@@ -162,6 +212,10 @@ TEST_SUITE("known answer") {
 
   TEST_CASE("directional bias left out where light comes from above: the claim about hits is refuted") {
     check_caught(light_from_above(), "directional-bias", "hits");
+  }
+
+  TEST_CASE("occlusion left out where samples lie in closed boxes: the claim about hits is refuted") {
+    check_caught(ClosedBoxes().given(), "occlusion", "hits");
   }
 
   TEST_CASE("clustered samples left out where a few discs are far away: the claim about tests is refuted") {

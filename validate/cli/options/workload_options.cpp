@@ -101,6 +101,9 @@ void WorkloadOptions::add_to(CLI::App& command, Values values, std::optional<Val
       command, "--up", Values::one, words, [this](const std::string& text) { request_.up = parse_up(text); },
       "which way is up, for lights that are placed: x, y, z, -x, -y, -z, auto; default: auto (by the mesh's shape)");
   command.add_flag("--front-facing", request_.front_facing, "count only rays that arrive at a disc's front");
+  command.add_flag("--second-intersection", request_.second_intersection,
+                   "photon paths go on to the second surface that they meet, as in the paper; default: as far as the "
+                   "effect concave surfaces says");
   lists.add(
       command, "--effects", Values::one, words,
       [this](const std::string& text) { request_.effects = sim::EffectSelection(text); },

@@ -104,6 +104,7 @@ Json origin_json(const validate::JobRequest& request, const std::string& scene, 
   else
     json["field"] = name(field);
   json["front_facing"] = request.front_facing;
+  if (request.second_intersection) json["second_intersection"] = true;
   json["seed"] = request.seed;
   return json;
 }

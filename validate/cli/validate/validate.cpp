@@ -193,7 +193,8 @@ Table table_of(const std::vector<Claim>& claims, const validate::FindingsUntil& 
                       "relative_error",
                       "reached",
                       "more_lines",
-                      "more_seconds"} +
+                      "more_seconds",
+                      "share_bound"} +
               effect_columns() + sweep_columns());
   for (const Claim& claim : claims) {
     Json row = workload_cells(result.inputs);
