@@ -6,11 +6,22 @@
 
 namespace detp::sim {
 
+namespace {
+
+/// Rough, of a box tree on one thread.
+double search_seconds(double rays, double discs) { return 60e-9 * discs + 150e-9 * rays; }
+
+}  // namespace
+
+bool evidence_can_pay(double rays, double discs) {
+  constexpr double least_seconds = 0.03;
+  return search_seconds(rays, discs) >= least_seconds;
+}
+
 EvidenceEffort EvidenceEffort::for_search(double rays, double discs) {
   constexpr double seconds_of_all = 1e-3;
-  constexpr double least_seconds = 0.15e-3;
-  const double search = 60e-9 * discs + 150e-9 * rays;
-  const double share = std::min(1.0, std::max(least_seconds, 0.005 * search) / seconds_of_all);
+  constexpr double least_seconds = 0.2e-3;
+  const double share = std::min(1.0, std::max(least_seconds, 0.005 * search_seconds(rays, discs)) / seconds_of_all);
   const auto part = [share](std::size_t all) { return static_cast<std::size_t>(share * static_cast<double>(all)); };
   const EvidenceEffort all;
   return {part(all.discs), part(all.rays), part(all.crossing_rays)};

@@ -118,6 +118,17 @@ Observed observe(const Problem& problem, const SurfaceFacts& surface, const Effe
   return observed;
 }
 
+Workload with_inputs_alone(const Problem& problem, const std::stop_token& stop) {
+  Workload workload = without_effects(problem);
+  const EffectSample sample(problem, {}, {}, stop);
+  for (const Effect* effect : all_effects) {
+    if (!effect->is_input) continue;
+    const Finding finding = effect->find(sample);
+    if (EffectSelection().is_on(*effect, finding.value, finding.standard_error)) finding.apply(workload);
+  }
+  return workload;
+}
+
 Workload without_effects(const Problem& problem) {
   const glm::dvec3 size = problem.centres().size();
   Workload workload{.rays = static_cast<double>(problem.rays().size()),

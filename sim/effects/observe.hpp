@@ -57,6 +57,9 @@ struct Observed {
 /// mean square radius, both of whose faces count. Needs no evidence.
 [[nodiscard]] Workload without_effects(const Problem& problem);
 
+/// The same with the meanings of the input: which faces count, and radii that differ. Needs no evidence. Throws Stopped.
+[[nodiscard]] Workload with_inputs_alone(const Problem& problem, const std::stop_token& stop = {});
+
 /// without_effects, and what the effects add that are on. Throws Stopped if a stop was requested.
 [[nodiscard]] Observed observe(const Problem& problem, const SurfaceFacts& surface = {},
                                const EffectSelection& selection = {}, const std::stop_token& stop = {},

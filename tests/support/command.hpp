@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "sanitized.hpp"
 #include "scratch_file.hpp"
 
 /// Runs the command `detp` as a user does: as a process of its own.
@@ -96,7 +97,7 @@ class Process {
   [[nodiscard]] Finished finish() {
     int status = 0;
     while (::waitpid(id_, &status, WNOHANG) == 0) {
-      if (Clock::now() - start_ > std::chrono::seconds(60)) send(SIGKILL);
+      if (Clock::now() - start_ > patience) send(SIGKILL);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     id_ = -1;
@@ -108,6 +109,8 @@ class Process {
   }
 
  private:
+  static constexpr std::chrono::seconds patience{sanitized ? 600 : 60};
+
   support::ScratchFolder folder_;
   std::string out_ = folder_.path("out");
   std::string err_ = folder_.path("err");

@@ -8,19 +8,23 @@ bool can_measure(const Question& question) {
 }
 
 Workload evidence(const Question& question, double rays) {
-  const sim::SurfaceFacts surface = question.surface != nullptr ? *question.surface : sim::SurfaceFacts{};
-  const auto effort = sim::EvidenceEffort::for_search(
-      rays, question.problem != nullptr ? static_cast<double>(question.problem->discs().size()) : 0);
-  Workload found;
-  if (question.workload) {
-    found = *question.workload;
-  } else if (question.problem->rays().empty()) {
+  const auto measured = [&]() -> Workload {
+    if (question.workload) return *question.workload;
+    const auto discs = static_cast<double>(question.problem->discs().size());
+    const auto of = [&](const sim::Problem& problem) {
+      if (question.purpose == Purpose::one_search && question.effects.text() == "auto" &&
+          !sim::evidence_can_pay(rays, discs))
+        return sim::with_inputs_alone(problem, question.stop);
+      return sim::observe(problem, question.surface != nullptr ? *question.surface : sim::SurfaceFacts{},
+                          question.effects, question.stop, sim::EvidenceEffort::for_search(rays, discs))
+          .workload;
+    };
+    if (!question.problem->rays().empty()) return of(*question.problem);
     sim::Problem with_rays = *question.problem;
     sim::set_rays(with_rays, question.rays, question.threads);
-    found = sim::observe(with_rays, surface, question.effects, question.stop, effort).workload;
-  } else {
-    found = sim::observe(*question.problem, surface, question.effects, question.stop, effort).workload;
-  }
+    return of(with_rays);
+  };
+  Workload found = measured();
   found.rays = rays;
   return found;
 }

@@ -125,6 +125,20 @@ TEST_SUITE("effects") {
     CHECK(report_of(none, sim::finite_paths).value == report_of(found, sim::finite_paths).value);
   }
 
+  TEST_CASE("meanings of the input need no evidence, and are those of no effects") {
+    Room room;
+    for (std::size_t i = 0; i < room.discs.size(); i += 2) room.discs[i].radius *= 2;
+    const sim::Problem problem = sim::make_problem(room.rays, room.discs, true);
+    const Workload alone = sim::with_inputs_alone(problem);
+    const Workload none = sim::observe(problem, {}, sim::EffectSelection("none")).workload;
+    CHECK(alone.front_facing);
+    CHECK(alone.radii.size() == 2);
+    CHECK(alone.radii.size() == none.radii.size());
+    CHECK(alone.dimension == none.dimension);
+    CHECK(alone.path_length == none.path_length);
+    CHECK(alone.rays_end == none.rays_end);
+  }
+
   TEST_CASE("segments as long as lines call for no effect") {
     const auto discs = sim::uniform_discs(sim::Body::cube, 2, 20'000, 0.01, 1);
     auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 20'000);

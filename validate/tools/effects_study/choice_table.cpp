@@ -127,7 +127,10 @@ void ChoiceTable::add(const StudyWorkload& workload) {
   if (half.tests_over_all.back() > alike) half.causes[cause] += 1;
   half.evidence.push_back(median_seconds(workload, "auto"));
   half.evidence_of_all.push_back(median_seconds(workload, "all"));
-  csv_ += fmt::format(",{:.3g},{:.3g}\n", half.evidence.back(), half.evidence_of_all.back());
+  const std::array evidence{half.evidence.back(), half.evidence_of_all.back(), 0.0};  // none needs none
+  for (std::size_t i = 0; i < selections.size(); ++i)
+    half.price[selections[i]].push_back((priced.seconds(chosen[i]) + evidence[i]) / least);
+  csv_ += fmt::format(",{:.4g},{:.3g},{:.3g}\n", least, half.evidence.back(), half.evidence_of_all.back());
 }
 
 std::string ChoiceTable::summary() const {
@@ -155,13 +158,19 @@ std::string ChoiceTable::summary() const {
       const auto found = half.tests.find(selection);
       return found == half.tests.end() ? "" : found->second.text();
     });
-  for (const char* selection : selections)
-    row(fmt::format("time over the best, {}: geometric mean, worst", selection), [&](const Half& half) {
-      const auto found = half.time_over_best.find(selection);
-      if (found == half.time_over_best.end()) return std::string();
-      return fmt::format("{:.4f}, {:.2f}", geometric_mean(found->second),
-                         *std::max_element(found->second.begin(), found->second.end()));
-    });
+  const auto times = [&](const std::string& what, const auto& of) {
+    for (const char* selection : selections)
+      row(fmt::format("{}, {}: geometric mean, worst", what, selection), [&](const Half& half) {
+        const auto found = of(half).find(selection);
+        if (found == of(half).end()) return std::string();
+        return fmt::format("{:.4f}, {:.2f}", geometric_mean(found->second),
+                           *std::max_element(found->second.begin(), found->second.end()));
+      });
+  };
+  times(
+      "time over the best", [](const Half& half) -> const auto& { return half.time_over_best; });
+  times(
+      "with the evidence", [](const Half& half) -> const auto& { return half.price; });
   row("evidence, auto and all: median, ms", [](const Half& half) {
     return half.evidence.empty() ? ""
                                  : fmt::format("{:.3f}, {:.3f}", 1e3 * validate::median(half.evidence),

@@ -28,9 +28,9 @@ constexpr double rays_of_effects = 20'000;
 
 /// Adds the workload to the table. Says on stderr why it was left out, if it was.
 template <class Table>
-void add(Table& table, const validate::RegretWorkload& workload) {
+void add(Table& table, const validate::RegretWorkload& workload, study::StudyWorkload::Effort effort) {
   try {
-    table.add(study::StudyWorkload(workload));
+    table.add(study::StudyWorkload(workload, effort));
   } catch (const std::exception& error) {
     fmt::print(stderr, "left out: {}, radius {}, {} rays: {}\n", workload.scene, workload.radius, workload.rays,
                error.what());
@@ -40,6 +40,7 @@ void add(Table& table, const validate::RegretWorkload& workload) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  using enum study::StudyWorkload::Effort;
   if (argc < 2) {
     fmt::print(stderr, "usage: effects_study FOLDER [FOLDER OF MESHES | --families SEED]\n");
     return 2;
@@ -47,7 +48,7 @@ int main(int argc, char** argv) {
   const std::string folder = argv[1];
   if (argc == 4 && std::string_view(argv[2]) == "--families") {
     study::ChoiceTable choices;
-    for (const auto& workload : validate::family_workloads(std::stoull(argv[3]))) add(choices, workload);
+    for (const auto& workload : validate::family_workloads(std::stoull(argv[3]))) add(choices, workload, priced);
     std::ofstream(folder + "/effects_families.csv") << choices.csv();
     fmt::print("{}", choices.summary());
     return 0;
@@ -56,10 +57,10 @@ int main(int argc, char** argv) {
   study::ChoiceTable choices;
   for (const study::StudyScene& scene : study::study_scenes(argc > 2 ? argv[2] : "")) {
     for (const double radius : {0.0025, 0.02})
-      for (const auto& workload : study::with_fields(scene, radius, rays_of_effects)) add(effects, workload);
+      for (const auto& workload : study::with_fields(scene, radius, rays_of_effects)) add(effects, workload, all);
     for (const double radius : {0.0025, 0.01, 0.04})
       for (const double rays : {1e3, 3e4})
-        for (const auto& workload : study::with_fields(scene, radius, rays)) add(choices, workload);
+        for (const auto& workload : study::with_fields(scene, radius, rays)) add(choices, workload, priced);
     fmt::print(stderr, "{}\n", scene.name);
   }
   std::ofstream(folder + "/effects.csv") << effects.csv();

@@ -30,7 +30,7 @@ Switched with_switched(const StudyWorkload& workload, const sim::Effect& effect,
   };
   const bool changes_rays = &effect == &sim::concave_surfaces && workload.workload().field == sim::Field::photons;
   if (!changes_rays) return text(workload.observe_switched(effect).workload, ",");
-  const StudyWorkload made(workload.made_switched(effect));
+  const StudyWorkload made(workload.made_switched(effect), StudyWorkload::Effort::all);
   const Counts<double> now = made.count(usual_tree());
   return text(made.automatic().workload,
               ratio_text(tests_of(now), tests_of(counted)) + "," + ratio_text(now.hits, counted.hits));

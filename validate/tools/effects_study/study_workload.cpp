@@ -10,16 +10,16 @@
 
 namespace detp::study {
 
-StudyWorkload::StudyWorkload(const validate::RegretWorkload& workload)
+StudyWorkload::StudyWorkload(const validate::RegretWorkload& workload, Effort effort)
     : workload_(workload), job_(validate::make_regret_job(workload, 1, {})), problem_(job_.problem()) {
+  if (effort == Effort::all) job_.measuring.effort = {};
   constexpr std::size_t fewest = 50;
   if (job_.discs.size() < fewest)
     throw std::invalid_argument(fmt::format("fewer than {} samples ({})", fewest, job_.discs.size()));
 }
 
 sim::Observed StudyWorkload::observe(const sim::EffectSelection& selection) const {
-  return sim::observe(problem_, job_.surface, selection, {},
-                      sim::EvidenceEffort::for_search(job_.given.rays, job_.given.samples));
+  return sim::observe(problem_, job_.surface, selection, {}, job_.measuring.effort);
 }
 
 sim::EffectSelection StudyWorkload::switched(const sim::Effect& effect) const {

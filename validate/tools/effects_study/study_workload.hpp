@@ -13,8 +13,13 @@ namespace detp::study {
 /// A workload with its rays and discs. It is not copied, because the problem refers to the job.
 class StudyWorkload {
  public:
+  /// How much evidence is collected.
+  enum class Effort {
+    all,    ///< as `detp scene` does
+    priced  ///< as `choose` does
+  };
   /// Throws as make_regret_job, and std::invalid_argument for fewer than 50 samples.
-  explicit StudyWorkload(const validate::RegretWorkload& workload);
+  StudyWorkload(const validate::RegretWorkload& workload, Effort effort);
   StudyWorkload(const StudyWorkload&) = delete;
   StudyWorkload& operator=(const StudyWorkload&) = delete;
 
