@@ -50,6 +50,7 @@ void warn_of_large_discs(const sim::Problem& problem, sim::StopCheck& check, std
 
 void warn_of_far_rays(const sim::Problem& problem, sim::StopCheck& check, std::vector<std::string>& warnings) {
   const double radius = problem.enclosing().radius;
+  if (problem.farthest() <= far_radii * radius) return;
   double farthest = 0;
   std::size_t far = 0;
   sim::for_each_checked(problem.rays(), check, [&](const sim::Ray& ray) {

@@ -1,0 +1,48 @@
+// Lines of a uniform field against uniform discs, written by hand or by way of a job without effects. Prints the hits. The test
+// `off-path` compares how many instructions both take, in valgrind, which offers AVX2 on any machine.
+//
+//   line_field hand|job
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "detp/sim/open/uniform_discs.hpp"
+#include "detp/sim/rays/line_field.hpp"
+#include "detp/sim/technique/technique.hpp"
+#include "detp/validate/job/job.hpp"
+
+namespace {
+
+using namespace detp;
+
+constexpr std::size_t samples = 20'000;
+constexpr std::size_t lines = 50'000;
+constexpr double radius = 0.02;
+constexpr double side = 2;
+const Candidate tree{Technique::box_tree, BoxTreeParameters{8, 16}};
+const sim::RunOptions one_thread{.threads = 1};
+
+std::uint64_t hits_by_hand() {
+  const auto discs = sim::uniform_discs(sim::Body::cube, side, samples, radius, 1);
+  const auto rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, lines);
+  return sim::run(sim::make_problem(rays, discs), tree, one_thread).total_hits;
+}
+
+std::uint64_t hits_of_job() {
+  validate::JobRequest request;
+  request.rays = lines;
+  request.samples = samples;
+  request.disc_radius = validate::Length{radius};
+  request.scene_side = side;
+  request.effects = sim::EffectSelection("none");
+  const validate::Job job = validate::make_job(request);
+  return sim::run(job.problem(), tree, one_thread).total_hits;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  fmt::print("{}\n", std::string_view(argv[1]) == "hand" ? hits_by_hand() : hits_of_job());
+}
