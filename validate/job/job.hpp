@@ -49,8 +49,8 @@ struct JobRequest {
   std::vector<sim::LightKind> lights;  ///< default: the scene's own; in a mesh file without lights an area light
   std::optional<sim::Up> up;           ///< default: y in built-in scenes, found from the shape in mesh files
   bool front_facing = false;
-  bool second_intersection =
-      false;                     ///< photon paths go on to the second surface that they meet, as in the paper (§2.1)
+  /// photon paths go on to the second surface that they meet, as in the paper (§2.1)
+  bool second_intersection = false;
   sim::EffectSelection effects;  ///< that the workload has, and that photon paths are made with
   std::uint64_t seed = 1;
   /// True if only the workload is needed. If there are more rays than a block (sim::default_block), then only the first
@@ -122,8 +122,6 @@ struct Job {
   [[nodiscard]] const Workload& workload() const;
   /// The effects, and what finding them cost; as workload().
   [[nodiscard]] const sim::Observed& observed() const;
-  /// Whether the workload has been asked for.
-  [[nodiscard]] bool is_measured() const { return observed_.has_value(); }
   /// The problem. It refers to this job's rays and discs; moving the job does not change that. Throws std::invalid_argument
   /// if the rays are a stream.
   [[nodiscard]] const sim::Problem& problem() const;
