@@ -18,10 +18,10 @@ using support::source_text;
 
 namespace {
 
-/// The rows of regret.csv, as far as figures need them. A baseline has one option, the one that counts.
-std::vector<RegretRow> published_regrets() {
+/// The rows of a file, as far as figures need them. A baseline has one option, the one that counts.
+std::vector<RegretRow> published_regrets(const std::string& file = "regret.csv") {
   std::vector<RegretRow> rows;
-  for (const CsvRow& fields : published("regret.csv")) {
+  for (const CsvRow& fields : published(file)) {
     if (rows.empty() || fields.at("tier") == rows.front().choices.front().tier) {
       RegretRow& row = rows.emplace_back();
       row.workload.scene = fields.at("scene");
@@ -109,6 +109,19 @@ TEST_SUITE("figures of pages") {
     check_says(page, fmt::format("| noise | {} | {} |\n", cells_of(summarise(half_of(rows, false), 1).noise),
                                  cells_of(summarise(held_out, 1).noise)));
     check_says(page, fmt::format("| noise | {} |\n", cells_of(two.noise)));
+  }
+
+  TEST_CASE("validate/regret/README.md shows the regrets and prices that regret_families.csv has") {
+    const std::string page = source_text("validate/regret/README.md");
+    const auto rows = published_regrets("regret_families.csv");
+    const RegretSummary summary = summarise(rows, 1);
+    for (std::size_t i = 0; i < summary.tiers.size(); ++i)
+      check_says(page, fmt::format("| {} | {} | {} |\n", summary.tiers[i].tier, cells_of(summary.tiers[i].regret.all),
+                                   cells_of(price_of(rows, i, 0))));
+    for (std::size_t i = 0; i < summary.baselines.size(); ++i)
+      if (baselines()[i].name == "best_constant" || baselines()[i].name == "usual_shape")
+        check_says(page,
+                   fmt::format("| {} | {} | | | |\n", baselines()[i].text, cells_of(summary.baselines[i].regret.all)));
   }
 
   TEST_CASE("README.md says how near the choice of detp run is to the best, as regret.csv has it") {
