@@ -36,15 +36,15 @@ struct SurfaceFacts {
 struct EvidenceEffort {
   std::size_t discs = 1U << 13;         ///< sampled
   std::size_t rays = 1U << 11;          ///< whose lengths are measured
-  std::size_t crossing_rays = 1U << 9;  ///< around whose samples crossings are counted
+  std::size_t crossing_rays = 1U << 9;  ///< of which it is counted how many samples they pass
 
   /// The effort that takes about 0.5 % of the time of a search with so many rays and discs, or a fifth of the default if that is more; at most the
   /// default, which takes 0.7 to 1.2 ms. Rough: the search takes 60 ns for each disc and 150 ns for each ray.
   [[nodiscard]] static EvidenceEffort for_search(double rays, double discs);
 };
 
-/// Whether evidence can pay for one search by this many rays: it must take over 30 ms. On ordinary scenes, choices by closed forms without
-/// any effect lose only 0.3 % (validate/tools/effects_study).
+/// Whether evidence can pay for one search with so many rays and discs: a search of 30 ms or more, by the rough times of
+/// EvidenceEffort::for_search. On ordinary scenes, choices by closed forms lose nothing without effects (validate/tools/effects_study).
 [[nodiscard]] bool evidence_can_pay(double rays, double discs);
 
 /// What effects are looked for in, and what they share of it. Everything is measured on first use; not for use from

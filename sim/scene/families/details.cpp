@@ -1,5 +1,3 @@
-#include <array>
-
 #include "draw.hpp"
 #include "families.hpp"
 

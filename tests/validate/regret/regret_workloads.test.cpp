@@ -77,6 +77,20 @@ TEST_SUITE("known answer") {
     for (const RegretWorkload& one : set.workloads) CHECK((one.samples > 0 && one.samples <= 1e4));
   }
 
+  TEST_CASE("families have the same workloads for a seed, two scenes of each, others for another seed") {
+    const auto workloads = family_workloads(3);
+    CHECK(workloads.size() == 84);
+    CHECK(values_of(workloads, &RegretWorkload::scene).size() == 12);
+    for (const RegretWorkload& one : workloads) {
+      CHECK(one.held_out);
+      CHECK((one.radius >= 0.0025 && one.radius <= 0.16));
+      CHECK((one.rays >= 100 && one.rays <= 1e6));
+    }
+    CHECK(values_of(family_workloads(3), &RegretWorkload::rays) == values_of(workloads, &RegretWorkload::rays));
+    CHECK(values_of(family_workloads(4), &RegretWorkload::rays) != values_of(workloads, &RegretWorkload::rays));
+    CHECK_FALSE(make_regret_job(workloads.front(), 1, {}).discs.empty());
+  }
+
   TEST_CASE("meshes that are missing are named, with the reason") {
     const RegretSet unknown = regret_set(RegretEffort::thorough, "");
     REQUIRE(unknown.missing.size() == mesh_files.size());
