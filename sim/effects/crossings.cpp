@@ -42,7 +42,7 @@ struct OfRay {
 };
 
 /// Σ a / Σ b over the rays, in units of `uniform`; the error is that of a quotient of sums (Cochran, Sampling
-/// Techniques). 1 if nothing was counted: all discs may lie where a single ray would cross them all.
+/// Techniques). 1 if no b was counted.
 template <class A, class B>
 CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a, const B& b) {
   double above = 0;
@@ -51,7 +51,7 @@ CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a
     above += a(one);
     below += b(one);
   }
-  if (!(above > 0 && below > 0) || rays.size() < 2) return {};
+  if (!(below > 0) || rays.size() < 2) return {};
   const double ratio = above / below;
   double squares = 0;
   for (const OfRay& one : rays) {
@@ -62,13 +62,14 @@ CountedRatio ratio_of(const std::vector<OfRay>& rays, double uniform, const A& a
   return {ratio / uniform, std::sqrt(squares * count / (count - 1)) / below / uniform};
 }
 
-/// A measured ratio and the prior knowledge that such ratios are 1 ± 0.5: the mean of both, by the inverse of their variances. The standard
-/// error is at least `least`, that of rays which are as many as is expected.
+/// A measured ratio and the prior knowledge that such ratios are 1 ± 0.5: the mean of both, by the inverse of their variances, and its
+/// standard error. The ratio's own standard error is at least `least`, that of rays which are as many as is expected; infinite if
+/// nothing was counted, which leaves the prior knowledge.
 CountedRatio shrunk(const CountedRatio& ratio, double least) {
   constexpr double spread = 0.5;
   const double error = std::max(ratio.standard_error, least);
-  const double trust = spread * spread / (spread * spread + error * error);
-  return {1 + trust * (ratio.value - 1), error};
+  const double trust = 1 / (1 + error / spread * (error / spread));
+  return {1 + trust * (ratio.value - 1), spread * std::sqrt(1 - trust)};
 }
 
 /// Σ m² over clusters of m of every `step`-th sampled discs, over the square of their number: the square of the relative error of
@@ -132,8 +133,11 @@ class CrossingCounter {
     const double unmet_near = std::sqrt(unevenness_near_ / (rays * sphere));
     if (sample_.problem.segments())
       found.near = shrunk(ratio_of(rays_, sphere / uniform_.sphere(around_), near, around), unmet_near);
-    found.discs =
-        shrunk(ratio_of(rays_, uniform_.disc(near_, sample_.problem.front_facing()) / sphere, discs, near), 0);
+    // Each ray near a sample crosses its disc with probability p, if rays are isotropic. Discs of one ray are not independent.
+    const double p = uniform_.disc(near_, sample_.problem.front_facing()) / sphere;
+    const auto rays_near =
+        static_cast<double>(std::ranges::count_if(rays_, [](const OfRay& ray) { return ray.near > 0; }));
+    found.discs = shrunk(ratio_of(rays_, p, discs, near), std::sqrt((1 - p) / (p * rays_near)));
     return found;
   }
 

@@ -48,8 +48,8 @@ struct CountedRatio {
   double standard_error = 0;
 };
 
-/// How many rays cross spheres around samples. Each value is over that of uniform rays; 1 if nothing was
-/// counted, and for a single ray.
+/// How many rays cross spheres around samples. Each value is over that of uniform rays. Where little or nothing was counted, it is close
+/// to 1 and its standard error close to 0.5.
 struct Crossings {
   double radius = 0;    ///< of spheres that 3 in 1000 uniform segments cross, or a hundredth of uniform lines
   CountedRatio around;  ///< rays that cross these

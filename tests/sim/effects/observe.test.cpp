@@ -267,6 +267,26 @@ TEST_SUITE("effects") {
     CHECK(wrong <= 2);
   }
 
+  TEST_CASE("where no ray was met near a sample, directional bias is unknown, not certainly 1") {
+    const auto discs = sim::uniform_discs(sim::Body::cube, 2, 1000, 1e-6, 1);
+    const sim::Ray away{.origin = {0, 0, 5}, .direction = {0, 0, 1}, .length = 1};
+    const sim::Observed none = sim::observe(sim::make_problem(std::vector<sim::Ray>(100, away), discs));
+    CHECK_FALSE(report_of(none, sim::directional_bias).on);
+    CHECK(report_of(none, sim::directional_bias).value == 1);
+    CHECK(report_of(none, sim::directional_bias).standard_error == doctest::Approx(0.5));
+  }
+
+  TEST_CASE("rays that graze all discs show that fewer hit, with an error for what was not met") {
+    auto discs = sim::uniform_discs(sim::Body::cube, 2, 5000, 0.01, 1);
+    for (sim::Disc& disc : discs) disc.normal = {0, 0, 1};
+    std::vector<sim::Ray> rays = sim::LineField(sim::enclosing_sphere(discs), 1).lines(0, 5000);
+    for (sim::Ray& ray : rays) ray.direction = glm::normalize(glm::dvec3(ray.direction.x, ray.direction.y, 1e-9));
+    const sim::Observed found = sim::observe(sim::make_problem(rays, discs));
+    CHECK(report_of(found, sim::directional_bias).value < 0.3);
+    CHECK(report_of(found, sim::directional_bias).standard_error > 0);
+    CHECK(report_of(found, sim::directional_bias).on);
+  }
+
   TEST_CASE("the effort of evidence follows the length of the search, and a small one samples less") {
     const auto short_search = sim::EvidenceEffort::for_search(1e3, 1e3);
     const auto long_search = sim::EvidenceEffort::for_search(1e7, 1e6);

@@ -92,19 +92,20 @@ TEST_SUITE("known answer") {
     }
   }
 
-  TEST_CASE("if rays miss the discs, the predicted tests and hits of every technique with an index are refuted") {
+  TEST_CASE(
+      "if rays miss the discs, the predicted tests of every technique with an index are refuted, and no hits "
+      "confirmed") {
     const std::vector<Claim> claims = judge_all(choice_findings(rays_where_nothing_is()));
     int refuted = 0;
     for (const Claim& claim : claims) {
       CAPTURE(claim.id);
-      const bool brute_force = claim.id.starts_with("choice.brute-force.disc-tests");
-      const bool tests = claim.id.find(".disc-tests.") != std::string::npos;
-      const bool hits = claim.id.find(".hits.") != std::string::npos;
-      if (brute_force || !(tests || hits)) continue;
+      // The evidence shows that rays miss the discs near which they pass, so few hits are predicted.
+      if (claim.id.find(".hits.") != std::string::npos) CHECK(claim.verdict != Verdict::agrees);
+      if (claim.id.starts_with("choice.brute-force") || claim.id.find(".disc-tests.") == std::string::npos) continue;
       CHECK(claim.verdict == Verdict::refuted);
       ++refuted;
     }
-    CHECK(refuted >= 9);
+    CHECK(refuted >= 5);
   }
 
   TEST_CASE("if only fronts count, half of the hits of lines are predicted and counted") {
