@@ -225,7 +225,10 @@ std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) co
   RepeatedSums sums(*counted_power_, options_.memory);
   std::uint64_t found = 0;
   for (std::size_t place = first; place < last; ++place) {
-    if (place + prefetch_distance < hits_.size()) {
+    const auto has_hits = [&](std::size_t at) {
+      return at < hits_.size() && (hits_[at][0] | hits_[at][1] | hits_[at][2]) != 0;
+    };
+    if (has_hits(place + prefetch_distance)) {
       const std::uint32_t later = tree_.order[place + prefetch_distance];
       hwy::Prefetch(&problem_.discs()[later].radius);
       hwy::Prefetch(&outcome_.hits[later]);

@@ -153,8 +153,11 @@ DiscTree discs_in_order(const Problem& problem, const Frame& frame, std::vector<
     sim::parallel_for(ParallelRange(0, tree.order.size(), grain), [&](const auto& range) {
       StopCheck check(options.stop, "putting discs in order");
       for_each_checked(range.begin(), range.end(), check, [&](std::size_t place) {
-        if (place + prefetch_distance < tree.order.size())
-          hwy::Prefetch(&problem.discs()[tree.order[place + prefetch_distance]]);
+        if (place + prefetch_distance < tree.order.size()) {
+          const Disc& later = problem.discs()[tree.order[place + prefetch_distance]];
+          hwy::Prefetch(&later.centre);  // a disc may lie in two cache lines
+          hwy::Prefetch(&later.radius);
+        }
         tree.discs[place] = to_float(problem.discs()[tree.order[place]], frame);
       });
       check.now();
