@@ -32,14 +32,8 @@ struct Resolution {
 
 Resolution resolution_for(std::size_t discs) { return discs < 8192 ? Resolution{2, 9} : Resolution{3, 10}; }
 
-Box box_of_centres(std::span<const Disc> discs) {
-  Box box;
-  for (const Disc& disc : discs) box.include(disc.centre);
-  return box;
-}
-
-std::vector<CurvePlace> places_of(std::span<const Disc> discs, double cells, const std::stop_token& stop) {
-  const Box box = box_of_centres(discs);
+std::vector<CurvePlace> places_of(std::span<const Disc> discs, const Box& box, double cells,
+                                  const std::stop_token& stop) {
   const double side = box.longest_side();
   // with a smaller side the scale might not be finite: then all discs are in one cell
   constexpr double least_side = 1e-290;
@@ -103,9 +97,9 @@ class Pass {
 
 }  // namespace
 
-std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs, const std::stop_token& stop) {
+std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs, const Box& centres, const std::stop_token& stop) {
   const Resolution resolution = resolution_for(discs.size());
-  std::vector<CurvePlace> places = places_of(discs, resolution.cells(), stop);
+  std::vector<CurvePlace> places = places_of(discs, centres, resolution.cells(), stop);
   std::vector<CurvePlace> other(places.size());
   for (int digit = 0; digit < resolution.digits; ++digit) {
     Pass(resolution, digit, places, stop).move_to(other);

@@ -17,9 +17,10 @@ using CurvePlace = std::uint64_t;
 [[nodiscard]] constexpr std::uint32_t place_code(CurvePlace place) { return static_cast<std::uint32_t>(place >> 32); }
 [[nodiscard]] constexpr std::uint32_t place_index(CurvePlace place) { return static_cast<std::uint32_t>(place); }
 
-/// Returns one CurvePlace for each disc, in the curve's order. Cells are cubes. Their side is 1/1024 of the longest
-/// side of the box around the discs' centres, or 1/64 of it for fewer than 8192 discs. Discs in one cell keep their
-/// order. Throws Stopped if a stop was requested.
-[[nodiscard]] std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs, const std::stop_token& stop = {});
+/// Returns one CurvePlace for each disc, in the curve's order. `centres` is the box around the discs' centres. Cells are cubes. Their
+/// side is 1/1024 of its longest side, or 1/64 of it for fewer than 8192 discs. Discs in one cell keep their order. Throws Stopped
+/// if a stop was requested.
+[[nodiscard]] std::vector<CurvePlace> sort_along_curve(std::span<const Disc> discs, const Box& centres,
+                                                       const std::stop_token& stop = {});
 
 }  // namespace detp::sim::stream

@@ -47,6 +47,7 @@ struct Extent {
   Box centres;
   Sphere enclosing;  ///< as documented at enclosing_sphere
   DiscRadii radii;
+  bool sound = true;  ///< by the fast test; normals have unit length
 };
 
 Extent extent_of(std::span<const Disc> discs, StopCheck& check) {
@@ -54,6 +55,7 @@ Extent extent_of(std::span<const Disc> discs, StopCheck& check) {
   double squares = 0;  // cannot overflow or underflow, because radii are 1e-100 to 1e100
   double sum = 0;      // NaN if any number is not finite
   for_each_checked(discs, check, [&](const Disc& disc) {
+    extent.sound = extent.sound && surely_sound(disc);
     extent.centres.include(disc.centre);
     extent.radii.smallest = std::min(extent.radii.smallest, disc.radius);
     extent.radii.largest = std::max(extent.radii.largest, disc.radius);
@@ -85,9 +87,9 @@ Problem::Problem(std::span<const Disc> discs, bool front_facing, const std::stop
     : front_facing_(front_facing) {
   require_number("disc", discs.size());
   StopCheck check(stop, checking);
-  own_discs_ = normalised_if_needed(discs, check);
+  const Extent extent = extent_of(discs, check);
+  if (!extent.sound) own_discs_ = normalised_if_needed(discs, check);
   discs_ = own_discs_ ? std::span<const Disc>(*own_discs_) : discs;
-  const Extent extent = extent_of(discs_, check);
   enclosing_ = extent.enclosing;
   centres_ = extent.centres;
   radii_ = extent.radii;

@@ -16,19 +16,9 @@ namespace {
 
 constexpr std::size_t rays_at_once = std::size_t{1} << 14;
 
-/// Fast test with the vector's square: true only if all coordinates are certainly at most largest_coordinate. False for
-/// NaN.
-bool surely_in_range(const glm::dvec3& vector) {
-  return glm::dot(vector, vector) <= largest_coordinate * largest_coordinate;
-}
 bool surely_sound(const Ray& ray, double most_power) {
   return surely_in_range(ray.origin) && surely_unit(ray.direction) && ray.length > 0 && ray.power >= 0 &&
          ray.power <= most_power;
-}
-
-bool surely_sound(const Disc& disc) {
-  return surely_in_range(disc.centre) && surely_unit(disc.normal) && disc.radius >= least_radius &&
-         disc.radius <= largest_coordinate;
 }
 
 void require_coordinates(const std::string& what, const glm::dvec3& point) {

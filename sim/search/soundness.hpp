@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "detp/model/vocabulary/vocabulary.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/paths.hpp"
 #include "detp/sim/geometry/unit_vector.hpp"
@@ -19,6 +20,18 @@ inline constexpr double least_radius = 1e-100;
 /// Fast test: true only if the length is certainly 1 to within 1e-12; has a margin for rounding. False for NaN.
 [[nodiscard]] inline bool surely_unit(const glm::dvec3& vector) {
   return std::abs(glm::dot(vector, vector) - 1) <= 1.99e-12;
+}
+
+/// Fast test with the vector's square: true only if all coordinates are certainly at most largest_coordinate. False for
+/// NaN.
+[[nodiscard]] inline bool surely_in_range(const glm::dvec3& vector) {
+  return glm::dot(vector, vector) <= largest_coordinate * largest_coordinate;
+}
+
+/// Fast test: true only if the disc is valid and its normal has unit length.
+[[nodiscard]] inline bool surely_sound(const Disc& disc) {
+  return surely_in_range(disc.centre) && surely_unit(disc.normal) && disc.radius >= least_radius &&
+         disc.radius <= largest_coordinate;
 }
 
 /// The vector scaled to unit length. Unchanged if its length is 1 to within 1e-12, or 0.

@@ -177,7 +177,8 @@ CurveOrder curve_order(const Problem& problem, const RunOptions& options) {
         fmt::format("{} discs are too many for a tree of boxes; the most is 2147483647", problem.discs().size()));
   CurveOrder places;
   on_threads(thread_count(options.threads), [&] {
-    places = std::make_shared<const std::vector<CurvePlace>>(sort_along_curve(problem.discs(), options.stop));
+    places = std::make_shared<const std::vector<CurvePlace>>(
+        sort_along_curve(problem.discs(), problem.centres(), options.stop));
   });
   return places;
 }
