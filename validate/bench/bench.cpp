@@ -9,6 +9,8 @@
 #include "contenders.hpp"
 #include "detp/sim/base/stopped.hpp"
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/lists/simd/instruction_sets.hpp"
+#include "detp/sim/lists/simd/tree_search.hpp"
 #include "detp/sim/technique/piloted_discs.hpp"
 
 namespace detp::validate {
@@ -35,7 +37,9 @@ class Benchmark {
   Benchmark(std::span<const BenchWorkload> workloads, const BenchOptions& options)
       : workloads_(workloads), options_(options) {
     result_.workloads = workloads.size();
-    for (const int threads : options.threads) peers_.try_emplace(threads, std::make_unique<EmbreePeer>(threads));
+    if (!options.instruction_set.empty()) only_.emplace(options.instruction_set);
+    for (const int threads : options.threads)
+      peers_.try_emplace(threads, std::make_unique<EmbreePeer>(threads, options.instruction_set));
   }
 
   BenchResult run_all() {
@@ -121,8 +125,8 @@ class Benchmark {
       Race found = race(job, *right, *peers_.at(threads), competitors, how);
       const bool complete = found.complete;
       if (!found.results.empty())
-        result_.entries.push_back(
-            {workload, job.given.samples, job.given.disc_radius, threads, right->judge, std::move(found)});
+        result_.entries.push_back({workload, job.given.samples, job.given.disc_radius, threads,
+                                   sim::stream::instruction_set(), right->judge, std::move(found)});
       if (!complete) return false;
     }
     return true;
@@ -130,6 +134,7 @@ class Benchmark {
 
   std::span<const BenchWorkload> workloads_;
   const BenchOptions& options_;
+  std::optional<sim::stream::OnlyInstructionSet> only_;
   std::map<int, std::unique_ptr<EmbreePeer>> peers_;
   BenchResult result_;
   double hits_per_ray_ = 0;

@@ -18,7 +18,8 @@ struct BenchOptions {
   std::vector<EmbreeMode> embree_modes;  ///< at least one
   /// unit costs with which our choice is made, and takes part where float kernels can search; none: it does not take part
   std::optional<CostTable> costs = {};
-  std::vector<int> threads = {1};  ///< each workload is run with each of these numbers of threads
+  std::vector<int> threads = {1};    ///< each workload is run with each of these numbers of threads
+  std::string instruction_set = {};  ///< of our kernels and of Embree; empty: all that the machine has
   int repeats = 5;
   double most_seconds = 2;  ///< after this many seconds, a race starts no fourth or later round
   double most_hits = 5e6;   ///< a workload is skipped if more hits are expected
@@ -35,6 +36,7 @@ struct BenchEntry {
   double samples = 0;      ///< actual number of samples
   double disc_radius = 0;  ///< in scene units
   int threads = 1;
+  std::string instruction_set = {};          ///< of our kernels
   Technique judge = Technique::brute_force;  ///< the technique whose hits count as right
   Race race;
 
@@ -67,7 +69,8 @@ struct BenchResult {
   bool stopped = false;       ///< a stop request came before the end
 };
 
-/// Runs a race on each workload. Throws as make_job does for a wrong scene or number.
+/// Runs a race on each workload. Throws as make_job does for a wrong scene or number, and std::invalid_argument for an instruction set
+/// that this machine or Embree lacks. No other search may run meanwhile if one is named.
 [[nodiscard]] BenchResult run_bench(std::span<const BenchWorkload> workloads, const BenchOptions& options);
 
 /// The six modes that `bench` runs by default. All 60 modes were measured on seven workloads (CPU time, 10³ … 10⁵

@@ -1,7 +1,9 @@
 #include <fmt/format.h>
 
 #include "command.hpp"
+#include "detp/sim/lists/simd/instruction_sets.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
+#include "detp/validate/cli/options/instruction_set_option.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 #include "detp/validate/cli/text/table.hpp"
@@ -13,6 +15,7 @@ namespace {
 
 struct CalibrateOptions {
   double seconds = 17;
+  InstructionSetOption instruction_set;
 };
 
 std::string joined_symbols(const std::vector<std::string_view>& symbols) {
@@ -195,6 +198,9 @@ std::string to_csv(const validate::Calibration& calibration) {
 
 Result run_calibrate(const CalibrateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   require_positive("--seconds", options.seconds);
+  const std::string only = options.instruction_set.only();
+  std::optional<sim::stream::OnlyInstructionSet> used;
+  if (!only.empty()) used.emplace(only);
   const ProgressLine progress(common.quiet);
   const validate::Calibration calibration = validate::calibrate(
       {.seconds = options.seconds, .threads = common.threads, .stop = stop, .progress = progress.report()});
@@ -233,6 +239,7 @@ Command calibrate_command(CLI::App& program) {
       "doubtful.");
   const auto options = std::make_shared<CalibrateOptions>();
   add_number(*app, "--seconds", options->seconds, "time for the measurements; default: 17");
+  options->instruction_set.add_to(*app, "the kernels, one");
   return {app, [options](const CommonOptions& common, const std::stop_token& stop) {
             return run_calibrate(*options, common, stop);
           }};

@@ -38,7 +38,11 @@ OnlyInstructionSet::OnlyInstructionSet(const std::string& name) {
       use_targets(target);
       return;
     }
-  throw std::invalid_argument("the kernels cannot use the instruction set " + detp::quoted(name) + " here");
+  std::string here;
+  for (const InstructionSet& set : compiled_instruction_sets())
+    if (set.here) here += (here.empty() ? "" : ", ") + set.name;
+  throw std::invalid_argument("the kernels cannot use the instruction set " + detp::quoted(name) +
+                              " on this machine; it has " + here);
 }
 
 OnlyInstructionSet::~OnlyInstructionSet() { use_targets(0); }

@@ -3,6 +3,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "detp/model/vocabulary/quoted.hpp"
 #include "detp/sim/base/embree.hpp"
 #include "detp/sim/base/parallel.hpp"
 #include "sse_state.hpp"
@@ -13,6 +14,16 @@ namespace {
 RTCBuildQuality to_embree(EmbreeQuality quality) {
   if (quality == EmbreeQuality::low) return RTC_BUILD_QUALITY_LOW;
   return quality == EmbreeQuality::medium ? RTC_BUILD_QUALITY_MEDIUM : RTC_BUILD_QUALITY_HIGH;
+}
+
+/// The setting of the device; nothing for an empty name.
+std::string setting_of(const std::string& instruction_set) {
+  if (instruction_set.empty()) return {};
+  if (instruction_set == "AVX3") return ",isa=avx512";
+  if (instruction_set == "AVX2") return ",isa=avx2";
+  if (instruction_set == "SSE4") return ",isa=sse4.2";
+  throw std::invalid_argument("Embree has no counterpart of the instruction set " + detp::quoted(instruction_set) +
+                              "; there are AVX3, AVX2, SSE4");
 }
 
 float* new_buffer(RTCGeometry geometry, RTCBufferType type, RTCFormat format, std::size_t floats, std::size_t items) {
@@ -28,8 +39,8 @@ void require_no_embree_error(RTCDevice device) {
     throw std::runtime_error("Embree failed with error " + std::to_string(static_cast<int>(error)));
 }
 
-EmbreeOwned<RTCDevice> make_embree_device(int threads) {
-  const std::string settings = "threads=" + std::to_string(threads) + ",start_threads=1";
+EmbreeOwned<RTCDevice> make_embree_device(int threads, const std::string& instruction_set) {
+  const std::string settings = "threads=" + std::to_string(threads) + ",start_threads=1" + setting_of(instruction_set);
   EmbreeOwned<RTCDevice> device(rtcNewDevice(settings.c_str()));
   require_no_embree_error(device.get());
   return device;

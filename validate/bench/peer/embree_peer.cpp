@@ -45,13 +45,15 @@ PeerOutcome merged(oneapi::tbb::enumerable_thread_specific<Tallies>& all, std::s
 }  // namespace
 
 struct EmbreePeer::Threads {
-  explicit Threads(int threads) : count(threads), device(make_embree_device(threads)) {}
+  Threads(int threads, const std::string& instruction_set)
+      : count(threads), device(make_embree_device(threads, instruction_set)) {}
 
   int count;
   EmbreeOwned<RTCDevice> device;
 };
 
-EmbreePeer::EmbreePeer(int threads) : threads_(std::make_unique<Threads>(threads)) {}
+EmbreePeer::EmbreePeer(int threads, const std::string& instruction_set)
+    : threads_(std::make_unique<Threads>(threads, instruction_set)) {}
 
 EmbreePeer::~EmbreePeer() = default;
 

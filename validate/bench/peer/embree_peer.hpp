@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <stop_token>
+#include <string>
 #include <vector>
 
 #include "detp/sim/geometry/geometry.hpp"
@@ -30,7 +31,8 @@ struct PeerOutcome {
 /// The constructor makes the device and starts its threads, so that timed runs do not include this.
 class EmbreePeer {
  public:
-  explicit EmbreePeer(int threads);
+  /// `instruction_set` is one of ours; empty: all that the machine has. Throws as make_embree_device.
+  explicit EmbreePeer(int threads, const std::string& instruction_set = {});
   ~EmbreePeer();
   EmbreePeer(const EmbreePeer&) = delete;
   EmbreePeer& operator=(const EmbreePeer&) = delete;

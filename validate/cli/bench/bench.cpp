@@ -6,8 +6,10 @@
 
 #include "bench_regret.hpp"
 #include "bench_report.hpp"
+#include "detp/sim/lists/simd/instruction_sets.hpp"
 #include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/options/candidate_options.hpp"
+#include "detp/validate/cli/options/instruction_set_option.hpp"
 #include "detp/validate/cli/options/value_lists.hpp"
 #include "detp/validate/cli/text/progress_line.hpp"
 
@@ -25,6 +27,7 @@ struct BenchCommand {
   std::string embree_modes = "best";
   int repeat = 5;
   std::optional<double> most_hits;
+  InstructionSetOption instruction_set;
   RegretCommand regret;
 };
 
@@ -105,14 +108,28 @@ Json inputs_json(const BenchCommand& command, const validate::BenchSet& set, con
 }
 
 Result run_command_bench(const BenchCommand& command, const CommonOptions& common, const std::stop_token& stop) {
-  if (command.regret.is_wanted())
+  if (command.regret.is_wanted()) {
+    const std::string only = command.instruction_set.only();
+    std::optional<sim::stream::OnlyInstructionSet> used;
+    if (!only.empty()) used.emplace(only);
     return run_bench_regret(command.regret, command.effort, command.scene, command.fields, common, stop);
-  const ProgressLine progress(common.quiet);
-  const validate::BenchOptions options = options_of(command, common, stop, progress);
+  }
   const char* folder = std::getenv("DETP_SCENES");
   const auto effort = command.effort == "thorough" ? validate::BenchEffort::thorough : validate::BenchEffort::quick;
   const validate::BenchSet set = validate::bench_set(effort, axes_of(command), folder != nullptr ? folder : "");
-  Result result = report_bench(validate::run_bench(set.workloads, options), options, set.missing, common.screen());
+  const ProgressLine progress(common.quiet);
+  std::vector<validate::BenchResult> benches;
+  validate::BenchOptions options;
+  for (const std::string& instruction_set : command.instruction_set.sets()) {
+    {
+      std::optional<sim::stream::OnlyInstructionSet> used;  // whose unit costs are looked for
+      if (!instruction_set.empty()) used.emplace(instruction_set);
+      options = options_of(command, common, stop, progress);
+    }
+    options.instruction_set = instruction_set;
+    benches.push_back(validate::run_bench(set.workloads, options));
+  }
+  Result result = report_bench(benches, options, set.missing, common.screen());
   result.inputs = inputs_json(command, set, options);
   return result;
 }
@@ -140,6 +157,7 @@ Command bench_command(CLI::App& program) {
       ->check(CLI::IsMember({"best", "all"}));
   add_number(*app, "--repeat", command->repeat, "rounds, at most; medians are shown; default: 5");
   add_count(*app, "--most-hits", command->most_hits, "skip workloads with more hits; default: 1e6, thorough 5e6");
+  command->instruction_set.add_to(*app, "our kernels and of Embree, a list");
   command->regret.add_to(*app);
   return {app, [command](const CommonOptions& common, const std::stop_token& stop) {
             return run_command_bench(*command, common, stop);

@@ -28,9 +28,10 @@ std::string title_of(const BenchWorkload& workload) {
 }
 
 Json workload_json(const BenchEntry& entry) {
-  return {{"scene", entry.workload.scene},      {"field", name(entry.workload.field)},
-          {"rays", whole(entry.workload.rays)}, {"samples", whole(entry.samples)},
-          {"disc_radius", entry.disc_radius},   {"threads", entry.threads}};
+  return {{"scene", entry.workload.scene},           {"field", name(entry.workload.field)},
+          {"rays", whole(entry.workload.rays)},      {"samples", whole(entry.samples)},
+          {"disc_radius", entry.disc_radius},        {"threads", entry.threads},
+          {"instruction_set", entry.instruction_set}};
 }
 
 Json parameters_json(const validate::Competitor& competitor) {
@@ -144,12 +145,15 @@ std::string table_text(const BenchResult& bench, const Screen& screen) {
 std::string summary_text(const BenchResult& bench, const validate::BenchOptions& options, const Screen& screen) {
   std::string text;
   const auto add = [&](const std::string& line) { text += wrapped(line, screen.text_width(), 4); };
+  if (!bench.entries.empty() && !options.instruction_set.empty())
+    text += "\n" + bench.entries.front().instruction_set + "\n";
   for (const int threads : options.threads)
     if (const auto summary = validate::against_embree(bench.entries, threads)) {
       const BenchEntry& worst = bench.entries[summary->worst_entry];
       text += "\n";
-      add(fmt::format("{} thread{}: {} races, Embree takes {:.3g} times as long (geometric mean), at worst {:.3g}",
-                      threads, threads == 1 ? "" : "s", summary->races, summary->geometric_mean, summary->worst));
+      add(fmt::format("{} thread{}: {} race{}, Embree takes {:.3g} times as long (geometric mean), at worst {:.3g}",
+                      threads, threads == 1 ? "" : "s", summary->races, summary->races == 1 ? "" : "s",
+                      summary->geometric_mean, summary->worst));
       add(fmt::format("  worst: {}: {} {:.3g} s, Embree {} {:.3g} s", title_of(worst.workload),
                       technique_of(worst.best(true)->competitor), worst.best(true)->median_seconds(),
                       parameters_of(worst.best(false)->competitor), worst.best(false)->median_seconds()));
@@ -176,48 +180,61 @@ std::string left_out_text(const BenchResult& bench, const std::vector<std::strin
   return text.empty() ? text : "\n" + text;
 }
 
-std::string to_text(const BenchResult& bench, const validate::BenchOptions& options,
+std::string to_text(std::span<const BenchResult> benches, const validate::BenchOptions& options,
                     const std::vector<std::string>& missing, const Screen& screen) {
-  return table_text(bench, screen) + summary_text(bench, options, screen) + left_out_text(bench, missing, screen);
+  std::string text;
+  for (const BenchResult& bench : benches)
+    text += (text.empty() ? "" : "\n") + table_text(bench, screen) + summary_text(bench, options, screen);
+  return text + left_out_text(benches.front(), missing, screen);
 }
 
 /// `best` is "ours" in the row of our fastest technique, "embree" in that of Embree's fastest mode.
-std::string to_csv(const BenchResult& bench) {
-  Table table(Columns{"scene", "field", "rays", "samples", "disc_radius", "threads"} + candidate_columns() +
-              Columns{"call", "coherent", "seconds", "runs", "hits", "wrong_hits", "right_hits_by", "best"});
-  for (const BenchEntry& entry : bench.entries)
-    for (const CompetitorResult& competitor_result : entry.race.results) {
-      Json row = row_json(entry, competitor_result);
-      const Json parameters = row["parameters"];
-      row["parameters"] = parameters_of(competitor_result.competitor);
-      row.update(parameters);
-      if (&competitor_result == entry.best(true)) row["best"] = "ours";
-      if (&competitor_result == entry.best(false)) row["best"] = "embree";
-      table.add(row);
-    }
+std::string to_csv(std::span<const BenchResult> benches) {
+  Table table(
+      Columns{"scene", "field", "rays", "samples", "disc_radius", "threads"} + candidate_columns() +
+      Columns{"call", "coherent", "seconds", "runs", "hits", "wrong_hits", "right_hits_by", "best", "instruction_set"});
+  for (const BenchResult& bench : benches)
+    for (const BenchEntry& entry : bench.entries)
+      for (const CompetitorResult& competitor_result : entry.race.results) {
+        Json row = row_json(entry, competitor_result);
+        const Json parameters = row["parameters"];
+        row["parameters"] = parameters_of(competitor_result.competitor);
+        row.update(parameters);
+        if (&competitor_result == entry.best(true)) row["best"] = "ours";
+        if (&competitor_result == entry.best(false)) row["best"] = "embree";
+        table.add(row);
+      }
   return table.csv();
 }
 
 }  // namespace
 
-Result report_bench(const BenchResult& bench, const validate::BenchOptions& options,
+Result report_bench(std::span<const BenchResult> benches, const validate::BenchOptions& options,
                     const std::vector<std::string>& missing, const Screen& screen) {
   Result result;
   Json rows = Json::array();
-  for (const BenchEntry& entry : bench.entries)
-    for (const CompetitorResult& competitor_result : entry.race.results)
-      rows.push_back(row_json(entry, competitor_result));
+  Json summaries = Json::array();
+  bool agree = true;
+  for (const BenchResult& bench : benches) {
+    for (const BenchEntry& entry : bench.entries)
+      for (const CompetitorResult& competitor_result : entry.race.results)
+        rows.push_back(row_json(entry, competitor_result));
+    summaries.push_back(summary_json(bench, options));
+    if (!bench.entries.empty()) summaries.back()["instruction_set"] = bench.entries.front().instruction_set;
+    agree = agree && validate::do_own_hits_agree(bench.entries);
+    if (bench.stopped) result.stopped = {bench.done, bench.workloads, "workloads"};
+  }
   Json skipped = Json::array();
-  for (const validate::BenchSkip& skip : bench.skipped)
+  for (const validate::BenchSkip& skip : benches.front().skipped)
     skipped.push_back({{"workload", title_of(skip.workload)}, {"why", skip.why}});
   result.json = {{"rows", std::move(rows)},
-                 {"summary", summary_json(bench, options)},
+                 {"summary", summaries.front()},
                  {"skipped", std::move(skipped)},
                  {"left_out", missing}};
-  result.text = to_text(bench, options, missing, screen);
-  result.csv = to_csv(bench);
-  if (!validate::do_own_hits_agree(bench.entries)) result.code = ExitCode::refuted;
-  if (bench.stopped) result.stopped = {bench.done, bench.workloads, "workloads"};
+  if (benches.size() > 1) result.json["summary"]["by_instruction_set"] = std::move(summaries);
+  result.text = to_text(benches, options, missing, screen);
+  result.csv = to_csv(benches);
+  if (!agree) result.code = ExitCode::refuted;
   return result;
 }
 

@@ -54,6 +54,31 @@ TEST_SUITE("end to end") {
     CHECK(text.out.find("geometric mean") != std::string::npos);
   }
 
+  TEST_CASE("bench races with the instruction sets that are named, ours and Embree's, and sums up each") {
+    const std::string one = "bench @cornell --field photons --rays 200 --disc-radius 1% --repeat 1 --threads 1 ";
+    const Json json = result_of(one + "--instruction-set SSE4,SSE4");
+    CHECK(json.at("summary").at("by_instruction_set").size() == 2);
+    for (const Json& summary : json.at("summary").at("by_instruction_set")) {
+      CHECK(summary.at("instruction_set") == "SSE4");
+      CHECK(summary.at("against_embree").at("races") == 1);
+    }
+    for (const Json& row : json.at("rows")) CHECK(row.at("instruction_set") == "SSE4");
+    CHECK(json.at("summary").at("ours_agree") == true);
+    CHECK(detp(one + "--instruction-set SSE4").out.find("\nSSE4\n") != std::string::npos);
+  }
+
+  TEST_CASE("instruction sets that the kernels, the machine or Embree lack are refused") {
+    const std::string one = "bench @cornell --rays 200 --disc-radius 1% ";
+    for (const char* set : {"MMX", "SCALAR", "sse4"}) {
+      CAPTURE(set);
+      const Finished finished = detp(one + "--instruction-set " + set);
+      CHECK(finished.code == 2);
+      CHECK(finished.err.find("instruction set") != std::string::npos);
+    }
+    CHECK(detp("bench --regret --instruction-set SSE4,SSE4").err.find("takes only one here") != std::string::npos);
+    CHECK(detp("calibrate --instruction-set MMX").code == 2);
+  }
+
   TEST_CASE("a bench that is stopped shows its results so far and ends with code 3") {
     const Finished finished = detp("bench @uniform --rays 1e5 --disc-radius 1% --time-limit 0.3 --format json");
     CHECK(finished.code == 3);
