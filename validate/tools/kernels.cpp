@@ -6,6 +6,8 @@
 /// largest of four times: operations at peak_flops, loads at load_bandwidth and stores at store_bandwidth of the
 /// working set, and for culls the packing of those vectors of which at least one lane is kept. The rates are measured
 /// at the start (machine_peak).
+///
+///   build/benchmark_kernels [OPTIONS OF GOOGLE BENCHMARK] [--instruction_set=SSE4]
 
 #include <benchmark/benchmark.h>
 
@@ -13,10 +15,13 @@
 #include <array>
 #include <cstdio>
 #include <functional>
+#include <optional>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "detp/sim/lists/simd/instruction_sets.hpp"
 #include "detp/sim/lists/simd/list_search.hpp"
 #include "detp/sim/lists/simd/load_rays.hpp"
 #include "detp/sim/lists/simd/tree_search.hpp"
@@ -279,6 +284,9 @@ void add_loading(Scene& scene, bool segments, std::size_t size) {
 
 int main(int argc, char** argv) {
   benchmark::Initialize(&argc, argv);
+  std::optional<stream::OnlyInstructionSet> only;
+  const std::string_view option = "--instruction_set=";
+  if (argc > 1 && std::string_view(argv[argc - 1]).starts_with(option)) only.emplace(argv[--argc] + option.size());
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
   Scene scenes[] = {Scene(false), Scene(true)};
   for (const bool segments : {false, true}) {

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "detp/sim/base/stopwatch.hpp"
+#include "detp/sim/lists/simd/kept_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace detp::benchmarks {
@@ -70,15 +71,13 @@ void StoreAll(float* to, std::size_t size) {
 template <Packing packing, int arrays>
 std::size_t pack(const float* from, float* to, std::size_t size, std::size_t stride, const std::uint8_t* bits) {
   const Lanes lanes;
-  const hn::RebindToSigned<Lanes> numbers;
   std::size_t end = 0;
   for (std::size_t i = 0; i < size; i += hn::Lanes(lanes)) {
     const auto kept = hn::LoadMaskBits(lanes, bits + i / hn::Lanes(lanes) * 8);
-    const auto kept_lanes = hn::Compress(hn::Iota(numbers, 0), hn::RebindMask(numbers, kept));
+    const auto places = hn::IndicesFromVec(lanes, sim::stream::HWY_NAMESPACE::kept_lanes(lanes, kept));
     for (std::size_t k = 0; k < arrays; ++k) {
       const auto v = hn::Load(lanes, from + k * stride + i);
-      const auto packed = packing == Packing::compress ? hn::Compress(v, kept)
-                                                       : hn::TableLookupLanes(v, hn::IndicesFromVec(lanes, kept_lanes));
+      const auto packed = packing == Packing::compress ? hn::Compress(v, kept) : hn::TableLookupLanes(v, places);
       hn::StoreU(packed, lanes, to + k * stride + end);
     }
     end += hn::CountTrue(lanes, kept);

@@ -34,6 +34,20 @@ HWY_INLINE auto kept_lanes([[maybe_unused]] Lanes lanes, hwy::HWY_NAMESPACE::Mas
 #endif
 }
 
+/// The same for a set of up to eight lanes given by its bits.
+template <class Lanes>
+HWY_INLINE auto kept_lanes([[maybe_unused]] Lanes lanes, std::uint8_t bits) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::RebindToSigned<Lanes> numbers;
+#if HWY_TARGET == HWY_SCALAR
+  (void)bits;
+  return hn::Zero(numbers);
+#else
+  const hn::Rebind<std::uint8_t, decltype(numbers)> bytes;
+  return hn::PromoteTo(numbers, hn::LoadU(bytes, kept_lanes_table[bits].data()));
+#endif
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace detp::sim::stream
 HWY_AFTER_NAMESPACE();

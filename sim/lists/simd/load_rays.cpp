@@ -8,6 +8,8 @@
 #include <hwy/highway.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
 
 #include "kept_lanes-inl.hpp"
@@ -19,10 +21,19 @@ namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 using DoubleLanes = hn::CappedTag<double, 8>;
-using FloatLanes = hn::Rebind<float, DoubleLanes>;
-using WordLanes = hn::Rebind<std::uint32_t, DoubleLanes>;
 using Doubles = hn::Vec<DoubleLanes>;
 using Mask = hn::Mask<DoubleLanes>;
+
+/// Vectors of doubles whose results are put into one vector of floats: two, if that has up to eight lanes. So the arrays of the lists
+/// are written half as often.
+constexpr std::size_t parts = hn::MaxLanes(DoubleLanes()) > 1 && hn::MaxLanes(DoubleLanes()) <= 4 ? 2 : 1;
+constexpr std::size_t rays_in_part = hn::MaxLanes(DoubleLanes());
+constexpr std::size_t rays_at_once = parts * rays_in_part;
+
+using PartFloats = hn::Rebind<float, DoubleLanes>;
+using PartWords = hn::Rebind<std::uint32_t, DoubleLanes>;
+using FloatLanes = hn::CappedTag<float, rays_at_once>;
+using WordLanes = hn::CappedTag<std::uint32_t, rays_at_once>;
 
 /// Rays with |p| or |q| above this are left out. If a ray meets the ball of radius 1 around the origin, |p| and |q| are
 /// at most √2. The rest is a margin for the slack.
@@ -40,31 +51,52 @@ HWY_INLINE Doubles turned(const Triple& v, Mask first, Mask second, int shift) {
   return hn::IfThenElse(first, axes[shift % 3], hn::IfThenElse(second, axes[(1 + shift) % 3], of_third));
 }
 
-/// One vector of rays before they are sorted into classes.
-struct Lines {
-  hn::Vec<FloatLanes> a, b, p, q, from, to;
-  hn::Vec<WordLanes> id;
-  Mask near;
-
-  HWY_INLINE void append(Mask chosen, RayList& list) const {
-    const FloatLanes floats;
-    const WordLanes words;
-    std::uint8_t bits[8] = {};
-    hn::StoreMaskBits(DoubleLanes(), hn::And(chosen, near), bits);
-    const auto kept = hn::LoadMaskBits(floats, bits);
-    const auto numbers = kept_lanes(floats, kept);
-    const auto places = hn::IndicesFromVec(floats, numbers);
-    const std::size_t end = list.size;
-    hn::StoreU(hn::TableLookupLanes(a, places), floats, list.a + end);
-    hn::StoreU(hn::TableLookupLanes(b, places), floats, list.b + end);
-    hn::StoreU(hn::TableLookupLanes(p, places), floats, list.p + end);
-    hn::StoreU(hn::TableLookupLanes(q, places), floats, list.q + end);
-    hn::StoreU(hn::TableLookupLanes(from, places), floats, list.from + end);
-    hn::StoreU(hn::TableLookupLanes(to, places), floats, list.to + end);
-    hn::StoreU(hn::TableLookupLanes(id, hn::IndicesFromVec(words, numbers)), words, list.id + end);
-    list.size = end + hn::CountTrue(floats, kept);
-  }
+/// The rays of one vector of doubles before they are sorted into classes.
+struct Part {
+  hn::Vec<PartFloats> a, b, p, q, from, to;
+  hn::Vec<PartWords> id;
+  std::array<unsigned, classes> near;  ///< for each class, a bit for each of its rays that may meet S₀
 };
+
+HWY_INLINE unsigned bits_of(Mask mask) {
+  std::uint8_t bits[8] = {};
+  hn::StoreMaskBits(DoubleLanes(), mask, bits);
+  return bits[0];
+}
+
+/// The parts of a vector of floats or words.
+template <class Lanes, class Half>
+HWY_INLINE hn::Vec<Lanes> joined([[maybe_unused]] Lanes lanes, Half first, [[maybe_unused]] Half second) {
+#if HWY_TARGET == HWY_SCALAR
+  return first;
+#else
+  if constexpr (parts == 1)
+    return first;
+  else
+    return hn::Combine(lanes, second, first);
+#endif
+}
+
+/// Appends the rays that `near` has a bit for.
+HWY_INLINE void append(const Part& first, const Part& second, unsigned near, RayList& list) {
+  const FloatLanes floats;
+  const WordLanes words;
+  const auto numbers = kept_lanes(floats, static_cast<std::uint8_t>(near));
+  const auto places = hn::IndicesFromVec(floats, numbers);
+  const std::size_t end = list.size;
+  const auto write = [&](hn::Vec<PartFloats> low, hn::Vec<PartFloats> high, float* array) {
+    hn::StoreU(hn::TableLookupLanes(joined(floats, low, high), places), floats, array + end);
+  };
+  write(first.a, second.a, list.a);
+  write(first.b, second.b, list.b);
+  write(first.p, second.p, list.p);
+  write(first.q, second.q, list.q);
+  write(first.from, second.from, list.from);
+  write(first.to, second.to, list.to);
+  hn::StoreU(hn::TableLookupLanes(joined(words, first.id, second.id), hn::IndicesFromVec(words, numbers)), words,
+             list.id + end);
+  list.size = end + static_cast<std::size_t>(std::popcount(near));
+}
 
 /// Number of doubles in a Ray.
 constexpr std::size_t doubles_in_ray = sizeof(Ray) / sizeof(double);
@@ -129,10 +161,10 @@ struct RayProperties {
 };
 
 /// Loads one vector of rays, of which the first `count` are valid.
-HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t number, const Frame& frame, Doubles power,
-                          RayLists& lists, RayProperties& properties) {
+HWY_INLINE Part load_part(const Ray* rays, std::size_t count, std::uint32_t number, const Frame& frame, Doubles power,
+                          RayProperties& properties) {
   const DoubleLanes lanes;
-  const WordLanes words;
+  const PartWords words;
   Doubles fields[doubles_in_ray];
   load_fields(rays, fields);
   const Triple direction{fields[direction_at], fields[direction_at + 1], fields[direction_at + 2]};
@@ -167,24 +199,36 @@ HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t numb
   const Doubles reach = hn::Set(lanes, outside);
   const Mask near = hn::And(hn::And(there, hn::Le(hn::Max(hn::Abs(p), hn::Abs(q)), reach)),
                             hn::And(hn::Le(from, reach), hn::Ge(to, hn::Neg(reach))));
-  const FloatLanes floats;
-  Lines lines{.a = hn::DemoteTo(floats, a),
-              .b = hn::DemoteTo(floats, b),
-              .p = hn::DemoteTo(floats, p),
-              .q = hn::DemoteTo(floats, q),
-              .from = hn::DemoteTo(floats, from),
-              .to = hn::DemoteTo(floats, to),
-              .id = hn::Add(hn::Set(words, number), hn::Iota(words, 0)),
-              .near = near};
-  std::uint8_t falls[8] = {};
-  hn::StoreMaskBits(lanes, hn::Lt(z, hn::Zero(lanes)), falls);
-  lines.id = hn::Or(lines.id, hn::IfThenElseZero(hn::LoadMaskBits(words, falls), hn::Set(words, falling)));
-  lines.append(first, lists[0]);
-  lines.append(second, lists[1]);
-  lines.append(hn::Not(hn::Or(first, second)), lists[2]);
+  const PartFloats floats;
+  Part part{.a = hn::DemoteTo(floats, a),
+            .b = hn::DemoteTo(floats, b),
+            .p = hn::DemoteTo(floats, p),
+            .q = hn::DemoteTo(floats, q),
+            .from = hn::DemoteTo(floats, from),
+            .to = hn::DemoteTo(floats, to),
+            .id = hn::Add(hn::Set(words, number), hn::Iota(words, 0)),
+            .near = {bits_of(hn::And(near, first)), bits_of(hn::And(near, second)),
+                     bits_of(hn::AndNot(hn::Or(first, second), near))}};
+  // The sign of z, which is the direction's largest component and so not 0.
+  part.id = hn::Or(part.id, hn::And(hn::BitCast(words, hn::DemoteTo(floats, z)), hn::Set(words, falling)));
 
   properties.bounded = hn::Or(properties.bounded, hn::And(there, bounded));
   properties.other_power = hn::Or(properties.other_power, hn::And(there, hn::Ne(fields[power_at], power)));
+  return part;
+}
+
+/// Loads `rays_at_once` rays, of which the first `count` are valid.
+HWY_INLINE void load_some(const Ray* rays, std::size_t count, std::uint32_t number, const Frame& frame, Doubles power,
+                          RayLists& lists, RayProperties& properties) {
+  const Part first = load_part(rays, std::min(count, rays_in_part), number, frame, power, properties);
+  if constexpr (parts == 1) {
+    for (std::size_t k = 0; k < classes; ++k) append(first, first, first.near[k], lists[k]);
+  } else {
+    const Part second = load_part(rays + rays_in_part, count - std::min(count, rays_in_part),
+                                  number + static_cast<std::uint32_t>(rays_in_part), frame, power, properties);
+    for (std::size_t k = 0; k < classes; ++k)
+      append(first, second, first.near[k] | second.near[k] << rays_in_part, lists[k]);
+  }
 }
 
 RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& filled) {
@@ -193,7 +237,7 @@ RayTraits LoadRays(std::span<const Ray> rays, const Frame& given, RayLists& fill
   const Frame frame = given;
   RayLists lists = filled;
   const DoubleLanes lanes;
-  const std::size_t step = hn::Lanes(lanes);
+  constexpr std::size_t step = rays_at_once;
   const Doubles power = hn::Set(lanes, rays.front().power);
   RayProperties properties{hn::FirstN(lanes, 0), hn::FirstN(lanes, 0)};
   std::size_t i = 0;
