@@ -71,8 +71,8 @@ TEST_SUITE("identity") {
     request.samples = 100'000;
     request.rays = 400'000;
     const std::uint64_t work = work_of([&] { static_cast<void>(make_job(request)); });
-    // Units of work: 6 for each sample (made, checked, S0) and 2 for each ray (made, checked).
-    CHECK(work >= 6 * 100'000 + 2 * 400'000);
+    // Units of work: 4 for each sample (made, checked) and 2 for each ray (made, checked).
+    CHECK(work >= 4 * 100'000 + 2 * 400'000);
     for (const double share : {0.1, 0.5, 0.9}) {
       const StopAfterWork stop(static_cast<std::uint64_t>(share * static_cast<double>(work)));
       CHECK_THROWS_AS(static_cast<void>(make_job(request, stop.token())), sim::Stopped);
