@@ -4,6 +4,7 @@
 //   line_field hand|job
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <string_view>
 
@@ -17,7 +18,7 @@ namespace {
 using namespace detp;
 
 constexpr std::size_t samples = 20'000;
-constexpr std::size_t lines = 50'000;
+constexpr std::size_t lines = 100'000;
 constexpr double radius = 0.02;
 constexpr double side = 2;
 const Candidate tree{Technique::box_tree, BoxTreeParameters{8, 16}};
@@ -44,5 +45,7 @@ std::uint64_t hits_of_job() {
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
+  // One thread alone: how long idle threads look for work differs from run to run.
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
   fmt::print("{}\n", std::string_view(argv[1]) == "hand" ? hits_by_hand() : hits_of_job());
 }
