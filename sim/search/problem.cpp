@@ -42,36 +42,20 @@ double cull_slack(const Sphere& enclosing, double farthest, double largest_radiu
   return (16e-12 + grazing) * extent + 1e-15 * offset;
 }
 
-/// What one pass over the discs finds.
-struct Extent {
-  Box centres;
-  Sphere enclosing;  ///< as documented at enclosing_sphere
-  DiscRadii radii;
-  bool sound = true;  ///< by the fast test; normals have unit length
-};
+/// The root mean square of radii. Their squares cannot overflow or underflow, because they are 1e-100 to 1e100.
+double rms_radius(std::span<const Disc> discs, const DiscExtent& extent, StopCheck& check) {
+  if (extent.smallest == extent.largest) return extent.largest;
+  double squares = 0;
+  for_each_checked(discs, check, [&](const Disc& disc) { squares += disc.radius * disc.radius; });
+  return std::sqrt(squares / static_cast<double>(discs.size()));
+}
 
-Extent extent_of(std::span<const Disc> discs, StopCheck& check) {
-  Extent extent;
-  double squares = 0;  // cannot overflow or underflow, because radii are 1e-100 to 1e100
-  double sum = 0;      // NaN if any number is not finite
-  for_each_checked(discs, check, [&](const Disc& disc) {
-    extent.sound = extent.sound && surely_sound(disc);
-    extent.centres.include(disc.centre);
-    extent.radii.smallest = std::min(extent.radii.smallest, disc.radius);
-    extent.radii.largest = std::max(extent.radii.largest, disc.radius);
-    squares += disc.radius * disc.radius;
-    sum += 0 * (disc.centre.x + disc.centre.y + disc.centre.z + disc.radius);
-  });
-  const double smallest = extent.radii.smallest;
-  const double largest = extent.radii.largest;
-  extent.radii.rms = smallest == largest ? largest : std::sqrt(squares / static_cast<double>(discs.size()));
+/// The sphere that is documented at enclosing_sphere.
+Sphere sphere_around(const DiscExtent& extent) {
   const glm::dvec3 centre = extent.centres.centre();
   // The distance of the farther corner, as computed: half the diagonal can be an ulp shorter.
   const double reach = std::max(glm::distance(centre, extent.centres.low), glm::distance(centre, extent.centres.high));
-  const double radius = (reach + largest) * (1 + 1e-15);
-  if (!(radius > 0 && radius + sum < unbounded)) require_sound(discs, check);
-  extent.enclosing = {centre, radius};
-  return extent;
+  return {centre, (reach + extent.largest) * (1 + 1e-15)};
 }
 
 }  // namespace
@@ -79,20 +63,21 @@ Extent extent_of(std::span<const Disc> discs, StopCheck& check) {
 Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop) {
   const DefaultFloatingPoint mode;
   require_number("disc", discs.size());
-  StopCheck check(stop, checking);
-  return extent_of(discs, check).enclosing;
+  return sphere_around(check_discs(discs, StopCheck(stop, checking)));
 }
 
-Problem::Problem(std::span<const Disc> discs, bool front_facing, const std::stop_token& stop)
+Problem::Problem(std::span<const Disc> discs, bool front_facing, int threads, const std::stop_token& stop)
     : front_facing_(front_facing) {
   require_number("disc", discs.size());
+  require_count("number of threads", threads, 0, most_threads);
   StopCheck check(stop, checking);
-  const Extent extent = extent_of(discs, check);
+  DiscExtent extent;
+  on_threads(thread_count(threads), [&] { extent = check_discs(discs, StopCheck(stop, checking)); });
   if (!extent.sound) own_discs_ = normalised_if_needed(discs, check);
   discs_ = own_discs_ ? std::span<const Disc>(*own_discs_) : discs;
-  enclosing_ = extent.enclosing;
+  enclosing_ = sphere_around(extent);
   centres_ = extent.centres;
-  radii_ = extent.radii;
+  radii_ = {.smallest = extent.smallest, .largest = extent.largest, .rms = rms_radius(discs, extent, check)};
   most_power_ = most_power_for(radii_.smallest);
 }
 
@@ -133,7 +118,7 @@ void Problem::set_farthest(double farthest) {
 Problem make_problem(const PathRays& rays, std::span<const Disc> discs, bool front_facing, int threads,
                      const std::stop_token& stop) {
   const DefaultFloatingPoint mode;
-  Problem problem(discs, front_facing, stop);
+  Problem problem(discs, front_facing, threads, stop);
   problem.set_farthest(problem.store_rays(rays, threads, 0, stop));
   return problem;
 }
@@ -141,7 +126,7 @@ Problem make_problem(const PathRays& rays, std::span<const Disc> discs, bool fro
 Problem make_problem_without_rays(std::span<const Disc> discs, double farthest, bool front_facing,
                                   const std::stop_token& stop) {
   const DefaultFloatingPoint mode;
-  Problem problem(discs, front_facing, stop);
+  Problem problem(discs, front_facing, 1, stop);
   require_non_negative("distance of the farthest ray's origin", farthest);
   problem.set_farthest(farthest);
   return problem;

@@ -75,7 +75,7 @@ class Problem {
   friend void set_rays(Problem&, const PathRays&, int, std::uint64_t);
 
   /// Checks and stores the discs. Leaves the rays empty.
-  Problem(std::span<const Disc> discs, bool front_facing, const std::stop_token& stop);
+  Problem(std::span<const Disc> discs, bool front_facing, int threads, const std::stop_token& stop);
   /// Checks and stores the rays. Returns the distance of the farthest origin from the centre of S₀.
   double store_rays(const PathRays& rays, int threads, std::uint64_t first, const std::stop_token& stop);
   /// Sets the distance of the farthest origin, and computes the slack from it.

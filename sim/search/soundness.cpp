@@ -14,7 +14,7 @@
 namespace detp::sim {
 namespace {
 
-constexpr std::size_t rays_at_once = std::size_t{1} << 14;
+constexpr std::size_t items_at_once = std::size_t{1} << 14;
 
 bool surely_sound(const Ray& ray, double most_power) {
   return surely_in_range(ray.origin) && surely_unit(ray.direction) && ray.length > 0 && ray.power >= 0 &&
@@ -57,37 +57,22 @@ void refuse_unsound(const Disc& disc, std::uint64_t number) {
         fmt::format("{}radius must be from 1e-100 to 1e100, or its square overflows (got {})", who, disc.radius));
 }
 
-/// Properties of some rays, found by the fast tests.
-struct RaySummary {
-  double farthest2 = 0;  ///< squared distance of the farthest origin
-  double least_power = unbounded;
-  double most_power = 0;
-  double least_length = unbounded;
-  bool sound = true;
-};
-
-RaySummary summarise_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power,
-                          const StopCheck& stop) {
+/// Joins what extent_of finds in parts of the rays or discs.
+template <class Extent, class Of>
+Extent extent_in_parts(std::size_t size, const StopCheck& stop, const Of& of) {
   return sim::parallel_reduce(
-      ParallelRange(0, rays.size(), rays_at_once), RaySummary{},
-      [&](const ParallelRange& range, RaySummary summary) {
+      ParallelRange(0, size, items_at_once), Extent{},
+      [&](const ParallelRange& range, Extent extent) {
         StopCheck check = stop;
-        for_each_checked(rays.subspan(range.begin(), range.size()), check, [&](const Ray& ray) {
-          summary.sound = summary.sound && surely_sound(ray, most_power);
-          const glm::dvec3 away = ray.origin - centre;
-          summary.farthest2 = std::max(summary.farthest2, glm::dot(away, away));
-          summary.least_power = std::min(summary.least_power, ray.power);
-          summary.most_power = std::max(summary.most_power, ray.power);
-          summary.least_length = std::min(summary.least_length, ray.length);
-        });
+        for (std::size_t first = range.begin(); first < range.end(); first += items_at_once) {
+          const std::size_t count = std::min(items_at_once, range.end() - first);
+          check.after(count);
+          extent = joined(extent, of(first, count));
+        }
         check.now();
-        return summary;
+        return extent;
       },
-      [](const RaySummary& a, const RaySummary& b) {
-        return RaySummary{std::max(a.farthest2, b.farthest2), std::min(a.least_power, b.least_power),
-                          std::max(a.most_power, b.most_power), std::min(a.least_length, b.least_length),
-                          a.sound && b.sound};
-      });
+      [](const Extent& a, const Extent& b) { return joined(a, b); });
 }
 
 /// A copy with unit directions or normals.
@@ -131,21 +116,30 @@ void require_sound(std::span<const Disc> discs, StopCheck& check) {
 }
 
 std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Disc> discs, StopCheck& check) {
-  require_sound(discs, check);
   bool all_unit = true;
   for_each_checked(discs, check, [&](const Disc& disc) { all_unit = all_unit && surely_unit(disc.normal); });
   if (all_unit) return nullptr;
   return normalised_copy(discs, check);
 }
 
+DiscExtent check_discs(std::span<const Disc> discs, StopCheck check) {
+  const auto extent = extent_in_parts<DiscExtent>(discs.size(), check, [&](std::size_t first, std::size_t count) {
+    return extent_of(discs.subspan(first, count));
+  });
+  if (!extent.sound) require_sound(discs, check);
+  return extent;
+}
+
 CheckedRays check_rays(std::span<const Ray> rays, const glm::dvec3& centre, double most_power, std::uint64_t first,
                        const StopCheck& check) {
-  const RaySummary summary = summarise_rays(rays, centre, most_power, check);
-  CheckedRays checked{.farthest = std::sqrt(summary.farthest2),
-                      .one_power = summary.least_power == summary.most_power,
-                      .largest_power = summary.most_power,
-                      .segments = summary.least_length < unbounded};
-  if (!summary.sound) checked.unit = normalised_if_needed(rays, most_power, first, check);
+  const auto extent = extent_in_parts<RayExtent>(rays.size(), check, [&](std::size_t first_ray, std::size_t count) {
+    return extent_of(rays.subspan(first_ray, count), centre, most_power);
+  });
+  CheckedRays checked{.farthest = std::sqrt(extent.farthest2),
+                      .one_power = extent.least_power == extent.most_power,
+                      .largest_power = extent.most_power,
+                      .segments = extent.least_length < unbounded};
+  if (!extent.sound) checked.unit = normalised_if_needed(rays, most_power, first, check);
   return checked;
 }
 

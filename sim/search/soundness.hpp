@@ -10,6 +10,7 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/paths.hpp"
 #include "detp/sim/geometry/unit_vector.hpp"
+#include "extents.hpp"
 
 /// The checks of make_problem, and its normalisation of directions and normals. All throw Stopped, except normalised().
 namespace detp::sim {
@@ -17,9 +18,12 @@ namespace detp::sim {
 /// Lower bound on disc radii, so that squares do not underflow.
 inline constexpr double least_radius = 1e-100;
 
-/// Fast test: true only if the length is certainly 1 to within 1e-12; has a margin for rounding. False for NaN.
+/// Largest distance from 1 of the square of a vector whose length is certainly 1 to within 1e-12; has a margin for rounding.
+inline constexpr double unit_tolerance = 1.99e-12;
+
+/// Fast test: true only if the length is certainly 1 to within 1e-12. False for NaN.
 [[nodiscard]] inline bool surely_unit(const glm::dvec3& vector) {
-  return std::abs(glm::dot(vector, vector) - 1) <= 1.99e-12;
+  return std::abs(glm::dot(vector, vector) - 1) <= unit_tolerance;
 }
 
 /// Fast test with the vector's square: true only if all coordinates are certainly at most largest_coordinate. False for
@@ -46,7 +50,10 @@ inline constexpr double least_radius = 1e-100;
 /// 1e100, a radius below 1e-100, and a normal of length 0. Normals may have any other length.
 void require_sound(std::span<const Disc> discs, StopCheck& check);
 
-/// A copy of the discs with unit normals; null if all have unit length to within 1e-12. Throws as require_sound does.
+/// Checks the discs on all threads of the caller's arena, by the fast tests and if need be by require_sound.
+[[nodiscard]] DiscExtent check_discs(std::span<const Disc> discs, StopCheck check);
+
+/// A copy of the discs, which are sound, with unit normals; null if all have unit length to within 1e-12.
 [[nodiscard]] std::shared_ptr<const std::vector<Disc>> normalised_if_needed(std::span<const Disc> discs,
                                                                             StopCheck& check);
 

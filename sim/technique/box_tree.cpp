@@ -117,7 +117,7 @@ class BoxTreeIndex final : public Index {
     const stream::TreeSize expected = stream::expected_tree(problem.discs().size(), parameters);
     checked_bytes(what, stream::boxes_bytes(stream::size_of(problem, options), expected), problem);
     const double sort_seconds = sorted ? sorted->seconds : 0;  // before this constructor
-    if (!sorted) sorted = stream::sort_discs(problem, frame_, options);
+    if (!sorted) sorted = stream::sort_discs(problem, frame_, options, parameters.leaf);
     const std::size_t newly_sorted = sorted->sorted;
     tree_ = stream::make_disc_tree(std::move(*sorted), problem, frame_, parameters, options);
     const double built = stream::building_bytes(problem.discs().size(), static_cast<double>(tree_.binary_nodes),

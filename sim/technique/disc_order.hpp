@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "detp/sim/base/unset_vector.hpp"
 #include "detp/sim/search/index.hpp"
 
 namespace detp::sim {
@@ -21,7 +22,7 @@ class DiscOrder {
 
  private:
   friend class PilotedDiscs;
-  using Places = std::shared_ptr<const std::vector<std::uint64_t>>;  ///< stream::CurveOrder
+  using Places = std::shared_ptr<const UnsetVector<std::uint64_t>>;  ///< stream::CurveOrder
   explicit DiscOrder(Places places) : places_(std::move(places)) {}
 
   Places places_;

@@ -1,29 +1,16 @@
 #include "binary_tree.hpp"
 
 #include <bit>
-#include <cmath>
 
 namespace detp::sim::stream {
 namespace {
 
 void make_leaf(const SortedDiscs& discs, BinaryNode& node) {
-  for (std::uint32_t i = node.first; i < node.first + node.count; ++i) node.box.include(box_of(discs.tree.discs[i]));
+  node.box = box_around(std::span(discs.tree.discs).subspan(node.first, node.count));
   node.cost = static_cast<float>(node.count) * node.box.area();
 }
 
 }  // namespace
-
-FloatBox box_of(const FloatDisc& disc) {
-  FloatBox box;
-  for (int axis = 0; axis < 3; ++axis) {
-    const float u = disc.normal[(axis + 1) % 3];
-    const float v = disc.normal[(axis + 2) % 3];
-    const float reach = disc.radius * std::sqrt(u * u + v * v);
-    box.low[axis] = disc.centre[axis] - reach;
-    box.high[axis] = disc.centre[axis] + reach;
-  }
-  return box;
-}
 
 std::uint32_t boundary(std::span<const CurvePlace> places, std::uint32_t first, std::uint32_t count) {
   const std::uint32_t low = place_code(places[first]);
@@ -48,9 +35,9 @@ std::uint32_t boundary(std::span<const CurvePlace> places, std::uint32_t first, 
 }
 
 void join(BinaryNode& node, const BinaryNode& left, const BinaryNode& right, std::uint32_t right_number) {
-  node.box = left.box;
-  node.box.include(right.box);
-  const NodeCost cost(node.box.area(), node.count, left.box.area() + right.box.area(), left.cost + right.cost);
+  const FloatBox box = joined(left.box, right.box);
+  node.box = box;
+  const NodeCost cost(box.area(), node.count, left.box.area() + right.box.area(), left.cost + right.cost);
   node.cost = cost.cost;
   node.right = cost.inner ? right_number : 0;
 }

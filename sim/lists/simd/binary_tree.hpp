@@ -8,35 +8,11 @@
 
 #include "detp/model/vocabulary/box_tree_split.hpp"
 #include "detp/sim/geometry/curve_sort.hpp"
+#include "disc_boxes.hpp"
 #include "disc_tree.hpp"
 
 /// The binary tree of boxes over sorted discs. Trees with wide nodes and larger leaves are made from it.
 namespace detp::sim::stream {
-
-struct FloatBox {
-  float low[3];
-  float high[3];
-
-  void include(const FloatBox& box) {
-    for (int axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], box.low[axis]);
-      high[axis] = std::max(high[axis], box.high[axis]);
-    }
-  }
-
-  /// Half the box's surface, which is proportional to the number of lines that cross the box.
-  [[nodiscard]] float area() const {
-    const float x = high[0] - low[0];
-    const float y = high[1] - low[1];
-    const float z = high[2] - low[2];
-    return x * y + y * z + z * x;
-  }
-};
-
-/// A box that holds nothing, in the frame's coordinates.
-inline constexpr FloatBox nothing{{2, 2, 2}, {-2, -2, -2}};
-
-[[nodiscard]] FloatBox box_of(const FloatDisc& disc);
 
 /// A node of the binary tree. An inner node's left child is the next node.
 struct BinaryNode {

@@ -34,7 +34,7 @@ struct VectorBox {
 };
 
 /// A box that contains the discs, whatever their normals are.
-FloatBox box_around(std::span<const FloatDisc> discs) {
+FloatBox box_around_balls(std::span<const FloatDisc> discs) {
   VectorBox even;
   VectorBox odd;  // two boxes, because each has to wait for its last disc
   for (std::size_t i = 0; i + 1 < discs.size(); i += 2) {
@@ -145,15 +145,14 @@ std::uint32_t BoxTreePilot::build_coarse(std::uint32_t first, std::uint32_t coun
   const auto number = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({.box = nothing, .first = first, .count = count, .right = 0, .cost = 0});
   if (count <= coarse_leaf) {
-    nodes_[number].box = box_around(std::span(discs_.tree.discs).subspan(first, count));
+    nodes_[number].box = box_around_balls(std::span(discs_.tree.discs).subspan(first, count));
     return number;
   }
   const std::uint32_t middle = boundary(*discs_.places, first, count);
   build_coarse(first, middle - first);
   const std::uint32_t right = build_coarse(middle, first + count - middle);
   nodes_[number].right = right;
-  nodes_[number].box = nodes_[number + 1].box;
-  nodes_[number].box.include(nodes_[right].box);
+  nodes_[number].box = joined(nodes_[number + 1].box, nodes_[right].box);
   return number;
 }
 
@@ -234,7 +233,7 @@ double BoxTreePilot::work_of_a_ray(std::uint32_t node) const {
 
 void BoxTreePilot::set_radius() {
   constexpr std::size_t most = 1024;
-  const std::vector<FloatDisc>& discs = discs_.tree.discs;
+  const std::span<const FloatDisc> discs(discs_.tree.discs);
   const std::size_t step = (discs.size() - 1) / most + 1;
   float squares = 0;
   float count = 0;

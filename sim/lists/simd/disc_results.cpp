@@ -3,6 +3,7 @@
 #include <hwy/cache_control.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <numbers>
 #include <utility>
@@ -34,6 +35,20 @@ class RepeatedSums {
   double power_;
   std::pmr::vector<double> sums_;
 };
+
+/// Writes places of discs with hits, from `place` on, to `found` until it is full; moves `place` behind the last that was looked at.
+/// Returns their number. With few rays, most discs have none.
+std::size_t find_hits(std::span<const ClassCounts> hits, std::size_t& place, std::size_t last,
+                      std::span<std::uint32_t> found) {
+  std::size_t count = 0;
+  std::size_t at = place;
+  for (; at < last && count < found.size(); ++at) {
+    found[count] = static_cast<std::uint32_t>(at);
+    count += (hits[at][0] | hits[at][1] | hits[at][2]) != 0 ? 1 : 0;
+  }
+  place = at;
+  return count;
+}
 
 template <class Element>
 double bytes_of(const std::pmr::vector<Element>& array) {
@@ -221,27 +236,27 @@ void DiscResults::store_counted() const {
 
 /// Fills in the outcome for the discs at places first … last - 1. Returns the number of their hits.
 std::uint64_t DiscResults::store_counted(std::size_t first, std::size_t last) const {
-  constexpr std::size_t prefetch_distance = 32;  // number of discs to prefetch
   RepeatedSums sums(*counted_power_, options_.memory);
+  const std::span<const Disc> discs = problem_.discs();
+  std::array<std::uint32_t, 64> with_hits;  // places whose results are fetched from memory together
   std::uint64_t found = 0;
-  for (std::size_t place = first; place < last; ++place) {
-    const auto has_hits = [&](std::size_t at) {
-      return at < hits_.size() && (hits_[at][0] | hits_[at][1] | hits_[at][2]) != 0;
-    };
-    if (has_hits(place + prefetch_distance)) {
-      const std::uint32_t later = tree_.order[place + prefetch_distance];
-      hwy::Prefetch(&problem_.discs()[later].radius);
-      hwy::Prefetch(&outcome_.hits[later]);
-      hwy::Prefetch(&outcome_.irradiance[later]);
+  for (std::size_t place = first; place < last;) {
+    const std::size_t count = find_hits(hits_, place, last, with_hits);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t disc = tree_.order[with_hits[i]];
+      hwy::Prefetch(&discs[disc].radius);
+      hwy::Prefetch(&outcome_.hits[disc]);
+      hwy::Prefetch(&outcome_.irradiance[disc]);
     }
-    const auto& [x, y, z] = hits_[place];
-    if ((x | y | z) == 0) continue;  // the most frequent case with few rays
-    const std::uint32_t disc = tree_.order[place];
-    outcome_.hits[disc] = std::uint64_t{x} + y + z;
-    const double power = (sums.add(0, x) + sums.add(0, y)) + sums.add(0, z);
-    const double radius = problem_.discs()[disc].radius;
-    outcome_.irradiance[disc] = power / (std::numbers::pi * radius * radius);
-    found += outcome_.hits[disc];
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::uint32_t disc = tree_.order[with_hits[i]];
+      const auto& [x, y, z] = hits_[with_hits[i]];
+      outcome_.hits[disc] = std::uint64_t{x} + y + z;
+      const double power = (sums.add(0, x) + sums.add(0, y)) + sums.add(0, z);
+      const double radius = discs[disc].radius;
+      outcome_.irradiance[disc] = power / (std::numbers::pi * radius * radius);
+      found += outcome_.hits[disc];
+    }
   }
   return found;
 }

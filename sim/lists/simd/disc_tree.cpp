@@ -171,21 +171,21 @@ double building_bytes(std::size_t discs, double binary_nodes, double nodes) {
   return in_order * static_cast<double>(discs) + binary_node_bytes * binary_nodes + sizeof(TreeNode) * nodes;
 }
 
-CurveOrder curve_order(const Problem& problem, const RunOptions& options) {
+CurveOrder curve_order(const Problem& problem, const RunOptions& options, int leaf) {
   if (problem.discs().size() >= std::size_t{1} << 31)
     throw std::length_error(
         fmt::format("{} discs are too many for a tree of boxes; the most is 2147483647", problem.discs().size()));
   CurveOrder places;
   on_threads(thread_count(options.threads), [&] {
-    places = std::make_shared<const std::vector<CurvePlace>>(
-        sort_along_curve(problem.discs(), problem.centres(), options.stop));
+    places = std::make_shared<const CurvePlaces>(
+        sort_along_curve(problem.discs(), problem.centres(), static_cast<std::size_t>(leaf), options.stop));
   });
   return places;
 }
 
-SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOptions& options) {
+SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOptions& options, int leaf) {
   const Stopwatch watch;
-  SortedDiscs sorted = discs_in_known_order(problem, frame, curve_order(problem, options), options);
+  SortedDiscs sorted = discs_in_known_order(problem, frame, curve_order(problem, options, leaf), options);
   sorted.sorted = problem.discs().size();
   sorted.seconds = watch.seconds();
   return sorted;
@@ -197,9 +197,8 @@ SortedDiscs discs_in_known_order(const Problem& problem, const Frame& frame, Cur
     throw std::invalid_argument(
         fmt::format("the order of {} discs is not one of {} discs", places->size(), problem.discs().size()));
   const Stopwatch watch;
-  std::vector<std::uint32_t> order;
-  order.reserve(places->size());
-  for (const CurvePlace place : *places) order.push_back(place_index(place));
+  std::vector<std::uint32_t> order(places->size());
+  std::transform(places->begin(), places->end(), order.begin(), place_index);
   SortedDiscs sorted{.places = std::move(places), .tree = discs_in_order(problem, frame, std::move(order), options)};
   sorted.seconds = watch.seconds();
   return sorted;
@@ -213,7 +212,7 @@ DiscTree make_disc_tree(SortedDiscs sorted, const Problem& problem, const Frame&
 
 DiscTree make_disc_tree(const Problem& problem, const Frame& frame, const BoxTreeParameters& parameters,
                         const RunOptions& options) {
-  return make_disc_tree(sort_discs(problem, frame, options), problem, frame, parameters, options);
+  return make_disc_tree(sort_discs(problem, frame, options, parameters.leaf), problem, frame, parameters, options);
 }
 
 }  // namespace detp::sim::stream

@@ -32,7 +32,7 @@ struct TreeNode {
 
 struct DiscTree {
   std::vector<TreeNode> nodes;       ///< the root is first; children of a node are adjacent
-  std::vector<FloatDisc> discs;      ///< in the order of the leaves
+  UnsetVector<FloatDisc> discs;      ///< in the order of the leaves
   std::vector<std::uint32_t> order;  ///< the discs' numbers in the problem
   std::size_t binary_nodes = 0;      ///< number of nodes of the binary tree from which `nodes` were made
   /// expected sizes of the lists: a line through S₀ crosses a box with probability F(box)/F(S₀), F the surface
@@ -43,7 +43,7 @@ inline constexpr double binary_node_bytes = 40;
 
 /// The places of some discs on the Morton curve, in its order. They depend on the discs' centres alone, so they hold for
 /// the same discs with other radii.
-using CurveOrder = std::shared_ptr<const std::vector<CurvePlace>>;
+using CurveOrder = std::shared_ptr<const CurvePlaces>;
 
 /// Discs in the order of the Morton curve.
 struct SortedDiscs {
@@ -53,12 +53,13 @@ struct SortedDiscs {
   std::size_t sorted = 0;  ///< number of discs that were sorted; 0 if their order was known
 };
 
-/// Sorts the problem's discs along the curve. Throws Stopped if a stop was requested, and std::length_error for 2³¹ or
-/// more discs.
-[[nodiscard]] CurveOrder curve_order(const Problem& problem, const RunOptions& options = {});
+/// Sorts the problem's discs along the curve, enough for trees with leaves of `leaf` or more discs. Throws Stopped if a stop was
+/// requested, and std::length_error for 2³¹ or more discs.
+[[nodiscard]] CurveOrder curve_order(const Problem& problem, const RunOptions& options = {}, int leaf = 1);
 
 /// The discs in the order of the curve. Throws as curve_order.
-[[nodiscard]] SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOptions& options = {});
+[[nodiscard]] SortedDiscs sort_discs(const Problem& problem, const Frame& frame, const RunOptions& options = {},
+                                     int leaf = 1);
 
 /// The same without sorting: `places` are those of the same discs, perhaps with other radii. Throws Stopped if a stop was requested,
 /// and std::invalid_argument if the numbers of places and discs differ.

@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstddef>
 
+#include "detp/sim/base/transpose-inl.hpp"
 #include "kept_lanes-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -105,52 +106,11 @@ constexpr std::size_t length_at = offsetof(Ray, length) / sizeof(double);
 constexpr std::size_t power_at = offsetof(Ray, power) / sizeof(double);
 static_assert(doubles_in_ray == 8);
 
-#if HWY_TARGET == HWY_SCALAR
-HWY_INLINE void load_fields(const Ray* ray, Doubles* fields) {
-  for (std::size_t j = 0; j < doubles_in_ray; ++j) fields[j] = hn::Load(DoubleLanes(), &ray->origin.x + j);
-}
-#else
-/// Writes the columns of an n × n matrix of doubles, n the number of lanes. Consecutive rows are one Ray apart.
-template <std::size_t n>
-HWY_INLINE void transpose(const double* rows, Doubles* columns) {
-  const DoubleLanes lanes;
-  Doubles pairs[n];  // of rows 2 i and 2 i + 1: the even columns, then the odd ones
-  for (std::size_t i = 0; i < n; i += 2) {
-    const Doubles upper = hn::LoadU(lanes, rows + i * doubles_in_ray);
-    const Doubles lower = hn::LoadU(lanes, rows + (i + 1) * doubles_in_ray);
-    pairs[i] = hn::InterleaveLower(lanes, upper, lower);
-    pairs[i + 1] = hn::InterleaveUpper(lanes, upper, lower);
-  }
-  if constexpr (n == 2) {
-    columns[0] = pairs[0];
-    columns[1] = pairs[1];
-  } else {
-    Doubles fours[n];  // of four rows: column j (0 … 3) and, if n is 8, column j + 4
-    for (std::size_t i = 0; i < n; i += 4) {
-      for (std::size_t odd = 0; odd < 2; ++odd) {
-        const Doubles upper = pairs[i + odd];
-        const Doubles lower = pairs[i + 2 + odd];
-        fours[i + odd] = hn::OddEvenBlocks(hn::SwapAdjacentBlocks(lower), upper);
-        fours[i + 2 + odd] = hn::OddEvenBlocks(lower, hn::SwapAdjacentBlocks(upper));
-      }
-    }
-    for (std::size_t j = 0; j < 4; ++j) {
-      if constexpr (n == 4) {
-        columns[j] = fours[j];
-      } else {
-        columns[j] = hn::ConcatLowerLower(lanes, fours[4 + j], fours[j]);
-        columns[4 + j] = hn::ConcatUpperUpper(lanes, fours[4 + j], fours[j]);
-      }
-    }
-  }
-}
-
-/// Loads the fields of one vector of rays. (Gathers of eight lanes take three times as long on Zen 5.)
+/// Loads the fields of one vector of rays.
 HWY_INLINE void load_fields(const Ray* rays, Doubles* fields) {
-  constexpr std::size_t n = hn::MaxLanes(DoubleLanes());
-  for (std::size_t first = 0; first < doubles_in_ray; first += n) transpose<n>(&rays->origin.x + first, fields + first);
+  for (std::size_t first = 0; first < doubles_in_ray; first += rays_in_part)
+    sim::HWY_NAMESPACE::transpose<doubles_in_ray>(DoubleLanes(), &rays->origin.x + first, fields + first);
 }
-#endif
 
 constexpr std::size_t prefetch_distance = 64;  ///< number of rays to prefetch
 
