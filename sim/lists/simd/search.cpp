@@ -22,18 +22,15 @@ void divide(const BlockSearch& block, const TreeNode& node, const RayLists& list
     search_below(block, node, lists, workers.local());
     return;
   }
-  // Isolated: a waiting thread must not start an unrelated task, which would put its lists on top of the lists in use.
-  tbb::this_task_arena::isolate([&] {
-    sim::parallel_for(node.first, node.first + node.count, [&](std::uint32_t child) {
-      Worker& worker = workers.local();
-      const TreeNode& next = block.tree.nodes[child];
-      if (worker.check.requested_after(test_work(size(lists))))
-        return worker.skipped.push_back(discs_below(block.tree, next));
-      const ArenaScope scope(worker.lists);
-      RayLists inside = worker.lists.allocate_like(lists, block.segments);
-      cull_node(block, next, lists, inside, worker);
-      if (size(inside) > 0) divide(block, next, inside, workers);
-    });
+  sim::parallel_for(node.first, node.first + node.count, [&](std::uint32_t child) {
+    Worker& worker = workers.local();
+    const TreeNode& next = block.tree.nodes[child];
+    if (worker.check.requested_after(test_work(size(lists))))
+      return worker.skipped.push_back(discs_below(block.tree, next));
+    const ArenaScope scope(worker.lists);
+    RayLists inside = worker.lists.allocate_like(lists, block.segments);
+    cull_node(block, next, lists, inside, worker);
+    if (size(inside) > 0) divide(block, next, inside, workers);
   });
 }
 
