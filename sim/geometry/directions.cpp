@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+
+#include "turn.hpp"
 
 namespace detp::sim {
 
@@ -17,15 +18,15 @@ std::array<glm::dvec3, 2> basis_around(const glm::dvec3& axis) {
 glm::dvec3 uniform_direction(double u, double v) {
   const double z = 1.0 - 2.0 * u;
   const double rho = std::sqrt(std::max(0.0, 1.0 - z * z));
-  const double phi = 2.0 * std::numbers::pi * v;
-  return {rho * std::cos(phi), rho * std::sin(phi), z};
+  const Turn around = turn(v);
+  return {rho * around.cos, rho * around.sin, z};
 }
 
 glm::dvec3 cosine_direction(const glm::dvec3& axis, double u, double v) {
   const double rho = std::sqrt(u);
-  const double phi = 2.0 * std::numbers::pi * v;
+  const Turn around = turn(v);
   const auto [first, second] = basis_around(axis);
-  return rho * std::cos(phi) * first + rho * std::sin(phi) * second + std::sqrt(1.0 - u) * axis;
+  return rho * around.cos * first + rho * around.sin * second + std::sqrt(1.0 - u) * axis;
 }
 
 }  // namespace detp::sim

@@ -21,6 +21,8 @@ class Bsp {
             .building_bytes = tree_.building_bytes};
   }
 
+  [[nodiscard]] std::span<const std::uint32_t> references() const { return tree_.references; }
+
   void visit_nodes(const VisitNode& visit) const { visit_nodes(0, tree_.box, 0, visit); }
 
   template <class Search>

@@ -39,6 +39,8 @@ class Grid {
             .building_bytes = building_bytes(references_.size())};
   }
 
+  [[nodiscard]] std::span<const std::uint32_t> references() const { return references_; }
+
   void visit_nodes(const VisitNode& visit) const {
     for (Cell cell{}; cell[2] < along_[2]; ++cell[2])
       for (cell[1] = 0; cell[1] < along_[1]; ++cell[1])

@@ -1,10 +1,14 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
+#include <optional>
 
+#include "cell_discs.hpp"
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
+#include "detp/sim/lists/simd/search.hpp"
 #include "detp/sim/search/hit_collector.hpp"
 #include "detp/sim/search/index.hpp"
 #include "detp/sim/search/ray_search.hpp"
@@ -18,7 +22,7 @@ namespace detp::sim {
 /// against it, so disc_tests counts a pair of ray and disc once. Without, disc_tests counts the pair in each of these
 /// cells, even where the hit is already known.
 ///
-/// `Cells` provides size(), and trace(ray, number, search), which calls the search's visit and test.
+/// `Cells` provides size(), references() (of all cells), and trace(ray, number, search), which calls the search's visit and test.
 template <bool counting, bool mailboxing, class Cells>
 class IndexedSearch final : public RaySearch {
  public:
@@ -69,6 +73,72 @@ class IndexedSearch final : public RaySearch {
   FoundPairs* hits_ = nullptr;
 };
 
+/// The same search with vectors: the hits of IndexedSearch, and its counts without mailboxes; also counts the decisions that floats left
+/// in doubt.
+template <bool counting, class Cells>
+class VectorSearch final : public RaySearch {
+ public:
+  VectorSearch(const Cells& index, const CellDiscs& discs, const Problem& problem, const RunOptions& options)
+      : index_(index),
+        discs_(discs),
+        problem_(problem),
+        decide_(decide_cells(problem.segments(), problem.front_facing())),
+        check_(options.stop, "searching"),
+        rays_(options.memory),
+        last_hit_(problem.discs().size(), 0, options.memory) {}
+
+  void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
+    hits_ = &hits;
+    rays_.load(problem_.rays().subspan(first, last - first), discs_.frame());
+    for (std::uint32_t ray = first; ray < last; ++ray) {
+      now_ = &rays_[ray - first];
+      index_.trace(problem_.rays()[ray], ray, *this);
+    }
+  }
+
+  [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
+
+  void visit(std::uint64_t Counts<std::uint64_t>::*term) { tally_.add(term); }
+
+  /// Throws Stopped if a stop was requested.
+  void test(std::uint32_t ray, std::span<const std::uint32_t> discs) {
+    tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size());
+    check_.after(1);
+    if (now_->axis == stream::classes) return;  // far from all discs
+    const stream::FloatDisc* floats = discs_.discs() + (discs.data() - index_.references().data());
+    constexpr std::size_t at_once = 64;
+    for (std::size_t i = 0; i < discs.size(); i += at_once) {
+      const std::size_t count = std::min(at_once, discs.size() - i);
+      const CellDecision decision = decide_[now_->axis](*now_, floats + i, count);
+      check_.after(count);
+      for (std::uint64_t left = decision.sure | decision.unsure; left != 0; left &= left - 1) {
+        const auto place = static_cast<std::size_t>(std::countr_zero(left));
+        record(ray, discs[i + place], (decision.sure >> place & 1) != 0);
+      }
+    }
+  }
+
+ private:
+  void record(std::uint32_t ray, std::uint32_t disc, bool sure) {
+    if (!sure) tally_.add(&Counts<std::uint64_t>::doubtful);
+    if (last_hit_[disc] == ray + 1) return;
+    if (!sure && !counts_as_hit(problem_, problem_.rays()[ray], problem_.discs()[disc])) return;
+    last_hit_[disc] = ray + 1;
+    hits_->push_back({ray, disc});
+  }
+
+  const Cells& index_;
+  const CellDiscs& discs_;
+  const Problem& problem_;
+  DecideCells decide_;
+  StopCheck check_;
+  Tally<counting> tally_;
+  FloatRays rays_;
+  const FloatRay* now_ = nullptr;
+  std::pmr::vector<std::uint32_t> last_hit_;  ///< for each disc: 1 + the last ray that hit it; 0: none yet
+  FoundPairs* hits_ = nullptr;
+};
+
 /// An index of cells over discs, and its search. `Cells` is constructed from the problem, `arguments` and the stop
 /// token.
 template <class Cells>
@@ -78,15 +148,23 @@ class TracedIndex final : public Index {
   TracedIndex(std::string_view what, const Problem& problem, const RunOptions& options, bool mailboxing,
               const Arguments&... arguments)
       : what_(what), mailboxing_(mailboxing), cells_(problem, arguments..., options.stop) {
-    built_.seconds.build = watch_.lap();
     const IndexSize size = cells_.size();
+    if (!mailboxing && options.engine == Engine::simd && stream::can_search(problem)) {
+      require_memory_for(what, static_cast<double>(size.bytes) + CellDiscs::bytes(size.references), problem);
+      discs_.emplace(problem, cells_.references(), options.stop);
+    }
+    built_.seconds.build = watch_.lap();
     built_.counts.references = size.references;
     built_.counts.placements = size.placements;
-    built_.bytes = checked_bytes(what, size.building_bytes, problem);
+    built_.bytes =
+        checked_bytes(what, std::max(size.building_bytes, static_cast<double>(size.bytes) + disc_bytes()), problem);
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
     add_checked_bytes(what_, searching_bytes(problem, options), problem, outcome);
+    if (discs_)
+      return options.count ? trace_in_vectors<true>(problem, options, outcome)
+                           : trace_in_vectors<false>(problem, options, outcome);
     if (mailboxing_)
       options.count ? trace_all<true, true>(problem, options, outcome)
                     : trace_all<false, true>(problem, options, outcome);
@@ -100,7 +178,19 @@ class TracedIndex final : public Index {
   [[nodiscard]] double searching_bytes(const Problem& problem, const RunOptions& options) const {
     const double mailboxes = thread_count(options.threads) * static_cast<double>(sizeof(std::uint32_t)) *
                              static_cast<double>(problem.discs().size());
-    return static_cast<double>(cells_.size().bytes) + mailboxes + found_bytes(problem, options);
+    return static_cast<double>(cells_.size().bytes) + disc_bytes() + mailboxes + found_bytes(problem, options);
+  }
+
+  [[nodiscard]] double disc_bytes() const { return discs_ ? CellDiscs::bytes(cells_.size().references) : 0; }
+
+  template <bool counting>
+  void trace_in_vectors(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
+    search_rays(
+        problem, options,
+        [&] {
+          return make_in<RaySearch, VectorSearch<counting, Cells>>(*options.memory, cells_, *discs_, problem, options);
+        },
+        outcome);
   }
 
   template <bool counting, bool mailboxing>
@@ -118,6 +208,7 @@ class TracedIndex final : public Index {
   std::string_view what_;
   bool mailboxing_;
   Cells cells_;
+  std::optional<CellDiscs> discs_;  ///< of the simd engine
 };
 
 /// The box around the discs' centres, grown by the largest radius, so that it contains every disc.

@@ -28,6 +28,8 @@ class Octree {
             .building_bytes = linking_bytes()};
   }
 
+  [[nodiscard]] std::span<const std::uint32_t> references() const { return tree_.references; }
+
   void visit_nodes(const VisitNode& visit) const { visit_nodes(0, tree_.cube, 0, visit); }
 
   template <class Search>

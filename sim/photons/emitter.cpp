@@ -10,6 +10,7 @@
 
 #include "detp/model/vocabulary/checks.hpp"
 #include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/turn.hpp"
 #include "detp/sim/geometry/unit_vector.hpp"
 
 namespace detp::sim {
@@ -63,10 +64,10 @@ Emitter emitter(const SpotLight& light, const Scene&) {
   return [position = light.position, axis, cap](const std::array<double, 4>& random) {
     const double below = cap * random[2];
     const double across = std::sqrt(below * (2 - below));
-    const double turn = 2 * std::numbers::pi * random[3];
+    const Turn around_axis = turn(random[3]);
     const auto [first, second] = basis_around(axis);
-    return PhotonStart{position, glm::normalize((1 - below) * axis + across * std::cos(turn) * first +
-                                                across * std::sin(turn) * second)};
+    return PhotonStart{position, glm::normalize((1 - below) * axis + across * around_axis.cos * first +
+                                                across * around_axis.sin * second)};
   };
 }
 
@@ -74,10 +75,10 @@ Emitter emitter(const DirectionalLight& light, const Scene& scene) {
   const glm::dvec3 direction = unit_direction("direction of the directional light", light.direction);
   return [direction, sphere = around(scene.box)](const std::array<double, 4>& random) {
     const double radius = sphere.radius * std::sqrt(random[0]);
-    const double turn = 2 * std::numbers::pi * random[1];
+    const Turn place = turn(random[1]);
     const auto [first, second] = basis_around(direction);
     return PhotonStart{
-        sphere.centre - sphere.radius * direction + radius * std::cos(turn) * first + radius * std::sin(turn) * second,
+        sphere.centre - sphere.radius * direction + radius * place.cos * first + radius * place.sin * second,
         direction};
   };
 }

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "detp/sim/geometry/directions.hpp"
+#include "detp/sim/geometry/turn.hpp"
 
 namespace detp::sim {
 namespace {
@@ -22,10 +22,10 @@ glm::dvec3 glossy(double shininess, const glm::dvec3& side, const glm::dvec3& in
   const glm::dvec3 mirror = mirrored(incoming, side);
   if (std::isinf(shininess)) return mirror;
   const double step = std::sqrt(-2 * std::log1p(-u) / shininess);
-  const double turn = 2 * std::numbers::pi * v;
+  const Turn around = turn(v);
   const auto [first, second] = basis_around(side);
   const glm::dvec3 flat =
-      mirror - glm::dot(mirror, side) * side + step * std::cos(turn) * first + step * std::sin(turn) * second;
+      mirror - glm::dot(mirror, side) * side + step * around.cos * first + step * around.sin * second;
   const double height = 1 - glm::dot(flat, flat);
   return height > 0 ? glm::normalize(flat + std::sqrt(height) * side) : mirror;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "detp/model/vocabulary/vocabulary.hpp"
@@ -12,6 +11,8 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
+#include "detp/sim/geometry/turn.hpp"
+#include "line_vectors.hpp"
 
 namespace detp::sim {
 
@@ -29,19 +30,33 @@ Ray line_at(const Sphere& sphere, const std::array<double, 4>& coordinates) {
   const glm::dvec3 direction = uniform_direction(u, v);
   const auto [first, second] = basis_around(direction);
   const double radius = sphere.radius * std::sqrt(w);
-  const double angle = 2.0 * std::numbers::pi * phi;
-  return {.origin = sphere.centre + radius * (std::cos(angle) * first + std::sin(angle) * second),
-          .direction = direction};
+  const Turn place = turn(phi);
+  return {.origin = sphere.centre + radius * (place.cos * first + place.sin * second), .direction = direction};
 }
 
 Ray LineField::line(std::uint64_t index) const { return line_at(sphere_, uniform4(seed_, Stream::line_field, index)); }
 
+void LineField::write(std::uint64_t first, std::span<Ray> lines, const std::stop_token& stop) const {
+  StopCheck check(stop, "making lines");
+  check.now();
+  LineCoordinates coordinates;
+  while (!lines.empty()) {
+    const std::size_t count = std::min(lines.size(), LineCoordinates::most);
+    check.after(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::array<double, 4> random = uniform4(seed_, Stream::line_field, first + i);
+      for (std::size_t j = 0; j < random.size(); ++j) coordinates.of[j][i] = random[j];
+    }
+    write_lines(sphere_, coordinates, lines.first(count));
+    lines = lines.subspan(count);
+    first += count;
+  }
+}
+
 std::vector<Ray> LineField::lines(std::uint64_t first, std::size_t count, const std::stop_token& stop) const {
   const DefaultFloatingPoint mode;
-  StopCheck check(stop, "making lines");
-  std::vector<Ray> rays;
-  rays.reserve(count);
-  for_each_checked(0, count, check, [&](std::size_t i) { rays.push_back(line(first + i)); });
+  std::vector<Ray> rays(count);
+  write(first, rays, stop);
   return rays;
 }
 

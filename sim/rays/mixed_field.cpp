@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <stdexcept>
 
 #include "detp/model/vocabulary/checks.hpp"
@@ -12,6 +11,7 @@
 #include "detp/sim/base/stop_check.hpp"
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/random.hpp"
+#include "detp/sim/geometry/turn.hpp"
 #include "detp/sim/geometry/unit_vector.hpp"
 
 namespace detp::sim {
@@ -57,8 +57,8 @@ Ray MixedField::parallel(std::uint64_t index) const {
   const auto random = uniform4(seed_, Stream::line_field, index);
   const auto [first, second] = basis_around(mixture_.direction);
   const double radius = mixture_.sphere.radius * std::sqrt(random[2]);
-  const double angle = 2 * std::numbers::pi * random[3];
-  return {.origin = mixture_.sphere.centre + radius * (std::cos(angle) * first + std::sin(angle) * second),
+  const Turn place = turn(random[3]);
+  return {.origin = mixture_.sphere.centre + radius * (place.cos * first + place.sin * second),
           .direction = mixture_.direction};
 }
 
@@ -68,10 +68,10 @@ Ray MixedField::from_point(std::uint64_t index) const {
   const glm::dvec3 axis = cap_ < 2 ? unit_or_zero(to_centre) : glm::dvec3{0.0, 0.0, 1.0};
   const double below = cap_ * random[0];
   const double across = std::sqrt(below * (2 - below));
-  const double angle = 2 * std::numbers::pi * random[1];
+  const Turn around = turn(random[1]);
   const auto [first, second] = basis_around(axis);
   const glm::dvec3 direction =
-      glm::normalize((1 - below) * axis + across * std::cos(angle) * first + across * std::sin(angle) * second);
+      glm::normalize((1 - below) * axis + across * around.cos * first + across * around.sin * second);
   const double along = glm::dot(to_centre, direction);
   const glm::dvec3 aside = to_centre - along * direction;
   const double half_chord =

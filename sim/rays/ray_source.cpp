@@ -4,7 +4,6 @@
 
 #include "detp/sim/base/floating_point.hpp"
 #include "detp/sim/base/parallel.hpp"
-#include "detp/sim/base/stop_check.hpp"
 
 namespace detp::sim {
 
@@ -22,9 +21,7 @@ double RaysInMemory::farthest_from(const glm::dvec3& point) const {
 void LinesOfField::read(std::uint64_t first, std::span<Ray> block, const std::stop_token& stop) const {
   constexpr std::size_t lines_at_once = 4096;
   sim::parallel_for(ParallelRange(0, block.size(), lines_at_once), [&](const ParallelRange& range) {
-    StopCheck check(stop, "making lines");
-    check.now();
-    for_each_checked(range.begin(), range.end(), check, [&](std::size_t i) { block[i] = field_.line(first + i); });
+    field_.write(first + range.begin(), block.subspan(range.begin(), range.size()), stop);
   });
 }
 

@@ -15,7 +15,12 @@ inline const std::vector<Candidate>& float_candidates() {
                                            {Technique::cell_spheres, CellSpheresParameters{6}},
                                            {Technique::box_tree, BoxTreeParameters{2, 1}},
                                            {Technique::box_tree, BoxTreeParameters{8, 8}},
-                                           {Technique::box_tree, BoxTreeParameters{4, 64}}};
+                                           {Technique::box_tree, BoxTreeParameters{4, 64}},
+                                           {Technique::octree, OctreeParameters{1}},
+                                           {Technique::octree, OctreeParameters{4, Traversal::neighbour_links}},
+                                           {Technique::grid, GridParameters{1}},
+                                           {Technique::grid, GridParameters{9}},
+                                           {Technique::bsp, BspParameters{8}}};
   return list;
 }
 

@@ -18,7 +18,7 @@ namespace detp::validate {
   if (costs.engine != Engine::simd) return costs;
   const double placing = costs[Technique::box_tree].leaf;
   for (const TechniqueRecord& record : technique_records)
-    if (record.simd) {
+    if (record.simd && !record.ray_by_ray) {
       costs[record.technique].visit += placing;
       costs[record.technique].hit += 0.1 * placing;
     }

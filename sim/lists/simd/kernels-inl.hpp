@@ -153,9 +153,10 @@ HWY_INLINE void cull_sphere(const RayList& rays, const FloatSphere& sphere, RayL
 }
 
 /// The lanes that certainly hit a disc, and the lanes that possibly do.
+template <class Lanes>
 struct Decision {
-  Mask sure;
-  Mask unsure;
+  hn::Mask<Lanes> sure;
+  hn::Mask<Lanes> unsure;
 };
 
 /// A disc in the coordinates of class k; each number is broadcast to all lanes.
@@ -184,8 +185,12 @@ struct SpreadDisc {
 /// One vector of rays of a list.
 template <bool segments>
 struct RayVector {
+  using Lanes = FloatLanes;
   Floats a, b, p, q, from, to;
   const std::uint32_t* id;
+
+  /// The sign bits are set of rays that go towards smaller z.
+  [[nodiscard]] HWY_INLINE Floats falls() const { return hn::BitCast(FloatLanes(), hn::Load(WordLanes(), id)); }
 
   HWY_INLINE RayVector(const RayList& list, std::size_t first) : id(list.id + first) {
     const FloatLanes lanes;
@@ -206,37 +211,38 @@ struct RayVector {
 /// D = (a, b, 1), φ = n·D and g = n·w, the crossing is at (wφ - Dg)/φ from c. The ray hits if |wφ - Dg| <= d|φ| and,
 /// for segments, from <= c_z - g/φ <= to. The decision is uncertain within `band` of the rim or within `ends` of an end
 /// (sim/lists/simd/floats.md).
-template <bool segments, bool front_facing, int k>
-HWY_INLINE Decision decide(const RayVector<segments>& rays, const SpreadDisc<k>& disc) {
-  const FloatLanes lanes;
-  const Floats a = rays.a;
-  const Floats b = rays.b;
-  const Floats P = hn::Sub(hn::MulAdd(a, disc.cz, rays.p), disc.cx);
-  const Floats Q = hn::Sub(hn::MulAdd(b, disc.cz, rays.q), disc.cy);
-  const Floats facing = hn::MulAdd(disc.nx, a, hn::MulAdd(disc.ny, b, disc.nz));
-  const Floats height = hn::MulAdd(disc.nx, P, hn::Mul(disc.ny, Q));
-  const Floats X = hn::NegMulAdd(a, height, hn::Mul(P, facing));
-  const Floats Y = hn::NegMulAdd(b, height, hn::Mul(Q, facing));
-  const Floats square = hn::MulAdd(X, X, hn::MulAdd(Y, Y, hn::Mul(height, height)));
-  const Floats size = hn::Abs(facing);
-  const Floats outer = hn::MulAdd(disc.radius, size, disc.band);
-  const Floats inner = hn::Max(hn::MulSub(disc.radius, size, disc.band), hn::Zero(lanes));
-  Mask sure = hn::Lt(square, hn::Mul(inner, inner));
-  Mask possible = hn::Le(square, hn::Mul(outer, outer));
+///
+/// `rays` and `disc` are like RayVector and SpreadDisc: several rays and one disc, or one ray and several discs.
+template <bool segments, bool front_facing, class Rays, class Discs>
+HWY_INLINE Decision<typename Rays::Lanes> decide(const Rays& rays, const Discs& disc) {
+  const typename Rays::Lanes lanes;
+  const auto a = rays.a;
+  const auto b = rays.b;
+  const auto P = hn::Sub(hn::MulAdd(a, disc.cz, rays.p), disc.cx);
+  const auto Q = hn::Sub(hn::MulAdd(b, disc.cz, rays.q), disc.cy);
+  const auto facing = hn::MulAdd(disc.nx, a, hn::MulAdd(disc.ny, b, disc.nz));
+  const auto height = hn::MulAdd(disc.nx, P, hn::Mul(disc.ny, Q));
+  const auto X = hn::NegMulAdd(a, height, hn::Mul(P, facing));
+  const auto Y = hn::NegMulAdd(b, height, hn::Mul(Q, facing));
+  const auto square = hn::MulAdd(X, X, hn::MulAdd(Y, Y, hn::Mul(height, height)));
+  const auto size = hn::Abs(facing);
+  const auto outer = hn::MulAdd(disc.radius, size, disc.band);
+  const auto inner = hn::Max(hn::MulSub(disc.radius, size, disc.band), hn::Zero(lanes));
+  auto sure = hn::Lt(square, hn::Mul(inner, inner));
+  auto possible = hn::Le(square, hn::Mul(outer, outer));
   if constexpr (segments) {
     // -g sgn φ, which must lie between (from - c_z)|φ| and (to - c_z)|φ|.
-    const Floats along = hn::Xor(hn::Neg(height), hn::And(facing, hn::SignBit(lanes)));
-    const Floats after = hn::NegMulAdd(hn::Sub(rays.from, disc.cz), size, along);
-    const Floats before = hn::MulSub(hn::Sub(rays.to, disc.cz), size, along);
-    const Floats within = hn::Min(after, before);
+    const auto along = hn::Xor(hn::Neg(height), hn::And(facing, hn::SignBit(lanes)));
+    const auto after = hn::NegMulAdd(hn::Sub(rays.from, disc.cz), size, along);
+    const auto before = hn::MulSub(hn::Sub(rays.to, disc.cz), size, along);
+    const auto within = hn::Min(after, before);
     sure = hn::And(sure, hn::Gt(within, disc.ends));
     possible = hn::And(possible, hn::Ge(within, hn::Neg(disc.ends)));
   }
   if constexpr (front_facing) {
     // The direction has the sense of (a, b, 1), or of -(a, b, 1) if the top bit of the id is set. The ray arrives in
     // front if the dot product of its direction and the normal is negative.
-    const Floats falls = hn::BitCast(lanes, hn::Load(WordLanes{}, rays.id));
-    const Mask in_front = hn::Lt(hn::Xor(facing, hn::And(falls, hn::SignBit(lanes))), hn::Zero(lanes));
+    const auto in_front = hn::Lt(hn::Xor(facing, hn::And(rays.falls(), hn::SignBit(lanes))), hn::Zero(lanes));
     // If a hit is certain, so is its face. Uncertain hits are decided again anyway.
     possible = hn::And(possible, hn::Or(in_front, hn::Not(sure)));
     sure = hn::And(sure, in_front);

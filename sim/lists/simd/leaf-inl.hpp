@@ -40,7 +40,7 @@ HWY_INLINE Mask test(const BlockSearch& block, const RayVector<segments>& rays, 
                      Worker& worker) {
   const FloatLanes lanes;
   const SpreadDisc<k> disc(block.tree.discs[place]);
-  const Decision decision = decide<segments, front_facing>(rays, disc);
+  const auto decision = decide<segments, front_facing>(rays, disc);
   const Mask unsure = hn::And(decision.unsure, there);
   const Mask sure = hn::And(decision.sure, there);
   if (HWY_LIKELY(hn::AllFalse(lanes, unsure))) return sure;

@@ -69,18 +69,19 @@ TEST_SUITE("identity") {
 
   TEST_CASE("mailboxes and restarts change only their own counts of tests and visits") {
     const Problem problem = make_problem(setting().rays, setting().discs);
-    const Counts plain = search_octree(problem, {5}, {}).counts;
-    Counts once = search_octree(problem, {5}, {.mailboxing = true}).counts;
+    const RunOptions one_by_one{.engine = Engine::plain};
+    const Counts plain = search_octree(problem, {5}, {}, one_by_one).counts;
+    Counts once = search_octree(problem, {5}, {.mailboxing = true}, one_by_one).counts;
     CHECK(once.disc_tests < plain.disc_tests);
     CHECK(once.disc_tests > plain.hits);
     once.disc_tests = plain.disc_tests;
     CHECK(once == plain);
-    Counts anew = search_octree(problem, {5, Traversal::restart}, {}).counts;
+    Counts anew = search_octree(problem, {5, Traversal::restart}, {}, one_by_one).counts;
     CHECK(anew.nodes > plain.nodes);
     // If a ray runs in a plane between leaves, top-down traversal enters the leaves on both sides, restart only on one.
     CHECK(anew.disc_tests <= plain.disc_tests);
-    const Counts grid = search_grid(problem, {32}, {}).counts;
-    Counts grid_once = search_grid(problem, {32}, {.mailboxing = true}).counts;
+    const Counts grid = search_grid(problem, {32}, {}, one_by_one).counts;
+    Counts grid_once = search_grid(problem, {32}, {.mailboxing = true}, one_by_one).counts;
     CHECK(grid_once.disc_tests < grid.disc_tests);
     grid_once.disc_tests = grid.disc_tests;
     CHECK(grid_once == grid);

@@ -9,6 +9,7 @@
 #include "detp/sim/geometry/directions.hpp"
 #include "detp/sim/geometry/predicates.hpp"
 #include "detp/sim/geometry/random.hpp"
+#include "support/instruction_sets.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -29,6 +30,22 @@ TEST_SUITE("identity") {
     const auto lines = field.lines(10, 5);
     CHECK(lines[3].origin == field.line(13).origin);
     CHECK(LineField({}, 6).line(13).origin != field.line(13).origin);
+  }
+
+  TEST_CASE("lines made together are the same bits as one made alone, with every instruction set") {
+    const LineField field({{3, -2, 5}, 0.7}, 5);
+    support::with_each_instruction_set([&] {
+      for (const std::size_t count : {1, 7, 64, 65, 1000}) {
+        const auto lines = field.lines(3, count);
+        for (std::size_t i = 0; i < count; ++i) {
+          const Ray line = field.line(3 + i);
+          REQUIRE(lines[i].origin == line.origin);
+          REQUIRE(lines[i].direction == line.direction);
+          REQUIRE(lines[i].length == line.length);
+          REQUIRE(lines[i].power == line.power);
+        }
+      }
+    });
   }
 
   TEST_CASE("a basis is orthonormal and right-handed for any axis, including the poles") {
