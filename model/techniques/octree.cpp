@@ -10,7 +10,8 @@ Counts<double> octree(const Valid<Workload>& workload, const OctreeParameters& p
   return octree_counts(workload, parameters);
 }
 
-/// The best depth for top-down traversal, whatever the traversal is. Tries depths from 0 up, until the nodes, the
+/// The best depth for top-down traversal, whatever the traversal is. Tries depths from 1 up (an octree of depth 0 is brute force, and
+/// the unit costs of octrees are not measured with it), until the nodes, the
 /// insertions and one test for each hit of a deeper octree would take longer than the best so far. Predicts each level
 /// once.
 std::optional<FoundParameters> best_octree(const Valid<Workload>& workload, const Valid<UnitCosts>& costs,
@@ -18,7 +19,9 @@ std::optional<FoundParameters> best_octree(const Valid<Workload>& workload, cons
   Fastest<OctreeParameters> fastest(costs, Technique::octree, limits);
   int depth = 0;
   for_each_octree_depth(workload, {limits.most_depth}, {}, [&](const Counts<double>& counts) {
-    fastest.consider({depth++}, counts);
+    const int this_depth = depth++;
+    if (this_depth == 0 && limits.most_depth > 0) return true;
+    fastest.consider({this_depth}, counts);
     return !fastest.excludes(counts);
   });
   return tuned(fastest.best());

@@ -40,7 +40,8 @@ struct BuiltIn {
 };
 
 // Unit costs: one fit to the runs of four calibrations of 60 s with different seeds, on a machine with two cores; but o was
-// measured on another machine, and scaled as p. Costs of threads: from earlier single runs of detp calibrate; those of more
+// measured on another machine, and scaled as p. Octree, grid and BSP tree by the simd engine: those of the plain engine times the ratio of
+// both engines' costs in one run of detp calibrate --seconds 60 on an AMD EPYC (Zen 3, AVX2). Costs of threads: from earlier single runs of detp calibrate; those of more
 // than two threads are extrapolated.
 constexpr BuiltIn of_simd[] = {
     {Technique::brute_force,
@@ -65,7 +66,16 @@ constexpr BuiltIn of_simd[] = {
       .m = 11.2,
       .o = 18.5,
       .a = 1.21e+04},
-     {.serial_preparing = 0.333, .serial_search = 0.29, .start = 8.82e-05}}};
+     {.serial_preparing = 0.333, .serial_search = 0.29, .start = 8.82e-05}},
+    {Technique::octree,
+     {.w = 1.28, .n = 131, .b = 136, .h = 36.8, .i = 37, .e = 0.54, .m = 92.6},
+     {.serial_preparing = 1, .serial_search = 0.18, .start = 1.1e-05}},
+    {Technique::grid,
+     {.w = 1.41, .v = 45, .b = 133, .h = 107, .i = 31.6, .e = 0.61, .m = 143},
+     {.serial_preparing = 1, .serial_search = 0.17, .start = 2.18e-05}},
+    {Technique::bsp,
+     {.w = 2.8, .n = 26.2, .b = 59.9, .h = 35.5, .e = 0.56},
+     {.serial_preparing = 1, .serial_search = 0.25, .start = 0}}};
 
 constexpr BuiltIn of_plain[] = {
     {Technique::brute_force,
@@ -76,11 +86,7 @@ constexpr BuiltIn of_plain[] = {
     {Technique::cell_spheres, {.t = 15.2, .u = 5.89, .s = 78.3, .r = 37.7, .l = 75.7, .h = 106, .e = 3.39, .m = 21.2}},
     {Technique::box_tree,
      {.t = 12.5, .u = 6.11, .c = 30.9, .p = 72.1, .g = 91.5, .h = 104, .e = 0.687, .m = 8.81, .o = 26, .a = 333},
-     {.serial_preparing = 0.236, .serial_search = 1, .start = 5.31e-05}}};
-
-/// Of techniques without a simd engine.
-constexpr BuiltIn of_both[] = {
-    {Technique::sphere_tree, {.t = 10.4, .u = 5.71, .c = 12, .g = 238, .s = 156, .h = 114, .e = 2.85, .m = 23}},
+     {.serial_preparing = 0.236, .serial_search = 1, .start = 5.31e-05}},
     {Technique::octree,
      {.w = 5.77, .n = 131, .b = 136, .h = 127, .e = 0.792, .m = 92.6},
      {.serial_preparing = 1, .serial_search = 0.0965, .start = 1.1e-05}},
@@ -89,7 +95,11 @@ constexpr BuiltIn of_both[] = {
      {.serial_preparing = 1, .serial_search = 0.0869, .start = 2.18e-05}},
     {Technique::bsp,
      {.w = 6.52, .n = 37.4, .b = 59.9, .h = 189, .e = 1.01},
-     {.serial_preparing = 1, .serial_search = 0.198, .start = 0}},
+     {.serial_preparing = 1, .serial_search = 0.198, .start = 0}}};
+
+/// Of techniques without a simd engine.
+constexpr BuiltIn of_both[] = {
+    {Technique::sphere_tree, {.t = 10.4, .u = 5.71, .c = 12, .g = 238, .s = 156, .h = 114, .e = 2.85, .m = 23}},
     {Technique::bvh,
      {.w = 3.24, .b = 411, .h = 234, .i = 97.8, .e = 52.2, .a = 7.28e+04},
      {.serial_preparing = 0.00424, .serial_search = 0.177, .start = 2.14e-05}},
