@@ -6,7 +6,11 @@
 
 namespace detp::sim {
 
-std::array<std::uint64_t, 4> bits4(std::uint64_t seed, Stream stream, std::uint64_t index, std::uint64_t sub_index) {
+namespace {
+
+using Words = std::array<std::uint64_t, 4>;
+
+Words words_at(std::uint64_t seed, Stream stream, std::uint64_t index, std::uint64_t sub_index) {
   const r123::Philox4x64 philox;
   const r123::Philox4x64::ctr_type counter{{index, sub_index, 0, 0}};
   const r123::Philox4x64::key_type key{{seed, static_cast<std::uint64_t>(stream)}};
@@ -14,10 +18,29 @@ std::array<std::uint64_t, 4> bits4(std::uint64_t seed, Stream stream, std::uint6
   return {words[0], words[1], words[2], words[3]};
 }
 
+double unit(std::uint64_t word) { return static_cast<double>(word >> 11) * 0x1p-53; }
+
+}  // namespace
+
+std::array<std::uint64_t, 4> bits4(std::uint64_t seed, Stream stream, std::uint64_t index, std::uint64_t sub_index) {
+  return words_at(seed, stream, index, sub_index);
+}
+
 std::array<double, 4> uniform4(std::uint64_t seed, Stream stream, std::uint64_t index, std::uint64_t sub_index) {
-  const auto words = bits4(seed, stream, index, sub_index);
-  const auto unit = [](std::uint64_t word) { return static_cast<double>(word >> 11) * 0x1p-53; };
+  const Words words = words_at(seed, stream, index, sub_index);
   return {unit(words[0]), unit(words[1]), unit(words[2]), unit(words[3])};
+}
+
+void uniform4(std::uint64_t seed, Stream stream, std::uint64_t first, std::size_t count,
+              const std::array<double*, 4>& columns) {
+  const auto [one, two, three, four] = columns;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Words words = words_at(seed, stream, first + i, 0);
+    one[i] = unit(words[0]);
+    two[i] = unit(words[1]);
+    three[i] = unit(words[2]);
+    four[i] = unit(words[3]);
+  }
 }
 
 std::vector<std::size_t> stratified_sample(std::size_t size, std::size_t count, std::uint64_t seed, Stream stream) {

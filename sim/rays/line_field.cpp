@@ -43,10 +43,8 @@ void LineField::write(std::uint64_t first, std::span<Ray> lines, const std::stop
   while (!lines.empty()) {
     const std::size_t count = std::min(lines.size(), LineCoordinates::most);
     check.after(count);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::array<double, 4> random = uniform4(seed_, Stream::line_field, first + i);
-      for (std::size_t j = 0; j < random.size(); ++j) coordinates.of[j][i] = random[j];
-    }
+    auto& [u, v, w, phi] = coordinates.of;
+    uniform4(seed_, Stream::line_field, first, count, {u.data(), v.data(), w.data(), phi.data()});
     write_lines(sphere_, coordinates, lines.first(count));
     lines = lines.subspan(count);
     first += count;
