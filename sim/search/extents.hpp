@@ -20,8 +20,7 @@ struct RayExtent {
   double least_power = unbounded;
   double most_power = 0;
   double least_length = unbounded;
-  bool sound =
-      true;  ///< by the same tests: origins in range, unit directions, lengths > 0, powers from 0 to the given limit
+  bool sound = true;  ///< likewise: origins in range, unit directions, lengths > 0, powers from 0 to `power_limit`
 };
 
 [[nodiscard]] DiscExtent extent_of(std::span<const Disc> discs);

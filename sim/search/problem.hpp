@@ -100,7 +100,7 @@ class Problem {
 };
 
 /// The smallest sphere around the box of the discs' centres, enlarged by the largest disc radius. Throws
-/// std::invalid_argument if there are no discs, or if a number or the sphere is not finite; Stopped on a stop request.
+/// std::invalid_argument if there are no discs, and as make_problem does if a disc is malformed; Stopped on a stop request.
 [[nodiscard]] Sphere enclosing_sphere(std::span<const Disc> discs, const std::stop_token& stop = {});
 
 /// Makes a problem with its S₀. Checks rays and discs, and normalises directions and normals.

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include "detp/sim/lists/simd/instruction_sets.hpp"
+#include "detp/sim/lists/simd/tree_search.hpp"
 
 namespace detp::support {
 
@@ -13,6 +14,7 @@ void with_each_instruction_set(const Check& check) {
     if (!set.here) continue;
     const sim::stream::OnlyInstructionSet only(set.name);
     CAPTURE(set.name);
+    REQUIRE(sim::stream::instruction_set() == set.name);
     check();
   }
 }

@@ -12,6 +12,7 @@
 #include "detp/sim/technique/technique.hpp"
 #include "support/float_candidates.hpp"
 #include "support/hard_scene.hpp"
+#include "support/instruction_sets.hpp"
 
 using namespace detp;
 using namespace detp::sim;
@@ -52,13 +53,7 @@ void check_same_bytes_by_all(const Problem& problem) {
   const Outcome expected =
       run(problem, {Technique::brute_force, BruteForceParameters{}}, {.pairs = true, .engine = Engine::plain});
   CHECK(expected.total_hits > 500);
-  for (const stream::InstructionSet& set : stream::compiled_instruction_sets()) {
-    if (!set.here) continue;
-    const stream::OnlyInstructionSet only(set.name);
-    CAPTURE(set.name);
-    REQUIRE(stream::instruction_set() == set.name);
-    check_same_bytes(problem, expected);
-  }
+  with_each_instruction_set([&] { check_same_bytes(problem, expected); });
 }
 
 /// The names, such as "AVX2 AVX3", of the instruction sets that the machine has (or lacks).
