@@ -23,9 +23,9 @@ constexpr auto spread_10_bits = [] {
 
 /// Resolution of the curve. Discs are first sorted by the upper bits of their codes, all at once; then cell by cell.
 struct Resolution {
-  int bits;                                                            ///< of a code
-  int first_bits;                                                      ///< bits by which discs are sorted first
-  [[nodiscard]] double cells() const { return 1 << bits / 3; }         ///< cells along the longest side
+  int bits;                                                           ///< of a code
+  int first_bits;                                                     ///< bits by which discs are sorted first
+  [[nodiscard]] double cells() const { return 1 << bits / 3; }        ///< cells along the longest side
   [[nodiscard]] int shift() const { return 32 + bits - first_bits; }  ///< from a CurvePlace to its first bits
   [[nodiscard]] std::size_t first_cells() const { return std::size_t{1} << first_bits; }
 };
@@ -56,7 +56,8 @@ class FirstCells {
     }
     for_each_stretch([&](std::size_t first, std::size_t last, std::uint32_t* starts, StopCheck& check) {
       const int shift = resolution_.shift();
-      for_each_checked(first, last, check, [&](std::size_t i) { sorted[starts[unsorted[i] >> shift]++] = unsorted[i]; });
+      for_each_checked(first, last, check,
+                       [&](std::size_t i) { sorted[starts[unsorted[i] >> shift]++] = unsorted[i]; });
     });
     return ends;
   }
@@ -126,7 +127,8 @@ void sort_cell(std::span<CurvePlace> words, std::span<CurvePlace> room, int shif
   if (ends[cell(words.front())] == words.size()) return sort_cell(words, room, below, unsorted, check);
   std::uint32_t next = 0;
   for (std::uint32_t& end : ends) next += std::exchange(end, next);
-  for_each_checked(std::size_t{0}, words.size(), check, [&](std::size_t i) { room[ends[cell(words[i])]++] = words[i]; });
+  for_each_checked(std::size_t{0}, words.size(), check,
+                   [&](std::size_t i) { room[ends[cell(words[i])]++] = words[i]; });
   std::copy_n(room.begin(), words.size(), words.begin());
   std::uint32_t first = 0;
   for (const std::uint32_t end : ends) {
