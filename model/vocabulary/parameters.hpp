@@ -101,7 +101,7 @@ struct BvhParameters {
 
 /// A kd-tree over the rays. Cells are only split when a disc searches them.
 struct RayMapParameters {
-  int leaf = 32;  ///< a cell with at most this many rays is not split
+  int leaf = 128;  ///< a cell with at most this many rays is not split
   bool operator==(const RayMapParameters&) const = default;
 };
 

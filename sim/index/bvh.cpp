@@ -1,5 +1,7 @@
+#include <array>
 #include <cmath>
 #include <exception>
+#include <numeric>
 #include <optional>
 #include <type_traits>
 
@@ -9,10 +11,12 @@
 #include "detp/sim/base/stopwatch.hpp"
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/geometry/disc_box.hpp"
+#include "detp/sim/lists/simd/search.hpp"
 #include "detp/sim/search/hit_collector.hpp"
 #include "detp/sim/search/index.hpp"
 #include "detp/sim/search/ray_search.hpp"
 #include "detp/sim/search/run_memory.hpp"
+#include "vector_tests.hpp"
 
 namespace detp::sim {
 namespace {
@@ -133,6 +137,70 @@ class Bvh {
   embree::Owned<RTCScene> scene_;
 };
 
+/// Discs that Embree reported for a ray, to be tested together.
+class ReportedDiscs {
+ public:
+  void add(std::uint32_t disc, const stream::FloatDisc& floats) {
+    numbers_[count_] = disc;
+    floats_[count_++] = floats;
+  }
+  [[nodiscard]] bool full() const { return count_ == numbers_.size(); }
+  void clear() { count_ = 0; }
+  [[nodiscard]] std::span<const std::uint32_t> numbers() const { return {numbers_.data(), count_}; }
+  [[nodiscard]] const stream::FloatDisc* floats() const { return floats_.data(); }
+
+ private:
+  std::size_t count_ = 0;
+  std::array<std::uint32_t, 16> numbers_ = {};
+  std::array<stream::FloatDisc, 16 + CellDiscs::padding> floats_ = {};
+};
+
+/// The search of the simd engine: tests several reported discs at once.
+template <bool counting>
+class VectorBvhSearch final : public RaySearch, private DiscTest {
+ public:
+  VectorBvhSearch(const Bvh& bvh, const CellDiscs& discs, const Problem& problem, const RunOptions& options)
+      : bvh_(bvh), discs_(discs.discs()), problem_(problem), tests_(problem, discs.frame(), options) {}
+
+  void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
+    Query query{.context = {}, .discs = this};
+    rtcInitIntersectContext(&query.context);
+    tests_.load(first, last, hits);
+    for (std::uint32_t ray = first; ray < last; ++ray) {
+      tests_.begin(ray);
+      bvh_.trace(problem_.rays()[ray], query);
+      if (failure_) std::rethrow_exception(failure_);
+      test_reported();
+    }
+  }
+
+  [[nodiscard]] Counts<std::uint64_t> counts() const override { return tests_.counts(); }
+
+ private:
+  void test_reported() {
+    tests_.test(reported_.numbers(), reported_.floats());
+    reported_.clear();
+  }
+
+  bool test(std::uint32_t disc) noexcept override {
+    reported_.add(disc, discs_[disc]);
+    if (!reported_.full()) return true;
+    try {  // no exception must pass through Embree
+      test_reported();
+    } catch (...) {
+      failure_ = std::current_exception();
+    }
+    return failure_ == nullptr;
+  }
+
+  const Bvh& bvh_;
+  const stream::FloatDisc* discs_;
+  const Problem& problem_;
+  VectorTests<counting> tests_;
+  ReportedDiscs reported_;
+  std::exception_ptr failure_;
+};
+
 template <bool counting>
 class BvhSearch final : public RaySearch, private DiscTest {
  public:
@@ -195,9 +263,16 @@ class BvhIndex final : public Index {
  public:
   BvhIndex(const Problem& problem, BuildQuality quality, const RunOptions& options)
       : bvh_(problem, quality, options.threads, options.stop) {
+    built_.bytes = bytes_per_disc * static_cast<double>(problem.discs().size());
+    if (options.engine == Engine::simd && stream::can_search(problem)) {
+      std::vector<std::uint32_t> numbers(problem.discs().size());
+      std::iota(numbers.begin(), numbers.end(), 0U);
+      built_.bytes += CellDiscs::bytes(numbers.size());
+      require_memory("the BVH", built_.bytes);
+      discs_.emplace(problem, numbers, options.stop);
+    }
     built_.seconds.build = watch_.lap();
     built_.counts.placements = built_.counts.references = problem.discs().size();
-    built_.bytes = bytes_per_disc * static_cast<double>(problem.discs().size());
   }
 
   void search(const Problem& problem, const RunOptions& options, Outcome& outcome) const override {
@@ -208,13 +283,20 @@ class BvhIndex final : public Index {
  private:
   template <bool counting>
   void search_all(const Problem& problem, const RunOptions& options, Outcome& outcome) const {
+    std::pmr::memory_resource& memory = *options.memory;
+    if (discs_)
+      return search_rays(
+          problem, options,
+          [&] { return make_in<RaySearch, VectorBvhSearch<counting>>(memory, bvh_, *discs_, problem, options); },
+          outcome);
     search_rays(
-        problem, options,
-        [&] { return make_in<RaySearch, BvhSearch<counting>>(*options.memory, bvh_, problem, options.stop); }, outcome);
+        problem, options, [&] { return make_in<RaySearch, BvhSearch<counting>>(memory, bvh_, problem, options.stop); },
+        outcome);
   }
 
   Stopwatch watch_;
   Bvh bvh_;
+  std::optional<CellDiscs> discs_;  ///< of the simd engine
 };
 
 }  // namespace

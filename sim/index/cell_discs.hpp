@@ -38,7 +38,9 @@ struct CellDecision {
   std::uint64_t unsure = 0;  ///< the ray possibly hits it: decide again in double
 };
 
-/// Decides for a ray and 1 to 64 discs, as the kernels do for lists of rays (sim/lists/simd/floats.md): each lane has the same
+inline constexpr std::size_t most_decided = 64;  ///< discs at once
+
+/// Decides for a ray and 1 to most_decided discs, as the kernels do for lists of rays (sim/lists/simd/floats.md): each lane has the same
 /// operations, so the same bounds hold. Reads up to `padding` discs beyond the end.
 using DecideCell = CellDecision (*)(const FloatRay&, const stream::FloatDisc* discs, std::size_t count);
 

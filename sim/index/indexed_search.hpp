@@ -1,7 +1,6 @@
 #pragma once
 
 #include <algorithm>
-#include <bit>
 #include <optional>
 
 #include "cell_discs.hpp"
@@ -14,6 +13,7 @@
 #include "detp/sim/search/ray_search.hpp"
 #include "detp/sim/search/run_memory.hpp"
 #include "disc_index.hpp"
+#include "vector_tests.hpp"
 
 namespace detp::sim {
 
@@ -79,64 +79,30 @@ template <bool counting, class Cells>
 class VectorSearch final : public RaySearch {
  public:
   VectorSearch(const Cells& index, const CellDiscs& discs, const Problem& problem, const RunOptions& options)
-      : index_(index),
-        discs_(discs),
-        problem_(problem),
-        decide_(decide_cells(problem.segments(), problem.front_facing())),
-        check_(options.stop, "searching"),
-        rays_(options.memory),
-        last_hit_(problem.discs().size(), 0, options.memory) {}
+      : index_(index), discs_(discs), problem_(problem), tests_(problem, discs.frame(), options) {}
 
   void search(std::uint32_t first, std::uint32_t last, FoundPairs& hits) override {
-    hits_ = &hits;
-    rays_.load(problem_.rays().subspan(first, last - first), discs_.frame());
+    tests_.load(first, last, hits);
     for (std::uint32_t ray = first; ray < last; ++ray) {
-      now_ = &rays_[ray - first];
+      tests_.begin(ray);
       index_.trace(problem_.rays()[ray], ray, *this);
     }
   }
 
-  [[nodiscard]] Counts<std::uint64_t> counts() const override { return tally_.counts(); }
+  [[nodiscard]] Counts<std::uint64_t> counts() const override { return tests_.counts(); }
 
-  void visit(std::uint64_t Counts<std::uint64_t>::*term) { tally_.add(term); }
+  void visit(std::uint64_t Counts<std::uint64_t>::*term) { tests_.visit(term); }
 
   /// Throws Stopped if a stop was requested.
-  void test(std::uint32_t ray, std::span<const std::uint32_t> discs) {
-    tally_.add(&Counts<std::uint64_t>::disc_tests, discs.size());
-    check_.after(1);
-    if (now_->axis == stream::classes) return;  // far from all discs
-    const stream::FloatDisc* floats = discs_.discs() + (discs.data() - index_.references().data());
-    constexpr std::size_t at_once = 64;
-    for (std::size_t i = 0; i < discs.size(); i += at_once) {
-      const std::size_t count = std::min(at_once, discs.size() - i);
-      const CellDecision decision = decide_[now_->axis](*now_, floats + i, count);
-      check_.after(count);
-      for (std::uint64_t left = decision.sure | decision.unsure; left != 0; left &= left - 1) {
-        const auto place = static_cast<std::size_t>(std::countr_zero(left));
-        record(ray, discs[i + place], (decision.sure >> place & 1) != 0);
-      }
-    }
+  void test(std::uint32_t /*ray*/, std::span<const std::uint32_t> discs) {
+    tests_.test(discs, discs_.discs() + (discs.data() - index_.references().data()));
   }
 
  private:
-  void record(std::uint32_t ray, std::uint32_t disc, bool sure) {
-    if (!sure) tally_.add(&Counts<std::uint64_t>::doubtful);
-    if (last_hit_[disc] == ray + 1) return;
-    if (!sure && !counts_as_hit(problem_, problem_.rays()[ray], problem_.discs()[disc])) return;
-    last_hit_[disc] = ray + 1;
-    hits_->push_back({ray, disc});
-  }
-
   const Cells& index_;
   const CellDiscs& discs_;
   const Problem& problem_;
-  DecideCells decide_;
-  StopCheck check_;
-  Tally<counting> tally_;
-  FloatRays rays_;
-  const FloatRay* now_ = nullptr;
-  std::pmr::vector<std::uint32_t> last_hit_;  ///< for each disc: 1 + the last ray that hit it; 0: none yet
-  FoundPairs* hits_ = nullptr;
+  VectorTests<counting> tests_;
 };
 
 /// An index of cells over discs, and its search. `Cells` is constructed from the problem, `arguments` and the stop

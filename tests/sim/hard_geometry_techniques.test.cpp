@@ -42,7 +42,9 @@ const std::vector<Candidate>& hard_candidates() {
                            {Technique::bsp, BspParameters{6, 1}},
                            {Technique::bsp, BspParameters{18, 1}},
                            {Technique::bvh, BvhParameters{BuildQuality::low}},
-                           {Technique::bvh, BvhParameters{BuildQuality::medium}}});
+                           {Technique::bvh, BvhParameters{BuildQuality::medium}},
+                           {Technique::ray_map, RayMapParameters{1}},
+                           {Technique::ray_map, RayMapParameters{32}}});
     return all;
   }();
   return list;

@@ -40,7 +40,7 @@ struct BuiltIn {
 };
 
 // Unit costs: one fit to the runs of four calibrations of 60 s with different seeds, on a machine with two cores; but o was
-// measured on another machine, and scaled as p. Octree, grid and BSP tree by the simd engine: those of the plain engine times the ratio of
+// measured on another machine, and scaled as p. The simd engine of techniques that trace rays one by one: those of the plain engine times the ratio of
 // both engines' costs in one run of detp calibrate --seconds 60 on an AMD EPYC (Zen 3, AVX2). Costs of threads: from earlier single runs of detp calibrate; those of more
 // than two threads are extrapolated.
 constexpr BuiltIn of_simd[] = {
@@ -75,7 +75,11 @@ constexpr BuiltIn of_simd[] = {
      {.serial_preparing = 1, .serial_search = 0.17, .start = 2.18e-05}},
     {Technique::bsp,
      {.w = 2.8, .n = 26.2, .b = 59.9, .h = 35.5, .e = 0.56},
-     {.serial_preparing = 1, .serial_search = 0.25, .start = 0}}};
+     {.serial_preparing = 1, .serial_search = 0.25, .start = 0}},
+    {Technique::bvh,
+     {.w = 3.24, .b = 411, .h = 184, .i = 97.8, .e = 41, .a = 7.28e+04},
+     {.serial_preparing = 0.00424, .serial_search = 0.177, .start = 2.14e-05}},
+    {Technique::ray_map, {.w = 3.32, .n = 16.5, .c = 23.7, .l = 2.86, .h = 49, .e = 0.144, .m = 1.02}}};
 
 constexpr BuiltIn of_plain[] = {
     {Technique::brute_force,
@@ -95,10 +99,7 @@ constexpr BuiltIn of_plain[] = {
      {.serial_preparing = 1, .serial_search = 0.0869, .start = 2.18e-05}},
     {Technique::bsp,
      {.w = 6.52, .n = 37.4, .b = 59.9, .h = 189, .e = 1.01},
-     {.serial_preparing = 1, .serial_search = 0.198, .start = 0}}};
-
-/// Of techniques without a simd engine.
-constexpr BuiltIn of_both[] = {
+     {.serial_preparing = 1, .serial_search = 0.198, .start = 0}},
     {Technique::sphere_tree, {.t = 10.4, .u = 5.71, .c = 12, .g = 238, .s = 156, .h = 114, .e = 2.85, .m = 23}},
     {Technique::bvh,
      {.w = 3.24, .b = 411, .h = 234, .i = 97.8, .e = 52.2, .a = 7.28e+04},
@@ -117,7 +118,6 @@ CostTable built_in_unit_costs(Engine engine) {
       costs.threads_of(one.technique) = one.threads;
     }
   };
-  set(of_both);
   set(of_plain);
   costs[Technique::sphere_cache_published] = costs[Technique::sphere_cache];  // always plain
   if (engine == Engine::simd) set(of_simd);

@@ -19,7 +19,6 @@
 
 #include "detp/model/optimum/best_ratio.hpp"
 #include "detp/sim/technique/technique.hpp"
-#include "detp/validate/calibration/built_in_costs.hpp"
 #include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/job/job.hpp"
 #include "detp/validate/regret/exhaustive.hpp"
@@ -107,11 +106,7 @@ void compare(const Setting& setting, const validate::Job& job, const sim::Proble
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::array costs{validate::built_in_unit_costs(Engine::simd), validate::built_in_unit_costs(Engine::plain)};
-  if (const std::string path = validate::default_calibration_path(); std::filesystem::exists(path)) {
-    const validate::StoredCalibration stored = validate::read_calibration(path);
-    costs = {stored.simd, stored.plain};
-  }
+  const std::array costs{validate::stored_unit_costs(Engine::simd), validate::stored_unit_costs(Engine::plain)};
   fmt::print(
       "scene,field,engine,rays,samples,disc_radius,chosen_ratio,chosen_spheres,best_ratio,best_spheres,"
       "best_seconds,chosen_over_best,noise,plateau_low,plateau_high\n");

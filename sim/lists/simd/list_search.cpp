@@ -52,6 +52,29 @@ void TestAllClasses(const BlockSearch& block, std::uint32_t first, std::uint32_t
   block.segments ? test_all<true>(block, leaf, lists, worker) : test_all<false>(block, leaf, lists, worker);
 }
 
+std::ptrdiff_t number(const FoundRays& rays) { return rays.last - rays.first; }
+
+template <bool segments, bool front_facing>
+std::span<const std::uint32_t> find_all(const BlockSearch& block, std::uint32_t place, const RayLists& lists,
+                                        Worker& worker) {
+  std::uint32_t* const room = room_for_hits(size(lists), worker);
+  std::uint32_t* end = room;
+  end += number(find_hits<segments, front_facing, 0>(block, place, lists[0], end, worker));
+  end += number(find_hits<segments, front_facing, 1>(block, place, lists[1], end, worker));
+  end += number(find_hits<segments, front_facing, 2>(block, place, lists[2], end, worker));
+  return {room, end};
+}
+
+std::span<const std::uint32_t> FindRays(const BlockSearch& block, std::uint32_t place, const RayLists& lists,
+                                        Worker& worker) {
+  const bool front_facing = block.problem.front_facing();
+  if (block.segments)
+    return front_facing ? find_all<true, true>(block, place, lists, worker)
+                        : find_all<true, false>(block, place, lists, worker);
+  return front_facing ? find_all<false, true>(block, place, lists, worker)
+                      : find_all<false, false>(block, place, lists, worker);
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace detp::sim::stream
 HWY_AFTER_NAMESPACE();
@@ -62,6 +85,7 @@ namespace detp::sim::stream {
 HWY_EXPORT(CullSphere);
 HWY_EXPORT(TestDiscs);
 HWY_EXPORT(TestAllClasses);
+HWY_EXPORT(FindRays);
 
 void cull_sphere(const BlockSearch& block, int k, const FloatSphere& sphere, const RayList& around, RayList& inside,
                  Worker& worker) {
@@ -76,6 +100,11 @@ void test_discs(const BlockSearch& block, int k, std::uint32_t first, std::uint3
 void test_all_classes(const BlockSearch& block, std::uint32_t first, std::uint32_t count, const RayLists& lists,
                       Worker& worker) {
   HWY_DYNAMIC_DISPATCH(TestAllClasses)(block, first, count, lists, worker);
+}
+
+std::span<const std::uint32_t> find_rays(const BlockSearch& block, std::uint32_t place, const RayLists& lists,
+                                         Worker& worker) {
+  return HWY_DYNAMIC_DISPATCH(FindRays)(block, place, lists, worker);
 }
 
 }  // namespace detp::sim::stream

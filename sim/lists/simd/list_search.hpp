@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "block_search.hpp"
 
 /// Operations on one list with one sphere or one disc, compiled for each instruction set.
@@ -17,5 +19,10 @@ void test_discs(const BlockSearch& block, int k, std::uint32_t first, std::uint3
 /// counts visits and disc tests.
 void test_all_classes(const BlockSearch& block, std::uint32_t first, std::uint32_t count, const RayLists& lists,
                       Worker& worker);
+
+/// Finds the rays that hit the disc at this place, class by class, by their numbers in the block. Valid until the worker's next search.
+/// Counts doubtful decisions.
+[[nodiscard]] std::span<const std::uint32_t> find_rays(const BlockSearch& block, std::uint32_t place,
+                                                       const RayLists& lists, Worker& worker);
 
 }  // namespace detp::sim::stream

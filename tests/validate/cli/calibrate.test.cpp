@@ -41,7 +41,7 @@ TEST_SUITE("long") {
     CHECK(calibrated.at("costs").at("simd").at("box-tree").size() > 3);
     const Json& plain = calibrated.at("costs").at("plain");
     CHECK(plain.at("box-tree") != calibrated.at("costs").at("simd").at("box-tree"));
-    CHECK(plain.at("bvh") == calibrated.at("costs").at("simd").at("bvh"));
+    CHECK(plain.at("sphere-tree") == calibrated.at("costs").at("simd").at("sphere-tree"));
     if (calibrated.at("key").at("threads") > 1) {
       CHECK(calibrated.at("threads").at("simd").contains("box-tree"));
       CHECK_FALSE(calibrated.at("threads").at("simd").contains("sphere-tree"));  // one thread searches it
