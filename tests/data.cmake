@@ -1,4 +1,4 @@
-# Checks that notebooks-data/datapackage.json describes every CSV file in its folder, column by column, in their order.
+# Checks that notebooks-data/datapackage.json describes every CSV file in its folder, column by column, in their order; and that none is larger than 1 MB.
 # Called with -D SOURCE=<top of the project>.
 
 cmake_policy(VERSION 3.25)
@@ -25,6 +25,10 @@ foreach(i RANGE ${last})
 endforeach()
 file(GLOB files RELATIVE ${folder} ${folder}/*.csv)
 foreach(path ${files})
+  file(SIZE ${folder}/${path} bytes)
+  if(bytes GREATER 1000000)
+    message(SEND_ERROR "${path}: ${bytes} bytes, more than 1 MB")
+  endif()
   if(NOT path IN_LIST described)
     message(SEND_ERROR "datapackage.json does not describe ${path}")
   endif()
