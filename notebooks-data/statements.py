@@ -6,43 +6,32 @@
 One row for each quantity: the statement's number in statements.md, the quantity, its value, and the command whose answer it was taken from.
 Ratios of times are medians of runs in turns, on one thread. --quick takes few rays: for a look at the columns.
 """
-import csv
-import json
 import math
 import statistics
-import subprocess
-import sys
 
-PLAIN = ["--engine", "plain"]
+from answers import Detp, Table
 
 
-class Study:
-    def __init__(self, detp, quick):
-        self.detp = detp
-        self.quick = quick
-        self.rows = csv.writer(sys.stdout, lineterminator="\n")
-        self.rows.writerow(["statement", "quantity", "value", "command"])
+class Study(Detp):
+    def __init__(self):
+        super().__init__(__doc__)
+        self.table = Table("statement,quantity,value,command")
 
-    def ask(self, line, timed=False):
-        """The answer of `detp LINE` as JSON."""
-        words = [self.detp, *line.split(), "--seed", "1", "--format", "json", "--quiet"]
-        if line.startswith("run"):
-            words += ["--threads", "1"] + (["--repeat", "1" if self.quick else "5"] if timed else [])
-        return json.loads(subprocess.run(words, check=True, capture_output=True, text=True).stdout)
+    def timed(self, line):
+        return self.ask(f"{line} --threads 1 --repeat {1 if self.quick else 2}")["seconds"]
 
     def rays(self, number):
         return max(100, number // 10) if self.quick else number
 
     def seconds(self, line):
-        return self.ask(line, timed=True)["seconds"]["total"]
+        return self.timed(line)["total"]
 
     def ratio(self, above, below, turns=3):
         """Median of the seconds of `above` over those of `below`, in turns."""
         return statistics.median(self.seconds(above) / self.seconds(below) for _ in range(1 if self.quick else turns))
 
     def add(self, statement, quantity, value, command):
-        self.rows.writerow([statement, quantity, f"{value:.5g}", f"detp {command}"])
-        sys.stdout.flush()
+        self.table.add(statement, quantity, float(value), f"detp {command}")
 
 
 def tests(answer):
@@ -92,7 +81,7 @@ def octree_depths(s):
 
 def best_bsp(s, question):
     lines = [f"{question} --technique bsp --leaf {leaf} --engine plain" for leaf in [16, 128, 1024, 8192]]
-    return min(lines, key=s.seconds)
+    return min(lines, key=lambda line: s.ask(f"{line} --threads 1")["seconds"]["total"])
 
 
 def figure_7(s):
@@ -115,8 +104,7 @@ def linear_in_rays(s):
     numbers = [s.rays(number) for number in [1000, 10000, 100000]]
     for statement, technique in [(14, "octree --depth 5"), (14, "octree --depth 7"), (15, "sphere-cache --ratio 0.65")]:
         lines = [f"run @tree --rays {number} --disc-radius 1% --technique {technique} --engine plain" for number in numbers]
-        searches = [s.ask(line, timed=True)["seconds"] for line in lines]
-        seconds = [one["search"] for one in searches]
+        seconds = [s.timed(line)["search"] for line in lines]
         s.add(statement, f"power of the number of rays, 10 000 to 100 000, {technique}", slope(numbers[1:], seconds[1:]), lines[-1])
         s.add(statement, f"power of the number of rays, 1000 to 10 000, {technique}", slope(numbers[:2], seconds[:2]), lines[0])
 
@@ -198,9 +186,7 @@ def balanced(s):
 
 
 def main():
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    study = Study(sys.argv[1], "--quick" in sys.argv)
+    study = Study()
     for part in [second_intersection, cache_tests, octree_depths, figure_7, linear_in_rays, courtyard, index_memory, small_discs, optimal_ratios, rebuilds, orders_of_growth, balanced]:
         part(study)
 

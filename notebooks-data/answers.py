@@ -1,0 +1,40 @@
+"""Answers of the command, and tables made of them."""
+import csv
+import json
+import subprocess
+import sys
+
+
+class Detp:
+    """The command whose path is the script's first argument."""
+
+    def __init__(self, documentation):
+        if len(sys.argv) < 2:
+            sys.exit(documentation)
+        self.path = sys.argv[1]
+        self.quick = "--quick" in sys.argv
+
+    def ask(self, line):
+        """The answer of `detp LINE` as JSON."""
+        words = [self.path, *line.split(), "--format", "json", "--quiet"]
+        return json.loads(subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True).stdout)
+
+
+class Table:
+    """Rows of CSV on standard output, written at once."""
+
+    def __init__(self, columns):
+        self.rows = csv.writer(sys.stdout, lineterminator="\n")
+        self.add(*columns.split(","))
+
+    def add(self, *values):
+        self.rows.writerow([self.text(value) for value in values])
+        sys.stdout.flush()
+
+    @staticmethod
+    def text(value):
+        if value is None:
+            return ""
+        if isinstance(value, bool):
+            return str(value).lower()
+        return f"{value:.5g}" if isinstance(value, float) else value

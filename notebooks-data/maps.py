@@ -1,0 +1,33 @@
+#!/usr/bin/env python3
+"""Which technique is fastest for each number of rays and each disc radius in @tree: writes maps.csv.
+
+    notebooks-data/maps.py build/detp [--quick] > notebooks-data/maps.csv
+
+Four maps of `detp choose --map --analyze`: all techniques, and the paper's (sphere cache, octree, BSP tree), by both engines. One row for each
+technique in each cell: the seconds that are predicted for its best candidate, and those measured. Some ten minutes.
+"""
+from answers import Detp, Table
+
+OTHERS = "brute-force,cell-spheres,sphere-tree,box-tree,grid,bvh,ray-map"
+
+
+def add_cells(table, techniques, engine, answer):
+    for cell in answer["cells"]:
+        predicted, measured = ({one["technique"]: one.get("seconds") for one in cell[kind]["techniques"]} for kind in ["predicted", "measured"])
+        for technique in dict.fromkeys([*predicted, *measured]):
+            table.add(techniques, engine, cell["rays"], answer["inputs"]["samples"], cell["disc_radius"], cell["x"], technique,
+                      predicted.get(technique), technique == cell["predicted"]["technique"],
+                      measured.get(technique), technique == cell["measured"]["technique"], cell["slower"], cell["within_noise"])
+
+
+def main():
+    detp = Detp(__doc__)
+    table = Table("techniques,engine,rays,samples,disc_radius,x,technique,predicted_seconds,predicted_best,measured_seconds,measured_best,slower,within_noise")
+    grid = "--rays 100,1000 --disc-radius 1%,4%" if detp.quick else "--rays 100,300,1000,3000,10000,20000,100000,300000 --disc-radius 0.25%,0.5%,1%,2%,4%,8%,16%"
+    for techniques in ["all", "paper"]:
+        left_out = f"--disable {OTHERS}" if techniques == "paper" else ""
+        for engine in ["plain", "simd"]:
+            add_cells(table, techniques, engine, detp.ask(f"choose @tree --map --analyze --threads 1 --engine {engine} {grid} {left_out}"))
+
+
+main()
