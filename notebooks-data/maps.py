@@ -23,7 +23,7 @@ def add_cells(table, techniques, engine, answer):
 def main():
     detp = Detp(__doc__)
     table = Table("techniques,engine,rays,samples,disc_radius,x,technique,predicted_seconds,predicted_best,measured_seconds,measured_best,slower,within_noise")
-    grid = "--rays 100,1000 --disc-radius 1%,4%" if detp.quick else "--rays 100,300,1000,3000,10000,20000,100000,300000 --disc-radius 0.25%,0.5%,1%,2%,4%,8%,16%"
+    grid = "--rays 100,1000 --disc-radius 1%,4%" if detp.quick else "--rays 100,300,1000,3000,10000,30000,100000 --disc-radius 0.25%,0.5%,1%,2%,4%,8%"
     for techniques in ["all", "paper"]:
         left_out = f"--disable {OTHERS}" if techniques == "paper" else ""
         for engine in ["plain", "simd"]:

@@ -6,6 +6,7 @@
 One row for each quantity: the statement's number in statements.md, the quantity, its value, and the command whose answer it was taken from.
 Ratios of times are medians of runs in turns, on one thread. --quick takes few rays: for a look at the columns.
 """
+import collections
 import math
 import statistics
 
@@ -15,7 +16,8 @@ from answers import Detp, Table
 class Study(Detp):
     def __init__(self):
         super().__init__(__doc__)
-        self.table = Table("statement,quantity,value,command")
+        self.table = Table("statement,id,quantity,value,command")
+        self.numbers = collections.Counter()
 
     def timed(self, line):
         return self.ask(f"{line} --threads 1 --repeat {1 if self.quick else 2}")["seconds"]
@@ -31,7 +33,8 @@ class Study(Detp):
         return statistics.median(self.seconds(above) / self.seconds(below) for _ in range(1 if self.quick else turns))
 
     def add(self, statement, quantity, value, command):
-        self.table.add(statement, quantity, float(value), f"detp {command}")
+        self.numbers[statement] += 1
+        self.table.add(statement, f"{statement}.{self.numbers[statement]}", quantity, float(value), f"detp {command}")
 
 
 def tests(answer):

@@ -1,5 +1,6 @@
 # Executes the notebooks of notebooks-data, and checks that they draw the pictures that notebooks-data/figures has.
-# Called with -D SOURCE=<top of the project> -D BUILD=<folder for what is drawn>.
+# Also makes small tables by the scripts there, and checks that they have the columns of the kept ones.
+# Called with -D SOURCE=<top of the project> -D BUILD=<folder for what is drawn> -D DETP=<the command>.
 
 cmake_policy(VERSION 3.25)
 find_program(python python3 PATHS /usr/bin NO_DEFAULT_PATH)  # Debian's, which its packages are for
@@ -28,3 +29,15 @@ execute_process(COMMAND ${python} ${CMAKE_CURRENT_LIST_DIR}/same_pictures.py ${S
 if(failed)
   message(SEND_ERROR "${errors}")
 endif()
+
+foreach(table formulas maps)
+  execute_process(COMMAND ${python} ${SOURCE}/notebooks-data/${table}.py ${DETP} --quick
+                  RESULT_VARIABLE failed OUTPUT_VARIABLE made ERROR_VARIABLE errors)
+  string(REGEX MATCH "^[^\n]*" columns "${made}")
+  file(STRINGS ${SOURCE}/notebooks-data/${table}.csv kept LIMIT_COUNT 1)
+  string(REGEX MATCHALL "\n" rows "${made}")
+  list(LENGTH rows count)
+  if(failed OR NOT columns STREQUAL kept OR count LESS 2)
+    message(SEND_ERROR "${table}.py --quick made ${count} lines with the columns ${columns}; ${table}.csv has ${kept}\n${errors}")
+  endif()
+endforeach()

@@ -121,7 +121,7 @@ struct TechniqueRecord {
   std::span<const Parameter> parameters;
   Parameters defaults;
   bool exact = true;        ///< finds every hit
-  bool ray_by_ray = false;  ///< tests one ray and one disc at a time, not lists of rays
+  bool ray_by_ray = false;  ///< a search goes ray by ray or disc by disc, not by lists of rays; its tests cost w
   bool simd = false;        ///< has a simd engine
   WorkDivision division = {};
 };

@@ -32,6 +32,8 @@
 ///
 ///     <!-- figures FILE where CONDITIONS: STATISTICS -->
 ///
+/// A marker behind a backquote is an example, and is skipped.
+///
 /// CONDITIONS, separated by blanks, must all hold: COLUMN=TEXT, COLUMN!=TEXT, or COLUMN<NUMBER with <, <=, > or >=.
 /// STATISTICS, separated by blanks:
 ///
@@ -260,6 +262,7 @@ inline void add_table(const std::string& where, const std::vector<std::string>& 
   const std::string opening = "<!-- figures ";
   std::vector<Figure> all;
   for (std::size_t at = page.find(opening); at != std::string::npos; at = page.find(opening, at + 1)) {
+    if (at > 0 && page[at - 1] == '`') continue;  // an example
     const std::size_t end = page.find("-->", at);
     if (end == std::string::npos) figures::refuse("a marker is not closed");
     const std::string marker = page.substr(at + opening.size(), end - at - opening.size());

@@ -3,13 +3,21 @@
 //   cmake --build build --target zones_study && build/zones_study zones.csv [FOLDER OF MESHES]
 //
 // For each workload (zone_workloads.hpp), by the simd and the plain engine: the fastest parameters of each technique, found by
-// running their neighbours, then all techniques in turns on other runs. Rows by role: "best" for each technique, "index" for
-// the faster of octree and BSP tree, "fastest" of all, "published Q" for the sphere cache with the paper's Q, and "rule" for the candidate
-// of the paper's rule. `over_cache` is the median of its seconds over those of the fastest sphere cache in the same round, with the
-// range that holds the true median with 96 % (of 9 rounds; 94 % of 5). `predicted_seconds` are those of the best
-// candidate by closed forms, with the unit costs of `detp calibrate`. Techniques that took ten times as long as the fastest in their
-// first run are abandoned; `seconds` is then a lower bound. Other techniques than the paper's have tuned parameters only if they may
-// win. One thread; an hour. Goes on where the file ends.
+// running their neighbours, then all techniques in turns on other runs. Rows by role:
+//
+//     best           the technique with its fastest parameters
+//     published-Q    the sphere cache with the paper's Q
+//     rule           the candidate of the paper's rule
+//     index          the faster of octree and BSP tree
+//     fastest        of all
+//     predicted      of sphere cache and octree the one that closed forms take
+//
+// `over_cache` is the median of a candidate's seconds over those of the fastest sphere cache in the same round, with the range that
+// holds the true median with 96 % (of 9 rounds; 94 % of 5); `over_two` the same over the faster of sphere cache and index.
+// `predicted_seconds` are those of the technique's best candidate by closed forms, with the unit costs of `detp calibrate`, if it was run,
+// else the built-in ones. Techniques that took ten times as long as the fastest in their first run are abandoned; `seconds` is then
+// a lower bound. Other techniques than the paper's have tuned parameters only if they may win. One thread; 45 minutes. Goes on where
+// the file ends.
 
 #include <fmt/format.h>
 
@@ -47,7 +55,7 @@ constexpr validate::RoundLimits limits{.rounds = 9, .behind = hopelessly_behind,
 
 struct Entry {
   std::string
-      role;  ///< "best" of its technique, the sphere cache with the "published Q", or the candidate of the "rule"
+      role;  ///< "best" of its technique, the sphere cache with the "published-Q", or the candidate of the "rule"
   zones::FirstRuns runs;
   double predicted = 0;  ///< seconds; 0: no closed form
   std::vector<double> times = {};
@@ -90,7 +98,7 @@ std::vector<Entry> time_all(const validate::Job& job, const CostTable& costs) {
     entries.push_back({"best", *runs, best ? best->seconds() : 0});
     if (!runs->abandoned) fastest = std::min(fastest, runs->seconds);
   }
-  if (auto published = with_published_ratio(job, costs)) entries.push_back({"published Q", *published});
+  if (auto published = with_published_ratio(job, costs)) entries.push_back({"published-Q", *published});
   const Candidate rule = model::paper_rule(job.workload());
   if (const auto seconds = zones::time_of(problem, rule, costs.engine, 100 * fastest))
     entries.push_back({"rule", {rule, *seconds, false}});
@@ -116,36 +124,55 @@ std::string over(const std::vector<double>& times, const std::vector<double>& ca
   return fmt::format("{:.4g},{:.4g},{:.4g}", validate::median(ratios), ratios[out], ratios[ratios.size() - 1 - out]);
 }
 
+/// The entries that further roles name.
+struct Roles {
+  const Entry* cache = nullptr;
+  const Entry* index = nullptr;      ///< the faster of octree and BSP tree
+  const Entry* fastest = nullptr;    ///< of all
+  const Entry* predicted = nullptr;  ///< of sphere cache and octree, by closed forms
+};
+
+Roles roles_of(const std::vector<Entry>& entries) {
+  Roles roles{.cache = &entries.front()};
+  const auto keep_faster = [&](const Entry*& kept, const Entry& entry) {
+    if (kept == nullptr || validate::median_ratio(entry.times, kept->times) < 1) kept = &entry;
+  };
+  for (const Entry& entry : entries) {
+    if (entry.times.empty() || entry.role != "best") continue;
+    const Technique technique = entry.runs.candidate.technique;
+    keep_faster(roles.fastest, entry);
+    if (technique == Technique::octree || technique == Technique::bsp) keep_faster(roles.index, entry);
+    if (technique == Technique::octree)
+      roles.predicted = entry.predicted < roles.cache->predicted ? &entry : roles.cache;
+  }
+  return roles;
+}
+
 std::string rows_of(std::size_t place, const zones::ZoneWorkload& workload, const validate::Job& job,
                     const CostTable& costs) {
   const std::vector<Entry> entries = time_all(job, costs);
-  const std::vector<double>& cache = entries.front().times;
+  const Roles roles = roles_of(entries);
+  const double two =
+      roles.index == nullptr ? 1 : std::min(1.0, validate::median_ratio(roles.index->times, roles.cache->times));
   const auto row_of = [&](const std::string& role, const Entry& entry) {
     const Candidate& candidate = entry.runs.candidate;
     std::string parameters = describe(candidate);
     std::replace(parameters.begin(), parameters.end(), ',', ';');
-    return fmt::format("{},{},{},{},{},{},{:.4g},{:.4g},{},{},{},{:.4g},{},{},{}\n", place, workload.name,
+    const std::string over_two =
+        entry.times.empty() ? "" : fmt::format("{:.4g}", validate::median_ratio(entry.times, roles.cache->times) / two);
+    return fmt::format("{},{},{},{},{},{},{:.4g},{:.4g},{},{},{},{:.4g},{},{},{},{}\n", place, workload.name,
                        workload.field == sim::Field::photons ? "photons" : "isotropic", name(costs.engine),
                        job.given.rays, job.given.samples, job.given.disc_radius,
                        sample_distance(job.workload()) / job.given.disc_radius, role, name(candidate.technique),
                        parameters, entry.times.empty() ? entry.runs.seconds : validate::median(entry.times),
-                       over(entry.times, cache), entry.runs.abandoned,
+                       over(entry.times, roles.cache->times), over_two, entry.runs.abandoned,
                        entry.predicted > 0 ? fmt::format("{:.4g}", entry.predicted) : "");
   };
-  const Entry* index = nullptr;
-  const Entry* fastest = nullptr;
-  const auto over_cache = [&](const Entry& entry) { return validate::median_ratio(entry.times, cache); };
   std::string rows;
-  for (const Entry& entry : entries) {
-    rows += row_of(entry.role, entry);
-    if (entry.times.empty() || entry.role != "best") continue;
-    if (fastest == nullptr || over_cache(entry) < over_cache(*fastest)) fastest = &entry;
-    const bool is_index =
-        entry.runs.candidate.technique == Technique::octree || entry.runs.candidate.technique == Technique::bsp;
-    if (is_index && (index == nullptr || over_cache(entry) < over_cache(*index))) index = &entry;
-  }
-  if (index != nullptr) rows += row_of("index", *index);
-  if (fastest != nullptr) rows += row_of("fastest", *fastest);
+  for (const Entry& entry : entries) rows += row_of(entry.role, entry);
+  if (roles.index != nullptr) rows += row_of("index", *roles.index);
+  if (roles.fastest != nullptr) rows += row_of("fastest", *roles.fastest);
+  if (roles.predicted != nullptr) rows += row_of("predicted", *roles.predicted);
   return rows;
 }
 
@@ -172,7 +199,7 @@ int main(int argc, char** argv) {
   std::ofstream file(path, std::ios::app);
   if (done.empty())
     file << "workload,scene,field,engine,rays,samples,disc_radius,x,role,technique,parameters,seconds,over_cache,"
-            "over_cache_low,over_cache_high,abandoned,predicted_seconds\n";
+            "over_cache_low,over_cache_high,over_two,abandoned,predicted_seconds\n";
   const auto workloads = zones::zone_workloads(argc > 2 ? argv[2] : "", seed);
   for (std::size_t place = 0; place < workloads.size(); ++place) {
     if (done.contains(place)) continue;
