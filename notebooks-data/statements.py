@@ -7,7 +7,9 @@ One row for each quantity: the statement's number in statements.md, the quantity
 Ratios of times are medians of runs in turns, on one thread. --quick takes few rays: for a look at the columns.
 """
 import collections
+import csv
 import math
+import pathlib
 import statistics
 
 from answers import Detp, Table
@@ -34,7 +36,7 @@ class Study(Detp):
 
     def add(self, statement, quantity, value, command):
         self.numbers[statement] += 1
-        self.table.add(statement, f"{statement}.{self.numbers[statement]}", quantity, float(value), f"detp {command}")
+        self.table.add(statement, f"{statement}.{self.numbers[statement]}", quantity, float(value), command if command.endswith(".csv") else f"detp {command}")
 
 
 def tests(answer):
@@ -47,6 +49,19 @@ def slope(xs, ys):
     y = [math.log(value) for value in ys]
     mean_x, mean_y = statistics.mean(x), statistics.mean(y)
     return sum((a - mean_x) * (b - mean_y) for a, b in zip(x, y)) / sum((a - mean_x) ** 2 for a in x)
+
+
+def half_distance(s):
+    """From accuracy.csv: the radius, of four, with which an image has the least error."""
+    errors = collections.defaultdict(dict)
+    with open(pathlib.Path(__file__).parent / "accuracy.csv") as file:
+        for row in csv.DictReader(file):
+            if row["estimator"] == "disc":
+                errors[row["scene"], float(row["rays"])][row["radius_over_distance"]] = float(row["total"])
+    for rays in [1e4, 1e5, 1e6]:
+        best = [min(of, key=of.get) for (scene, number), of in errors.items() if number == rays]
+        for radius in ["0.25", "0.5", "1", "2"]:
+            s.add(1, f"scenes of {len(best)} with the least error at d = {radius} distances, {rays:.0f} rays", best.count(radius), "accuracy.csv")
 
 
 def second_intersection(s):
@@ -190,7 +205,7 @@ def balanced(s):
 
 def main():
     study = Study()
-    for part in [second_intersection, cache_tests, octree_depths, figure_7, linear_in_rays, courtyard, index_memory, small_discs, optimal_ratios, rebuilds, orders_of_growth, balanced]:
+    for part in [half_distance, second_intersection, cache_tests, octree_depths, figure_7, linear_in_rays, courtyard, index_memory, small_discs, optimal_ratios, rebuilds, orders_of_growth, balanced]:
         part(study)
 
 

@@ -56,6 +56,11 @@ TEST_SUITE("figures of pages") {
       check_says(page, fmt::format("| {} | {} | {} | {} |", set, races.size(), times(races, &Sides::choice),
                                    times(races, &Sides::ours)));
     }
+    const std::vector<Sides> races = races_with("AVX2");
+    const std::string choice = times(races, &Sides::choice);
+    const std::size_t comma = choice.find(',');
+    check_says(source_text("README.md"), fmt::format("its price inside: {} on {} workloads, least{}",
+                                                     choice.substr(0, comma), races.size(), choice.substr(comma + 1)));
   }
 }
 
