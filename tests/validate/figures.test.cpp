@@ -40,7 +40,7 @@ std::vector<std::string> pages() {
 
 }  // namespace
 
-TEST_SUITE("figures of pages") {
+TEST_SUITE("figures") {
   TEST_CASE("every figure with a marker is what notebooks-data has") {
     for (const std::string& page : pages()) {
       const std::string text = source_text(page);

@@ -18,7 +18,7 @@ using support::number;
 using support::published;
 using support::source_text;
 
-TEST_SUITE("figures of pages") {
+TEST_SUITE("figures") {
   TEST_CASE("README.md says how far closed forms are off, as effects_choice.csv has it") {
     const std::string page = source_text("README.md");
     std::map<std::string, std::vector<double>> off;  // by field

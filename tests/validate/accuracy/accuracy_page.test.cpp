@@ -46,7 +46,7 @@ int scenes_best_at(const std::vector<AccuracyRow>& rows, double radius, double r
 
 }  // namespace
 
-TEST_SUITE("published accuracy") {
+TEST_SUITE("figures") {
   TEST_CASE("the page's tables and figures are those of accuracy.csv") {
     const std::string page = support::source_text("validate/accuracy/README.md");
     const auto rows = published_rows();

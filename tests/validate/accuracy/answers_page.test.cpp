@@ -111,7 +111,7 @@ std::string ratio_words(const std::vector<double>& ratios) {
 
 }  // namespace
 
-TEST_SUITE("published accuracy") {
+TEST_SUITE("figures") {
   TEST_CASE("the page's answers in scenes are those of accuracy_answers.csv") {
     const std::string page = source_text("validate/accuracy/README.md");
     const auto answers = published_answers();

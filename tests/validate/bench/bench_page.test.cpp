@@ -47,7 +47,7 @@ std::string times(const std::vector<Sides>& races, double Sides::*side) {
 
 }  // namespace
 
-TEST_SUITE("figures of pages") {
+TEST_SUITE("figures") {
   TEST_CASE("the page of the benchmark has the figures of bench_sets.csv") {
     const std::string page = source_text("validate/bench/README.md");
     for (const std::string set : {"AVX2", "SSE4"}) {

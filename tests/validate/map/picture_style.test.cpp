@@ -7,7 +7,7 @@
 
 namespace detp::support {
 
-TEST_SUITE("figures of pages") {
+TEST_SUITE("figures") {
   TEST_CASE("notebooks draw each technique in the colour that maps have") {
     const std::string style = source_text("notebooks-data/style.py");
     for (const Technique technique : exact_techniques)

@@ -76,7 +76,7 @@ std::string cells_of(const Figures& figures) {
 
 }  // namespace
 
-TEST_SUITE("figures of pages") {
+TEST_SUITE("figures") {
   TEST_CASE("validate/regret/README.md shows the regrets, prices and errors that regret.csv has") {
     const std::string page = source_text("validate/regret/README.md");
     const auto rows = published_regrets();

@@ -46,7 +46,7 @@ struct BothRules {
 
 }  // namespace
 
-TEST_SUITE("published stopping") {
+TEST_SUITE("figures") {
   TEST_CASE("the page's runs in scenes are those of stopping.csv") {
     const std::string page = source_text("validate/stopping/README.md");
     std::map<std::string, BothRules> cases;

@@ -46,7 +46,7 @@ std::string percent_above(const std::vector<double>& ratios) {
 
 }  // namespace
 
-TEST_SUITE("figures of pages") {
+TEST_SUITE("figures") {
   TEST_CASE("the page of the effects' study has the figures of effects_families.csv") {
     const std::string page = source_text("validate/tools/effects_study/README.md");
     for (const std::string selection : {"auto", "all", "none"}) {
