@@ -1,4 +1,5 @@
-# Checks that notebooks-data/datapackage.json describes every CSV file in its folder, column by column, in their order; and that none is larger than 1 MB.
+# Checks that notebooks-data/datapackage.json describes every CSV file in its folder, column by column, in their order,
+# with the command, processor and version that made it; and that none is larger than 1 MB.
 # Called with -D SOURCE=<top of the project>.
 
 cmake_policy(VERSION 3.25)
@@ -10,6 +11,12 @@ set(described)
 foreach(i RANGE ${last})
   string(JSON path GET ${package} resources ${i} path)
   list(APPEND described ${path})
+  foreach(property description command processor version)
+    string(JSON text ERROR_VARIABLE missing GET ${package} resources ${i} ${property})
+    if(missing)
+      message(SEND_ERROR "${path}: datapackage.json does not give its ${property}")
+    endif()
+  endforeach()
   string(JSON fields LENGTH ${package} resources ${i} schema fields)
   math(EXPR last_field "${fields} - 1")
   set(names)
