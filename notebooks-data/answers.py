@@ -1,6 +1,7 @@
 """Answers of the command, and tables made of them."""
 import csv
 import json
+import os
 import subprocess
 import sys
 
@@ -21,15 +22,21 @@ class Detp:
 
 
 class Table:
-    """Rows of CSV on standard output, written at once."""
+    """Rows of CSV, written at once: to standard output, or after those that a file has."""
 
-    def __init__(self, columns):
-        self.rows = csv.writer(sys.stdout, lineterminator="\n")
-        self.add(*columns.split(","))
+    def __init__(self, columns, path=None):
+        self.kept = []
+        if path and os.path.exists(path):
+            with open(path) as file:
+                self.kept = list(csv.DictReader(file))
+        self.file = open(path, "a") if path else sys.stdout
+        self.rows = csv.writer(self.file, lineterminator="\n")
+        if not self.kept:
+            self.add(*columns.split(","))
 
     def add(self, *values):
         self.rows.writerow([self.text(value) for value in values])
-        sys.stdout.flush()
+        self.file.flush()
 
     @staticmethod
     def text(value):

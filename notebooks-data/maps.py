@@ -1,11 +1,15 @@
 #!/usr/bin/env python3
 """Which technique is fastest for each number of rays and each disc radius in @tree: writes maps.csv.
 
-    notebooks-data/maps.py build/detp [--quick] > notebooks-data/maps.csv
+    notebooks-data/maps.py build/detp notebooks-data/maps.csv
+    notebooks-data/maps.py build/detp --quick
 
 Four maps of `detp choose --map --analyze`: all techniques, and the paper's (sphere cache, octree, BSP tree), by both engines. One row for each
-technique in each cell: the seconds that are predicted for its best candidate, and those measured. Some ten minutes.
+technique in each cell: the seconds that are predicted for its best candidate, and those measured. An hour. Adds the maps that the file
+does not have; --quick prints small ones.
 """
+import sys
+
 from answers import Detp, Table
 
 OTHERS = "brute-force,cell-spheres,sphere-tree,box-tree,grid,bvh,ray-map"
@@ -22,12 +26,15 @@ def add_cells(table, techniques, engine, answer):
 
 def main():
     detp = Detp(__doc__)
-    table = Table("techniques,engine,rays,samples,disc_radius,x,technique,predicted_seconds,predicted_best,measured_seconds,measured_best,slower,within_noise")
+    table = Table("techniques,engine,rays,samples,disc_radius,x,technique,predicted_seconds,predicted_best,measured_seconds,measured_best,slower,within_noise",
+                  None if detp.quick else sys.argv[2])
+    kept = {(row["techniques"], row["engine"]) for row in table.kept}
     grid = "--rays 100,1000 --disc-radius 1%,4%" if detp.quick else "--rays 100,300,1000,3000,10000,30000,100000 --disc-radius 0.25%,0.5%,1%,2%,4%,8%"
     for techniques in ["all", "paper"]:
         left_out = f"--disable {OTHERS}" if techniques == "paper" else ""
         for engine in ["plain", "simd"]:
-            add_cells(table, techniques, engine, detp.ask(f"choose @tree --map --analyze --threads 1 --engine {engine} {grid} {left_out}"))
+            if (techniques, engine) not in kept:
+                add_cells(table, techniques, engine, detp.ask(f"choose @tree --map --analyze --threads 1 --engine {engine} {grid} {left_out}"))
 
 
 main()
