@@ -53,6 +53,25 @@ TEST_SUITE("figures") {
     }
   }
 
+  TEST_CASE("statements.md counts its verdicts") {
+    const std::string page = source_text(
+        "notebooks-data"
+        "/statements.md");
+    int all = 0;
+    int hold = 0;
+    int do_not = 0;
+    for (const std::string& line : figures::split(page, '\n')) {
+      const std::vector<std::string> cells = figures::cells_of(line);
+      if (cells.size() < 5 || std::isdigit(static_cast<unsigned char>(cells[0][1])) == 0) continue;
+      ++all;
+      hold += cells[3] == " holds " ? 1 : 0;
+      for (const std::string verdict : {" does not hold", " refuted", " undecided"})
+        do_not += cells[3].starts_with(verdict) ? 1 : 0;
+    }
+    check_says(page, fmt::format("Of {} statements, {} hold, {} hold in part, and\n{} do not.", all, hold,
+                                 all - hold - do_not, do_not));
+  }
+
   TEST_CASE("statistics of the selected rows, rounded as the page shows them") {
     CHECK(computed("where engine=simd: count", "3 rows") == "3 ");
     CHECK(computed("where engine=simd x<=2: count max(ratio)", "2 rows, at most 8.00") == "2 8.00 ");

@@ -13,7 +13,7 @@
 //     predicted      of sphere cache and octree the one that closed forms take
 //
 // `over_cache` is the median of a candidate's seconds over those of the fastest sphere cache in the same round, with the range that
-// holds the true median with 96 % (of 9 rounds; 94 % of 5); `over_two` the same over the faster of sphere cache and index.
+// holds the true median with 96 % (of 9 rounds; 94 % of 5, 75 % of 3: slow runs have fewer); `over_two` the same over the faster of sphere cache and index.
 // `predicted_seconds` are those of the technique's best candidate by closed forms, with the unit costs of `detp calibrate`, if it was run,
 // else the built-in ones. Techniques that took ten times as long as the fastest in their first run are abandoned; `seconds` is then
 // a lower bound. Other techniques than the paper's have tuned parameters only if they may win. One thread; 45 minutes. Goes on where
@@ -23,8 +23,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
-#include <filesystem>
 #include <fstream>
 #include <optional>
 #include <set>
