@@ -75,6 +75,7 @@ struct AccuracyPilotOptions {
   std::vector<double> radii = {};          ///< of discs, rising; empty: from a quarter to twice the mean edge
   /// The irradiance to compare with, if it is known better than from the pilot itself. It must outlive the pilot.
   const Reference* reference = nullptr;
+  double price = 2;  ///< pilots may together take so many times as long as the answer that they find, and always 1.5 s
   bool front_facing = false;
   std::uint64_t seed = 1;
   int threads = 0;

@@ -224,7 +224,6 @@ sim::ReportPhase with_time_left(const sim::ReportPhase& report, double expected)
 
 PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                           double most_rays) {
-  constexpr double price = 2;                // pilots may take so many times as long as the answer
   constexpr double least_price = 1.5;        // seconds that they may always take
   constexpr double enough_resolution = 0.5;  // of the target's square, for the standard error of bias²
   constexpr double most_pilot_rays = 1e7;
@@ -246,7 +245,7 @@ PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, Accur
     const AccuracyPoint& best = found.plan.answer;
     const double bias_error = (best.bias_high * best.bias_high - best.bias * best.bias) / interval;
     const double square = std::pow(target.kind == AccuracyTarget::Kind::seconds ? best.total : target.value, 2);
-    const double most_seconds = std::max(least_price, price * best.seconds);
+    const double most_seconds = std::max(least_price, options.price * best.seconds);
     if (bias_error <= enough_resolution * square || watch.seconds() + 4 * found.pilot.seconds > most_seconds ||
         options.rays > most_pilot_rays)
       return found;

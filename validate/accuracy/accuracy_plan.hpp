@@ -69,7 +69,7 @@ struct PilotedPlan {
 };
 
 /// The same with pilots in the scene, each of four times as many rays as the one before, until the bias is known well enough (standard error
-/// of bias² at most half the target's square), or the next one would exceed the price: twice the answer's seconds, at least 1.5 s.
+/// of bias² at most half the target's square), or the next one would exceed the price: `options.price` times the answer's seconds, at least 1.5 s.
 /// `options.rays` are those of the first pilot. Throws as make_accuracy_pilot; sim::Stopped if there was no pilot yet.
 [[nodiscard]] PilotedPlan plan_accuracy(sim::Scene& scene, const AccuracyTarget& target, AccuracyPilotOptions options,
                                         double most_rays = 1e9);

@@ -11,13 +11,13 @@ namespace detp::validate {
 namespace {
 
 constexpr std::array steps_of_all{
-    ExperimentStep{"predictions of the choice", choice_findings, choice_work, 3, false},
-    ExperimentStep{"effects", effect_findings, effect_work, 3, false},
-    ExperimentStep{"lines against spheres and discs", line_hit_findings, line_hit_work, 1, true},
-    ExperimentStep{"sphere cache", sphere_cache_findings, sphere_cache_work, 1, true},
-    ExperimentStep{"hierarchies of spheres and boxes", hierarchy_findings, hierarchy_work, 2.2, true},
-    ExperimentStep{"index of discs", disc_index_findings, disc_index_work, 7.5, true},
-    ExperimentStep{"errors of estimates", accuracy_findings, accuracy_work, 1, true}};
+    ExperimentStep{"choice", "predictions of the choice", choice_findings, choice_work, 3, false},
+    ExperimentStep{"effects", "effects", effect_findings, effect_work, 3, false},
+    ExperimentStep{"lines", "lines against spheres and discs", line_hit_findings, line_hit_work, 1, true},
+    ExperimentStep{"sphere-cache", "sphere cache", sphere_cache_findings, sphere_cache_work, 1, true},
+    ExperimentStep{"hierarchies", "hierarchies of spheres and boxes", hierarchy_findings, hierarchy_work, 2.2, true},
+    ExperimentStep{"index", "index of discs", disc_index_findings, disc_index_work, 7.5, true},
+    ExperimentStep{"errors", "errors of estimates", accuracy_findings, accuracy_work, 1, true}};
 
 /// Returns false if a stop request ended the experiment.
 bool add_findings(std::vector<Finding> (*run)(const Experiment&), const Experiment& experiment,
@@ -36,9 +36,9 @@ bool add_findings(std::vector<Finding> (*run)(const Experiment&), const Experime
 
 std::span<const ExperimentStep> experiment_steps() { return steps_of_all; }
 
-std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress, sim::Progress* done) {
+std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress, sim::Progress* done,
+                                  std::span<const ExperimentStep> steps) {
   const sim::DefaultFloatingPoint mode;
-  const auto steps = experiment_steps();
   std::vector<double> work(steps.size());
   double whole = 0;
   for (std::size_t i = 0; i < steps.size(); ++i) {

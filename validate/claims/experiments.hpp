@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "claim.hpp"
@@ -49,6 +50,7 @@ namespace detp::validate {
 [[nodiscard]] double accuracy_work(const Experiment& experiment);
 
 struct ExperimentStep {
+  std::string_view key;  ///< what --experiments calls it
   const char* name;
   std::vector<Finding> (*run)(const Experiment&);
   double (*work)(const Experiment&);
@@ -59,9 +61,10 @@ struct ExperimentStep {
 /// All of the above.
 [[nodiscard]] std::span<const ExperimentStep> experiment_steps();
 
-/// The findings of all experiments, or of the experiments that were finished before a stop request. Sets `done`, if not
+/// The findings of these experiments, or of those that were finished before a stop request. Sets `done`, if not
 /// null, to the number of finished experiments.
 [[nodiscard]] std::vector<Finding> all_findings(const Experiment& experiment, const sim::ReportPhase& progress = {},
-                                                sim::Progress* done = nullptr);
+                                                sim::Progress* done = nullptr,
+                                                std::span<const ExperimentStep> steps = experiment_steps());
 
 }  // namespace detp::validate

@@ -100,10 +100,13 @@ TEST_SUITE("claims") {
   TEST_CASE("where nothing was met, the error is not known") {
     const ExperimentStep dark{
         "dark",
+        "dark",
         [](const Experiment&) {
           return std::vector<Finding>{{.id = "hits", .quantity = "hits", .batches = 8, .lines = 100}};
         },
-        [](const Experiment&) { return 1.0; }, 1, true};
+        [](const Experiment&) { return 1.0; },
+        1,
+        true};
     const FindingsUntil until = findings_until(small(100, 1), {.most_lines = 400}, {}, nullptr, {}, {&dark, 1});
     REQUIRE(until.refinements.size() == 1);
     CHECK_FALSE(until.refinements[0].reached);
@@ -119,12 +122,15 @@ TEST_SUITE("claims") {
     // The first repetition promises more than the others keep, so the first test fails.
     const ExperimentStep uneven{
         "uneven",
+        "uneven",
         [](const Experiment& one) {
           const double error = one.seed == 1 ? 0.05 : 0.08;
           return std::vector<Finding>{
               {.id = "hits", .quantity = "hits", .observed = {1, error}, .batches = 8, .lines = 100}};
         },
-        [](const Experiment&) { return 1.0; }, 1, true};
+        [](const Experiment&) { return 1.0; },
+        1,
+        true};
     const FindingsUntil until = findings_until(small(100, 1), {.relative_error = 0.1}, {}, nullptr, {}, {&uneven, 1});
     REQUIRE(until.refinements.size() == 1);
     CHECK(until.refinements[0].reached);

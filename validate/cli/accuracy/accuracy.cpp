@@ -37,6 +37,7 @@ struct AccuracyOptions {
   std::optional<std::string> reference;
   std::optional<std::string> seeds;
   std::vector<std::string> axes;
+  bool quick = false;
   bool front_facing = false;
   std::optional<std::string> checkpoint;
   bool resume = false;
@@ -137,6 +138,7 @@ class KeptAccuracy {
                        {"target of", target.kind == validate::AccuracyTarget::Kind::noise   ? "noise"
                                      : target.kind == validate::AccuracyTarget::Kind::total ? "error"
                                                                                             : "seconds"},
+                       {"effort", options.quick ? "quick" : "default"},
                        {"estimators", fmt::format("{}", fmt::join(options.estimators, ","))},
                        {"limit of rays", most_rays},
                        {"seeds of the runs", options.seeds.value_or("none")},
@@ -186,6 +188,10 @@ std::optional<sim::Progress> find_answer(AccuracyAnswer& answer, sim::Scene& sce
     answer.no_check = "Not run: too large for the memory.";
     return std::nullopt;
   }
+  if (pilot.price == 0) {
+    answer.no_check = "Not run to check.";
+    return std::nullopt;
+  }
   if (answer.plan.answer.seconds > longest_check) {
     answer.no_check = "Not run to check: too long.";
     return std::nullopt;
@@ -227,6 +233,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
   const ProgressLine progress(common.quiet);
   sim::Scene scene = scene_of(options, common.seed, stop);
   validate::AccuracyPilotOptions pilot{.estimators = estimators_of(options),
+                                       .price = options.quick ? 0.0 : 2.0,
                                        .front_facing = options.front_facing,
                                        .seed = common.seed,
                                        .threads = common.threads,
@@ -284,6 +291,7 @@ Result run_accuracy(const AccuracyOptions& options, const CommonOptions& common,
       {"most_rays", most_rays},
       {"reference", options.reference ? Json(*options.reference) : Json()},
       {"axes", options.axes.empty() ? std::vector<std::string>{"estimator"} : options.axes},
+      {"effort", options.quick ? "quick" : "default"},
       {"seeds", options.seeds ? Json(*options.seeds) : Json()},
       {"samples", scene.samples.size()},
       {"front_facing", options.front_facing}};
@@ -324,6 +332,10 @@ Command accuracy_command(CLI::App& program) {
          "what accuracy costs elsewhere, too: simulation (a hit probability by several ways to sample lines), model "
          "(what choosing knows at each rigor), arithmetic (float, double, exact); default: estimator alone")
       ->delimiter(',');
+  app->add_option_function<std::string>(
+         "--effort", [options](const std::string& effort) { options->quick = effort == "quick"; },
+         "quick: pilots of some seconds and no run to check the answer; default: default")
+      ->check(CLI::IsMember({"quick", "default"}));
   app->add_flag("--front-facing", options->front_facing, "light that arrives from behind does not count");
   app->add_option(
       "--checkpoint", options->checkpoint,

@@ -73,20 +73,24 @@ std::optional<validate::FindingsTarget> UntilOptions::target() const {
 }
 
 validate::FindingsUntil find_until(const validate::Experiment& experiment, const validate::FindingsTarget& target,
+                                   std::span<const validate::ExperimentStep> steps,
                                    const std::optional<std::filesystem::path>& checkpoint, bool resume,
                                    const sim::ReportPhase& progress, const std::stop_token& stop) {
-  if (!checkpoint) return validate::findings_until(experiment, target, progress);
+  if (!checkpoint) return validate::findings_until(experiment, target, progress, nullptr, {}, steps);
+  std::string experiments;
+  for (const validate::ExperimentStep& step : steps) experiments += fmt::format(" {}", step.key);
   validate::CheckpointFile file(*checkpoint, "validate --until-relative-error",
                                 {{"seed", experiment.seed},
                                  {"relative error", target.relative_error},
                                  {"confidence", target.confidence},
                                  {"least lines", target.least_lines},
                                  {"most lines", target.most_lines},
+                                 {"experiments", experiments},
                                  {"digest of workload, discs and rays", digest_of(experiment)}});
   nlohmann::json saved;
   if (resume)
     if (auto state = file.read(stop)) saved = std::move(*state);
-  return validate::findings_until(experiment, target, progress, &file, saved);
+  return validate::findings_until(experiment, target, progress, &file, saved, steps);
 }
 
 Json refinement_json(const validate::FindingsUntil& until, const std::string& id) {

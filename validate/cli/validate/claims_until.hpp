@@ -25,6 +25,7 @@ struct UntilOptions {
 /// findings_until, with a checkpoint if there is a file for it. Throws as findings_until and CheckpointFile.
 [[nodiscard]] validate::FindingsUntil find_until(const validate::Experiment& experiment,
                                                  const validate::FindingsTarget& target,
+                                                 std::span<const validate::ExperimentStep> steps,
                                                  const std::optional<std::filesystem::path>& checkpoint, bool resume,
                                                  const sim::ReportPhase& progress, const std::stop_token& stop);
 

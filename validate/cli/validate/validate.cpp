@@ -35,7 +35,21 @@ struct ValidateOptions {
   validate::SweepOptions sweep;
   std::optional<std::string> sweep_rows;
   UntilOptions until;
+  std::vector<std::string> experiments;
 };
+
+/// Those that the option names, in their usual order; all without it. Throws std::invalid_argument for an unknown name.
+std::vector<validate::ExperimentStep> steps_of(const ValidateOptions& options) {
+  const auto all = validate::experiment_steps();
+  std::vector<std::string_view> keys;
+  for (const validate::ExperimentStep& step : all) keys.push_back(step.key);
+  for (const std::string& text : options.experiments) static_cast<void>(one_of("--experiments", text, keys));
+  std::vector<validate::ExperimentStep> steps;
+  for (const validate::ExperimentStep& step : all)
+    if (options.experiments.empty() || std::ranges::find(options.experiments, step.key) != options.experiments.end())
+      steps.push_back(step);
+  return steps;
+}
 
 void add_effects(const std::vector<sim::EffectReport>& effects, Result& result) {
   result.json["effects"] = to_json(effects);
@@ -258,6 +272,7 @@ void sweep(const ValidateOptions& options, const CommonOptions& common, const st
 Result run_validate(const ValidateOptions& options, const CommonOptions& common, const std::stop_token& stop) {
   check_effort(options, options.workload.request(common, false));
   static_cast<void>(options.until.target());
+  const std::vector<validate::ExperimentStep> steps = steps_of(options);
   check_files(options, common, stop);
   const ProgressLine progress(common.quiet);
   Result result;
@@ -268,9 +283,9 @@ Result run_validate(const ValidateOptions& options, const CommonOptions& common,
   const auto report = sim::part_of(progress.report(), 0, options.thorough ? share_of_claims : 1);
   validate::FindingsUntil until;
   if (target)
-    until = find_until(experiment, *target, options.sweep.checkpoint, options.sweep.resume, report, stop);
+    until = find_until(experiment, *target, steps, options.sweep.checkpoint, options.sweep.resume, report, stop);
   else
-    until.findings = validate::all_findings(experiment, report, &done);
+    until.findings = validate::all_findings(experiment, report, &done, steps);
   const std::vector<Claim> claims = validate::judge_all(until.findings);
   result.json["summary"] = claim_summary_json(claims);
   result.json["claims"] = Json::array();
@@ -309,6 +324,11 @@ Command validate_command(CLI::App& program) {
          "--effort", [options](const std::string& effort) { options->thorough = effort == "thorough"; },
          "default, or thorough: also every formula over its whole range, some 40 minutes; default: default")
       ->check(CLI::IsMember({"default", "thorough"}));
+  app->add_option(
+         "--experiments", options->experiments,
+         "a list of choice, effects, lines, sphere-cache, hierarchies, index, errors; choice and effects take a scene; "
+         "default: all")
+      ->delimiter(',');
   app->add_option("--until-relative-error", options->until.relative_error,
                   "count until each observed value is known so well, as 1%; default: the usual number of lines");
   app->add_option("--confidence", options->until.confidence, "of all these errors together; default: 95%");

@@ -29,6 +29,13 @@ TEST_SUITE("accuracy") {
     CHECK(run["rays"].get<double>() == doctest::Approx(answer["rays"].get<double>()).epsilon(0.01));
   }
 
+  TEST_CASE("a quick answer is not run to check") {
+    const Json json = result_of("accuracy @cornell --target-noise 10% --estimators disc --effort quick");
+    CHECK(json["inputs"]["effort"] == "quick");
+    CHECK_FALSE(json["answer"].contains("measured_noise"));
+    CHECK(json["answer"]["noise"].get<double>() == doctest::Approx(0.1).epsilon(1e-3));
+  }
+
   TEST_CASE("an error below every estimator's bias ends with 3, and says what gets nearest" *
             doctest::test_suite("long")) {
     const Finished finished = detp("accuracy @cornell --target-error 1% --estimators disc --rays 1M");

@@ -9,6 +9,22 @@
 namespace detp::support {
 
 TEST_SUITE("end to end") {
+  TEST_CASE("--experiments leaves out all other experiments") {
+    const Json json = result_of("validate @cornell --samples 300 --rays 3200 --experiments lines,effects");
+    bool effects = false;
+    bool lines = false;
+    for (const Json& claim : json.at("claims")) {
+      const std::string id = claim.at("id");
+      effects = effects || id.starts_with("effects.");
+      lines = lines || id.starts_with("sphere-hit-probability");
+      CHECK_FALSE(id.starts_with("choice."));
+      CHECK_FALSE(id.starts_with("octree"));
+    }
+    CHECK(effects);
+    CHECK(lines);
+    check_refused({{"validate --experiments octrees", "choice,effects,lines"}});
+  }
+
   TEST_CASE("on a scene, choose's predictions are claims too, and exit code 1 means that one is refuted" *
             doctest::test_suite("long")) {
     // Photon paths in a box: the closed forms of choose predict the tests and hits of isotropic lines, about half of the
