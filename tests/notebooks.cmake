@@ -30,7 +30,7 @@ if(failed)
   message(SEND_ERROR "${errors}")
 endif()
 
-foreach(table formulas maps)
+foreach(table formulas losses maps)
   execute_process(COMMAND ${python} ${SOURCE}/notebooks-data/${table}.py ${DETP} --quick
                   RESULT_VARIABLE failed OUTPUT_VARIABLE made ERROR_VARIABLE errors)
   string(REGEX MATCH "^[^\n]*" columns "${made}")

@@ -78,4 +78,16 @@ bool Threshold::passed(double value) const {
 
 double Threshold::distance(double value) const { return std::abs(std::abs(value - at) - tolerance); }
 
+double Threshold::over(double value) const {
+  switch (side) {
+    case Side::above:
+      return at > 0 && value > 0 ? value / at : 0;
+    case Side::below:
+      return value > 0 ? at / value : 0;
+    case Side::apart:
+      break;
+  }
+  return std::abs(value - at) / tolerance;
+}
+
 }  // namespace detp::sim

@@ -103,6 +103,9 @@ struct Threshold {
   [[nodiscard]] bool passed(double value) const;
   /// Distance from the value to the nearest value at which the effect would be switched.
   [[nodiscard]] double distance(double value) const;
+  /// How far the value is on the way to the threshold: 1 at it, more where the effect would be on. Of `below`: threshold over value. 0
+  /// for values that no ratio can be made of.
+  [[nodiscard]] double over(double value) const;
 };
 
 /// A way in which rays and discs deviate from the assumptions of the models.

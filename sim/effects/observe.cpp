@@ -47,8 +47,8 @@ std::string reason_for(const EffectReport& report, const EffectSelection& select
                fmt::format(" by {} than {:.4g}", report.on ? "more" : "not more", threshold.tolerance);
   }
   if (!report.on && threshold.passed(report.value))
-    reason = fmt::format("{:.4g} is {}, but by less than its standard error {:.2g}", report.value, condition(threshold),
-                         report.standard_error);
+    reason = fmt::format("{:.4g} passes the threshold ({}) by less than its standard error {:.2g}", report.value,
+                         condition(threshold), report.standard_error);
   return report.is_close() ? reason + "; close to its threshold" : reason;
 }
 

@@ -23,5 +23,6 @@ struct Command {
 [[nodiscard]] Command bench_command(CLI::App& program);
 [[nodiscard]] Command calibrate_command(CLI::App& program);
 [[nodiscard]] Command accuracy_command(CLI::App& program);
+[[nodiscard]] Command report_command(CLI::App& program);
 
 }  // namespace detp::cli

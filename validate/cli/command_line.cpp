@@ -75,9 +75,9 @@ void add_common_options(CLI::App& command, CommonOptions& common) {
 
 CommandLine::CommandLine()
     : program_("Predicts, runs and checks techniques that find which rays cross which discs.", "detp"),
-      commands_{model_command(program_),     choose_command(program_),  run_command(program_),
-                validate_command(program_),  scene_command(program_),   bench_command(program_),
-                calibrate_command(program_), accuracy_command(program_)} {
+      commands_{model_command(program_),     choose_command(program_),   run_command(program_),
+                validate_command(program_),  scene_command(program_),    bench_command(program_),
+                calibrate_command(program_), accuracy_command(program_), report_command(program_)} {
   program_.set_version_flag("-V,--version", "detp " DETP_VERSION);
   // 0 is allowed, because otherwise the parser would report an unknown command as a missing command.
   program_.require_subcommand(0, 1);

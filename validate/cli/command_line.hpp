@@ -36,7 +36,7 @@ class CommandLine {
 
   CLI::App program_;
   CommonOptions common_;
-  std::array<Command, 8> commands_;
+  std::array<Command, 9> commands_;
 };
 
 }  // namespace detp::cli

@@ -12,27 +12,15 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/file_error.hpp"
 #include "detp/sim/files/output_file.hpp"
-#include "detp/validate/calibration/calibration_file.hpp"
 #include "detp/validate/cli/options/outputs.hpp"
 #include "detp/validate/cli/text/messages.hpp"
+#include "envelope.hpp"
 #include "interruption.hpp"
 #include "program.hpp"
 #include "stop_report.hpp"
 
 namespace detp::cli {
 namespace {
-
-Json envelope(const std::string& command, const CommonOptions& common, int threads, Result& result) {
-  const std::string& schema = result.schema.empty() ? command : result.schema;
-  Json json{{"schema", {{"name", "detp." + schema}, {"version", 1}}}, {"inputs", std::move(result.inputs)}};
-  json.update(result.json);
-  json["provenance"] = {{"program", "detp"},
-                        {"version", DETP_VERSION},
-                        {"seed", common.seed},
-                        {"threads", threads},
-                        {"cpu", validate::this_machine().cpu}};
-  return json;
-}
 
 /// Throws std::logic_error if a number is NaN or infinite, which JSON cannot represent. Such a number is a bug.
 void require_finite_numbers(const Json& json) {

@@ -8,9 +8,10 @@
 #include <stdexcept>
 
 #include "agreement.hpp"
+#include "detp/validate/picture/number_labels.hpp"
+#include "detp/validate/picture/svg.hpp"
+#include "detp/validate/picture/technique_sign.hpp"
 #include "map_labels.hpp"
-#include "svg.hpp"
-#include "technique_sign.hpp"
 
 namespace detp::validate {
 namespace {

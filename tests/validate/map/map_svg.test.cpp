@@ -2,44 +2,20 @@
 
 #include <doctest/doctest.h>
 
-#include <regex>
 #include <stdexcept>
 
-#include "detp/validate/map/svg.hpp"
+#include "detp/validate/picture/svg.hpp"
 #include "map_support.hpp"
+#include "support/xml.hpp"
 
 using namespace detp;
 using namespace detp::validate;
+using support::count_of;
+using support::is_well_formed;
 
 namespace {
 
 const MapCaption test_caption{"a <CPU> & \"cache\"", "detp 0.0.0", "as given"};
-
-/// Whether every element is closed, in the right order, and no text has a bare < or &.
-bool is_well_formed(const std::string& xml) {
-  static const std::regex token("<[^<>]*>|[^<>]+|.");
-  static const std::regex reference("&(amp|lt|gt|quot);");
-  std::vector<std::string> open;
-  for (std::sregex_iterator one(xml.begin(), xml.end(), token); one != std::sregex_iterator(); ++one) {
-    const std::string text = one->str();
-    if (std::regex_replace(text, reference, "").find('&') != std::string::npos) return false;
-    if (text[0] != '<') {
-      if (text[0] == '>') return false;
-    } else if (text.starts_with("</")) {
-      if (open.empty() || "</" + open.back() + ">" != text) return false;
-      open.pop_back();
-    } else if (!text.starts_with("<?") && !text.ends_with("/>")) {
-      open.push_back(text.substr(1, text.find_first_of(" >") - 1));
-    }
-  }
-  return open.empty();
-}
-
-std::size_t count_of(const std::string& text, const std::string& part) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
-  return count;
-}
 
 }  // namespace
 

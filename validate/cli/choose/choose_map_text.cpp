@@ -7,7 +7,8 @@
 #include "detp/validate/cli/text/text_blocks.hpp"
 #include "detp/validate/map/agreement.hpp"
 #include "detp/validate/map/map_labels.hpp"
-#include "detp/validate/map/technique_sign.hpp"
+#include "detp/validate/picture/number_labels.hpp"
+#include "detp/validate/picture/technique_sign.hpp"
 #include "plain_ratio.hpp"
 
 namespace detp::cli {

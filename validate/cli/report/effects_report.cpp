@@ -48,6 +48,7 @@ Json to_json(const std::vector<sim::EffectReport>& effects) {
                     {"standard_error", report.standard_error},
                     {"threshold", report.effect->threshold.at},
                     {"on_if", sim::condition(report.effect->threshold)},
+                    {"over_threshold", report.effect->threshold.over(report.value)},
                     {"close", report.is_close()},
                     {"seconds", report.seconds},
                     {"evidence", report.effect->evidence},

@@ -1,0 +1,237 @@
+#include "chart.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "detp/model/vocabulary/quoted.hpp"
+
+namespace detp::validate {
+namespace {
+
+constexpr double width = 440;
+constexpr double text_size = 12;
+constexpr double letter = 0.56;  // width of a character over its size, about
+constexpr double row_height = 26;
+constexpr double dense_row_height = 19;  // if there are many names
+constexpr std::size_t many_names = 16;
+constexpr double plain_height = 230;
+constexpr double right = 14;
+constexpr double top = 12;
+constexpr double axis_room = 40;  // below: tick labels and title
+constexpr double legend_line = 18;
+constexpr double mark_size = 9;
+constexpr std::size_t longest_name = 32;  // characters of a name on an axis
+
+double text_width(const std::string& text) { return letter * text_size * static_cast<double>(text.size()); }
+
+std::string tick_label(const ChartAxis& axis, double value) {
+  return axis.label != nullptr ? axis.label(value) : fmt::format("{:.6g}", value);
+}
+
+/// Steps of 1, 2 or 5 times a power of ten that divide the range into at most `most` parts.
+double step_of(double range, int most) {
+  const double power = std::pow(10.0, std::floor(std::log10(range / most)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (range / (factor * power) <= most) return factor * power;
+  return 10 * power;
+}
+
+/// One axis: which values it has, and where they are.
+class Scale {
+ public:
+  Scale(const ChartAxis& axis, std::vector<double> values, double begin, double end)
+      : axis_(axis), begin_(begin), end_(end) {
+    if (!axis.categories.empty()) {
+      low_ = -0.5;
+      high_ = static_cast<double>(axis.categories.size()) - 0.5;
+      return;
+    }
+    if (axis.logarithmic) {
+      std::erase_if(values, [](double value) { return !(value > 0); });
+      for (double& value : values) value = std::log10(value);
+    }
+    if (values.empty()) values = {0};
+    low_ = std::ranges::min(values);
+    high_ = std::ranges::max(values);
+    const double least = axis.logarithmic ? 0.4 : std::max(1e-12, 0.1 * std::abs(high_));
+    const double more = std::max(0.06 * (high_ - low_), 0.5 * (least - (high_ - low_)));
+    low_ -= more;
+    high_ += more;
+  }
+
+  [[nodiscard]] double place(double value) const {
+    if (axis_.categories.empty() && axis_.logarithmic) value = value > 0 ? std::log10(value) : low_;
+    const double share = (std::clamp(value, low_, high_) - low_) / (high_ - low_);
+    return begin_ + share * (end_ - begin_);
+  }
+
+  /// With room for labels of this width or height.
+  [[nodiscard]] std::vector<double> ticks(double room) const {
+    const int most = std::max(1, static_cast<int>(std::abs(end_ - begin_) / room));
+    std::vector<double> found;
+    if (!axis_.logarithmic || high_ - low_ < 1) {  // less than a decade has too few powers of ten
+      const double low = axis_.logarithmic ? std::pow(10.0, low_) : low_;
+      const double high = axis_.logarithmic ? std::pow(10.0, high_) : high_;
+      const double step = step_of(high - low, axis_.logarithmic ? std::max(1, most / 2) : most);
+      for (double i = std::ceil(low / step); i * step <= high; ++i) found.push_back(i * step);
+      return found;
+    }
+    for (const std::vector<double>& digits : {std::vector<double>{1, 2, 5}, {1, 3}, {1}}) {
+      found.clear();
+      for (double power = std::floor(low_); power <= high_; ++power)
+        for (const double digit : digits) {
+          const double at = power + std::log10(digit);
+          if (at >= low_ && at <= high_) found.push_back(digit * std::pow(10.0, power));
+        }
+      if (static_cast<int>(found.size()) <= most) return found;
+    }
+    const auto decades = static_cast<int>(found.size());
+    const int every = (decades + most - 1) / most;
+    std::vector<double> some;
+    for (int i = 0; i < decades; i += every) some.push_back(found[static_cast<std::size_t>(i)]);
+    return some;
+  }
+
+ private:
+  const ChartAxis& axis_;
+  double begin_;
+  double end_;
+  double low_ = 0;
+  double high_ = 1;
+};
+
+void check(const Chart& chart) {
+  if (chart.points.empty()) throw std::invalid_argument("a chart without points cannot be drawn");
+  for (const ChartPoint& point : chart.points)
+    if (!std::isfinite(point.x) || !std::isfinite(point.y) || point.series >= chart.series.size())
+      throw std::invalid_argument(fmt::format("point '{}' of a chart is not finite, or of no series", point.value));
+}
+
+std::vector<double> values_of(const Chart& chart, double ChartPoint::*at,
+                              std::optional<Interval> ChartPoint::*interval) {
+  std::vector<double> values;
+  for (const ChartPoint& point : chart.points) {
+    values.push_back(point.*at);
+    if (point.*interval) values.insert(values.end(), {(point.*interval)->low, (point.*interval)->high});
+  }
+  return values;
+}
+
+double left_room(const Chart& chart) {
+  double longest = 5 * letter * text_size;
+  for (const std::string& name : chart.y.categories)
+    longest = std::max(longest, text_width(shortened(name, longest_name)));
+  return longest + 12 + (chart.y.title.empty() ? 0 : 18);
+}
+
+/// Of the series with names: where each entry begins, and how many lines there are.
+struct Legend {
+  std::vector<std::pair<double, double>> places;
+  double height = 0;
+
+  Legend(const Chart& chart, double left) {
+    double x = left;
+    double line = 0;
+    for (const ChartSeries& series : chart.series) {
+      const double entry = text_width(series.name) + 30;
+      if (x > left && x + entry > width) {
+        x = left;
+        ++line;
+      }
+      places.emplace_back(x, line * legend_line);
+      if (series.name.empty()) continue;
+      x += entry;
+      height = (line + 1) * legend_line;
+    }
+  }
+};
+
+}  // namespace
+
+std::string chart_svg(const Chart& chart) {
+  check(chart);
+  const double left = left_room(chart);
+  const double height = chart.y.categories.empty()
+                            ? plain_height
+                            : (chart.y.categories.size() < many_names ? row_height : dense_row_height) *
+                                  static_cast<double>(chart.y.categories.size());
+  const double bottom = top + height;
+  const Legend legend(chart, 8);
+  std::vector<double> xs = values_of(chart, &ChartPoint::x, &ChartPoint::x_interval);
+  for (const ChartLimit& limit : chart.x_limits) xs.push_back(limit.at);
+  const bool limit_labels = std::ranges::any_of(chart.x_limits, [](const auto& one) { return !one.label.empty(); });
+  const Scale x(chart.x, std::move(xs), left, width - right);
+  const Scale y(chart.y, values_of(chart, &ChartPoint::y, &ChartPoint::y_interval),
+                chart.y.categories.empty() ? bottom : top, chart.y.categories.empty() ? top : bottom);
+  Svg svg =
+      Svg::in_page(width, bottom + axis_room + (limit_labels ? legend_line : 0) + legend.height + 4, chart.description);
+  double widest = 0;
+  for (const double tick : x.ticks(60)) widest = std::max(widest, text_width(tick_label(chart.x, tick)));
+  for (const double tick : x.ticks(widest + 14)) {
+    svg.rule(x.place(tick), top, x.place(tick), bottom);
+    svg.text(x.place(tick), bottom + 15, tick_label(chart.x, tick), {.size = text_size, .anchor = Anchor::middle});
+  }
+  if (chart.y.categories.empty()) {
+    for (const double tick : y.ticks(28)) {
+      svg.rule(left, y.place(tick), width - right, y.place(tick));
+      svg.text(left - 6, y.place(tick) + 4, tick_label(chart.y, tick), {.size = text_size, .anchor = Anchor::end});
+    }
+  } else {
+    for (std::size_t i = 0; i < chart.y.categories.size(); ++i) {
+      const double at = y.place(static_cast<double>(i));
+      svg.rule(left, at, width - right, at);
+      svg.text(left - 6, at + 4, shortened(chart.y.categories[i], longest_name),
+               {.size = text_size, .anchor = Anchor::end});
+    }
+  }
+  if (!chart.y.title.empty())
+    svg.text(12, top + height / 2, chart.y.title, {.size = text_size, .anchor = Anchor::middle, .upwards = true});
+  svg.text((left + width - right) / 2, bottom + 33, chart.x.title, {.size = text_size, .anchor = Anchor::middle});
+  for (const ChartLimit& limit : chart.x_limits) {
+    svg.rule(x.place(limit.at), top - 6, x.place(limit.at), bottom, true);
+    if (!limit.label.empty())
+      svg.text(x.place(limit.at), bottom + 33 + legend_line, limit.label,
+               {.size = text_size, .anchor = Anchor::middle});
+  }
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    if (!chart.series[i].line) continue;
+    std::vector<std::pair<double, double>> line;
+    for (const ChartPoint& point : chart.points)
+      if (point.series == i) line.emplace_back(x.place(point.x), y.place(point.y));
+    if (line.size() > 1) svg.polyline(line, chart.series[i].paint);
+  }
+  bool open = false;  // a value
+  for (const ChartPoint& point : chart.points) {
+    const ChartSeries& series = chart.series[point.series];
+    const Paint paint = point.paint.value_or(series.paint);
+    const double px = x.place(point.x);
+    const double py = y.place(point.y);
+    if (!point.value.empty()) {
+      if (open) svg.end_value();
+      svg.begin_value(point.value);
+      open = true;
+    }
+    if (point.x_interval)
+      svg.polyline({{x.place(point.x_interval->low), py}, {x.place(point.x_interval->high), py}}, paint);
+    if (point.y_interval)
+      svg.polyline({{px, y.place(point.y_interval->low)}, {px, y.place(point.y_interval->high)}}, paint);
+    if (point.marked) svg.mark(Mark::circle, px, py, 2 * mark_size, {"currentColor"}, false);
+    svg.mark(series.mark, px, py, mark_size, paint, series.filled);
+  }
+  if (open) svg.end_value();
+  const double legend_top = bottom + axis_room + (limit_labels ? legend_line : 0) + 12;
+  for (std::size_t i = 0; i < chart.series.size(); ++i) {
+    const ChartSeries& series = chart.series[i];
+    if (series.name.empty()) continue;
+    const auto [lx, ly] = legend.places[i];
+    svg.mark(series.mark, lx + 6, legend_top + ly - 4, mark_size, series.paint, series.filled);
+    svg.text(lx + 16, legend_top + ly, series.name, {.size = text_size});
+  }
+  return svg.finished();
+}
+
+}  // namespace detp::validate
