@@ -30,6 +30,8 @@ struct SceneOptions {
 
 void write_mesh(const std::string& path, const validate::JobRequest& request, const std::stop_token& stop) {
   if (!request.scene) throw std::invalid_argument("--write-mesh takes a scene with triangles");
+  if (path.ends_with(".obj"))
+    throw std::invalid_argument(fmt::format("--write-mesh writes PLY; give FILE.ply (got {})", detp::quoted(path)));
   const sim::Scene scene = sim::open_scene({*request.scene, std::nullopt, request.seed}, stop);
   if (scene.mesh.triangles.empty())
     throw std::invalid_argument(fmt::format("{} has no triangles to write", shown_path(scene.name)));

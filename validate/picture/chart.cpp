@@ -12,21 +12,25 @@
 namespace detp::validate {
 namespace {
 
-constexpr double width = 440;
-constexpr double text_size = 12;
-constexpr double letter = 0.56;  // width of a character over its size, about
-constexpr double row_height = 26;
-constexpr double dense_row_height = 19;  // if there are many names
-constexpr std::size_t many_names = 16;
-constexpr double plain_height = 230;
-constexpr double right = 14;
-constexpr double top = 12;
-constexpr double axis_room = 40;  // below: tick labels and title
-constexpr double legend_line = 18;
-constexpr double mark_size = 9;
-constexpr std::size_t longest_name = 32;  // characters of a name on an axis
+struct ChartLayout {
+  static constexpr double width = 440;
+  static constexpr double text_size = 12;
+  static constexpr double letter = 0.56;  // width of a character over its size, about
+  static constexpr double row_height = 26;
+  static constexpr double dense_row_height = 19;  // if there are many names
+  static constexpr std::size_t many_names = 16;
+  static constexpr double plain_height = 230;
+  static constexpr double right = 14;
+  static constexpr double top = 12;
+  static constexpr double axis_room = 40;  // below: tick labels and title
+  static constexpr double legend_line = 18;
+  static constexpr double mark_size = 9;
+  static constexpr std::size_t longest_name = 32;  // characters of a name on an axis
+};
 
-double text_width(const std::string& text) { return letter * text_size * static_cast<double>(text.size()); }
+double text_width(const std::string& text) {
+  return ChartLayout::letter * ChartLayout::text_size * static_cast<double>(text.size());
+}
 
 std::string tick_label(const ChartAxis& axis, double value) {
   return axis.label != nullptr ? axis.label(value) : fmt::format("{:.6g}", value);
@@ -69,7 +73,7 @@ class Scale {
     return begin_ + share * (end_ - begin_);
   }
 
-  /// With room for labels of this width or height.
+  /// With room for labels of this ChartLayout::width or height.
   [[nodiscard]] std::vector<double> ticks(double room) const {
     const int most = std::max(1, static_cast<int>(std::abs(end_ - begin_) / room));
     std::vector<double> found;
@@ -122,9 +126,9 @@ std::vector<double> values_of(const Chart& chart, double ChartPoint::*at,
 }
 
 double left_room(const Chart& chart) {
-  double longest = 5 * letter * text_size;
+  double longest = 5 * ChartLayout::letter * ChartLayout::text_size;
   for (const std::string& name : chart.y.categories)
-    longest = std::max(longest, text_width(shortened(name, longest_name)));
+    longest = std::max(longest, text_width(shortened(name, ChartLayout::longest_name)));
   return longest + 12 + (chart.y.title.empty() ? 0 : 18);
 }
 
@@ -138,14 +142,14 @@ struct Legend {
     double line = 0;
     for (const ChartSeries& series : chart.series) {
       const double entry = text_width(series.name) + 30;
-      if (x > left && x + entry > width) {
+      if (x > left && x + entry > ChartLayout::width) {
         x = left;
         ++line;
       }
-      places.emplace_back(x, line * legend_line);
+      places.emplace_back(x, line * ChartLayout::legend_line);
       if (series.name.empty()) continue;
       x += entry;
-      height = (line + 1) * legend_line;
+      height = (line + 1) * ChartLayout::legend_line;
     }
   }
 };
@@ -156,46 +160,54 @@ std::string chart_svg(const Chart& chart) {
   check(chart);
   const double left = left_room(chart);
   const double height = chart.y.categories.empty()
-                            ? plain_height
-                            : (chart.y.categories.size() < many_names ? row_height : dense_row_height) *
+                            ? ChartLayout::plain_height
+                            : (chart.y.categories.size() < ChartLayout::many_names ? ChartLayout::row_height
+                                                                                   : ChartLayout::dense_row_height) *
                                   static_cast<double>(chart.y.categories.size());
-  const double bottom = top + height;
+  const double bottom = ChartLayout::top + height;
   const Legend legend(chart, 8);
   std::vector<double> xs = values_of(chart, &ChartPoint::x, &ChartPoint::x_interval);
   for (const ChartLimit& limit : chart.x_limits) xs.push_back(limit.at);
   const bool limit_labels = std::ranges::any_of(chart.x_limits, [](const auto& one) { return !one.label.empty(); });
-  const Scale x(chart.x, std::move(xs), left, width - right);
+  const Scale x(chart.x, std::move(xs), left, ChartLayout::width - ChartLayout::right);
   const Scale y(chart.y, values_of(chart, &ChartPoint::y, &ChartPoint::y_interval),
-                chart.y.categories.empty() ? bottom : top, chart.y.categories.empty() ? top : bottom);
+                chart.y.categories.empty() ? bottom : ChartLayout::top,
+                chart.y.categories.empty() ? ChartLayout::top : bottom);
   Svg svg =
-      Svg::in_page(width, bottom + axis_room + (limit_labels ? legend_line : 0) + legend.height + 4, chart.description);
+      Svg::in_page(ChartLayout::width,
+                   bottom + ChartLayout::axis_room + (limit_labels ? ChartLayout::legend_line : 0) + legend.height + 4,
+                   chart.description);
   double widest = 0;
   for (const double tick : x.ticks(60)) widest = std::max(widest, text_width(tick_label(chart.x, tick)));
   for (const double tick : x.ticks(widest + 14)) {
-    svg.rule(x.place(tick), top, x.place(tick), bottom);
-    svg.text(x.place(tick), bottom + 15, tick_label(chart.x, tick), {.size = text_size, .anchor = Anchor::middle});
+    svg.rule(x.place(tick), ChartLayout::top, x.place(tick), bottom);
+    svg.text(x.place(tick), bottom + 15, tick_label(chart.x, tick),
+             {.size = ChartLayout::text_size, .anchor = Anchor::middle});
   }
   if (chart.y.categories.empty()) {
     for (const double tick : y.ticks(28)) {
-      svg.rule(left, y.place(tick), width - right, y.place(tick));
-      svg.text(left - 6, y.place(tick) + 4, tick_label(chart.y, tick), {.size = text_size, .anchor = Anchor::end});
+      svg.rule(left, y.place(tick), ChartLayout::width - ChartLayout::right, y.place(tick));
+      svg.text(left - 6, y.place(tick) + 4, tick_label(chart.y, tick),
+               {.size = ChartLayout::text_size, .anchor = Anchor::end});
     }
   } else {
     for (std::size_t i = 0; i < chart.y.categories.size(); ++i) {
       const double at = y.place(static_cast<double>(i));
-      svg.rule(left, at, width - right, at);
-      svg.text(left - 6, at + 4, shortened(chart.y.categories[i], longest_name),
-               {.size = text_size, .anchor = Anchor::end});
+      svg.rule(left, at, ChartLayout::width - ChartLayout::right, at);
+      svg.text(left - 6, at + 4, shortened(chart.y.categories[i], ChartLayout::longest_name),
+               {.size = ChartLayout::text_size, .anchor = Anchor::end});
     }
   }
   if (!chart.y.title.empty())
-    svg.text(12, top + height / 2, chart.y.title, {.size = text_size, .anchor = Anchor::middle, .upwards = true});
-  svg.text((left + width - right) / 2, bottom + 33, chart.x.title, {.size = text_size, .anchor = Anchor::middle});
+    svg.text(12, ChartLayout::top + height / 2, chart.y.title,
+             {.size = ChartLayout::text_size, .anchor = Anchor::middle, .upwards = true});
+  svg.text((left + ChartLayout::width - ChartLayout::right) / 2, bottom + 33, chart.x.title,
+           {.size = ChartLayout::text_size, .anchor = Anchor::middle});
   for (const ChartLimit& limit : chart.x_limits) {
-    svg.rule(x.place(limit.at), top - 6, x.place(limit.at), bottom, true);
+    svg.rule(x.place(limit.at), ChartLayout::top - 6, x.place(limit.at), bottom, true);
     if (!limit.label.empty())
-      svg.text(x.place(limit.at), bottom + 33 + legend_line, limit.label,
-               {.size = text_size, .anchor = Anchor::middle});
+      svg.text(x.place(limit.at), bottom + 33 + ChartLayout::legend_line, limit.label,
+               {.size = ChartLayout::text_size, .anchor = Anchor::middle});
   }
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     if (!chart.series[i].line) continue;
@@ -219,17 +231,17 @@ std::string chart_svg(const Chart& chart) {
       svg.polyline({{x.place(point.x_interval->low), py}, {x.place(point.x_interval->high), py}}, paint);
     if (point.y_interval)
       svg.polyline({{px, y.place(point.y_interval->low)}, {px, y.place(point.y_interval->high)}}, paint);
-    if (point.marked) svg.mark(Mark::circle, px, py, 2 * mark_size, {"currentColor"}, false);
-    svg.mark(series.mark, px, py, mark_size, paint, series.filled);
+    if (point.marked) svg.mark(Mark::circle, px, py, 2 * ChartLayout::mark_size, {"currentColor"}, false);
+    svg.mark(series.mark, px, py, ChartLayout::mark_size, paint, series.filled);
   }
   if (open) svg.end_value();
-  const double legend_top = bottom + axis_room + (limit_labels ? legend_line : 0) + 12;
+  const double legend_top = bottom + ChartLayout::axis_room + (limit_labels ? ChartLayout::legend_line : 0) + 12;
   for (std::size_t i = 0; i < chart.series.size(); ++i) {
     const ChartSeries& series = chart.series[i];
     if (series.name.empty()) continue;
     const auto [lx, ly] = legend.places[i];
-    svg.mark(series.mark, lx + 6, legend_top + ly - 4, mark_size, series.paint, series.filled);
-    svg.text(lx + 16, legend_top + ly, series.name, {.size = text_size});
+    svg.mark(series.mark, lx + 6, legend_top + ly - 4, ChartLayout::mark_size, series.paint, series.filled);
+    svg.text(lx + 16, legend_top + ly, series.name, {.size = ChartLayout::text_size});
   }
   return svg.finished();
 }

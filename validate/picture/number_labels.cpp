@@ -25,4 +25,6 @@ std::string percent_label(double share) {
   return percent < 99.5 ? fmt::format("{:.2g} %", percent) : fmt::format("{:.0f} %", percent);
 }
 
+std::string number_label(double number) { return fmt::format("{:.3g}", number); }
+
 }  // namespace detp::validate

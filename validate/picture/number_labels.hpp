@@ -14,4 +14,7 @@ namespace detp::validate {
 /// "12 %", "0.034 %".
 [[nodiscard]] std::string percent_label(double share);
 
+/// With three significant digits.
+[[nodiscard]] std::string number_label(double number);
+
 }  // namespace detp::validate

@@ -27,8 +27,6 @@ std::string deviation(double worst) {
                      : fmt::format("off by a factor of up to {:.2g}", worst);
 }
 
-std::string label(double value) { return fmt::format("{:.3g}", value); }
-
 }  // namespace
 
 std::string comparison_section(const ReportJson& report) {
@@ -38,7 +36,7 @@ std::string comparison_section(const ReportJson& report) {
                      "seconds measured", "seconds ratio"},
             .cells = {}};
   Chart chart{.description = "Predicted over counted tests and predicted over measured seconds of each candidate",
-              .x = {.title = "predicted over found", .label = label},
+              .x = {.title = "predicted over found", .label = number_label},
               .y = {.title = "", .categories = {}},
               .series = {{"tests, over counted", {"#332288", "disc"}, Mark::circle},
                          {"seconds, over measured", {"#cc6677", "variable-radius"}, Mark::square}},

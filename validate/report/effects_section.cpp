@@ -4,23 +4,18 @@
 #include <cmath>
 
 #include "detp/validate/picture/chart.hpp"
+#include "detp/validate/picture/number_labels.hpp"
 #include "figure.hpp"
 #include "sections.hpp"
 
 namespace detp::validate {
-namespace {
-
-std::string label(double value) { return fmt::format("{:.3g}", value); }
-
-}  // namespace
-
 std::string effects_section(const ReportJson& report) {
   const ReportJson& effects = list(answer_of(report, "choice"), "effects");
   const std::string title = "Which effects this scene calls for";
   if (effects.empty()) return section_html(title, paragraph("Not made: stopped before it."));
   Rows rows{.head = {"effect", "state", "value", "on if", "over threshold", "evidence", "reason"}, .cells = {}};
   Chart chart{.description = "Evidence of each effect over its threshold",
-              .x = {.title = "evidence over its threshold (1: at the threshold)", .label = label},
+              .x = {.title = "evidence over its threshold (1: at the threshold)", .label = number_label},
               .y = {.title = "", .categories = {}},
               .series = {{"on", {"#332288", "disc"}, Mark::circle}, {"off", {"#888888"}, Mark::circle, false, false}},
               .points = {},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "detp/validate/picture/chart.hpp"
+#include "detp/validate/picture/number_labels.hpp"
 #include "figure.hpp"
 #include "sections.hpp"
 
@@ -11,8 +12,6 @@ namespace detp::validate {
 namespace {
 
 std::string percent_with_sign(double share) { return fmt::format("{:+.1f} %", 100 * share); }
-
-std::string label(double value) { return fmt::format("{:.3g}", value); }
 
 std::size_t series_of(const std::string& verdict) { return verdict == "agrees" ? 0 : verdict == "refuted" ? 1 : 2; }
 
@@ -27,7 +26,7 @@ std::string verdict_section(const ReportJson& report) {
   if (claims.empty()) return section_html(title, paragraph("Not made: stopped before it."));
   Rows rows{.head = {"claim", "predicted", "counted", "differs", "allowed", "verdict", "control"}, .cells = {}};
   Chart chart{.description = "Difference of each closed form from the count, over what is allowed",
-              .x = {.title = "difference, over the allowed one", .logarithmic = false, .label = label},
+              .x = {.title = "difference, over the allowed one", .logarithmic = false, .label = number_label},
               .y = {.title = "", .categories = {}},
               .series = {{"agrees", {"#117733", "area-corrected"}, Mark::circle},
                          {"refuted", {"#cc6677", "variable-radius"}, Mark::cross},

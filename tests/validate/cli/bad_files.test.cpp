@@ -152,6 +152,7 @@ TEST_SUITE("bad input") {
     for (const std::string option : {"--write-mesh", "--write-discs", "--write-rays"})
       for (const std::string& path : {missing, std::string("/dev/full"), folder.path("")})
         refusals.push_back({scene + Arguments{option, path}, path + ": cannot be written"});
+    refusals.push_back({scene + Arguments{"--write-mesh", folder.path("mesh.obj")}, "give FILE.ply"});
     check_refused(refusals);
     CHECK(folder.entries() == 0);
   }

@@ -40,7 +40,19 @@ struct ReportScale {
   double samples = 0;
   double rays = 0;
   double disc_radius = 0;
-  double making_seconds = 0;  ///< for reading the scene and making the rays
+  double reading_seconds = 0;  ///< of the scene
+  double tracing_seconds = 0;  ///< of the rays
+};
+
+/// Seconds that a part takes, by what `scene` found: for each second of tracing and of reading, and for each 100 000 samples and triangles.
+struct ForecastRule {
+  double tracing = 0;
+  double reading = 0;
+  double samples = 0;
+  double triangles = 0;
+  double fixed = 0;
+
+  [[nodiscard]] double seconds(const ReportScale& scale) const;
 };
 
 [[nodiscard]] ReportPart scene_part(const ReportOptions& options);

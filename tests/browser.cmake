@@ -1,0 +1,47 @@
+# Makes pages by detp report, and looks at them in a real browser: requests, errors, accessibility, keyboard, tables, print.
+# Called with -D SOURCE=<top of the project> -D BUILD=<folder for pages, pictures and packages> -D DETP=<the command>.
+
+cmake_policy(VERSION 3.25)
+find_program(chromium chromium)
+find_program(node node)
+find_program(npm npm)
+if(NOT chromium OR NOT node OR NOT npm)
+  message("skipped: Debian's packages of .ci/browser-packages.txt are not installed")
+  return()
+endif()
+
+set(place ${BUILD}/browser)
+file(MAKE_DIRECTORY ${place})
+file(COPY ${SOURCE}/tests/browser/package.json DESTINATION ${place})
+execute_process(COMMAND ${npm} install --no-audit --no-fund --silent WORKING_DIRECTORY ${place} RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "npm cannot install the packages of tests/browser/package.json")
+endif()
+
+# Whose name would run a script if it were not escaped.
+set(hostile "${place}/a\"><img src=x onerror=alert(1)>'&lt.ply")
+set(pages)
+function(report name)
+  cmake_parse_arguments(PARSE_ARGV 1 one "" "CODE" "WORDS")
+  string(TIMESTAMP begun "%s")
+  execute_process(COMMAND ${DETP} report ${one_WORDS} --quiet -o ${place}/${name}.html RESULT_VARIABLE code OUTPUT_QUIET)
+  string(TIMESTAMP ended "%s")
+  math(EXPR seconds "${ended} - ${begun}")
+  message("${name}: ${seconds} s")
+  if(NOT code EQUAL one_CODE)
+    message(SEND_ERROR "detp report ${one_WORDS} ended with ${code}, not ${one_CODE}")
+  endif()
+  set(pages ${pages} ${place}/${name}.html PARENT_SCOPE)
+endfunction()
+
+execute_process(COMMAND ${DETP} scene @cornell --write-mesh "${hostile}" --quiet OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+report(tree CODE 0 WORDS @tree --quick)
+report(cornell CODE 0 WORDS @cornell --rays 20000)
+report(hostile CODE 0 WORDS "${hostile}" --quick --rays 2000)
+report(uniform CODE 0 WORDS @uniform --quick --rays 2000 --samples 2000)
+report(stopped CODE 3 WORDS @tree --time-limit 1)
+execute_process(COMMAND ${node} ${SOURCE}/tests/browser/report.mjs ${chromium} ${place}/pictures ${pages}
+                WORKING_DIRECTORY ${place} RESULT_VARIABLE failed)
+if(failed)
+  message(FATAL_ERROR "the pages above have faults; ${place}/pictures shows them")
+endif()
