@@ -22,14 +22,15 @@ class Detp:
 
 
 class Table:
-    """Rows of CSV, written at once: to standard output, or after those that a file has."""
+    """Rows of CSV, written at once: after those that the file `path` has; to the file of --output, complete or not at all; or to standard output."""
 
     def __init__(self, columns, path=None):
         self.kept = []
+        self.output = None if path or "--output" not in sys.argv else sys.argv[sys.argv.index("--output") + 1]
         if path and os.path.exists(path):
             with open(path) as file:
                 self.kept = list(csv.DictReader(file))
-        self.file = open(path, "a") if path else sys.stdout
+        self.file = open(path, "a") if path else open(self.output + ".part", "w") if self.output else sys.stdout
         self.rows = csv.writer(self.file, lineterminator="\n")
         if not self.kept:
             self.add(*columns.split(","))
@@ -37,6 +38,10 @@ class Table:
     def add(self, *values):
         self.rows.writerow([self.text(value) for value in values])
         self.file.flush()
+
+    def done(self):
+        if self.output:
+            os.replace(self.output + ".part", self.output)
 
     @staticmethod
     def text(value):

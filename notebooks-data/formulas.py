@@ -19,6 +19,7 @@ def main():
         )
         for row in answer["rows"]:
             table.add(form, row["inputs"]["disc_radius"], row["parameters"]["ratio"], row["k"], row["rebuild_time"] / 1e5, row["intersect_time"] / 1e5)
+    table.done()
 
 
 main()

@@ -18,6 +18,7 @@ def main():
             exact = detp.ask(line + "sphere-cache")
             published = detp.ask(line + "sphere-cache-published")
             table.add(dimension, step / 100, exact["parameters"]["spheres"], exact["hits"], published["hits"])
+    table.done()
 
 
 main()

@@ -37,6 +37,7 @@ def main():
             if (scene, techniques, engine) not in kept:
                 grid = f"--rays {rays} --disc-radius {radii[scene]}"
                 add_cells(table, scene, techniques, engine, detp.ask(f"choose {scene} --map --analyze --threads 1 --engine {engine} {grid} {left_out}"))
+    table.done()
 
 
 main()

@@ -207,6 +207,7 @@ def main():
     study = Study()
     for part in [half_distance, second_intersection, cache_tests, octree_depths, figure_7, linear_in_rays, courtyard, index_memory, small_discs, optimal_ratios, rebuilds, orders_of_growth, balanced]:
         part(study)
+    study.table.done()
 
 
 main()
