@@ -3,6 +3,8 @@
 #include <doctest/doctest.h>
 
 #include <filesystem>
+#include <map>
+#include <regex>
 #include <string>
 #include <vector>
 
@@ -49,6 +51,34 @@ TEST_SUITE("figures") {
         CAPTURE(page);
         CAPTURE(figure.statistic);
         CHECK(figure.shown == figure.computed);
+      }
+    }
+  }
+
+  TEST_CASE("every value of notebooks-data has the type that datapackage.json gives, as a Frictionless table has it") {
+    const Json package = Json::parse(source_text("notebooks-data/datapackage.json"));
+    static const std::regex name("[-a-z0-9._/]+");
+    static const std::map<std::string, std::regex> types{
+        {"string", std::regex("[^\\x00]*")},
+        {"number", std::regex("[-+]?[0-9]+(\\.[0-9]*)?([eE][-+]?[0-9]+)?")},
+        {"integer", std::regex("[-+]?[0-9]+")},
+        {"boolean", std::regex("true|false")}};
+    CHECK(std::regex_match(package.at("name").get<std::string>(), name));
+    for (const Json& resource : package.at("resources")) {
+      CHECK(std::regex_match(resource.at("name").get<std::string>(), name));
+      const std::string path = resource.at("path");
+      CAPTURE(path);
+      const Rows rows = published(path);
+      CHECK_FALSE(rows.empty());
+      for (const Json& field : resource.at("schema").at("fields")) {
+        const std::string column = field.at("name");
+        CAPTURE(column);
+        const std::regex& type = types.at(field.at("type"));
+        std::string wrong;
+        for (const CsvRow& row : rows)
+          if (const std::string& value = row.at(column); !value.empty() && !std::regex_match(value, type))
+            wrong = value;
+        CHECK(wrong == "");
       }
     }
   }
