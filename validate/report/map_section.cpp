@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "detp/validate/picture/number_labels.hpp"
+#include "detp/validate/picture/svg.hpp"
 #include "detp/validate/picture/zone_chart.hpp"
 #include "figure.hpp"
 #include "sections.hpp"
@@ -81,9 +82,14 @@ std::string map_section(const ReportJson& report) {
     chart.cells[static_cast<std::size_t>(row - radii.begin())][static_cast<std::size_t>(column - rays.begin())] =
         ZoneCell{*technique, rows.words(rows.cells.size() - 1), seconds ? seconds_label(*seconds) : "", framed};
   }
+  std::string tips;
+  for (const ReportJson& tip : list(choice, "tips"))
+    if (const std::string text = words(tip, "text"); !text.empty())
+      tips += fmt::format("<li>{}</li>\n", xml_text(text));
   return section_html(title,
                       figure_html("the fastest technique by rays and radius",
-                                  finding_of(choice, map, here) + " This workload is framed.", zone_svg(chart), rows));
+                                  finding_of(choice, map, here) + " This workload is framed.", zone_svg(chart), rows) +
+                          (tips.empty() ? "" : "<ul>\n" + tips + "</ul>\n"));
 }
 
 }  // namespace detp::validate

@@ -108,7 +108,8 @@ void add_tips(Json& json, const ChooseAnswer& answer) {
                                        {"at", tip.input == TipInput::disc_radius ? Json(tip.at) : whole(tip.at)},
                                        {"ratio", tip.ratio},
                                        {"change", detp::name(tip.kind)},
-                                       {"technique", name(tip.candidate.technique)}});
+                                       {"technique", name(tip.candidate.technique)},
+                                       {"text", tip_text(tip)}});
     if (tip.kind == TipKind::not_ruled_out) continue;
     one["parameters"] = to_json(tip.candidate);
     one["threads"] = tip.threads;
