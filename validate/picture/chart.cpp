@@ -20,7 +20,7 @@ struct ChartLayout {
   static constexpr double dense_row_height = 19;  // if there are many names
   static constexpr std::size_t many_names = 16;
   static constexpr double plain_height = 230;
-  static constexpr double right = 14;
+  static constexpr double right = 26;  // half a label of the last tick
   static constexpr double top = 12;
   static constexpr double axis_room = 40;  // below: tick labels and title
   static constexpr double legend_line = 18;

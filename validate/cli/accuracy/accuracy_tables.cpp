@@ -5,6 +5,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "detp/validate/cli/text/shell_word.hpp"
 #include "detp/validate/cli/text/table.hpp"
 
 /// The answer as JSON and CSV.
@@ -87,8 +88,8 @@ Json axis_json(const validate::AxisPoint& point) {
 }  // namespace
 
 std::string command_of(const AccuracyAnswer& answer, const AccuracyPoint& point) {
-  std::string text =
-      fmt::format("detp run {} --rays {:.3g} --estimator {}", answer.scene, point.rays, name(point.estimator));
+  std::string text = fmt::format("detp run {} --rays {:.3g} --estimator {}", shell_word(answer.scene), point.rays,
+                                 name(point.estimator));
   if (point.radius > 0) text += fmt::format(" --disc-radius {:.4g}", point.radius);
   if (point.nearest > 0) text += fmt::format(" --nearest {}", point.nearest);
   return text + answer.options;

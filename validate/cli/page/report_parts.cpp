@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "detp/validate/cli/text/shell_word.hpp"
 #include "detp/validate/picture/number_labels.hpp"
 #include "detp/validate/report/parts.hpp"
 
@@ -15,19 +16,6 @@ namespace {
 using validate::list;
 using validate::number;
 using validate::words;
-
-std::string for_shell(const std::string& word) {
-  constexpr std::string_view harmless = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_./@%:,=+-";
-  if (!word.empty() && word.find_first_not_of(harmless) == std::string::npos) return word;
-  std::string quoted = "'";
-  for (const char c : word) {
-    if (c == '\'')
-      quoted += "'\\''";
-    else
-      quoted += c;
-  }
-  return quoted + "'";
-}
 
 void add(std::vector<std::string>& all, const std::vector<std::string>& more) {
   all.insert(all.end(), more.begin(), more.end());
@@ -135,7 +123,7 @@ std::string answer_text(const Json& answer, const Json& inputs) {
 
 std::string ReportPart::line(const CommonOptions& common) const {
   std::string text = "detp";
-  for (const std::string& word : words) text += " " + for_shell(word);
+  for (const std::string& word : words) text += " " + shell_word(word);
   if (common.seed != CommonOptions{}.seed) text += fmt::format(" --seed {}", common.seed);
   if (common.threads != 0) text += fmt::format(" --threads {}", common.threads);
   return text;
