@@ -1,0 +1,211 @@
+#ifndef DETP_H
+#define DETP_H
+
+/* detp for C, and for all languages that can call C: plans a search for rays and discs, and executes it again and again.
+ *
+ * Every function returns a status. If it is not DETP_OK, `error`, unless null, has a message that names what is wrong, with the number of
+ * a bad element; results are then untouched, except that of a stopped search. No function throws, and there are no globals: calls
+ * on different handles may run on different threads at once; a plan may be executed by many threads, each with its own scratch.
+ *
+ * The caller owns all arrays. Rays and discs are read where they are: floats or doubles, with any stride; they must stay as they are
+ * during the call. A handle belongs to the caller, too: its free function takes the address of the variable, and sets it to null, so that
+ * freeing it twice does nothing, and using it afterwards is an error, not a crash. Null handles are refused.
+ *
+ * Structs begin with their size: set `size = sizeof(...)`, and all else to 0 but what you need; DETP_INIT does so. A newer library then
+ * knows what an older caller does not have, and an older one refuses what it does not know.
+ *
+ * Units: lengths and positions in any one unit; powers in any unit; irradiance is power over that length squared; times in seconds. */
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define DETP_API __attribute__((visibility("default")))
+#else
+#define DETP_API
+#endif
+
+/* detp_plan_options options = DETP_INIT(detp_plan_options); */
+#ifdef __cplusplus
+template <class T>
+inline T detp_with_size() {
+  T all = T();
+  all.size = sizeof(T);
+  return all;
+}
+#define DETP_INIT(type) detp_with_size<type>()
+extern "C" {
+#else
+#define DETP_INIT(type) \
+  (type) { .size = sizeof(type) }
+#endif
+
+typedef enum detp_status {
+  DETP_OK = 0,
+  DETP_INVALID = 1,   /* a value, an array or a handle is wrong */
+  DETP_NO_MEMORY = 2, /* the work does not fit in memory, or its numbers are beyond what can be counted */
+  DETP_STOPPED = 3,   /* a progress function asked for it */
+  DETP_FILE = 4,      /* a file cannot be read or written */
+  DETP_INTERNAL = 5   /* a mistake in detp */
+} detp_status;
+
+typedef struct detp_error {
+  char text[512]; /* UTF-8, ends with a 0 */
+} detp_error;
+
+typedef enum detp_type { DETP_FLOAT = 0, DETP_DOUBLE = 1 } detp_type;
+
+/* Elements of three numbers. With y and z null, x has the three numbers of an element one after another; else x, y and z are arrays of
+ * the coordinates. stride: bytes from one element to the next; 0: without gaps. */
+typedef struct detp_vectors {
+  const void *x, *y, *z;
+  size_t stride;
+  int type; /* DETP_FLOAT or DETP_DOUBLE */
+} detp_vectors;
+
+/* A number for each element; with `data` null, the number `of_all`. */
+typedef struct detp_numbers {
+  const void *data;
+  size_t stride; /* bytes; 0: without gaps */
+  int type; /* DETP_FLOAT or DETP_DOUBLE */
+  double of_all;
+} detp_numbers;
+
+/* Directions may have any length except 0. lengths: how far a ray reaches from its origin; with `data` null and of_all 0, or infinite: the
+ * ray is a line, without ends both ways. powers: with `data` null and of_all 0: 1 for each ray. photons: the number of each ray's photon,
+ * ascending, so that pieces of one path count as one in standard errors; null: each ray is a path of its own. */
+typedef struct detp_rays {
+  size_t size;
+  size_t count;
+  detp_vectors origins, directions;
+  detp_numbers lengths, powers;
+  const uint64_t *photons;
+} detp_rays;
+
+/* Normals may have any length except 0. radii > 0. */
+typedef struct detp_discs {
+  size_t size;
+  size_t count;
+  detp_vectors centres, normals;
+  detp_numbers radii;
+} detp_discs;
+
+/* Called during long work, perhaps from other threads, one call at a time. share: of the work, 0 to 1. Returns 0 to go on, else the
+ * work stops at once. */
+typedef int (*detp_progress)(void *user, const char *what, double share);
+
+/* ---- what an operation costs ---- */
+
+typedef struct detp_costs detp_costs; /* of each operation, in seconds; never changes */
+
+/* Those of another machine: predicted seconds may be off by a factor of two. */
+DETP_API detp_status detp_costs_built_in(detp_costs **costs, detp_error *error);
+/* Those that `detp calibrate` stored for this machine; the built-in ones if there are none. */
+DETP_API detp_status detp_costs_stored(detp_costs **costs, detp_error *error);
+/* Measured now, in about so many seconds (> 0; 17 for good ones, at least some). store: for detp_costs_stored. */
+DETP_API detp_status detp_costs_measured(double seconds, int store, detp_progress progress, void *user, detp_costs **costs,
+                                         detp_error *error);
+DETP_API void detp_costs_free(detp_costs **costs);
+
+/* ---- plans ---- */
+
+typedef struct detp_plan detp_plan; /* technique, parameters and index for some discs; its discs are copied */
+
+typedef struct detp_plan_options {
+  size_t size;
+  const detp_costs *costs; /* null: the built-in ones */
+  double rays;             /* number of rays of each search; 0: as many as are shown to the plan */
+  double farthest;         /* most distance of a ray's origin from the centre of the discs; 0: 1000 times their extent */
+  int front_facing;        /* not 0: only rays that arrive at a disc's front hit */
+  int threads;             /* most threads, for planning and for each search; 0: all cores */
+  int once;                /* not 0: the plan is executed once or twice, so that planning must be short */
+  detp_progress progress;  /* may be null */
+  void *user;              /* for `progress` */
+} detp_plan_options;
+
+/* Chooses technique and parameters by a pilot with the rays, which are some or all of those that will be searched, and builds the index.
+ * options may be null. */
+DETP_API detp_status detp_plan_create(const detp_discs *discs, const detp_rays *rays, const detp_plan_options *options,
+                                      detp_plan **plan, detp_error *error);
+/* The same samples with discs of another radius, all alike, and with `rays` rays in each search (0: as before): for progressive
+ * estimation. Takes microseconds; the index is built by the first search. The new plan does not need the old one. */
+DETP_API detp_status detp_plan_with_radius(const detp_plan *plan, double radius, double rays, detp_plan **changed,
+                                           detp_error *error);
+DETP_API void detp_plan_free(detp_plan **plan);
+
+typedef struct detp_plan_facts {
+  size_t size;
+  const char *technique;  /* "box-tree"; valid as long as the plan */
+  const char *parameters; /* JSON: {"fan_out":8,"leaf":16}; valid as long as the plan */
+  size_t discs;
+  int threads;              /* of a search */
+  double predicted_seconds; /* of a search, building the index included */
+  double predicted_error;   /* standard error of it */
+  double planning_seconds;
+} detp_plan_facts;
+
+DETP_API detp_status detp_plan_describe(const detp_plan *plan, detp_plan_facts *facts, detp_error *error);
+
+/* ---- searches ---- */
+
+typedef struct detp_scratch detp_scratch; /* memory of searches, and the pairs of the last one */
+
+DETP_API detp_status detp_scratch_create(detp_scratch **scratch, detp_error *error);
+DETP_API void detp_scratch_free(detp_scratch **scratch);
+
+typedef struct detp_search_options {
+  size_t size;
+  int threads; /* 0: those of the plan */
+  int pairs;   /* not 0: keep the pairs, for detp_pairs */
+  detp_progress progress;
+  void *user;
+} detp_search_options;
+
+/* What a search found. Arrays have an element for each disc, in the order of the plan's discs, or are null if they are not wanted. */
+typedef struct detp_found {
+  size_t size;
+  uint64_t *hits;         /* rays that cross the disc */
+  double *irradiance;     /* their power over the disc's area */
+  double *standard_error; /* of the irradiance; infinite where only a bound is known */
+  double *upper_bound;    /* one-sided, 95 %, of the irradiance */
+  /* set by the search: */
+  uint64_t total_hits;
+  double seconds; /* of the search */
+  int stopped;    /* not 0: hits and irradiance are those of a part of the rays */
+} detp_found;
+
+/* Finds every pair of a ray and a disc that it crosses, each once. The same rays and discs give the same bytes, with any technique and any
+ * number of threads. options may be null. A search that was stopped returns DETP_STOPPED, and sets what it has. */
+DETP_API detp_status detp_search(const detp_plan *plan, const detp_rays *rays, detp_scratch *scratch,
+                                 const detp_search_options *options, detp_found *found, detp_error *error);
+
+/* The pairs of the scratch's last search, which kept them, in compressed rows: the rays that cross disc i are rays[offsets[i]] to
+ * rays[offsets[i + 1] - 1], ascending. offsets: one more than there are discs; rays: total_hits of them, room for `capacity`. */
+DETP_API detp_status detp_pairs(const detp_scratch *scratch, uint64_t *offsets, uint32_t *rays, size_t capacity,
+                                detp_error *error);
+
+/* ---- without data ---- */
+
+/* Rays and samples that are only known by their numbers: isotropic lines, uniform samples in a cube. */
+typedef struct detp_workload {
+  size_t size;
+  double rays;
+  double samples;
+  double disc_radius;
+  double scene_side; /* of the cube */
+  double dimension;  /* 3: samples fill the cube; 2: they lie on its faces; 0: 3 */
+} detp_workload;
+
+/* The technique that closed forms choose: facts as of a plan; technique and parameters are written to `text`, which has room for `room`
+ * bytes (200 suffice). costs may be null: the built-in ones. threads: at most; 0: all cores. */
+DETP_API detp_status detp_choose(const detp_workload *workload, const detp_costs *costs, int threads, char *text,
+                                 size_t room, detp_plan_facts *facts, detp_error *error);
+
+/* "0.1.0". */
+DETP_API const char *detp_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
