@@ -201,6 +201,15 @@ typedef struct detp_workload {
 DETP_API detp_status detp_choose(const detp_workload *workload, const detp_costs *costs, int threads, char *text,
                                  size_t room, detp_plan_facts *facts, detp_error *error);
 
+/* ---- every other question ---- */
+
+/* What the command `detp WORDS... --format json` prints: closed forms and the best Q (`model`), what accuracy costs (`accuracy`), runs that stop
+ * at an error (`run ... --target-noise`), verdicts (`validate`), scenes. The text is to be freed. Nothing is printed; files are written only
+ * where the words name them. progress is called ten times a second, with a share of 0, so that it can stop the work. */
+DETP_API detp_status detp_ask(const char *const *words, size_t count, detp_progress progress, void *user, char **json,
+                              detp_error *error);
+DETP_API void detp_text_free(char **text);
+
 /* "0.1.0". */
 DETP_API const char *detp_version(void);
 

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <detp/detp.hpp>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <random>
 #include <vector>
 
@@ -241,6 +242,33 @@ TEST_SUITE("c interface") {
     CHECK(costs == nullptr);
     CHECK(detp_costs_measured(-1, 0, nullptr, nullptr, &costs, &error) == DETP_INVALID);
     CHECK(std::string(detp_version()) != "");
+  }
+
+  TEST_CASE("every question of the command can be asked, and is answered as JSON") {
+    const char* const words[] = {"model",         "--samples", "1000",         "--rays", "100",
+                                 "--disc-radius", "0.02",      "--scene-side", "2"};
+    char* json = nullptr;
+    detp_error error{};
+    REQUIRE(detp_ask(words, std::size(words), nullptr, nullptr, &json, &error) == DETP_OK);
+    const nlohmann::json answer = nlohmann::json::parse(json);
+    CHECK(answer["schema"]["name"] == "detp.model");
+    CHECK(answer["k"].get<int>() > 0);
+    detp_text_free(&json);
+    CHECK(json == nullptr);
+    const char* const bad[] = {"model", "--sample", "1000"};
+    CHECK(detp_ask(bad, std::size(bad), nullptr, nullptr, &json, &error) == DETP_INVALID);
+    CHECK(std::string(error.text).find("--sample") != std::string::npos);
+    CHECK(detp_ask(nullptr, 1, nullptr, nullptr, &json, &error) == DETP_INVALID);
+    const char* const missing[] = {"run", "/nowhere/scene.obj"};
+    CHECK(detp_ask(missing, 2, nullptr, nullptr, &json, &error) == DETP_FILE);
+    const char* const help[] = {"--help"};
+    CHECK(detp_ask(help, 1, nullptr, nullptr, &json, &error) == DETP_INVALID);
+    const char* const long_work[] = {"validate", "--seed", "1"};
+    const auto stop = [](void*, const char*, double) { return 1; };
+    const detp_status stopped = detp_ask(long_work, 3, stop, nullptr, &json, &error);
+    if (stopped == DETP_OK) CHECK(nlohmann::json::parse(json)["stopped"] == true);
+    CHECK((stopped == DETP_OK || stopped == DETP_STOPPED));
+    detp_text_free(&json);
   }
 
   TEST_CASE("calls in any order, with good and bad arguments, end with a status") {

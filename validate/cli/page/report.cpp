@@ -8,6 +8,8 @@
 #include "detp/sim/base/threads.hpp"
 #include "detp/sim/files/output_file.hpp"
 #include "detp/validate/accuracy/accuracy_plan.hpp"
+#include "detp/validate/cli/ask.hpp"
+#include "detp/validate/cli/command.hpp"
 #include "detp/validate/cli/envelope.hpp"
 #include "detp/validate/cli/options/number_option.hpp"
 #include "detp/validate/cli/options/outputs.hpp"
@@ -23,8 +25,8 @@ namespace {
 /// The report while it is made: parts so far, and what is left.
 class Report {
  public:
-  Report(const ReportOptions& options, const CommonOptions& common, const std::stop_token& stop)
-      : options_(options), common_(common), stop_(stop), progress_(common.quiet) {
+  Report(const ReportOptions& options, bool quiet, const std::stop_token& stop)
+      : options_(options), stop_(stop), progress_(quiet) {
     report_["inputs"] = {{"scene", options.scene},
                          {"rays", options.rays ? Json(*options.rays) : Json()},
                          {"disc_radius", options.radius ? Json(*options.radius) : Json()},
@@ -57,18 +59,15 @@ class Report {
  private:
   /// Returns false if a stop request ended the part.
   bool add(const ReportPart& part, double forecast) {
-    Json made{
-        {"name", part.name}, {"command", part.line(common_)}, {"seconds", nullptr}, {"forecast_seconds", nullptr}};
+    Json made{{"name", part.name}, {"command", part.line()}, {"seconds", nullptr}, {"forecast_seconds", nullptr}};
     if (forecast > 0) made["forecast_seconds"] = forecast;
     show(part.name, forecast);
     const sim::Stopwatch clock;
     bool goes_on = true;
     try {
-      Result result = run(part);
-      goes_on = !result.stopped;
-      result.json["stopped"] = result.stopped.has_value();
-      for (const Json& warning : validate::list(result.json, "warnings")) add_warning(warning);
-      made["answer"] = envelope(part.words.front(), common_, sim::thread_count(common_.threads), result);
+      made["answer"] = ask(part.words, stop_);
+      goes_on = made["answer"]["stopped"] == false;
+      for (const Json& warning : validate::list(made["answer"], "warnings")) add_warning(warning);
     } catch (const sim::Stopped&) {
       goes_on = false;
     } catch (const std::invalid_argument& error) {
@@ -79,17 +78,6 @@ class Report {
     report_["parts"].push_back(std::move(made));
     stopped_ = stopped_ || !goes_on || stop_.stop_requested();
     return !stopped_;
-  }
-
-  Result run(const ReportPart& part) {
-    CLI::App program("", "detp");
-    const Command command = part.command(program);
-    program.parse(std::vector<std::string>(part.words.rbegin(), part.words.rend()));  // it expects the reverse order
-    CommonOptions own;
-    own.quiet = true;
-    own.seed = common_.seed;
-    own.threads = common_.threads;
-    return command.run(own, stop_);
   }
 
   void add_warning(const Json& warning) {
@@ -112,7 +100,6 @@ class Report {
   }
 
   const ReportOptions& options_;
-  const CommonOptions& common_;
   std::stop_token stop_;
   ProgressLine progress_;
   sim::Stopwatch clock_;
@@ -144,14 +131,16 @@ std::string csv_of(const Json& report) {
   return table.csv();
 }
 
-Result run_report(const ReportOptions& options, const CommonOptions& common, const std::stop_token& stop) {
+Result run_report(ReportOptions options, const CommonOptions& common, const std::stop_token& stop) {
   if (!common.output) throw std::invalid_argument("report writes a page: give -o FILE.html");
   if (options.error && options.noise) throw std::invalid_argument("give one of --target-noise and --target-error");
   if (const auto& share = options.error ? options.error : options.noise)
     validate::check({validate::AccuracyTarget::Kind::total,
                      parse_share(options.error ? "--target-error" : "--target-noise", *share)},
                     1e9);
-  Json report = Report(options, common, stop).make();
+  if (common.seed != CommonOptions{}.seed) options.common = {"--seed", std::to_string(common.seed)};
+  if (common.threads != 0) options.common.insert(options.common.end(), {"--threads", std::to_string(common.threads)});
+  Json report = Report(options, common.quiet, stop).make();
   Result result;
   result.inputs = std::move(report["inputs"]);
   report.erase("inputs");

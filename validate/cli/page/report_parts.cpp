@@ -28,6 +28,7 @@ std::vector<std::string> scene_words(const ReportOptions& options) {
   if (options.lights) add(all, {"--light", *options.lights});
   if (options.up) add(all, {"--up", *options.up});
   if (options.front_facing) add(all, {"--front-facing"});
+  add(all, options.common);
   return all;
 }
 
@@ -121,16 +122,14 @@ std::string answer_text(const Json& answer, const Json& inputs) {
 
 }  // namespace
 
-std::string ReportPart::line(const CommonOptions& common) const {
+std::string ReportPart::line() const {
   std::string text = "detp";
   for (const std::string& word : words) text += " " + shell_word(word);
-  if (common.seed != CommonOptions{}.seed) text += fmt::format(" --seed {}", common.seed);
-  if (common.threads != 0) text += fmt::format(" --threads {}", common.threads);
   return text;
 }
 
 ReportPart scene_part(const ReportOptions& options) {
-  ReportPart part{.name = "scene", .command = scene_command, .words = {"scene", options.scene}};
+  ReportPart part{.name = "scene", .words = {"scene", options.scene}};
   add(part.words, workload_words(options));
   return part;
 }
@@ -163,11 +162,10 @@ std::vector<ReportPart> report_parts(const ReportOptions& options, const ReportS
             : ForecastRule{.tracing = 11.2, .samples = 13.4, .triangles = 2.9};
   ReportScale usual_rays = scale;
   usual_rays.tracing_seconds *= 1e5 / std::max(1.0, scale.rays);
-  ReportPart choice{.name = "choice", .command = choose_command, .words = {"choose", options.scene}};
+  ReportPart choice{.name = "choice", .words = {"choose", options.scene}};
   add(choice.words, workload_words(options));
   add(choice.words, {"--analyze"});
-  ReportPart accuracy{
-      .name = "accuracy", .command = accuracy_command, .words = {"accuracy", options.scene}, .may_fail = true};
+  ReportPart accuracy{.name = "accuracy", .words = {"accuracy", options.scene}, .may_fail = true};
   add(accuracy.words, options.error ? std::vector<std::string>{"--target-error", *options.error}
                                     : std::vector<std::string>{"--target-noise", options.noise.value_or("5%")});
   add(accuracy.words, scene_words(options));
@@ -175,10 +173,9 @@ std::vector<ReportPart> report_parts(const ReportOptions& options, const ReportS
   const std::vector<double> rays = map_rays(options.rays.value_or(1e5), options.quick);
   const std::vector<double> radii = map_radii(scale.disc_radius, options.quick);
   ReportPart map{.name = "map",
-                 .command = choose_command,
                  .words = {"choose", options.scene, "--map", "--rays", joined(rays), "--disc-radius", joined(radii)}};
   add(map.words, scene_words(options));
-  ReportPart verdicts{.name = "verdicts", .command = validate_command, .words = {"validate", options.scene}};
+  ReportPart verdicts{.name = "verdicts", .words = {"validate", options.scene}};
   add(verdicts.words, workload_words(options));
   add(verdicts.words, {"--experiments", options.quick ? "effects" : "choice,effects"});
   choice.forecast = of_choice.seconds(scale);

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "detp/validate/cli/command.hpp"
+#include "detp/validate/cli/text/result.hpp"
 
 /// The parts of the answer of `detp report`: what is run for each, and what follows from all of them.
 namespace detp::cli {
@@ -20,18 +20,18 @@ struct ReportOptions {
   std::optional<std::string> noise;  ///< --target-noise
   bool front_facing = false;
   bool quick = false;
+  std::vector<std::string> common = {};  ///< words for every part: --seed, --threads
 };
 
 /// A command of this program.
 struct ReportPart {
   std::string name;
-  Command (*command)(CLI::App&);
   std::vector<std::string> words;  ///< of the command line
   double forecast = 0;             ///< seconds
   bool may_fail = false;           ///< the scene may have no such answer
 
-  /// As a shell takes it, with the seed and the number of threads if they are not the usual ones.
-  [[nodiscard]] std::string line(const CommonOptions& common) const;
+  /// As a shell takes it.
+  [[nodiscard]] std::string line() const;
 };
 
 /// What the forecasts need; from the first part, `scene`.
