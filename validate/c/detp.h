@@ -184,6 +184,39 @@ DETP_API detp_status detp_search(const detp_plan *plan, const detp_rays *rays, d
 DETP_API detp_status detp_pairs(const detp_scratch *scratch, uint64_t *offsets, uint32_t *rays, size_t capacity,
                                 detp_error *error);
 
+/* ---- searches until an error is reached ---- */
+
+/* Makes the next rays, of whole photons, about `wanted` of them: sets what it needs of *rays (initialised, without rays), and *photons, the
+ * photons emitted, with those that gave no ray (0: as many as rays). The irradiance of these rays times *scale (1) is that as if they were all
+ * photons. The arrays must stay until the next call, or until the search ends. Returns 0; 1 if there are no more rays; else the search is
+ * stopped. Photons of different calls are independent. */
+typedef int (*detp_next_rays)(void *user, uint64_t wanted, detp_rays *rays, double *photons, double *scale);
+
+typedef struct detp_target {
+  size_t size;
+  double noise;      /* relative to the root mean square irradiance, over the discs by area: 0.05 */
+  double confidence; /* that the noise of this run is smaller; 0: 0.95 */
+  double most_rays;  /* 0: 10^9 */
+} detp_target;
+
+typedef enum detp_reason { DETP_REACHED = 0, DETP_NO_MORE_RAYS = 1, DETP_ENDED = 2 } detp_reason;
+
+typedef struct detp_estimate {
+  size_t size;
+  double *irradiance; /* of each disc; may be null */
+  /* set by the search: */
+  double noise, noise_low, noise_high; /* with the target's confidence, each end alone */
+  double photons;
+  uint64_t rays;
+  int reason;         /* detp_reason */
+  double share_bound; /* if no photon met any disc: at most this share of the photons meets one; else 0 */
+} detp_estimate;
+
+/* Searches batches of rays until the noise is below the target. A search that `next` or `progress` stops has the estimate so far, with the reason
+ * DETP_ENDED, if there was a batch, and returns DETP_STOPPED. */
+DETP_API detp_status detp_search_until(const detp_plan *plan, detp_next_rays next, void *next_user, const detp_target *target,
+                                       detp_progress progress, void *user, detp_estimate *estimate, detp_error *error);
+
 /* ---- without data ---- */
 
 /* Rays and samples that are only known by their numbers: isotropic lines, uniform samples in a cube. */

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "detp.h"
 #include "detp/sim/technique/searcher.hpp"
@@ -15,6 +16,7 @@ struct detp_costs {
 struct detp_plan {
   detp::validate::Plan plan;
   std::size_t discs;
+  std::vector<double> weights;  ///< of the discs by area, with sum 1
   std::string technique;
   std::string parameters;
 };

@@ -12,11 +12,22 @@ using namespace detp;
 
 namespace {
 
+/// By area, with sum 1.
+std::vector<double> weights_of(const sim::DiscsView& discs) {
+  std::vector<double> weights(discs.count);
+  double sum = 0;
+  for (std::size_t i = 0; i < discs.count; ++i) sum += weights[i] = discs.radii[i] * discs.radii[i];
+  for (double& weight : weights) weight /= sum;
+  return weights;
+}
+
 std::optional<double> unless_zero(double value) { return value == 0 ? std::nullopt : std::optional(value); }
 
-detp_plan* handle_of(validate::Plan plan, std::size_t discs) {
+detp_plan* handle_of(validate::Plan plan, std::vector<double> weights) {
   const Candidate candidate = plan.candidate();
-  return new detp_plan{std::move(plan), discs, std::string(name(candidate.technique)), to_json(candidate).dump()};
+  const std::size_t discs = weights.size();
+  return new detp_plan{std::move(plan), discs, std::move(weights), std::string(name(candidate.technique)),
+                       to_json(candidate).dump()};
 }
 
 }  // namespace
@@ -39,7 +50,7 @@ detp_status detp_plan_create(const detp_discs* discs, const detp_rays* rays, con
                                  .stop = watch.token(),
                                  .progress = watch.report()};
     if (own.costs != nullptr) wanted.costs = own.costs->table;
-    made = handle_of(validate::plan(discs_view, rays_view, wanted), discs_view.count);
+    made = handle_of(validate::plan(discs_view, rays_view, wanted), weights_of(discs_view));
   });
 }
 
@@ -48,7 +59,8 @@ detp_status detp_plan_with_radius(const detp_plan* plan, double radius, double r
   return c::guarded(error, [&] {
     detp_plan*& made = c::given(changed, "changed");
     const detp_plan& old = c::given(plan, "plan");
-    made = handle_of(validate::replan(old.plan, radius, unless_zero(rays)), old.discs);
+    made = handle_of(validate::replan(old.plan, radius, unless_zero(rays)),
+                     std::vector(old.discs, 1 / static_cast<double>(old.discs)));
   });
 }
 

@@ -244,6 +244,73 @@ TEST_SUITE("c interface") {
     CHECK(std::string(detp_version()) != "");
   }
 
+  TEST_CASE("a search until an error ends there, says so, and agrees with one long search") {
+    struct Lamp {
+      std::vector<Data::Segment> segments;
+      std::uint64_t seed = 0;
+      std::uint64_t rays = 0;
+      std::uint64_t most = 1'000'000'000;
+    } lamp;
+    const Data data(500, 1000, 3);
+    const detp_discs discs = data.discs(0.2);
+    const detp_rays first = data.rays();
+    detp_plan* plan = nullptr;
+    detp_error error{};
+    REQUIRE(detp_plan_create(&discs, &first, nullptr, &plan, &error) == DETP_OK);
+    const auto next = [](void* user, std::uint64_t wanted, detp_rays* rays, double*, double* scale) {
+      Lamp& one = *static_cast<Lamp*>(user);
+      if (one.rays >= one.most) return 1;
+      Data made(1, wanted, 1000 + ++one.seed);
+      one.segments = std::move(made.segments);
+      one.rays += wanted;
+      *rays = DETP_INIT(detp_rays);
+      rays->count = wanted;
+      rays->origins = {one.segments[0].origin, nullptr, nullptr, sizeof(Data::Segment), DETP_FLOAT};
+      rays->directions = {one.segments[0].direction, nullptr, nullptr, sizeof(Data::Segment), DETP_FLOAT};
+      rays->lengths.of_all = 2;
+      *scale = 1 / static_cast<double>(wanted);  // all photons have the power 1
+      return 0;
+    };
+    detp_target target = DETP_INIT(detp_target);
+    target.noise = 0.05;
+    std::vector<double> irradiance(500);
+    detp_estimate estimate = DETP_INIT(detp_estimate);
+    estimate.irradiance = irradiance.data();
+    REQUIRE_MESSAGE(detp_search_until(plan, next, &lamp, &target, nullptr, nullptr, &estimate, &error) == DETP_OK,
+                    error.text);
+    CHECK(estimate.reason == DETP_REACHED);
+    CHECK(estimate.noise < 0.05);
+    CHECK(estimate.noise_high <= 0.05 * 1.0001);
+    CHECK(estimate.rays == lamp.rays);
+    // A hundred times as many photons: the distance is that of the noise.
+    Lamp bright;
+    bright.seed = 500;
+    std::vector<double> expected(500);
+    detp_target closer = target;
+    closer.noise = 0.008;
+    detp_estimate best = DETP_INIT(detp_estimate);
+    best.irradiance = expected.data();
+    REQUIRE(detp_search_until(plan, next, &bright, &closer, nullptr, nullptr, &best, &error) == DETP_OK);
+    double difference = 0;
+    double square = 0;
+    for (std::size_t i = 0; i < 500; ++i) {
+      difference += (irradiance[i] - expected[i]) * (irradiance[i] - expected[i]);
+      square += expected[i] * expected[i];
+    }
+    CHECK(std::sqrt(difference / square) < 0.06);
+    CHECK(std::sqrt(difference / square) > 0.01);
+    Lamp few;
+    few.most = 1;
+    REQUIRE(detp_search_until(plan, next, &few, &closer, nullptr, nullptr, &best, &error) == DETP_OK);
+    CHECK(best.reason == DETP_NO_MORE_RAYS);
+    target.noise = 2;
+    CHECK(detp_search_until(plan, next, &lamp, &target, nullptr, nullptr, &estimate, &error) == DETP_INVALID);
+    CHECK(detp_search_until(plan, nullptr, &lamp, &closer, nullptr, nullptr, &estimate, &error) == DETP_INVALID);
+    const auto stop = [](void*, const char*, double) { return 1; };
+    CHECK(detp_search_until(plan, next, &lamp, &closer, stop, nullptr, &estimate, &error) == DETP_STOPPED);
+    detp_plan_free(&plan);
+  }
+
   TEST_CASE("every question of the command can be asked, and is answered as JSON") {
     const char* const words[] = {"model",         "--samples", "1000",         "--rays", "100",
                                  "--disc-radius", "0.02",      "--scene-side", "2"};
