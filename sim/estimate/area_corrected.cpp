@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "detp/sim/base/stopwatch.hpp"
@@ -84,6 +86,9 @@ class AreaCorrected {
       const glm::dvec3 b = a + facet.first;
       const glm::dvec3 c = a + facet.second;
       areas[facing ? 0 : 1] += area_in_sphere(a, b, c, disc.radius);
+      const double longest =
+          std::sqrt(std::max(glm::dot(facet.first, facet.first), glm::dot(facet.second, facet.second)));
+      if (glm::length(a) - longest > (1 + 1e-12) * least) return;  // every point of it is farther away
       const glm::dvec3 weights = closest_point_weights(a, b, c);
       const double distance = glm::length(weights.x * a + weights.y * b + weights.z * c);
       if (distance < least || (distance == least && triangle < nearest)) {

@@ -43,7 +43,7 @@ namespace in_sphere {
 
 /// Area of the part of the triangle a, b, c that lies in the sphere. The sphere cuts the triangle's plane in a circle; the area
 /// is the sum over the edges of the signed areas of the triangles between the circle's centre and the edge, cut by the
-/// circle. Coordinates are relative to the sphere's centre.
+/// circle. Coordinates are relative to the sphere's centre. A triangle with its corners in the sphere has its own area.
 ///
 /// Accuracy   relative to the circle's area about 1e-15 (edge length / radius); 0 for a triangle without area
 /// Source     our derivation
@@ -53,9 +53,11 @@ namespace in_sphere {
   const double doubled = glm::length(across);
   const double longest = std::max({glm::length(b - a), glm::length(c - a), glm::length(c - b)});
   if (!(doubled > 1e-14 * longest * longest)) return 0;
+  const double within = radius * radius;
+  if (glm::dot(a, a) <= within && glm::dot(b, b) <= within && glm::dot(c, c) <= within) return 0.5 * doubled;
   const glm::dvec3 normal = across / doubled;
   const double height = glm::dot(normal, a);
-  const double square = radius * radius - height * height;
+  const double square = within - height * height;
   if (!(square > 0)) return 0;
   const glm::dvec3 x = glm::normalize(b - a);
   const glm::dvec3 y = glm::cross(normal, x);
