@@ -224,7 +224,8 @@ TEST_SUITE("statistical") {  // because it takes long
     REQUIRE(detp("scene @uniform --samples 2000 --rays 3200 --disc-radius 6% --quiet --write-discs " + discs +
                  " --write-rays " + rays)
                 .code == 0);
-    const Finished finished = detp("validate --experiments choice --format json --discs " + discs + " --ray-file " + rays);
+    const Finished finished =
+        detp("validate --experiments choice --format json --discs " + discs + " --ray-file " + rays);
     CHECK((finished.code == 0 || finished.code == 1));
     const Json json = finished.json();
     int of_the_choice = 0;
