@@ -101,7 +101,7 @@ async function withoutScripts(browser, path) {
 }
 
 mkdirSync(pictures, { recursive: true });
-const browser = await chromium.launch({ executablePath: program, args: ["--no-sandbox"] });
+const browser = await chromium.launch({ executablePath: program, args: ["--no-sandbox", "--disable-dev-shm-usage"] });
 for (const [index, path] of pages.entries()) {
   // The first page at all widths; the others have the same layout.
   for (const scheme of ["light", "dark"])
