@@ -7,9 +7,10 @@
  * a bad element; results are then untouched, except that of a stopped search. No function throws, and there are no globals: calls
  * on different handles may run on different threads at once; a plan may be executed by many threads, each with its own scratch.
  *
- * The caller owns all arrays. Rays and discs are read where they are: floats or doubles, with any stride; they must stay as they are
- * during the call. A handle belongs to the caller, too: its free function takes the address of the variable, and sets it to null, so that
- * freeing it twice does nothing, and using it afterwards is an error, not a crash. Null handles are refused.
+ * The caller owns all arrays. Rays and discs may be floats or doubles, with any stride; they must stay as they are during the call, which
+ * copies them: 64 bytes a ray in the scratch, 56 a disc in the plan. A handle belongs to the caller, too: its free function takes the
+ * address of the variable, and sets it to null, so that freeing it twice does nothing, and using it afterwards is an error, not a crash. Null handles are refused. Functions that make a handle
+ * overwrite the variable.
  *
  * Structs begin with their size: set `size = sizeof(...)`, and all else to 0 but what you need; DETP_INIT does so. A newer library then
  * knows what an older caller does not have, and an older one refuses what it does not know.
@@ -140,7 +141,7 @@ typedef struct detp_plan_facts {
   size_t discs;
   int threads;              /* of a search */
   double predicted_seconds; /* of a search, building the index included */
-  double predicted_error;   /* standard error of it */
+  double predicted_error;   /* standard error of it; 0: not known */
   double planning_seconds;
 } detp_plan_facts;
 

@@ -43,6 +43,9 @@ struct AccuracyAnswer {
   return target.kind == validate::AccuracyTarget::Kind::seconds ? 0.05 : target.value;
 }
 
+/// 15 of 24 first runs took within this factor of the predicted seconds (validate/accuracy/README.md).
+inline constexpr double seconds_factor = 1.5;
+
 /// How many of the reruns have a noise in the answer's interval.
 [[nodiscard]] std::size_t inside(const AccuracyAnswer& answer);
 

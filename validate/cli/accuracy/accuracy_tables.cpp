@@ -107,6 +107,7 @@ Json to_json(const AccuracyAnswer& answer) {
   chosen["reached"] = answer.plan.reached;
   chosen["bias_interval"] = {0.0, best.bias_high};
   chosen["trace_seconds"] = best.trace_seconds;
+  chosen["predicted_seconds_interval"] = {best.seconds / seconds_factor, seconds_factor * best.seconds};
   if (answer.check) {
     chosen["measured_seconds"] = answer.check->seconds;
     chosen["measured_noise"] = answer.check->noise;

@@ -28,9 +28,6 @@ std::string way(const AccuracyAnswer& answer, const AccuracyPoint& point) {
   return text + fmt::format(", estimator {}", name(point.estimator));
 }
 
-/// 15 of 24 first runs took within this factor of the predicted seconds (validate/accuracy/README.md).
-constexpr double seconds_factor = 1.5;
-
 std::string bias_words(const AccuracyPoint& best) {
   if (best.bias_high > 2 * best.bias)
     return fmt::format("The bias is at most {}, the total at most {}. ", percent(best.bias_high),

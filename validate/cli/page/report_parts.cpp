@@ -79,11 +79,9 @@ Json accuracy_answer(const Json& accuracy) {
   const auto noise = number(inputs, "target_noise");
   const auto error = number(inputs, "target_error");
   const auto target = noise ? noise : error;
-  constexpr double factor = 1.5;  // the range of seconds that detp accuracy states
-  const double seconds = number(answer, "predicted_seconds").value_or(0);
   return {{"target", target ? fmt::format("{} {}", validate::percent_label(*target), noise ? "noise" : "error") : ""},
-          {"seconds", seconds},
-          {"seconds_interval", {seconds / factor, factor * seconds}},
+          {"seconds", answer.value("predicted_seconds", Json())},
+          {"seconds_interval", answer.value("predicted_seconds_interval", Json())},
           {"photons", answer.value("photons", Json())},
           {"rays", answer.value("rays", Json())},
           {"estimator", words(answer, "estimator")},

@@ -98,12 +98,15 @@ TEST_SUITE("end to end") {
   }
 
   TEST_CASE("bad input is refused before any work, and no page is left") {
+    const ScratchFolder folder;
+    const std::string page = " -o " + folder.path("report.html");
     check_refused({{"report @cornell", "-o FILE.html"},
-                   {"report -o x.html", "SCENE"},
-                   {"report @cornell -o x.html --target-error 5% --target-noise 5%", "one of"},
-                   {"report @cornell -o x.html --target-noise 200%", "target"},
-                   {"report nothing.obj -o x.html", "nothing.obj"},
+                   {"report" + page, "SCENE"},
+                   {"report @cornell --target-error 5% --target-noise 5%" + page, "one of"},
+                   {"report @cornell --target-noise 200%" + page, "target"},
+                   {"report nothing.obj" + page, "nothing.obj"},
                    {"report @cornell -o /nowhere/x.html", "/nowhere"}});
+    CHECK(folder.entries() == 0);
   }
 
   TEST_CASE("no text of the answer can change the page's elements") {
